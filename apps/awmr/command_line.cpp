@@ -51,7 +51,7 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error, int
                        did_you_mean(first, command_names(app)));
   }
   if (app.get_subcommands().empty() && !first.empty()) {
-    return fmt::format("'{}' stands before any command{}", shortened(first),
+    return fmt::format("'{}' comes before the command{}", shortened(first),
                        did_you_mean(first, option_names(app)));
   }
   for (const CLI::App* command : app.get_subcommands()) {

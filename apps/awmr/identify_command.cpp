@@ -65,9 +65,9 @@ std::string scrub_text(const Model& model) {
   if (!model.yaw_scrub) return {};
   const YawScrub& scrub = *model.yaw_scrub;
   return fmt::format(
-      "scrub: {} turns by the sides' forces met {:.3g} m ({:.3g} to {:.3g}) beside yaw "
+      "scrub: {} differential turns needed {:.3g} m ({:.3g} to {:.3g}) in addition to the yaw "
       "resistance;\n"
-      "compare --break-even says what that decides\n",
+      "compare --break-even shows its effect on the choice of mode\n",
       scrub.rows, scrub.moment_m, scrub.ci95_m.lo, scrub.ci95_m.hi);
 }
 

@@ -45,7 +45,7 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
       ->check(one_of(names_in(kErrorModelNames)));
   sub.add_option(
          "--family", words.families,
-         "Resistance: power (default; logs take another where it is plainly better), "
+         "Resistance: power (default; logs take another that is significantly better), "
          "coulomb-linear, coulomb-linear-quadratic, coulomb-power, dead-zone, or auto (least "
          "AICc); surge=NAME, yaw=NAME for one")
       ->delimiter(',');
@@ -54,7 +54,7 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
   sub.add_flag("--joint", words.command.identify.joint,
                "Fit a1, b1 and m' together from the surge runs and the coast-down curves");
   sub.add_option("--fit", words.asked,
-                 "What is asked for, e.g. surge.alpha,mass_norm; for logs also all, "
+                 "Parameters to fit, e.g. surge.alpha,mass_norm; for logs also all, "
                  "input_delay_s, bias.yaw_rate_radps, ...")
       ->delimiter(',');
 }

@@ -45,11 +45,11 @@ std::string goals_text(const std::vector<JudgedGoal>& all) {
     for (const GoalLimit& limit : judged.goal.at_most) {
       limits += fmt::format("{}{} <= {:g}", limits.empty() ? "" : ", ", limit.figure, limit.most);
     }
-    text += fmt::format("  {:<6} {}, {}{}: {:.1f} % of {} draws ({:.1f} to {:.1f}), asked {:g} %\n",
-                        name_in(kGoalVerdictNames, judged.verdict), limits, name_of(judged.mode),
-                        judged.goal.is_soft ? ", soft" : "", 100.0 * judged.held / judged.runs,
-                        judged.runs, 100.0 * judged.ci95.lo, 100.0 * judged.ci95.hi,
-                        100.0 * judged.goal.share);
+    text += fmt::format(
+        "  {:<6} {}, {}{}: {:.1f} % of {} draws ({:.1f} to {:.1f}), required {:g} %\n",
+        name_in(kGoalVerdictNames, judged.verdict), limits, name_of(judged.mode),
+        judged.goal.is_soft ? ", soft" : "", 100.0 * judged.held / judged.runs, judged.runs,
+        100.0 * judged.ci95.lo, 100.0 * judged.ci95.hi, 100.0 * judged.goal.share);
   }
   return text.empty() ? text : "  goals, on fresh draws\n" + text;
 }
@@ -62,7 +62,7 @@ std::vector<Finding> goal_findings(const std::vector<JudgedGoal>& all) {
     findings.push_back(
         {"", 0, Severity::kWarning, is_missed ? "goal-missed" : "goal-open",
          fmt::format("{} of {} fresh draws in {} keep the goal's limits, {:.1f} to {:.1f} %, where "
-                     "{:g} % are asked for: {}",
+                     "{:g} % are required: {}",
                      judged.held, judged.runs, name_of(judged.mode), 100.0 * judged.ci95.lo,
                      100.0 * judged.ci95.hi, 100.0 * judged.goal.share,
                      is_missed ? "tune on more draws (--draws), raise the limits or accept less"

@@ -232,14 +232,13 @@ void add_live(CLI::App& app, Session& session) {
       ->check(within(0.1, 3600.0));
   sub->add_option("--enough", live.enough,
                   "Half of the 95 % interval over the value (of an exponent itself) that is enough "
-                  "for every parameter asked for (default 0.1)")
+                  "for every requested parameter (default 0.1)")
       ->check(within(1e-6, 1.0));
   sub->add_flag("--until-enough", live.until_enough,
                 "End there; exit code 1 where it is not reached");
-  sub->add_option("--duration", live.duration_s, "End after so many seconds (default: never)")
+  sub->add_option("--duration", live.duration_s, "End after this time, s (default: never)")
       ->check(within(0.1, 1e6));
-  sub->add_option("--idle", live.idle_s,
-                  "End where nothing came for so many seconds (default: never)")
+  sub->add_option("--idle", live.idle_s, "End after this time without input, s (default: never)")
       ->check(within(0.1, 1e6));
   add_fit_options(*sub, words->identify);
   add_log_options(*sub, words->identify.command);

@@ -60,7 +60,7 @@ void add_log(CLI::App& app, Session& session) {
   add_file(*sub, "FILE", command->file,
            "The on-board log; `identify --log` and `validate --log` read it as it is, too")
       ->required();
-  add_output(*sub, command->output, "CSV to write; rows that are lost or damaged are told");
+  add_output(*sub, command->output, "CSV to write; lost and damaged rows are reported");
 }
 
 }  // namespace awmr::cli

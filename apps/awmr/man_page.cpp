@@ -110,8 +110,8 @@ std::string footer(const std::string& text) {
 constexpr const char* kExitStatus =
     ".SH EXIT STATUS\n"
     ".TP\n.B 0\nDone.\n"
-    ".TP\n.B 1\nThe work ran and the answer is no: data cannot show what was asked for, no gains\n"
-    "meet the constraints, a validation failed.\n"
+    ".TP\n.B 1\nThe command ran with a negative result: the data do not identify a requested\n"
+    "parameter, no gains meet the constraints, or a validation failed.\n"
     ".TP\n.B 2\nThe command line, a file or a value is wrong.\n"
     ".TP\n.B 3\nA fault of the program itself.\n";
 

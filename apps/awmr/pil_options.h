@@ -59,7 +59,7 @@ enum class Injection {
   kMotorsReversed,     ///< each side drives the wrong way, turning the right one
   kSidesSwapped,       ///< left and right motors exchanged
   kGyroReversed,       ///< yaw rate of the wrong sign
-  kSteeringStuck,      ///< the servo stands straight
+  kSteeringStuck,      ///< the servo is stuck straight
   kCompassTurning,     ///< turned away by 2.5 deg/s
   // Failures of the operator's line, read as the sketches do (control/command_line.h).
   kCommandSilence,        ///< no command

@@ -177,8 +177,8 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& colum
 
 void add_drive_options(CLI::App& sub, ValidateCommand& command) {
   auto* scenario = add_file(sub, "--scenario", command.scenario,
-                            "The logs are drives of this scenario under the gains: held against "
-                            "what the model's uncertainty, noise and lags foretell");
+                            "The logs are drives of this scenario under the gains: compared with "
+                            "the prediction by the model's uncertainty, noise and lags");
   scenario->needs("--log")->needs("--gains");
   add_choice(sub, "--mode", command.acceptance.mode, kYawModeNames,
              "How they turned (default combined)")
@@ -197,10 +197,11 @@ void add_drive_options(CLI::App& sub, ValidateCommand& command) {
 }
 
 void add_claims_options(CLI::App& sub, ValidateCommand& command) {
-  auto* claims = sub.add_flag("--claims", command.claims,
-                              "Tell of each of the paper's fourteen claims what was found, what "
-                              "counts and why, and what it hangs on over all that the paper leaves "
-                              "open; without --gains, with the paper's gains");
+  auto* claims =
+      sub.add_flag("--claims", command.claims,
+                   "Check the paper's fourteen claims: the result, the criterion with its "
+                   "reason, and the settings left open by the paper that decide it; "
+                   "without --gains, with the paper's gains");
   add_file(sub, "--claims-table", command.claims_table, "Also write the claims as a Markdown table")
       ->needs(claims);
   add_allocation(sub, command.allocation);

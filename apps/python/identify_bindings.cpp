@@ -87,9 +87,10 @@ py::list suggested(const Model& model, const std::string& parameter, int repeats
 void bind_identify(py::module_& module) {
   py::class_<Identification>(module, "Identification", "A model, and what was refused.")
       .def_readonly("model", &Identification::model)
-      .def_property_readonly("refused", refused_names,
-                             "names that were asked for but that the data cannot show: the command "
-                             "line's exit code 1; model.findings say why");
+      .def_property_readonly(
+          "refused", refused_names,
+          "requested parameters that the data do not identify (exit code 1 of the "
+          "command line); model.findings give the reasons");
   module.def(
       "identify", fit, py::arg("trials"), py::kw_only(), py::arg("method") = py::none(),
       py::arg("noise") = py::none(), py::arg("family") = Words{}, py::arg("loss") = "squares",
@@ -102,9 +103,9 @@ void bind_identify(py::module_& module) {
       "numbers are those of `awmr identify`, whatever the threads. Raises InputError.");
   module.def("suggest", suggested, py::arg("model"), py::kw_only(), py::arg("parameter") = "",
              py::arg("repeats") = 3,
-             "The trials to record next, best first: dicts with `settings` in words, `numbers` and "
+             "The trials to record next, best first: dicts with `settings` as text, `numbers` and "
              "the standard errors of `parameter` before and after, in its unit; first those that "
-             "show what has no value yet.");
+             "identify parameters without a value.");
 }
 
 }  // namespace awmr::python

@@ -21,7 +21,7 @@ std::vector<std::filesystem::path> all_of(const Paths& paths) {
   return {};
 }
 
-/// NaN stands for absent values.
+/// NaN means an absent value.
 template <class Row>
 py::array optional_column(const std::vector<Row>& rows, std::optional<double> Row::*field) {
   return to_column(rows, [field](const Row& row) {

@@ -113,7 +113,7 @@ void bind_tune(py::module_& module) {
           "figure's median, q95 and tail_mean over fresh draws; empty for "
           "nominal gains")
       .def_property_readonly("goals", goals_of,
-                             "list of dicts by gains, goal and mode: held of so many runs, the "
+                             "list of dicts by gains, goal and mode: runs, runs that hold it, the "
                              "share's ci95 and the verdict met, missed or open");
   module.def("tune", tuned, py::arg("model"), py::kw_only(), py::arg("config") = py::none(),
              py::arg("nominal") = false, py::arg("draws") = py::none(), py::arg("observer") = false,

@@ -124,7 +124,7 @@ TEST_F(Contradiction, ACompassWhoseNumbersTheVehicleCannotHoldIsRefused) {
     return awmr(fmt::format("compass {} -o {}", path("field.csv"), path("compass.h")));
   };
   EXPECT_EQ(circle(20.0, 30.0, 30.0).exit_code, 0);
-  expect_refused(circle(123456789.0, 3.0, 3.0), "too large beside the field", 1);
+  expect_refused(circle(123456789.0, 3.0, 3.0), "too large compared with the field", 1);
   expect_refused(circle(0.0, 1e4, 1.0), "weaker one way than the other", 1);
 }
 

@@ -109,7 +109,7 @@ TEST_F(Shards, DamagedOrStoppedPartsAreRefused) {
   EXPECT_THAT(fault({first, write({2, 2}, stopped)}), HasSubstr("run it again"));
   Comparison twice = run({2, 2});
   twice.rows.push_back(twice.rows.back());
-  EXPECT_THAT(fault({first, write({2, 2}, twice)}), HasSubstr("stands there twice"));
+  EXPECT_THAT(fault({first, write({2, 2}, twice)}), HasSubstr("appears twice"));
   // Rows of another shard under this shard's name.
   EXPECT_THAT(fault({first, write({2, 2}, run({1, 2}))}), HasSubstr("is none of part 2 of 2"));
 }

@@ -59,14 +59,14 @@ TEST(ColumnExpression, AColumnCountsOnceHoweverOftenItIsUsed) {
 
 TEST(ColumnExpression, RefusesWhatIsNoArithmetic) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"a=1", "= has no place"},
-      {"a==1", "= has no place"},
-      {"a<b", "< has no place"},
-      {"a?b:c", "? has no place"},
-      {"a;b", "; has no place"},
-      {"a&&b", "& has no place"},
-      {"'a'", "' has no place"},
-      {"a[b]", "[ has no place"},
+      {"a=1", "= is not allowed"},
+      {"a==1", "= is not allowed"},
+      {"a<b", "< is not allowed"},
+      {"a?b:c", "? is not allowed"},
+      {"a;b", "; is not allowed"},
+      {"a&&b", "& is not allowed"},
+      {"'a'", "' is not allowed"},
+      {"a[b]", "[ is not allowed"},
       {"a,b", "comma"},
       {"(a,b)", "comma"},
       {"1,5*a", "comma"},

@@ -151,8 +151,7 @@ TEST(CsvFaults, Text) {
 }
 
 TEST(CsvFaults, UnitBehindTheNumber) {
-  EXPECT_THAT(cell_faults("1.5 m/s"),
-              ElementsAre(HasSubstr("the unit stands in the column's name")));
+  EXPECT_THAT(cell_faults("1.5 m/s"), ElementsAre(HasSubstr("the column's name holds the unit")));
 }
 
 TEST(CsvFaults, NumbersOutOfRange) {

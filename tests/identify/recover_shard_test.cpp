@@ -207,7 +207,7 @@ TEST_F(RecoverShards, DamagedTablesAreNamed) {
     return table.substr(0, value) + cell + table.substr(table.find(',', value));
   };
   expect(last, "has 2 runs, part 2 of 2 of 7 runs has 3");
-  expect(table + table.substr(row, table.find('\n', row) + 1 - row), "run 1 stands behind run 5");
+  expect(table + table.substr(row, table.find('\n', row) + 1 - row), "run 1 comes after run 5");
   const auto commas = std::count(table.begin(), table.begin() + std::ptrdiff_t(row), ',');
   expect(table + "7,0" + std::string(std::size_t(commas) - 1, ',') + "\n",
          "run 7 is none of part 2 of 2");

@@ -157,7 +157,7 @@ TEST(RunsOfALog, AreToldApartByTheirColumn) {
 
 TEST(RunsOfALog, WithoutTheColumnTimeThatGoesBackIsRefusedWithTheRemedy) {
   EXPECT_THAT(faults_of(read_logs, two_runs(12, false)),
-              ElementsAre(AllOf(StartsWith("14:"), HasSubstr("told apart by a column run"))));
+              ElementsAre(AllOf(StartsWith("14:"), HasSubstr("need a column run"))));
 }
 
 TEST(RunsOfALog, EachHasToBeLongEnough) {

@@ -17,7 +17,7 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
                                              const Comparison& comparison,
                                              const CompareOptions& options);
 
-/// A line for each pair of modes over all scenarios, and how to measure what it hangs on.
+/// A line for each pair of modes over all scenarios, and how to measure what decides it.
 std::string break_even_table(const std::vector<BreakEven>& entries);
 
 }  // namespace awmr

@@ -45,8 +45,8 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
   for (const Scenario& scenario : scenarios) {
     if (!names.insert(scenario.name).second) {
       faults.push_back(
-          {option_text("scenario"), fmt::format("two scenarios are named '{}'; the rows could "
-                                                "not be told apart: rename one",
+          {option_text("scenario"), fmt::format("two scenarios are named '{}' and their rows "
+                                                "could not be distinguished: rename one",
                                                 scenario.name)});
     }
   }
@@ -129,7 +129,7 @@ Status take_finished(const std::vector<Scenario>& scenarios, const std::vector<N
                                      "comparison's; compare into another directory",
                                      row.scenario, row.sample));
     }
-    if (at(row.sample) >= layout.samples) continue;  // fewer samples are asked for now
+    if (at(row.sample) >= layout.samples) continue;  // fewer samples are requested now
     slots[layout.row({*scenario, *set, *mode, at(row.sample)})] = row;
   }
   return {};

@@ -57,7 +57,7 @@ inline constexpr int kFewSamples = 6;
 inline constexpr std::size_t kMaxRuns = 1'000'000;
 
 struct CompareOptions {
-  /// Monte-Carlo samples beside the nominal model (sample 0), >= 0. More tell smaller differences
+  /// Monte-Carlo samples in addition to the nominal model (sample 0), >= 0. More show smaller differences
   /// apart; 0 compares the model's own values alone, without intervals or tests.
   int samples = 0;
   /// Of the draws, the noise and the bootstrap. Another one shows what a verdict owes to chance.
@@ -138,16 +138,16 @@ struct Change {
 struct Comparison {
   std::vector<ComparisonRow> rows;  ///< the finished ones, by scenario, gains, mode, sample
   /// Samples, the nominal one included, that every scenario, mode and set of gains has from 0 on:
-  /// what is judged. Fewer than asked for where the comparison was stopped, or is a part.
+  /// what is judged. Fewer than requested where the comparison was stopped, or is a part.
   int whole_samples = 0;
   bool stopped = false;  ///< before all of its runs were done
   /// How the runs were rounded (BatchArithmetic::rounding): rows of different ones are not mixed.
   std::string arithmetic = {};
   /// Fastest yaw rate that yaw resistance was measured at, deg/s, > 0; absent where the model has none.
   std::optional<double> measured_yaw_rate_degps = {};
-  /// By break_even_of() (break_even.h); absent where nobody asked.
+  /// By break_even_of() (break_even.h); absent if not requested.
   std::optional<std::vector<BreakEven>> break_even = {};
-  /// By changes_of_runs() (decision.h): plants and gains; empty where nobody asked.
+  /// By changes_of_runs() (decision.h): plants and gains; empty if not requested.
   std::vector<Change> changes = {};
 };
 

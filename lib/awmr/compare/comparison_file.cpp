@@ -138,7 +138,7 @@ Json scenario_json(const JudgedScenario& scenario, const std::vector<Change>& ch
   return json;
 }
 
-/// The scenarios that another one stands for, having the same runs.
+/// The scenarios represented by another one with the same runs.
 Json counted_once_json(const std::vector<JudgedScenario>& ranked) {
   const std::vector<std::size_t> first = first_with_same_runs(ranked);
   Json json = Json::array();

@@ -14,7 +14,7 @@
 
 namespace awmr {
 
-/// In how many scenarios each contender was the best in one metric, or not told apart from it.
+/// In how many scenarios each contender was the best in one metric, or not distinguishable from it.
 struct MetricTally {
   MetricId metric{};
   int scenarios = 0;              ///< that were ranked and have the metric in some mode

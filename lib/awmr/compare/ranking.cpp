@@ -24,7 +24,7 @@ struct Entry {
   const ModeRows* rows = nullptr;
   std::vector<double> log_scores;   ///< by counted run
   std::vector<double> mean_losses;  ///< by scored metric, over the counted runs
-  bool completes = true;            ///< as often as the best, or not told apart from it
+  bool completes = true;            ///< as often as the best, or not distinguishable from it
 
   double log_score() const { return mean(log_scores); }
 
@@ -43,7 +43,7 @@ Entry entry_of(const ModeRows& rows, const std::vector<ScoredMetric>& scoring) {
   return entry;
 }
 
-/// Whether the two shares of completed runs are not told apart: by the exact McNemar test, or by
+/// Whether the two shares of completed runs are not distinguishable: by the exact McNemar test, or by
 /// being equal where there is a single run, or where one completes each and the other none.
 bool complete_alike(const ModeRows& a, const ModeRows& b) {
   const auto first = a.counted();

@@ -109,8 +109,8 @@ Status check_rows(const std::vector<ComparisonRow>& rows, const Part& part,
                                             shard.index, shard.count));
     }
     if (seen[{row.scenario, row.gains, row.mode, row.sample}]++ > 0) {
-      return input_error(place, fmt::format("sample {} of scenario '{}' stands there twice",
-                                            row.sample, row.scenario));
+      return input_error(
+          place, fmt::format("sample {} of scenario '{}' appears twice", row.sample, row.scenario));
     }
   }
   return {};

@@ -14,7 +14,7 @@
 
 namespace awmr {
 
-/// The bytes of shard.json, which lies beside the part's comparison.csv: where the part is from,
+/// The bytes of shard.json, which lies next to the part's comparison.csv: where the part is from,
 /// which one it is, and the hash of its rows.
 std::string shard_text(const Comparison& part, const CompareOptions& options,
                        const Provenance& provenance);

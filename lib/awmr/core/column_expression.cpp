@@ -113,7 +113,7 @@ Wrong take_sign(std::string_view& rest, Formula& formula) {
   const char sign = rest[0];
   if (std::string_view("+-*/^(),").find(sign) == std::string_view::npos) {
     return fmt::format(
-        "{} has no place in a formula; a column's name that holds it stands in "
+        "{} is not allowed in a formula; put a column name that contains it in "
         "backticks",
         printable(rest.substr(0, 1)));
   }

@@ -165,9 +165,9 @@ class Search {
       const auto first = std::find(header_.begin(), header_.end(), name);
       const auto second = std::find(first + 1, header_.end(), name);
       if (second != header_.end()) {
-        fault(
-            fmt::format("the column \"{}\" stands twice in the header; rename or remove one", name),
-            static_cast<std::size_t>(second - header_.begin()));
+        fault(fmt::format("the column \"{}\" appears twice in the header; rename or remove one",
+                          name),
+              static_cast<std::size_t>(second - header_.begin()));
         return;
       }
       source.indices.push_back(static_cast<std::size_t>(first - header_.begin()));

@@ -93,7 +93,7 @@ std::string why_not_a_number(std::string_view text, std::size_t read) {
     return fmt::format("{} with a decimal comma; write {} with a point", found, point);
   }
   if (read > 0 && read < text.size() && !is_digit(text[read])) {
-    return found + "; a cell holds the number alone, the unit stands in the column's name";
+    return found + "; a cell holds the number alone, the column's name holds the unit";
   }
   return found;
 }

@@ -129,7 +129,7 @@ bool DocumentBuilder::key(string_t& value) {
     place.append("/").append(is_array ? std::to_string(outer.value.size())
                                       : pointer_token(outer.key));
   }
-  faults_.push_back({std::move(place), "this key stands twice in its object; keep one"});
+  faults_.push_back({std::move(place), "this key appears twice in its object; keep one"});
   return true;
 }
 

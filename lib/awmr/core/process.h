@@ -38,7 +38,7 @@ std::vector<std::string> plain_environment(const std::filesystem::path& temporar
 Result<ProgramEnd> run_program(const ProgramCall& call);
 
 /// Kills all programs that run_program() waits for, with their children; no further one can start.
-/// For a process that was asked to terminate.
+/// For a process that was requested to terminate.
 void end_running_programs();
 
 }  // namespace awmr

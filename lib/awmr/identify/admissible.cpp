@@ -89,8 +89,8 @@ std::map<ParameterId, std::string> take_out_inadmissible(Model& model) {
     estimate.quantiles.reset();
     model.record.findings.push_back(
         {"", 0, Severity::kWarning, "no-interval",
-         fmt::format("the standard error of {} is not finite: nothing is said about how well it is "
-                     "known",
+         fmt::format("the standard error of {} is not finite: its uncertainty is "
+                     "unknown",
                      parameter.name)});
   }
   take_out_what_hangs_on_it(model, reasons);

@@ -89,7 +89,7 @@ void assume_sway(const TrialData& data, MainValues& values) {
            "to "
            "{:.3g}, of common tyres ({:.1f} g m'/u) at u = {:.2g} m/s, half of the fastest that "
            "was "
-           "driven; gains are tuned for that range, and what is said of sideslip is no better than "
+           "driven; gains are tuned for that range, and results on sideslip are no better than "
            "it: give sway_alpha in vehicle.json, or record a driven log with sway_mps",
            info(ParameterId::kSwayAlpha).name, value, sway.ci95->lo, sway.ci95->hi, stiffness,
            speed_mps)});

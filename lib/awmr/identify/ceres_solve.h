@@ -46,7 +46,7 @@ inline std::string stop_reason(const ceres::Solver::Summary& summary) {
   }
 }
 
-/// The residuals where the problem stands. None where one of them cannot be computed there or is
+/// The residuals at the problem's present point. None where one of them cannot be computed there or is
 /// not finite: Ceres then hands out nothing, or a part.
 inline std::optional<Eigen::VectorXd> evaluated_residuals(
     ceres::Problem& problem, const ceres::Problem::EvaluateOptions& options) {
@@ -58,7 +58,7 @@ inline std::optional<Eigen::VectorXd> evaluated_residuals(
   return residuals;
 }
 
-/// The Jacobian where the problem stands, with its zeros. None as in evaluated_residuals().
+/// The Jacobian at the problem's present point, with its zeros. None as in evaluated_residuals().
 inline std::optional<Eigen::MatrixXd> evaluated_jacobian(
     ceres::Problem& problem, const ceres::Problem::EvaluateOptions& options) {
   ceres::CRSMatrix rows;

@@ -74,7 +74,7 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
   return {};
 }
 
-/// The method of the tables, where log-linear least squares knows all that is asked for.
+/// The method of the tables, where log-linear least squares knows all requested parameters.
 Method method_of_tables(const IdentifyOptions& options) {
   const bool log_linear_does = !asks_for_other_family(options) && options.loss == Loss::kSquared;
   return log_linear_does ? Method::kLogLinear : Method::kNonlinear;

@@ -12,10 +12,10 @@ namespace awmr {
 
 struct Identification {
   Model model;
-  std::vector<ParameterId> refused;  ///< asked for, but not identifiable: exit code 1
+  std::vector<ParameterId> refused;  ///< requested, but not identifiable: exit code 1
 };
 
-/// Errors (input): values that no option can save, such as a loss asked of the log-linear method. A
+/// Errors (input): values that no option can save, such as a loss requested of the log-linear method. A
 /// parameter the data cannot identify is not an error: it has no value, a `not-identifiable`
 /// finding, and is in `refused`.
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,

@@ -24,7 +24,7 @@ void set_given(const Vehicle& vehicle, Model& model);
 /// A fitted resistance law with its family. Precondition: `fit` has one.
 void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values);
 
-/// m' by coast-downs and I'z from it; b1 too, where a curve stands alone.
+/// m' by coast-downs and I'z from it; b1 too, where there is only a curve.
 /// Precondition: set_law() of the surge fit, where there is one.
 void set_mass(const MassResult& mass, const std::optional<SteadyFit>& surge, MainValues& values);
 

@@ -32,7 +32,7 @@ enum class ErrorModel {
   kTime,      ///< a known distance or angle was timed
   kLogForce,  ///< a factor on the force: the log-linear method's assumption
 };
-/// Those that can be asked for.
+/// Those that can be requested.
 inline constexpr NameTable<ErrorModel, 3> kErrorModelNames{
     {{"force", ErrorModel::kForce}, {"speed", ErrorModel::kSpeed}, {"time", ErrorModel::kTime}}};
 /// As in /estimates.
@@ -62,19 +62,19 @@ inline std::string title_of(Loss loss) {
 /// with the minimum AICc, where the data are to say.
 struct FamilyChoice {
   std::optional<Family> family = Family::kPower;
-  /// Somebody chose it. Where nobody did, logs are held against every family, and one that is plainly
-  /// better than the power law is taken.
+  /// Somebody chose it. Where nobody did, logs are compared with every family, and one that is
+  /// significantly better than the power law is taken.
   bool asked = false;
 };
 
-/// Whether a fit can be asked for it by name: a term comes with its family, back-EMF is in none.
+/// Whether a fit can be requested it by name: a term comes with its family, back-EMF is in none.
 inline bool can_be_asked(const ParameterInfo& parameter) {
   return !parameter.term || parameter.id == ParameterId::kBackEmf;
 }
 
 struct IdentifyOptions {
   /// Default: the trajectory fit where there are logs, else log-linear, the paper's; nonlinear
-  /// where a family or a loss is asked for that log-linear least squares does not know.
+  /// where a family or a loss is requested that log-linear least squares does not know.
   std::optional<Method> method = {};
   /// Default: time where every run was timed, else speed. Set it where another was uncertain.
   std::optional<ErrorModel> noise = {};
@@ -97,7 +97,8 @@ struct IdentifyOptions {
   double time_limit_s = 0.0;
   bool cross_validate = false;  ///< logs: leave one out, predict it; where there are two or more
   int threads = 0;              ///< 0: all; the result does not depend on it
-  bool side_by_side = true;     ///< false: the asked estimator alone, without its rivals and tests
+  bool side_by_side =
+      true;  ///< false: the requested estimator alone, without its alternatives and tests
   bool keeps_outliers = false;  ///< tables: gross outliers are fitted with the other runs
   /// Logs: called with a description of each step as it begins. Does not affect the result.
   std::function<void(std::string_view)> doing = {};

@@ -1,4 +1,4 @@
-/// What was asked for, and what the data cannot show of it. Private to identify/.
+/// What was requested, and what the data cannot show of it. Private to identify/.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace awmr {
 
-/// The parameters asked for: those named, else those that the given trials exist for.
+/// The parameters requested: those named, else those that the given trials exist for.
 std::vector<ParameterId> asked_for(const Vehicle& vehicle, const TrialData& data,
                                    const IdentifyOptions& options);
 
@@ -26,10 +26,10 @@ struct Reasons {
   std::map<ParameterId, std::string> logs;  ///< free in the fit of the logs, but not identifiable
 };
 
-/// Marks what has no value as not identified and says why, what is asked for as an error
+/// Marks what has no value as not identified and says why, what is requested as an error
 /// (`not-identifiable`); what the vehicle does not have has no value, and nothing is said. A given
 /// value stands, but where a log was to show it, that it does not is
-/// said. Returns what was asked for and refused.
+/// said. Returns what was requested and refused.
 std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Reasons& reasons,
                                                 const std::vector<ParameterId>& asked,
                                                 Model& model);

@@ -151,7 +151,7 @@ Batch set_up(std::span<const BatchRun> runs, const Scenario& scenario, double sa
   return batch;
 }
 
-/// What the controllers are told.
+/// Measurements of the controllers.
 void sense(Batch& batch, std::size_t k) {
   Block& block = *batch.block;
   if (!batch.scenario.sensors) {
@@ -194,7 +194,7 @@ void follow(Batch& batch, std::size_t lane, const Pilot::Order& order) {
   }
 }
 
-/// What the laws are asked to follow.
+/// References of the laws.
 void guide(Batch& batch, std::size_t k, double t_s) {
   Block& block = *batch.block;
   if (has_pilots(batch)) {
@@ -423,7 +423,7 @@ std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
           results.emplace_back(*metrics);
           return;
         }
-        // A run that failed is told of by simulate(), or saved by it.
+        // A run that failed is reported by simulate(), or saved by it.
         const DrivenRun one = one_by_one(runs[i], scenario, sample_time_s);
         const Status failure = failure_of(one.run, scenario);
         results.push_back(failure ? Result<Metrics>(one.metrics) : tl::unexpected(failure.error()));

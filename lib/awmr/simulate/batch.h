@@ -2,7 +2,7 @@
 /// go on lane by lane; the laws, the allocation, the motion and the metrics are those of simulate(),
 /// the same templates on batches of numbers.
 ///
-/// A run's numbers do not depend on the runs beside it, nor on its place among them. They are those of
+/// A run's numbers do not depend on the other runs, nor on its place among them. They are those of
 /// simulate() but for rounding: powers and angles are computed by other polynomials.
 #pragma once
 

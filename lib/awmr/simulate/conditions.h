@@ -1,4 +1,4 @@
-/// What a controller meets on a real vehicle beside the model of it.
+/// What a controller meets on a real vehicle in addition to the model of it.
 #pragma once
 
 #include "awmr/model/vehicle.h"
@@ -6,7 +6,7 @@
 
 namespace awmr {
 
-/// Noise and lateness of the sensors, lag of the motors. vehicle.json gives them (`noise`,
+/// Noise and latency of the sensors, lag of the motors. vehicle.json gives them (`noise`,
 /// `latency_s`, `motor`); where it does not, these: a compass, a MEMS gyro and a coarse encoder, read
 /// in the sample before, and small brushed motors.
 struct LoopConditions {

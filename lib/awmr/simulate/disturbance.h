@@ -31,7 +31,7 @@ class DisturbanceSource {
   /// `first_use`: of RunSeed::random, one per term.
   DisturbanceSource(const std::vector<DisturbanceTerm>& terms, double sample_time_s,
                     const RunSeed& seed, std::uint64_t first_use);
-  /// The value over the sample that begins at `t_s`; to be asked once per sample, in order.
+  /// The value over the sample that begins at `t_s`; call it once per sample, in order.
   double next(double t_s);
 
  private:
@@ -49,7 +49,7 @@ class DisturbanceSource {
 class RunDisturbance {
  public:
   RunDisturbance(const Disturbance& disturbance, double sample_time_s, const RunSeed& seed);
-  /// Over the sample that begins at `t_s`, without the slope's share; to be asked once per sample, in
+  /// Over the sample that begins at `t_s`, without the slope's share; call it once per sample, in
   /// order.
   BodyLoad next(double t_s) { return {surge_.next(t_s), sway_.next(t_s), yaw_.next(t_s)}; }
 

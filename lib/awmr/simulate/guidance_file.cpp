@@ -104,7 +104,7 @@ enum class LineLawName { kLos, kPurePursuit, kIlos };
 constexpr NameTable<LineLawName, 3> kLineLaws{{{"los", LineLawName::kLos},
                                                {"pure_pursuit", LineLawName::kPurePursuit},
                                                {"ilos", LineLawName::kIlos}}};
-/// From a millimetre, below which a vehicle would turn for every rounding error beside the line.
+/// From a millimetre, below which a vehicle would turn for every rounding error off the line.
 constexpr NumberRule kLookahead_m{.min = 1e-3, .max = 1e6};
 constexpr NumberRule kIntegralGain_mps{.min = 0.0, .max = 1e3, .min_excluded = true};
 

@@ -45,7 +45,7 @@ struct MeteredRow {
   T cross_track_m;         ///< from the present leg, line or path
   T off_target_m;          ///< from the point gone to
   T clearance_m;           ///< to the nearest obstacle; 0 without obstacles
-  T speed_ref_mps;         ///< u_d, what the speed law is asked for
+  T speed_ref_mps;         ///< u_d, reference of the speed law
   T tyre_power_mps;        ///< of the tyres' side forces; without tyres, of scrub
 };
 

@@ -17,7 +17,7 @@ inline constexpr double kMostRateTimesStep = 1.0;
 inline constexpr int kMostHalvings = 40;
 inline constexpr double kMostHalves = 5e7;
 
-/// What pushes the vehicle over a sample beside its wheels.
+/// What pushes the vehicle over a sample other than its wheels.
 template <class T>
 struct Push {
   BodyLoadOf<T> load;         ///< of the disturbances

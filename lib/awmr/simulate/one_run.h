@@ -9,7 +9,7 @@
 
 namespace awmr {
 
-/// Below this speed a vehicle that was told to stop counts as stopped.
+/// Below this speed a vehicle that was commanded to stop counts as stopped.
 inline constexpr double kStopped_mps = 1e-3;
 
 /// The controller with what the scenario changes of it.

@@ -22,7 +22,7 @@ class Physics {
   const State<double>& state() const { return state_; }
   int substeps() const { return substeps_; }
   bool resolved() const { return resolution_.resolved; }
-  /// The disturbance over the sample that begins at `t_s`, without the slope's share; to be asked
+  /// The disturbance over the sample that begins at `t_s`, without the slope's share; call it
   /// once per sample, before step().
   const BodyLoad& disturb(double t_s);
   /// Power that the tyres' side forces dissipate with these commands, over F_max, m/s; without tyres,

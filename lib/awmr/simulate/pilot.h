@@ -1,5 +1,5 @@
 /// The high-level controller of a scenario: from where the vehicle is to what the heading and speed
-/// laws are asked to follow. Private to this folder.
+/// references of the laws. Private to this folder.
 #pragma once
 
 #include <optional>
@@ -31,7 +31,7 @@ class Pilot {
     bool finished = false;
     bool no_passage = false;
   };
-  /// To be asked once per sample, in order; not in open loop.
+  /// Call it once per sample, in order; not in open loop.
   Order at(double t_s, const Sensed& sensed);
   /// Waypoints passed by or covered by an obstacle, so far.
   int missed() const { return laws_.progress.missed; }

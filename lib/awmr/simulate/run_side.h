@@ -1,4 +1,4 @@
-/// The side file of a run: `run.csv.json` beside `run.csv` names the model, the scenario and the gains
+/// The side file of a run: `run.csv.json` next to `run.csv` names the model, the scenario and the gains
 /// that the run was made from.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// What the vehicle is asked to do, and in which world. Its file: scenario_file.h.
+/// The vehicle's task and its world. Its file: scenario_file.h.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-/// What the controller is told. Private to this folder.
+/// Sensor models: sampling, delay, bias, noise and quantisation of the measurements.
+/// Private to this folder.
 #pragma once
 
 #include <optional>
@@ -13,7 +14,7 @@
 
 namespace awmr {
 
-/// What the controller is told at one sample.
+/// Measurements of one sample.
 struct Sensed {
   Measurement<double> motion;
   Position<double> position_m;
@@ -25,7 +26,7 @@ class Sensing {
   /// `noise`: null, or what draw_sensor_noise() gives for this seed; it outlives the sensors.
   Sensing(const std::optional<Sensors>& sensors, double sample_time_s, const RunSeed& seed,
           const DrawnNoise* noise = nullptr);
-  /// The k-th sample; to be asked once per sample, in order from 0.
+  /// The k-th sample; call it once per sample, in order from 0.
   Sensed at(std::size_t k, const State<double>& truth);
 
  private:

@@ -17,7 +17,7 @@
 
 namespace awmr {
 
-/// What a row tells of the course beside the vehicle's state; unused in open loop.
+/// What a row has of the path in addition to the vehicle's state; unused in open loop.
 struct CourseRow {
   double psi_goal_rad = 0.0;    ///< the guidance's heading, before avoidance and shaping
   double cross_track_m = 0.0;   ///< from the present leg, line or path; left of it is positive
@@ -31,12 +31,12 @@ struct RunRow {
   State<double> state{};
   SideForces<double> force{};         ///< commanded, over F_max
   double steering_command_rad = 0.0;  ///< d_ro, rad, left positive
-  double tau_speed = 0.0;             ///< asked for by the law, before any limit
-  double tau_turn_m = 0.0;            ///< asked for by the law, before any limit
+  double tau_speed = 0.0;             ///< requested by the law, before any limit
+  double tau_turn_m = 0.0;            ///< requested by the law, before any limit
   double psi_ref_rad = 0.0;           ///< 0 in open loop
   double u_ref_mps = 0.0;             ///< 0 in open loop
   CourseRow course = {};
-  Measurement<double> measured = {};          ///< what the controller was told
+  Measurement<double> measured = {};          ///< measurements of the controller
   Position<double> measured_position_m = {};  ///< the same
   BodyLoad disturbance = {};                  ///< without a slope's share
   /// From the vehicle's circle to the nearest obstacle, < 0 inside of it; 0 without obstacles.

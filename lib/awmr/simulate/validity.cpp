@@ -17,7 +17,7 @@
 namespace awmr {
 namespace {
 
-/// A reading is driven as of the nearest sample: told where that is off by more of one.
+/// A reading is driven as of the nearest sample: reported if that is off by more than one.
 constexpr double kLittleOfASample = 0.1;
 
 void note_latency(const char* name, double late_s, double sample_time_s, const Scenario& scenario,
@@ -101,7 +101,7 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
       model.file, 0, Severity::kWarning, "tyres-differ",
       fmt::format("{}: a moment that turns the model at {:.3g} deg/s, where its yaw resistance was "
                   "measured, turns it at {:.3g} on these tyres: they are not those of the trials. "
-                  "Take what is said on them as another vehicle's",
+                  "Take results on these tyres as those of another vehicle",
                   scenario.name, plain_degps, on_tyres_degps)};
 }
 

@@ -1,4 +1,4 @@
-/// What the world does to the vehicle beside the equations of motion: disturbances, faults of the
+/// What the world does to the vehicle in addition to the equations of motion: disturbances, faults of the
 /// wheels, sensors, actuators. Everything is off unless the scenario asks for it; what is random
 /// comes from seeds.
 #pragma once
@@ -51,7 +51,7 @@ struct Slope {
   double downhill_rad = 0.0;  ///< rad: the heading, in the world frame, in which it falls
 };
 
-/// All that pushes the vehicle beside its own wheels; the terms of an axis add up.
+/// All that pushes the vehicle other than its own wheels; the terms of an axis add up.
 struct Disturbance {
   std::vector<DisturbanceTerm> surge;  ///< force over F_max, forward positive
   std::vector<DisturbanceTerm> sway;   ///< force over F_max, to the left positive
@@ -63,11 +63,11 @@ struct Disturbance {
 /// The four driven wheels.
 enum class Wheel { kFrontLeft, kFrontRight, kRearLeft, kRearRight };
 
-/// A motor that gives only a share of the force it is asked for.
+/// A motor that gives only a share of the requested force.
 struct WheelFault {
   std::vector<Wheel> wheels;
   Window window;
-  double share = 0.0;  ///< of the force asked for, [0, 1]; 0: the motor is dead
+  double share = 0.0;  ///< of the force requested, [0, 1]; 0: the motor is dead
 };
 
 /// A slippery disc on the ground: a wheel on it passes on no more than `force_max`.
@@ -131,14 +131,14 @@ struct CornerParameter {
   bool high = true;  ///< the upper end, else the lower
 };
 
-/// How the controller is extended, beside the laws of control/controller.h.
+/// How the controller is extended, in addition to the laws of control/controller.h.
 struct ControlOptions {
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< of the combined mode
   struct Observer {
     double bandwidth_radps = 0.0;  ///< of the estimate, > 0
     double yaw_max_m = 0.0;  ///< most that is taken for a disturbance: moment over F_max, m, > 0
     double surge_max = 0.0;  ///< the same along x: force over F_max, > 0
-    /// true: the observer is told what the limits leave of the command; false: what was asked for,
+    /// true: the observer uses the command after its limits; false: before them,
     /// so that a saturated actuator looks like a disturbance and the estimate winds up.
     bool anti_windup = true;
   };

@@ -6,7 +6,7 @@
 namespace awmr {
 namespace {
 
-/// Commands may be read so much before the first row asked for, or after the last one.
+/// Commands may be read so much before the first row requested, or after the last one.
 constexpr double kLongestDelay_s = 1.0;
 constexpr double kForgotten = 40.0;  // time constants: exp(-40) is 4e-18
 

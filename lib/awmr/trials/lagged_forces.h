@@ -13,7 +13,7 @@ namespace awmr {
 ///     T dF'/dt = c - F',   F'(t + h) = c + (F'(t) - c) exp(-h/T)
 ///     mean over [t, t + h] = mean of c - (T/h) (F'(t + h) - F'(t))
 ///
-/// F' begins at c so many time constants before the rows that are asked for, or at the log's first
+/// F' begins at c so many time constants before the rows that are requested, or at the log's first
 /// row, that an earlier command has less weight than rounding. T = 0 passes the commands on.
 class LaggedForces {
  public:

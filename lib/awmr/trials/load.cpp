@@ -127,7 +127,7 @@ Status check(const TrialFiles& files) {
     return input_error("", "no trials: give at least one surge, turning, coast-down or log file");
   }
   if (files.steady_from_logs && files.logs.empty()) {
-    return input_error("", "steady stretches of logs were asked for, but there is no log");
+    return input_error("", "steady stretches of logs were requested, but there is no log");
   }
   return {};
 }

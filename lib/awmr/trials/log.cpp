@@ -103,7 +103,7 @@ void check_time(TrialReader& reader, RowSpan run) {
     reader.fault(i, "t_s",
                  fmt::format("found {} after {}: time has to rise{}", t_s[i], t_s[i - 1],
                              t_s[i] < t_s[i - 1] && !reader.has("run")
-                                 ? "; several runs in one file are told apart by a column run"
+                                 ? "; several runs in one file need a column run"
                                  : ""));
   }
   const std::size_t rows = run.end - run.begin;
@@ -280,7 +280,7 @@ Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOption
   AWMR_ASSIGN_OR_RETURN(std::vector<DrivingLog> logs, read_logs(path, options, findings));
   if (logs.size() == 1) return std::move(logs.front());
   return input_error(path.string(),
-                     fmt::format("this file has {} runs; one was asked for", logs.size()));
+                     fmt::format("this file has {} runs; one was expected", logs.size()));
 }
 
 }  // namespace awmr

@@ -78,10 +78,10 @@ Status check_consistency(const DrivingLog& log, const std::string& place, const 
   if (bias && bias->significant()) {
     findings.push_back(
         {log.file, 0, Severity::kWarning, "gyro-bias",
-         fmt::format("yaw_rate_radps stands {:.3g} +- {:.2g} rad/s off the heading's own rate: a "
-                     "gyro's bias; it is estimated with the rest ({})",
-                     bias->bias_radps, bias->std_error_radps,
-                     option_text("fit bias.yaw_rate_radps"))});
+         fmt::format(
+             "yaw_rate_radps differs by {:.3g} +- {:.2g} rad/s from the rate of the heading: "
+             "a gyro bias; it is estimated with the rest ({})",
+             bias->bias_radps, bias->std_error_radps, option_text("fit bias.yaw_rate_radps"))});
   }
   return {};
 }

@@ -132,7 +132,7 @@ void Recording::put_before_aside() {
     if (is_blank(old)) {
       put(old);
     } else {
-      put_aside(old, "it stands before the header");
+      put_aside(old, "it comes before the header");
     }
     begin = end + 1;
   }

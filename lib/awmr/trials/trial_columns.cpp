@@ -181,8 +181,8 @@ std::string trials_with(const std::string& column) {
 /// Reason why no file that could use a mapping did.
 std::string asked_of_none(const ColumnMapping& mapping) {
   return fmt::format(
-      "no file that has what it is made from is asked for {}, which is a column of: {}; correct it "
-      "or leave it out{}",
+      "no file with the columns of this formula needs {}, which is a column of: {}; correct the "
+      "formula or leave it out{}",
       mapping.name, trials_with(mapping.name), why_no_formula(mapping));
 }
 

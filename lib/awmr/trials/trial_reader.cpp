@@ -56,8 +56,8 @@ Finding mismatch(const TrialReader& reader, std::size_t row, const Rate& rate, d
       row, Severity::kWarning, rate.code,
       fmt::format(
           "{} is {}, but {} {} in elapsed_s {} make {:.4g}: {:.2g} apart, where rounding and "
-          "timing explain {:.2g}; the {} value {:.4g} is used (a fit with its error on time takes "
-          "elapsed_s as it stands)",
+          "timing explain {:.2g}; the {} value {:.4g} is used (a fit with its error on time uses "
+          "elapsed_s unchanged)",
           rate.printed_column, printed, rate.amount_column, amount, elapsed_s, timed,
           std::abs(printed - timed), tolerance, use_printed ? "printed" : "timed",
           use_printed ? printed : timed));

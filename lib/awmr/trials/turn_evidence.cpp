@@ -228,7 +228,7 @@ WrongUnit wrong_column(const TurnShare& told_by, const TurnJudgement& judgement,
   const std::string told = fmt::format("line {} turns at {}, {}", told_by.row->line,
                                        turn_text(*told_by.row), told_by.told);
   if (mendings.empty()) {
-    return {line, told, {}, "correct the yaw rates, or what they are held against"};
+    return {line, told, {}, "correct the yaw rates, or the values that they are compared with"};
   }
   const std::string_view what = is_printed ? "the yaw rates look like" : "this looks like";
   return {line, fmt::format("{}: {} {}", told, what, words_of(mendings)), mendings};

@@ -148,11 +148,10 @@ void check_mean(TrialReader& reader, std::size_t row, double left, double right)
   const double computed = 0.5 * (left + right);
   const double tolerance = reader.rounding_error(*mean, "wheel_force") + 0.005 * std::abs(computed);
   if (std::abs(*mean - computed) <= tolerance) return;
-  reader.fault(
-      row, "wheel_force",
-      fmt::format("found {} beside force_left {} and force_right {}, whose mean is {:.4g}: "
-                  "correct it or leave it empty",
-                  *mean, left, right, computed));
+  reader.fault(row, "wheel_force",
+               fmt::format("found {}, but the mean of force_left {} and force_right {} is {:.4g}: "
+                           "correct it or leave it empty",
+                           *mean, left, right, computed));
 }
 
 /// F' of a steered run without forces of the sides; a fault if it is empty or negative.
@@ -185,7 +184,7 @@ std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
   const auto right = reader.cell(row, "force_right");
   if (left.has_value() != right.has_value()) {
     reader.fault(row, left ? "force_right" : "force_left",
-                 "is empty beside the other side's: give both or neither");
+                 "is empty, but the other side's force is not: give both or neither");
     return std::nullopt;
   }
   const bool is_timed = has_rate(reader, row);

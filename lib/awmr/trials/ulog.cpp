@@ -140,9 +140,8 @@ Result<Signals> read_ulog(std::string_view bytes, const std::string& file, const
     if (!message || cut != appended.end()) {
       reading.signals.notes.push_back(
           {0, "log-truncated",
-           fmt::format(
-               "the file breaks off inside a message at byte {}; what stands before is read",
-               offset)});
+           fmt::format("the file ends inside a message at byte {}; the messages before it are read",
+                       offset)});
       reader.seek(cut != appended.end() ? *cut : bytes.size());
       continue;
     }

@@ -77,8 +77,8 @@ void check_scenarios(const std::vector<Scenario>& scenarios, bool observer_is_se
                            scenario.name)});
     }
     if (!names.insert(scenario.name).second) {
-      faults.push_back({"", fmt::format("two scenarios are named '{}'; scores are told apart by "
-                                        "name, so give each its own",
+      faults.push_back({"", fmt::format("two scenarios are named '{}'; scores are listed by "
+                                        "name, so rename one",
                                         scenario.name)});
     }
   }
@@ -153,8 +153,8 @@ void check_part(const TuneOptions& options, std::vector<Fault>& faults) {
   if (options.nominal) {
     faults.push_back(
         {option_text("shard"),
-         "nominal gains are judged on no draws, which parts could share: leave out one "
-         "of them"});
+         "nominal gains are evaluated on no draws, so there is nothing to divide: leave out "
+         "one of them"});
   }
   if (auto fault =
           shard_fault(*options.shard, options.judged_draws, "fresh draws (judged_draws)")) {

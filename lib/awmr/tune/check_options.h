@@ -1,4 +1,4 @@
-/// Checks of what a search is asked to do. Private to tune/.
+/// Checks of the options of a search. Private to tune/.
 #pragma once
 
 #include "awmr/core/result.h"

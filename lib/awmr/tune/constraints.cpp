@@ -106,7 +106,7 @@ double heading_damping(const Gains<double>& gains, const ConstraintContext& cont
   return worst;
 }
 
-/// Every constraint that a vehicle stands in by itself.
+/// Every constraint that a vehicle has by itself.
 std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
                                                const ConstraintContext& context,
                                                const DrawnVehicle& vehicle);

@@ -24,7 +24,7 @@ inline constexpr double kSpeedGainPerSample = 0.5;
 inline constexpr double kRateShares[] = {1.0 / 60.0, 1.0 / 12.0, 1.0 / 3.0, 1.0};
 inline constexpr double kSlowest_radps = radians(1.0);
 
-/// What the constraints depend on beside the gains.
+/// What the constraints depend on other than the gains.
 struct ConstraintContext {
   ReachingForm form = ReachingForm::kStrict;   ///< the form of T2 < T1 that is required
   double margin = 0.8;                         ///< reaching time constant <= margin T1, in (0, 1)
@@ -75,7 +75,7 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 ///   steering rate      steering_rate_rms_degps() <= the limit, where there is one
 /// with the limits of TuningLimits.
 ///
-/// Each stands for the vehicle, out of the context's own and its draws, that leaves it the least.
+/// Each is of the vehicle, out of the context's own and its draws, that leaves it the least.
 /// The laws know the context's own alone, so with another plant the loop's gain is its m' or I'z
 /// over the plant's: (mu_s/eps_s) times it in the speed loop, SampledHeadingLoop::input_gain in the
 /// heading loop.
@@ -94,10 +94,10 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 /// so z is in [1 - k_s T_s, 1).
 ///
 /// Speed lag: k_s/(s (1 + tau s)) closes to tau s^2 + s + k_s, so zeta = 1/(2 sqrt(k_s tau)). The
-/// motors' lag and the latency, where they are given, stand beside T; the servo's T stands in for the
+/// motors' lag and the latency, where they are given, are added to T; the servo's T stands in for the
 /// motors' where there is a servo.
 ///
-/// An observer of bandwidth L stands in the sampled heading loop; in the speed loop it makes
+/// An observer of bandwidth L is part of the sampled heading loop; in the speed loop it makes
 /// k_s + L of k_s: with d_hat the command is -(k_s + L) e_u - k_s L times its integral, and to first
 /// order the lag costs that of the faster part. Its gain on readings of the heading is none.
 ///

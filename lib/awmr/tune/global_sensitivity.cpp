@@ -174,8 +174,8 @@ Result<GlobalSensitivity> global_sensitivity(const Model& model, const Objective
       figures, [](const std::vector<double>& of_sample) { return of_sample.empty(); });
   if (broken_off > 0) {
     return refusal(fmt::format(
-        "with {} of {} samples of what was assumed a run of the tuned loop breaks off, so that "
-        "nothing is told of what moves it; tune without sensitivity, and look at these vehicles",
+        "a run of the tuned loop fails with {} of {} samples of the assumed values, so the "
+        "sensitivity is unknown; tune without sensitivity, and examine these vehicles",
         broken_off, figures.size()));
   }
   const std::span<const YawMode> modes = setting.modes();

@@ -63,7 +63,7 @@ struct Looked {
   Candidate candidate{};
   std::vector<double> residuals{};  ///< in the order of Problem::names()
 
-  /// What NLopt is told of it.
+  /// The problem as NLopt receives it.
   double value() const;
 };
 

@@ -37,7 +37,7 @@ struct Judgement {
       by_scenario;                ///< by scenario, then gains, then mode; empty where there is one
   std::vector<JudgedGoal> goals;  ///< by gains, then goal, then mode
 };
-/// What runs are judged by, beside themselves.
+/// Criteria of the runs.
 struct JudgedBy {
   std::vector<YawMode> modes;
   std::vector<std::string> scenarios;  ///< by name, in the runs' order

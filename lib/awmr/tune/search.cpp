@@ -24,7 +24,7 @@ constexpr double kFirstStep = 0.2;
 constexpr double kLastStep = 1e-3;
 /// A local search that improves the objective by less is the last one.
 constexpr double kWorthwhile = 1e-4;
-/// Starts of the feasibility search beside the baseline and the middle of the bounds, and steps of
+/// Starts of the feasibility search in addition to the baseline and the middle of the bounds, and steps of
 /// each.
 constexpr int kRandomStarts = 30;
 constexpr int kStartEvaluations = 300;
@@ -137,7 +137,7 @@ nlopt_result run(nlopt_opt search, Asked& asked, unsigned constraints, const Poi
 bool failed(nlopt_result code) { return code < 0 && code != NLOPT_ROUNDOFF_LIMITED; }
 
 /// ISRES, a generation at a time, though NLopt asks for one point after the other: for each generation
-/// the search begins anew and is told what is known, which takes it to the next one. It is the search
+/// the search begins anew from the known points, which takes it to the next one. It is the search
 /// that it would be in one go.
 nlopt_result search_globally(Problem& problem, const TuneOptions& options, const Point& start) {
   // NLopt's random generator is one per process.

@@ -25,7 +25,7 @@ struct SettledGains {
 SettledGains settle(const TuneOptions& options, const ConstraintContext& context,
                     const Objective& searched, const Objective& all, const Candidate& best);
 
-/// The constraints within 1 % of which `best` stands, and how far the objective falls in a local search
+/// The constraints within 1 % of which `best` is, and how far the objective falls in a local search
 /// from there where one of them may be broken by a tenth. Errors: as search().
 Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& options,
                                                          const ConstraintContext& context,

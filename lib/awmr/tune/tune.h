@@ -202,7 +202,7 @@ struct ConstraintReport {
   double margin = 0.0;  ///< distance of the value from its limit, >= 0 when it holds
   Sense sense = Sense::kAtMost;
   std::string meaning{};
-  bool required = true;  ///< false: reported only (the form of T2 < T1 that was not asked for)
+  bool required = true;  ///< false: reported only (the form of T2 < T1 that was not requested)
 };
 
 /// One set of gains on one scenario in one mode.
@@ -314,7 +314,7 @@ struct RobustTuning {
   std::vector<JudgedGains> judged_by_scenario;
   std::vector<JudgedGoal> goals;  ///< by gains, then goal, then mode; empty of a part
   std::vector<JudgedRuns> runs;   ///< of a part: those of its draws, by gains
-  std::optional<GlobalSensitivity> sensitivity;  ///< absent where nobody asked
+  std::optional<GlobalSensitivity> sensitivity;  ///< absent if not requested
 };
 
 /// Settling against command activity: means over the modes, scenarios and plants of the search. A run that does not

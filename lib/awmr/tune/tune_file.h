@@ -18,7 +18,7 @@ struct TuneConfig {
   std::optional<std::filesystem::path> baseline_file = {};  ///< the same of `options.baseline`
 };
 
-/// The baseline that "pole-placement" (none is given), "paper" or the path of a gains.json stands for. Errors:
+/// The baseline that "pole-placement" (none is given), "paper" or the path of a gains.json names. Errors:
 /// as read_gains.
 Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name);
 

@@ -59,7 +59,7 @@ TuningGoal read_goal(JsonObject json) {
   }
   limits.reject_unknown_keys();
   if (goal.at_most.empty()) {
-    json.fault("at_most", "names no figure that runs are judged by");
+    json.fault("at_most", "names no metric");
   }
   goal.share =
       json.optional_number("share", {.min = kLeastShare, .max = kMostShare}).value_or(goal.share);

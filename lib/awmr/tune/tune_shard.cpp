@@ -50,7 +50,7 @@ TunePart tune_part_from_json(JsonObject& json) {
     part.by.modes.push_back(mode.value_or(YawMode::kCombined));
   }
   if (part.by.modes.empty()) json.fault("modes", "names no mode");
-  if (part.gains.empty()) json.fault("gains", "names no gains that were judged");
+  if (part.gains.empty()) json.fault("gains", "names no evaluated gains");
   part.by.scenarios = json.strings("scenarios");
   if (part.by.scenarios.empty()) json.fault("scenarios", "names no scenario");
   part.by.tail_share = json.number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true});

@@ -14,7 +14,7 @@
 
 namespace awmr {
 
-/// The `schema` of its shard.json, and what lies beside it: the gains without what fresh draws say of
+/// The `schema` of its shard.json, and what lies next to it: the gains without what fresh draws say of
 /// them, and the runs.
 inline constexpr std::string_view kTuneShardSchema = "awmr.tune_shard/1";
 inline constexpr const char* kTuneShardGains = "gains.json";
@@ -26,7 +26,7 @@ inline constexpr const char* kJudgedTable = "judged.csv";
 std::string judged_csv(const Tuning& tuning, const TuneOptions& options);
 
 /// The bytes of shard.json: where the part is from, which one it is, what its runs are judged by,
-/// and the hashes of the two files beside it.
+/// and the hashes of the two files next to it.
 std::string tune_shard_text(const Tuning& tuning, const TuneOptions& options,
                             const Provenance& provenance);
 

@@ -50,7 +50,7 @@ EstimatorReport report_of_alone(const CoastFit& fit) {
   return report;
 }
 
-/// The family asked for, alone; else every one.
+/// The family requested, alone; else every one.
 std::vector<CoastFit> fits_of(const std::vector<CoastCurve>& curves, const Interval& beta_range,
                               const FamilyChoice& choice) {
   std::vector<CoastFit> fits;
@@ -85,7 +85,7 @@ std::string ratios_in_words(const CoastFit& fit) {
   return words;
 }
 
-/// `power-law-inadequate`, where nobody asked for the power law and another is plainly better.
+/// `power-law-inadequate`, if the power law was not requested and another is significantly better.
 void hold_against_others(const std::vector<CoastFit>& fits, const std::string& file,
                          MassResult& result) {
   const CoastFit& power = fits.front();

@@ -105,10 +105,11 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
   if (relative_std_error && *relative_std_error > kFragileShare) {
     findings.push_back(
         {coastdown.file, 0, Severity::kWarning, "fragile-mass",
-         fmt::format("the standard error of mass_norm is {:.0f} % of its value, because "
-                     "m' from a stop time hangs on the last centimetres (b1 = {:.3f}); record the "
-                     "whole coast-down curve, or more surge runs at low speed",
-                     100.0 * *relative_std_error, surge.beta)});
+         fmt::format(
+             "the standard error of mass_norm is {:.0f} % of its value, because "
+             "m' from a stop time depends on the last centimetres (b1 = {:.3f}); record the "
+             "whole coast-down curve, or more surge runs at low speed",
+             100.0 * *relative_std_error, surge.beta)});
   }
 }
 

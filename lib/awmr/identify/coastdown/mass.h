@@ -17,7 +17,7 @@ struct MassResult {
   /// under which the vehicle would never have stopped are not in it.
   Posterior posterior;
   std::optional<double> by_grip;  ///< Model::mass_norm_by_grip
-  std::optional<JointFit> joint;  ///< where asked for and usable
+  std::optional<JointFit> joint;  ///< where requested and usable
   std::optional<CoastFit> alone;  ///< curves without a surge law
   std::string reason;             ///< why there is no estimate
   std::vector<EstimatorReport> reports;
@@ -26,7 +26,7 @@ struct MassResult {
 
 /// Precondition: at least a stop time or a curve. `surge` is null where its law is not identified.
 /// Curves that do not fall are set aside (`no-deceleration`). Without a surge law, `family` says
-/// what the curves alone are fitted with; one that was not asked for is held against the others
+/// what the curves alone are fitted with; one that was not requested is compared with the others
 /// (`power-law-inadequate`).
 MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<StopTimeRow>>& stops,
                          const std::vector<CoastCurve>& curves, const Vehicle& vehicle,

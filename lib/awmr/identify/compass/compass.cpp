@@ -198,8 +198,8 @@ Status check_usable(const std::string& file, const CompassCalibration& c) {
     const double rounded = static_cast<double>(static_cast<float>(centre));
     if (std::abs(rounded - centre) <= kRounding * field) continue;
     return refusal(
-        fmt::format("{}: the centre {:.9g} is too large beside the field {:.4g} for the "
-                    "vehicle's numbers of 24 bits: take the offset off the readings, or "
+        fmt::format("{}: the centre {:.9g} is too large compared with the field {:.4g} for the "
+                    "vehicle's 24-bit numbers: take the offset off the readings, or "
                     "move the magnet away",
                     file, centre, field));
   }

@@ -17,7 +17,7 @@ namespace {
 
 /// Logs and coast-downs are recorded at this rate.
 constexpr double kRate_hz = 100.0;
-/// A rate (m/s, rad/s) that stands for rest, so that its logarithm exists.
+/// A rate (m/s, rad/s) that represents rest, so that its logarithm exists.
 constexpr double kAtRest = 1e-6;
 
 /// The scatter of the model's own rows of this kind, over their rate; 5 % where there are none.
@@ -205,8 +205,8 @@ std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptio
 
 namespace {
 
-/// What turns by the sides may meet beside g3, m: as the trials have it, or from nothing to tyres that
-/// slide.
+/// The moment that differential turns may need in addition to g3, m: as the trials have it, or from
+/// nothing to tyres that slide.
 Interval possible_scrub_m(const Model& model, const Plant<double>& plant) {
   const double held_m = model.yaw_held_m.value_or(0.0);
   if (const auto& scrub = model.yaw_scrub) {

@@ -168,7 +168,7 @@ OneRun identified_again(const Vehicle& vehicle, const TrialData& data, IdentifyO
   return run;
 }
 
-/// Those of a part, in order. Progress is told on this thread; its last call has them all.
+/// Those of a part, in order. Progress is reported on this thread; its last call has them all.
 std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOptions& options,
                                    const Shard& shard, const std::vector<RecoverTruth>& truths,
                                    const std::function<void(int)>& progress) {
@@ -193,7 +193,7 @@ std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOp
   return runs;
 }
 
-/// The parameters that are judged: those asked for, or all, where the model has a value.
+/// The parameters that are judged: those requested, or all, where the model has a value.
 std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<ParameterId>& asked) {
   std::vector<RecoverTruth> truths;
   for (const ParameterInfo& parameter : parameter_table()) {
@@ -240,8 +240,8 @@ Status check_drive(const DrivePlan& drive) {
                                  drive.duration_s, drive.rate_hz, rows, kFewest, kMost));
 }
 
-/// A model that knows straight motion alone is driven straight, and asked for what that shows.
-/// Back-EMF that was fitted is asked for again.
+/// A model that knows straight motion alone is driven straight, and requested what that shows.
+/// Back-EMF that was fitted is requested again.
 RecoverOptions options_for(const Model& model, RecoverOptions options) {
   const bool log = options.plan == RecoverPlan::kLog;
   if (log && options.identify.asked.empty() && !is_absent_term(model, ParameterId::kBackEmf) &&

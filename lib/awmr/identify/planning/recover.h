@@ -56,13 +56,13 @@ struct Recovery {
   std::vector<RecoveredParameter> parameters;
   std::string noise_text;  ///< as simulated
   int runs = 0;
-  int failed = 0;  ///< runs in which something asked for was refused
+  int failed = 0;  ///< runs in which something requested was refused
 };
 
 /// `progress` is called with the runs done so far, on the thread that called recover(), and last
 /// with all of them. A log of a model that knows straight motion alone drives straight, and is asked
 /// for what that shows. Errors (input): the model lacks a parameter that a trial of the plan needs,
-/// or has no trials for the plan; fewer than 2 runs. (refused): no run gives what is asked for, or
+/// or has no trials for the plan; fewer than 2 runs. (refused): no run gives what is requested, or
 /// anything.
 Result<Recovery> recover(const Model& model, const RecoverOptions& options,
                          const std::function<void(int)>& progress);

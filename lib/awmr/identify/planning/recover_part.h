@@ -32,7 +32,7 @@ struct RecoverEstimate {
 /// One simulated data set, identified.
 struct RecoverRun {
   int index = 0;         ///< of all runs, from 0: with the seed it decides on the errors
-  bool refused = false;  ///< something asked for was refused
+  bool refused = false;  ///< something requested was refused
   /// By RecoverPart::truths; absent where the run gave no interval.
   std::vector<std::optional<RecoverEstimate>> estimates;
 };
@@ -61,7 +61,7 @@ Result<RecoverPart> recover_part(const Model& model, const RecoverOptions& optio
                                  const Shard& shard, const std::function<void(int)>& progress);
 
 /// What the runs come to. Precondition: `whole` has all of them. Errors: those of the runs, where all
-/// have one; (refused) no run gives what is asked for, or anything.
+/// have one; (refused) no run gives what is requested, or anything.
 Result<Recovery> recovery_of(const RecoverPart& whole);
 
 }  // namespace awmr

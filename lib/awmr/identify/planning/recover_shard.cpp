@@ -108,7 +108,7 @@ std::string other_recovery(const RecoverShardFile& first, const RecoverShardFile
                           "run all parts on processors of one kind, with the same C library");
 }
 
-/// The part's own runs, each once. Errors (input): a run that is not one of them, or stands there
+/// The part's own runs, each once. Errors (input): a run that is not one of them, or appears
 /// twice; one that is missing.
 Status check_runs(const std::vector<RecoverRun>& runs, const RecoverShardFile& file) {
   const std::string place = (file.origin.directory / kRecoverTable).string();
@@ -120,7 +120,7 @@ Status check_runs(const std::vector<RecoverRun>& runs, const RecoverShardFile& f
                                             shard.index, shard.count));
     }
     if (run.index <= before) {
-      return input_error(place, fmt::format("run {} stands behind run {}", run.index, before));
+      return input_error(place, fmt::format("run {} comes after run {}", run.index, before));
     }
     before = run.index;
   }
@@ -142,8 +142,8 @@ Result<std::vector<RecoverRun>> read_runs(const RecoverShardFile& file) {
   return runs;
 }
 
-/// What the parts say beside their runs: the refusal of the smallest run; an error where all have
-/// one, that of the first part, which has the first run.
+/// What the parts report in addition to their runs: the refusal of the smallest run; an error where
+/// all have one, that of the first part, which has the first run.
 void take_words(const std::vector<RecoverShardFile>& files, RecoverPart& whole) {
   whole.refusal.reset();
   whole.error.reset();

@@ -14,7 +14,7 @@
 
 namespace awmr {
 
-/// The `schema` of its shard.json, and the table beside it.
+/// The `schema` of its shard.json, and the table next to it.
 inline constexpr std::string_view kRecoverShardSchema = "awmr.recover_shard/1";
 inline constexpr const char* kRecoverTable = "recovery.csv";
 
@@ -22,7 +22,7 @@ inline constexpr const char* kRecoverTable = "recovery.csv";
 /// gave `NAME,NAME.std_error,NAME.ci95_lo,NAME.ci95_hi`, empty where this run did not.
 std::string recover_csv(const RecoverPart& part);
 
-/// The bytes of shard.json, which lies beside it: where the part is from, which one it is, what its
+/// The bytes of shard.json, which lies next to it: where the part is from, which one it is, what its
 /// runs were simulated with, and the hash of the table.
 std::string recover_shard_text(const RecoverPart& part, const Shard& shard,
                                const Provenance& provenance);

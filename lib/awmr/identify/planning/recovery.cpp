@@ -37,7 +37,7 @@ RecoveredParameter recovered_parameter(const RecoverTruth& truth, std::size_t pl
 }
 
 /// Errors: that of the runs, where all have one; (refused) no run gave anything, or nothing that was
-/// asked for.
+/// requested.
 Status check_recovered(const Recovery& recovery, const RecoverPart& whole) {
   if (whole.error) return tl::unexpected(*whole.error);
   std::vector<std::string_view> missing;

@@ -49,7 +49,7 @@ struct MissingParameter {
 };
 
 /// Turns by the sides' forces, wheels straight, that tell what the tyres' scrub takes from them: what the
-/// choice between differential, steering and combined hangs on (compare --break-even).
+/// choice between differential, steering and combined depends on (compare --break-even).
 struct ScrubTurn {
   double yaw_rate_degps = 0.0;  ///< to turn at, > 0
   /// F' of each left and each right wheel, over F_max, that turn so if the tyres take as little as they
@@ -80,7 +80,7 @@ struct Suggestion {
 ///   C_after = (C^-1 + J^T W J)^-1
 /// with J the derivatives of what the candidate would measure by the parameters' coordinates
 /// (model/transform.h) and W the inverse variances of its errors. What the model has no value of
-/// cannot be varied: it is told as missing, and candidates that measure it are not judged.
+/// cannot be varied: it is reported as missing, and candidates that measure it are not evaluated.
 /// Errors (input): the model has a value of everything but no covariance; an unknown parameter
 /// name, or one without a value.
 Result<Suggestion> suggest(const Model& model, const SuggestOptions& options);

@@ -54,7 +54,7 @@ struct DrivePlan {
   double rate_hz = 100.0;       ///< > 0, of the log's rows
   double hold_s = 1.5;          ///< > 0
   bool straight = false;        ///< no steering, both sides alike: a drive that shows surge alone
-  bool servo_measured = false;  ///< the steering angle is logged beside its command
+  bool servo_measured = false;  ///< the steering angle is logged in addition to its command
   std::uint64_t drive = 1;      ///< another number is another drive
 };
 /// From rest at the origin. The log has x, y, heading, speed and yaw rate, each with its noise.

@@ -12,12 +12,12 @@ struct SubjectOptions {
   Method method = Method::kLogLinear;
   /// None: time where every run was timed, else speed.
   std::optional<ErrorModel> noise;
-  /// A nonlinear fit was asked for with this noise: that is where the error lies. Else it is one of
+  /// A nonlinear fit was requested with this noise: that is where the error lies. Else it is one of
   /// several places.
   bool knows_noise = false;
   FamilyChoice family;
   Loss loss = Loss::kSquared;
-  bool side_by_side = true;     ///< false: the asked fit alone, without rivals
+  bool side_by_side = true;     ///< false: the requested fit alone, without alternatives
   bool keeps_outliers = false;  ///< a run far off the others' curve is fitted with them
 };
 

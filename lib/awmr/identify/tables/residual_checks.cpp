@@ -46,8 +46,8 @@ std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit
   if (fit.degrees_of_freedom == 0) {
     findings.push_back(
         {subject.file, 0, Severity::kWarning, "no-degrees-of-freedom",
-         fmt::format("{} rows fix the {} parameters of {} exactly and leave nothing to judge them "
-                     "by: no standard error; record another run",
+         fmt::format("{} rows determine the {} parameters of {} exactly and leave no residuals for "
+                     "a standard error; record another run",
                      subject.points.size(), fit.free.size(),
                      name_in(kFitSubjectNames, subject.name))});
   }

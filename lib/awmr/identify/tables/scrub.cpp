@@ -71,8 +71,8 @@ StraightLine line_through(const std::vector<double>& x, const std::vector<double
   return line;
 }
 
-/// Whether moments y_i at x_i are sloped over x, at 95 %, where they are told against g3(r_i), whose own error
-/// is in the slope as well:
+/// Whether moments y_i at x_i are sloped over x, at 95 %, where they are compared with g3(r_i), whose
+/// own error is in the slope as well:
 ///   slope = sum_i w_i y_i,  w_i = (x_i - mean x)/sum (x - mean x)^2
 bool is_sloped(const std::vector<double>& x, const std::vector<double>& y,
                const std::vector<double>& rates_radps, const Model& model) {
@@ -184,18 +184,18 @@ void note_limits(Model& model, const TrialSet<TurningRow>& turning, const Met& m
   const auto range = fitted_rates(turning);
   if (range && (rates.hi > kLittleFurther * range->hi || kLittleFurther * rates.lo < range->lo)) {
     note(model, turning, "scrub-beyond-trials",
-         fmt::format("the turns by the sides' forces go at {:.3g} to {:.3g} deg/s, the steered "
-                     "ones at {:.3g} to {:.3g}: what the scrub takes is told against a yaw "
-                     "resistance that is extrapolated there; turn both ways at the same rates",
+         fmt::format("the differential turns are at {:.3g} to {:.3g} deg/s, the steered ones at "
+                     "{:.3g} to {:.3g}: the scrub is computed with an extrapolated yaw "
+                     "resistance; record both kinds of turns at the same rates",
                      degrees(rates.lo), degrees(rates.hi), degrees(range->lo), degrees(range->hi)));
   }
   if (scrub.changing_m) {
     const Interval moments = range_of(met.moments_m);
     note(model, turning, "scrub-grows",
-         fmt::format("what the turns by the sides' forces meet beside yaw resistance changes with "
-                     "the yaw rate, from {:.3g} to {:.3g} m: its mean {:.3g} m holds for the "
-                     "middle of {:.3g} to {:.3g} deg/s, and what hangs on it is decided with all "
-                     "of {:.3g} to {:.3g} m",
+         fmt::format("the scrub of the differential turns changes with the yaw rate, from "
+                     "{:.3g} to {:.3g} m: its mean {:.3g} m holds for the middle of {:.3g} to "
+                     "{:.3g} deg/s, and decisions that depend on it use the whole range {:.3g} to "
+                     "{:.3g} m",
                      moments.lo, moments.hi, scrub.moment_m, degrees(rates.lo), degrees(rates.hi),
                      scrub.changing_m->lo, scrub.changing_m->hi));
   }
@@ -225,8 +225,8 @@ void measure_scrub(const TrialSet<TurningRow>& turning, Model& model) {
   if (scrub->ci95_m.hi < 0.0) {
     note(model, turning, "negative-scrub",
          fmt::format(
-             "the turns by the sides' forces met {:.3g} m ({:.3g} to {:.3g}) beside yaw "
-             "resistance, less than nothing: tyres that are dragged sideways do not help; "
+             "the scrub of the differential turns is negative, {:.3g} m ({:.3g} to {:.3g}): "
+             "tyres that are dragged sideways cannot drive the turn; "
              "check the yaw rates' unit, the forces and half_track_m of these rows, and that "
              "the steered turns are not held back",
              scrub->moment_m, scrub->ci95_m.lo, scrub->ci95_m.hi));

@@ -1,7 +1,8 @@
-/// What turns by the sides' forces meet beside the resistance of steered turns. Private to identify/.
+/// The moment that differential turns need in addition to the resistance of steered turns. Private
+/// to identify/.
 ///
 /// A turn by the sides drags the tyres sideways, which g3 of steered turns knows nothing of. Of each
-/// such turn i, at r_i under tau_i = 2 d (F'R - F'L), the moment beside g3 is
+/// such turn i, at r_i under tau_i = 2 d (F'R - F'L), the moment in addition to g3 is
 ///
 ///     c_i = tau_i - g3(r_i),    c = mean c_i,    var c = s^2/n + h' C h
 ///

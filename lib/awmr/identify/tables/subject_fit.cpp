@@ -16,11 +16,12 @@
 namespace awmr {
 namespace {
 
-/// Another family is plainly better from this difference of AICc on: the power law then has less
+/// Another family is significantly better from this difference of AICc on: the power law then has less
 /// than e^-5 of its support.
 constexpr double kTablesPlainlyBetter = 10.0;
 
-/// AICc divides by n - k - 2, with k free numbers beside the scatter: two in the smallest families.
+/// AICc divides by n - k - 2, with k free numbers in addition to the scatter: two in the smallest
+/// families.
 constexpr std::size_t kFewestToCompare = 5;
 
 /// Which fit is used, and its entry among the reports; no fit where none will do.
@@ -63,14 +64,14 @@ Finding nothing_to_choose(const Subject& subject, bool tried) {
   if (!tried) {
     return about(
         subject, Severity::kError, "too-few-rows",
-        fmt::format("{} rows are too few for the family asked for", subject.points.size()));
+        fmt::format("{} rows are too few for the requested family", subject.points.size()));
   }
   return about(subject, Severity::kError, "not-converged",
                fmt::format("no family's fit of {} converged with more runs than its numbers",
                            name_in(kFitSubjectNames, subject.name)));
 }
 
-/// The family asked for, or the one of minimum AICc.
+/// The family requested, or the one of minimum AICc.
 Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, ErrorModel wanted,
                         const std::vector<FamilyCandidate>& candidates) {
   Choice choice;
@@ -106,7 +107,7 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
   return choice;
 }
 
-/// `power-law-inadequate`, where another family has plainly less AICc.
+/// `power-law-inadequate`, where another family has significantly less AICc.
 std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wanted,
                                         const std::vector<FamilyCandidate>& candidates,
                                         Family used) {
@@ -146,7 +147,7 @@ void judge(const Subject& subject, std::size_t report, SubjectFit& result) {
   }
 }
 
-/// What stands in the way of any fit although the rows show a law.
+/// Obstacles to any fit although the rows show a law.
 std::optional<Finding> obstacle(const Subject& subject, const SubjectOptions& options,
                                 ErrorModel wanted, const SteadyFit& line) {
   if (!line.usable) {

@@ -28,7 +28,7 @@ struct BlockSetup {
   CombinedSplit split = CombinedSplit::kRedistribute;
   AllocationForm form = AllocationForm::kExact;
   bool is_open_loop = false;     ///< tau_speed and tau_turn stand in the block, and no law asks
-  bool holds_tau_speed = false;  ///< tau_speed stands in the block, and the speed law is not asked
+  bool holds_tau_speed = false;  ///< tau_speed stands in the block, and the speed law is unused
   bool is_observed = false;      ///< by an observer of any run; bandwidth 0 where a run has none
   bool anti_windup = true;       ///< as in Observers
   bool is_lqi = false;           ///< the heading law; false: the sliding mode
@@ -80,7 +80,7 @@ struct Block {
   Row halves;  ///< see Resolution
   MeterSums<Row> sums;
 
-  // Of the present sample: what the controller is told and asked, and what it answers.
+  // Of the present sample: measurements, references and commands of the controller.
   Measurement<Row> measured;
   Reference<Row> reference;
   Row tau_speed, tau_turn_m;
@@ -90,7 +90,7 @@ struct Block {
   SideForces<Row> arriving;
   WheelForces<Row> wheels;
   BodyLoadOf<Row> load;
-  // What the meter is told.
+  // Inputs of the meter.
   Row goal_rad, cross_track_m, off_target_m, clearance_m;
 };
 
