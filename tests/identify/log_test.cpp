@@ -487,6 +487,58 @@ TEST(Log, LogsOfOneVehicleAgree) {
   EXPECT_FALSE(has_finding(*result, "power-law-inadequate", ""));
 }
 
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+/// 48 s of a drive, a pause in the recording, and 12 s with a1 times `factor`: the last fifth.
+DrivingLog log_with_change(double factor, std::uint64_t seed) {
+  constexpr double kPause_s = 2.0;
+  Truth changed = kTruths[0];
+  changed.a1 *= factor;
+  DrivingLog log = drive(kTruths[0], seed, {.duration_s = 48.0});
+  DrivingLog last = drive(changed, seed + 100, {.duration_s = 12.0});
+  for (double& t_s : last.t_s) t_s += log.t_s.back() + kPause_s;
+  for (int& line : last.line) line += log.line.back();
+  append(log.t_s, last.t_s);
+  append(log.line, last.line);
+  append(log.force_left, last.force_left);
+  append(log.force_right, last.force_right);
+  append(*log.steering_command_rad, *last.steering_command_rad);
+  for (std::size_t c = 0; c < kChannelCount; ++c) {
+    if (!log.measured[c]) continue;
+    append(log.measured[c]->value, last.measured[c]->value);
+    log.measured[c]->fresh.insert(log.measured[c]->fresh.end(), last.measured[c]->fresh.begin(),
+                                  last.measured[c]->fresh.end());
+    log.measured[c]->fresh_count += last.measured[c]->fresh_count;
+  }
+  return log;
+}
+
+TEST(HeldOut, AChangeInTheLastFifthIsReportedAndWithdrawsTheIntervals) {
+  for (const std::uint64_t seed : {31U, 32U}) {
+    TrialData data;
+    data.logs = {log_with_change(1.02, seed)};
+    const auto result = identify(robot(), data, {}, {});
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(has_finding(*result, "held-out-misses", "surge.alpha")) << seed;
+    EXPECT_FALSE(result->model[ParameterId::kSurgeAlpha].ci95) << seed;
+  }
+}
+
+// The level is 0.001: one of the five drives has the finding by chance at 1 in 200.
+TEST(HeldOut, ADriveWithoutAChangeIsPredicted) {
+  for (const std::uint64_t seed : {31U, 32U, 33U, 34U, 35U}) {
+    TrialData data;
+    data.logs = {log_with_change(1.0, seed)};
+    const auto result = identify(robot(), data, {}, {});
+    ASSERT_TRUE(result);
+    EXPECT_FALSE(has_finding(*result, "held-out-misses", "")) << seed;
+    EXPECT_TRUE(result->model[ParameterId::kSurgeAlpha].ci95) << seed;
+  }
+}
+
 TEST(Log, AnErrorThatWandersBesidesTheWhiteOneIsTakenApart) {
   ChannelNoise truth{.white_std = 0.02, .drift_std = 0.03, .correlation_s = 0.5};
   Random random(7, 3);

@@ -24,6 +24,7 @@ constexpr CodeEffect kEffects[] = {
     {"power-law-inadequate", Effect::kWithdrawn},
     {"estimates-disagree", Effect::kWithdrawn},
     {"logs-disagree", Effect::kWithdrawn},
+    {"held-out-misses", Effect::kWithdrawn},
     {"fragile-mass", Effect::kWithdrawn},
     {"gains-of-another-mode", Effect::kWithdrawn},
     {"gains-of-another-model", Effect::kWithdrawn},

@@ -1,5 +1,5 @@
 /// The high-level controller of a scenario: from where the vehicle is to what the heading and speed
-/// references of the laws. Private to this folder.
+/// references of the laws are. Private to this folder.
 #pragma once
 
 #include <optional>

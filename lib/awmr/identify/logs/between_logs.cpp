@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
@@ -109,32 +111,17 @@ DrivingLog rows_between(const DrivingLog& log, std::size_t first, std::size_t la
   return part;
 }
 
-/// The logs, or the halves of a single one that is long enough for each to show something.
-std::vector<DrivingLog> parts_to_compare(const std::vector<DrivingLog>& logs) {
-  constexpr double kLongEnough_s = 20.0;
-  if (logs.size() > 1) return logs;
-  const DrivingLog& log = logs.front();
-  const double duration_s = log.t_s.back() - log.t_s.front();
-  if (duration_s < kLongEnough_s) return {};
-  const auto middle = std::ranges::lower_bound(log.t_s, log.t_s.front() + 0.5 * duration_s);
-  const auto half = static_cast<std::size_t>(middle - log.t_s.begin());
-  return {rows_between(log, 0, half, "first half"),
-          rows_between(log, half, log.rows(), "second half")};
+/// The rows of a log from this share of its duration on.
+DrivingLog rows_from(const DrivingLog& log, double share, const std::string& which) {
+  const double begin_s = log.t_s.front() + share * (log.t_s.back() - log.t_s.front());
+  const auto first = std::ranges::lower_bound(log.t_s, begin_s) - log.t_s.begin();
+  return rows_between(log, static_cast<std::size_t>(first), log.rows(), which);
 }
 
-}  // namespace
-
-std::vector<LogDisagreement> hold_against_each_other(const std::vector<DrivingLog>& all,
-                                                     FamilyFit& common) {
+std::vector<LogDisagreement> disagreements_of(const std::vector<DrivingLog>& logs,
+                                              const std::vector<LogFit>& fits, FamilyFit& common) {
   constexpr double kLevel = 0.001;
   std::vector<LogDisagreement> disagreements;
-  if (!common.fit.usable) return disagreements;
-  const std::vector<DrivingLog> logs = parts_to_compare(all);
-  LogFitOptions options = from_optimum(common.options, common);
-  options.bootstrap = 0;
-  std::vector<LogFit> fits;
-  fits.reserve(logs.size());
-  for (const DrivingLog& log : logs) fits.push_back(fit_logs({log}, options));
   const double level = kLevel / static_cast<double>(common.fit.quantities.size());
   for (std::size_t i = 0; i < common.fit.quantities.size(); ++i) {
     const FreeQuantity& q = common.fit.quantities[i];
@@ -149,6 +136,48 @@ std::vector<LogDisagreement> hold_against_each_other(const std::vector<DrivingLo
     disagreements.push_back(one);
   }
   return disagreements;
+}
+
+LogComparison compare_parts(const DrivingLog& log, const LogFitOptions& options,
+                            FamilyFit& common) {
+  constexpr double kAgree = 0.05;
+  constexpr double kMiss = 0.001;
+  LogComparison found;
+  const DrivingLog second = rows_from(log, 0.5, "second half");
+  const DrivingLog first = rows_between(log, 0, log.rows() - second.rows(), "first half");
+  LogFit by_first = fit_logs({first}, options);
+  if (!by_first.usable) return found;
+  std::vector<HeldOut> predicted;
+  for (const DrivingLog& rows : {second, rows_from(log, 0.8, "last fifth")}) {
+    if (const auto held_out = predict(rows, by_first, options)) predicted.push_back(*held_out);
+  }
+  const auto agrees = [](const HeldOut& rows) { return rows.p_value > kAgree; };
+  if (!predicted.empty() && std::ranges::all_of(predicted, agrees)) return found;
+  found.disagreements =
+      disagreements_of({first, second}, {std::move(by_first), fit_logs({second}, options)}, common);
+  if (!found.disagreements.empty()) return found;
+  const double level = kMiss / static_cast<double>(predicted.size());
+  std::ranges::copy_if(predicted, std::back_inserter(found.missed),
+                       [level](const HeldOut& rows) { return rows.p_value < level; });
+  return found;
+}
+
+}  // namespace
+
+LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common) {
+  constexpr double kLongEnough_s = 20.0;  // for each half to show something
+  if (!common.fit.usable) return {};
+  LogFitOptions options = from_optimum(common.options, common);
+  options.bootstrap = 0;
+  const DrivingLog& log = logs.front();
+  if (logs.size() == 1) {
+    if (log.t_s.back() - log.t_s.front() < kLongEnough_s) return {};
+    return compare_parts(log, options, common);
+  }
+  std::vector<LogFit> fits;
+  fits.reserve(logs.size());
+  for (const DrivingLog& one : logs) fits.push_back(fit_logs({one}, options));
+  return {disagreements_of(logs, fits, common), {}};
 }
 
 }  // namespace awmr

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "awmr/identify/logs/family_choice.h"
+#include "awmr/identify/logs/held_out.h"
 
 namespace awmr {
 
@@ -16,7 +17,14 @@ struct LogDisagreement {
   std::vector<double> values;      ///< by file
 };
 
-/// Fits every log on its own, or the halves of a single one of 20 s and more, from the common optimum and compares: with x_l, w_l = 1/var(x_l) of the
+/// What fits of single logs, or of the halves of a single one, say of each other.
+struct LogComparison {
+  std::vector<LogDisagreement> disagreements;
+  std::vector<HeldOut>
+      missed;  ///< rows that the first half does not predict; only without disagreements
+};
+
+/// Fits every log on its own from the common optimum and compares: with x_l, w_l = 1/var(x_l) of the
 /// coordinate of a quantity in each of L logs that show it,
 ///
 ///     Q = sum w_l (x_l - mean)^2,   chi-squared with L - 1 degrees of freedom for one vehicle,
@@ -24,7 +32,10 @@ struct LogDisagreement {
 ///
 /// Where p < 0.001 over all quantities, the standard error and the interval of the common fit are
 /// widened by tau: they then hold for the mean of vehicles like these. A bias may differ.
-std::vector<LogDisagreement> hold_against_each_other(const std::vector<DrivingLog>& all,
-                                                     FamilyFit& common);
+///
+/// Of a single log of 20 s and more, the first half is fitted and predicts the second half and the last
+/// fifth (held_out.h). Where it predicts both (p > 0.05), nothing differs; else the halves are compared
+/// as logs are. What it misses with p < 0.001 over both is reported where the halves do not disagree.
+LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common);
 
 }  // namespace awmr

@@ -16,14 +16,20 @@
 namespace awmr {
 namespace {
 
-/// A coordinate whose standard error is this share of its large change is not shown by the data: a
-/// factor of 2.7 either way at 95 % for a logarithm, 1 for an exponent.
-constexpr double kUnknown = 0.5;
+/// The standard error of a quantity, over its large change, from which on it is not shown. The sway
+/// resistance acts by its reciprocal, v ~ m' r u / a_s, and a vehicle that hardly slides has 1/a_s near
+/// 0: where chance makes 1/a_s large, its logarithm looks well known, as d(ln a_s) = a_s d(1/a_s), and
+/// only these logs would show a value. 1/a_s has to be 4 standard errors from 0.
+double unknown_from(const FreeQuantity& q) {
+  constexpr double kUnknownReciprocal = 0.25;
+  return q.is(ParameterId::kSwayAlpha) ? kUnknownReciprocal : kUnknown;
+}
 
-/// In words, how little is known of a quantity; `std` is its standard error over its large change.
-std::string how_open(double std) {
+/// In words, how little is known of a quantity; `std` is its standard error over its large change, which
+/// would be of use up to `unknown`.
+std::string how_open(double std, double unknown = kUnknown) {
   if (!std::isfinite(std) || std > 1e3) return "nothing measured depends on it";
-  return fmt::format("its standard error is {:.2g} times what would be of use", std / kUnknown);
+  return fmt::format("its standard error is {:.2g} times what would be of use", std / unknown);
 }
 
 /// Says of every quantity with a part in an open direction (of length 1) why it is open.
@@ -158,7 +164,10 @@ Identifiability identifiability(const Eigen::MatrixXd& information, const Scores
   for (Eigen::Index i = 0; i < n; ++i) {
     const double std = std::sqrt(found.covariance(i, i)) / scale(i);
     std::string& why_not = found.why_not[at(i)];
-    if (why_not.empty() && std > kUnknown) why_not = "these logs leave it open: " + how_open(std);
+    const double unknown = unknown_from(quantities[at(i)]);
+    if (why_not.empty() && std > unknown) {
+      why_not = "these logs leave it open: " + how_open(std, unknown);
+    }
   }
   return found;
 }

@@ -11,6 +11,10 @@
 
 namespace awmr {
 
+/// A coordinate whose standard error is this share of its large change is not shown by the data: a
+/// factor of 2.7 either way at 95 % for a logarithm, 1 for an exponent.
+inline constexpr double kUnknown = 0.5;
+
 struct Identifiability {
   /// n x n, of the coordinates. What is open has a large variance here and a part in the variance of
   /// all that hangs on it: nothing is taken as known that the logs do not show.

@@ -27,6 +27,16 @@ Eigen::MatrixXd information(const std::vector<WindowSums>& sums, Eigen::Index n)
   return 0.5 * (sum + sum.transpose());
 }
 
+Eigen::VectorXd score(const std::vector<WindowSums>& sums, Eigen::Index n) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
+  for (const WindowSums& window : sums) {
+    const Eigen::Index k = window.products.rows() - 1 - n;
+    const Eigen::VectorXd gradient = window.products.col(n + k);
+    sum += gradient.head(n) - undone(window, n).transpose() * gradient.segment(n, k);
+  }
+  return sum;
+}
+
 Scores scores_of(const std::vector<FitWindow>& windows, const std::vector<WindowSums>& sums,
                  Eigen::Index n) {
   Scores scores;

@@ -14,6 +14,9 @@ namespace awmr {
 ///     H = J_t^T J_t - J_t^T J_s (J_s^T J_s)^-1 J_s^T J_t
 Eigen::MatrixXd information(const std::vector<WindowSums>& sums, Eigen::Index n);
 
+/// The score J^T r of the n coordinates at the same initial states: g_t - J_t^T J_s (J_s^T J_s)^-1 g_s.
+Eigen::VectorXd score(const std::vector<WindowSums>& sums, Eigen::Index n);
+
 /// The scores of parts b of the logs (n: g_t - J_t^T J_s (J_s^T J_s)^-1 g_s of the gradients g = J_b^T r_b).
 /// How they scatter tells how much the fit can be off, whatever the noise is.
 struct Scores {

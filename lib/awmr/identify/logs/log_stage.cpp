@@ -441,6 +441,22 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements)
   return findings;
 }
 
+/// `held-out-misses` for every part of the log that its first half does not predict.
+std::vector<Finding> in_words(const std::vector<HeldOut>& missed, const std::string& file) {
+  std::vector<Finding> findings;
+  for (const HeldOut& part : missed) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "held-out-misses",
+         fmt::format("a fit of the first half predicts {} worse than its noise and intervals allow "
+                     "(p = {:.2g}): {} changes most, from {:.4g} to {:.4g}. Battery, temperature, "
+                     "ground or load changed, or the model lacks something. The intervals are "
+                     "withdrawn; identify the part under one condition ({}, {})",
+                     part.rows, part.p_value, part.quantity, part.by_fit, part.by_rows,
+                     option_text("from S"), option_text("until S"))});
+  }
+  return findings;
+}
+
 /// Fills the parameters that the fit shows and that no other trial gave, unless overruled.
 void take(const LogFit& fit, const Model& model, bool overrule, const std::string& file,
           LogStage& stage) {
@@ -558,8 +574,11 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
     power_law.suspects.push_back(ParameterId::kBackEmf);
   }
   FamilyFit chosen = fit_families(logs, power_law, options, stage);
-  tell(options, "holding the logs against each other");
-  append(stage.findings, in_words(hold_against_each_other(logs, chosen)));
+  tell(options, "comparing the logs with each other");
+  const LogComparison compared = compare_logs(logs, chosen);
+  append(stage.findings, in_words(compared.disagreements));
+  append(stage.findings, in_words(compared.missed, logs.front().file));
+  stage.withdraws_intervals |= !compared.missed.empty();
   if (stage.withdraws_intervals) withdraw_intervals(chosen.fit.report);
   stage.reports[stage.chosen_report] = chosen.fit.report;
   const std::string& file = logs.front().file;

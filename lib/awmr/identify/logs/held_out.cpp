@@ -1,0 +1,136 @@
+#include "awmr/identify/logs/held_out.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "awmr/core/distributions.h"
+#include "awmr/core/index.h"
+#include "awmr/core/linear_algebra.h"
+#include "awmr/identify/logs/identifiability.h"
+#include "awmr/identify/logs/information.h"
+#include "awmr/identify/logs/log_problem.h"
+
+namespace awmr {
+namespace {
+
+/// The rows as a problem with the noise of the fit.
+LogProblem problem_of(const std::vector<DrivingLog>& rows, const LogFit& fit,
+                      const LogFitOptions& options) {
+  LogProblem problem = log_problem(rows, options);
+  for (auto& [channel, noise] : problem.model.noise) {
+    const auto known = fit.noise.find(channel);
+    if (known != fit.noise.end()) noise = known->second;
+  }
+  problem.model.longest_step_s = step_s_at(problem.model, fit.coordinates);
+  return problem;
+}
+
+/// The initial states of all windows at these coordinates: two Gauss-Newton steps from what was
+/// measured, as the motion is nearly linear in them.
+SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> coordinates) {
+  constexpr int kSteps = 2;
+  const Eigen::Index n = rows_of(coordinates);
+  const Eigen::Index k = rows_of(problem.model.initial);
+  SearchPoint point = from_measured(problem, std::move(coordinates));
+  for (int step = 0; step < kSteps; ++step) {
+    const std::vector<WindowSums> sums = sums_at(problem, point);
+    if (!all_finite(sums)) break;
+    Eigen::Map<Eigen::MatrixXd> states(point.initial_states.data(), k, rows_of(sums));
+    for (std::size_t w = 0; w < sums.size(); ++w) {
+      const Eigen::MatrixXd& products = sums[w].products;
+      states.col(eigen_index(w)) -=
+          solve_ldlt(products.block(n, n, k, k), products.block(n, n + k, k, 1));
+    }
+  }
+  return point;
+}
+
+/// The coordinates that are compared, and the biases, which may differ between the parts of a log.
+struct Places {
+  std::vector<Eigen::Index> compared;
+  std::vector<Eigen::Index> biases;
+};
+
+Places places_of(const LogProblem& problem, const std::vector<double>& coordinates) {
+  Places places;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const Interval& range = problem.bounds[i];
+    if (coordinates[i] <= range.lo || coordinates[i] >= range.hi) continue;
+    const bool is_bias = problem.model.quantities[i].kind == FreeQuantity::Kind::kBias;
+    (is_bias ? places.biases : places.compared).push_back(eigen_index(i));
+  }
+  return places;
+}
+
+/// Information and score of the compared coordinates over their large changes.
+struct Evidence {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd score;
+};
+
+/// The biases are eliminated: H_cc - H_cb H_bb^-1 H_bc and S_c - H_cb H_bb^-1 S_b.
+Evidence evidence_of(const std::vector<WindowSums>& sums, const Eigen::VectorXd& scale,
+                     const Places& places) {
+  const auto& c = places.compared;
+  const auto& b = places.biases;
+  const Eigen::MatrixXd h =
+      scale.asDiagonal() * information(sums, scale.size()) * scale.asDiagonal();
+  const Eigen::VectorXd s = scale.asDiagonal() * score(sums, scale.size());
+  if (b.empty()) return {h(c, c), s(c)};
+  const Eigen::MatrixXd by_bias = solve_ldlt(h(b, b), h(b, c)).transpose();
+  return {h(c, c) - by_bias * h(b, c), s(c) - by_bias * s(b)};
+}
+
+/// The change of the compared coordinates, over their large changes, in `directions` directions.
+struct Change {
+  Eigen::VectorXd size;
+  Eigen::MatrixXd covariance;
+  double p_value = 1.0;
+  Eigen::Index directions = 0;
+};
+
+/// d, cov d and X^2 of held_out.h. `c`: C.
+Change change_of(const Evidence& rows, const Eigen::MatrixXd& c, double f) {
+  constexpr double kShown = 1.0 / (kUnknown * kUnknown);
+  const SymmetricEigen eigen = symmetric_eigen(rows.information);
+  const Eigen::Index shown = (eigen.values.array() > kShown).count();
+  if (shown == 0) return {};
+  const Eigen::MatrixXd q = eigen.vectors.rightCols(shown);
+  const Eigen::VectorXd inverse = eigen.values.tail(shown).cwiseInverse();
+  const Eigen::VectorXd d = -inverse.cwiseProduct(q.transpose() * rows.score);
+  Eigen::MatrixXd covariance = q.transpose() * c * q;
+  covariance.diagonal() += f * f * inverse;
+  const double squares = d.dot(solve_ldlt(covariance, d).col(0));
+  return {q * d, q * covariance * q.transpose(),
+          chi_squared_tail(squares, static_cast<double>(shown)), shown};
+}
+
+}  // namespace
+
+std::optional<HeldOut> predict(const DrivingLog& rows, const LogFit& fit,
+                               const LogFitOptions& options) {
+  const std::vector<DrivingLog> logs{rows};
+  const LogProblem problem = problem_of(logs, fit, options);
+  const Places places = places_of(problem, fit.coordinates);
+  if (problem.windows.empty() || places.compared.empty()) return std::nullopt;
+  const std::vector<WindowSums> sums =
+      sums_at(problem, with_initial_states(problem, fit.coordinates));
+  if (!all_finite(sums)) return std::nullopt;
+  Eigen::VectorXd scale(rows_of(fit.quantities));
+  for (Eigen::Index i = 0; i < scale.size(); ++i) scale(i) = fit.quantities[at(i)].large_change;
+  const Eigen::VectorXd unit = scale.cwiseInverse();
+  const Eigen::MatrixXd c = unit.asDiagonal() * fit.covariance * unit.asDiagonal();
+  const Change change =
+      change_of(evidence_of(sums, scale, places), c(places.compared, places.compared), fit.widened);
+  if (change.directions == 0) return std::nullopt;
+  Eigen::Index most = 0;
+  change.size.cwiseAbs().cwiseQuotient(change.covariance.diagonal().cwiseSqrt()).maxCoeff(&most);
+  const std::size_t i = at(places.compared[at(most)]);
+  const FreeQuantity& q = fit.quantities[i];
+  const double x = fit.coordinates[i];
+  return HeldOut{rows.file, change.p_value, q.name(), q.value(x),
+                 q.value(x + q.large_change * change.size(most))};
+}
+
+}  // namespace awmr
