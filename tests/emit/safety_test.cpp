@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 /// Row of the table: failure, detecting check, its code, and the time until the motors are off.
 struct Hazard {
-  const char* name;  ///< name of the case in drive_case.cpp
+  const char* name;  ///< name in host_core/failures.h
   const char* hazard;
   const char* detector;
   int cause;             ///< SensorFault; 0: none
@@ -183,7 +183,7 @@ TEST_F(SafeSketches, TheTableOfHazardsIsWhatIsTested) {
   for (const Hazard& hazard : kHazards) table += table_row(hazard);
   EXPECT_THAT(read_all(paper_->path() / "SAFETY.md"), HasSubstr(table));
   std::string cases = run_process("./HeadingHold list", paper_->path()).out;
-  std::string names = "none\n";
+  std::string names;
   for (const Hazard& hazard : kHazards) names += std::string(hazard.name) + "\n";
   EXPECT_EQ(cases, names);
 }

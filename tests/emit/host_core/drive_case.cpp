@@ -1,6 +1,6 @@
 // Runs one case of SAFETY.md with a sketch: drives it in the simulated world, injects a failure at
 // t = 10 s, and prints the result. Compiled once per sketch, which is included as AWMR_SKETCH.
-#include "world.h"
+#include "failures.h"
 
 #include AWMR_SKETCH
 
@@ -8,67 +8,17 @@
 
 namespace {
 
-struct Case {
-  const char* name;
-  std::function<void()> inject;
-  std::function<void()> mend = [] {};
-  double watch_s = 15;  // how long it is driven with the failure
+/// What is commanded once a failure is injected, and how long it is then driven.
+struct Drive {
+  const char* commands = "";
+  double watch_s = 15;
 };
-
-std::string frame(int sequence, const std::string& text) {
-  const std::string body = std::to_string(sequence & 255) + " " + text;
-  const unsigned crc = awmr::crc16_of(reinterpret_cast<const uint8_t*>(body.data()), body.size());
-  char line[64];
-  snprintf(line, sizeof line, "#%s*%04X\n", body.c_str(), crc);
-  return line;
-}
-
-std::vector<Case> cases() {
-  World& w = world;
-  return {
-      {"none", [] {}},
-      {"compass-silent", [&] { w.compass_answers = false; }, [&] { w.compass_answers = true; }},
-      {"compass-frozen", [&] { w.compass_frozen = true; }, [&] { w.compass_frozen = false; }},
-      {"compass-jump", [&] { w.compass_offset = 1.0; }, [&] { w.compass_offset = 0; }},
-      {"compass-stuck", [&] { w.compass_stuck = true, w.stuck_psi = w.psi, w.say("H 90\n"); },
-       [&] { w.compass_stuck = false; }},
-      {"gyro-silent", [&] { w.gyro_answers = false; }, [&] { w.gyro_answers = true; }},
-      {"gyro-frozen", [&] { w.gyro_frozen = true; }, [&] { w.gyro_frozen = false; }},
-      {"gyro-range", [&] { w.gyro_gain = 2, w.registers[0x681B] = 0; },
-       [&] { w.gyro_gain = 1, w.registers[0x681B] = 8; }},
-      {"gyro-drift", [&] { w.gyro_bias += 0.15; }, [&] { w.gyro_bias -= 0.15; }},
-      {"gps-silent", [&] { w.gps_answers = false; }, [&] { w.gps_answers = true; }},
-      {"gps-no-fix", [&] { w.gps_void = true; }, [&] { w.gps_void = false; }},
-      {"gps-empty", [&] { w.gps_empty = true; }, [&] { w.gps_empty = false; }},
-      {"gps-damaged", [&] { w.gps_bad_sum = true; }, [&] { w.gps_bad_sum = false; }},
-      {"gps-repeated", [&] { w.gps_repeats = true; }, [&] { w.gps_repeats = false; }},
-      {"gps-late", [&] { w.gps_delay_ms = 2000; },
-       [&] { w.gps_delay_ms = 0, w.on_the_way.clear(); }},
-      {"gps-jump", [&] { w.gps_jump_m = 20; }, [&] { w.gps_jump_m = 0; }},
-      {"gps-position-frozen", [&] { w.gps_still = true, w.still_x = w.x, w.still_y = w.y; },
-       [&] { w.gps_still = false; }},
-      {"gps-speed-zero", [&] { w.gps_speed_gain = 0, w.gps_speed_noise = 0; },
-       [&] { w.gps_speed_gain = 1, w.gps_speed_noise = 0.05; }, 30},
-      {"motors-reversed", [&] { w.motor_sign = -1; }, [&] { w.motor_sign = 1; }},
-      {"sides-swapped", [&] { w.sides_swapped = true, w.say("M 0\nH 60\n"); },
-       [&] { w.sides_swapped = false; }},
-      {"gyro-reversed", [&] { w.gyro_gain = -1, w.say("H 60\n"); }, [&] { w.gyro_gain = 1; }},
-      {"steering-stuck", [&] { w.servo_stuck = 0, w.say("M 1\nH 120\n"); },
-       [&] { w.servo_stuck = NAN; }, 60},
-      {"compass-turning", [&] { w.compass_rate = 0.0436; },
-       [&] { w.compass_rate = w.compass_offset = 0; }, 40},
-      {"command-silence", [&] { w.keeps = false; }, [&] { w.keeps = true; }},
-      {"command-noise", [&] { w.keep = "x"; }, [&] { w.say("\n"), w.keep = "KEEP\n"; }},
-      {"command-unknown", [&] { w.keep = "STEP 1\n"; }, [&] { w.keep = "KEEP\n"; }},
-      {"command-repeated-frame", [&] { w.keep = frame(9, "KEEP"); },
-       [&] {
-         w.keep = "";
-         w.keeps = false;
-       }},
-      {"stop", [&] { w.say("STOP\n"); }},
-      {"stop-in-noise", [&] { w.say("\xff....stop"); }, [&] { w.say("\n"); }},
-  };
-}
+const std::map<std::string, Drive> kDrives = {{"compass-stuck", {"H 90\n"}},
+                                              {"gps-speed-zero", {"", 30}},
+                                              {"sides-swapped", {"M 0\nH 60\n"}},
+                                              {"gyro-reversed", {"H 60\n"}},
+                                              {"steering-stuck", {"M 1\nH 120\n", 60}},
+                                              {"compass-turning", {"", 40}}};
 
 /// Starts the sketch, leaves it 3 s for its sensors, arms it and runs it for `armed_s`.
 void start_and_arm(double armed_s) {
@@ -91,24 +41,27 @@ struct FirstStop {
 };
 
 /// Prints name=value pairs. Times in s after the injection, -1: never.
-int run_case(const Case& one) {
+void run_case(const Failure& one) {
   World& w = world;
+  const auto found = kDrives.find(one.name);
+  const Drive drive = found == kDrives.end() ? Drive() : found->second;
   start_and_arm(0.2);
   w.say(AWMR_START);
   w.run(6.8);
   const bool drove = w.is_driven() && w.u > 0.3;
-  one.inject();
+  one.inject(w);
+  w.say(drive.commands);
   double x0 = w.x, y0 = w.y, away = 0, fastest = 0;
   bool drives_again = false;
   FirstStop stop;
-  w.run(one.watch_s, [&] {
+  w.run(drive.watch_s, [&] {
     stop.watch();
     fastest = std::max(fastest, fabs(w.u));
     away = std::max(away, hypot(w.x - x0, w.y - y0));
     if (stop.stopped_s >= 0 && (safety.is_armed() || w.is_driven())) drives_again = true;
   });
   const bool is_off = !w.is_driven();
-  one.mend();
+  one.mend(w);
   w.run(25, [&] { drives_again = drives_again || (stop.stopped_s >= 0 && w.is_driven()); });
   if (w.keep.empty()) w.say(frame(10, "ARM"));
   w.say("ARM\n");
@@ -118,7 +71,6 @@ int run_case(const Case& one) {
       "case=%s drove=%d stopped_s=%.2f off=%d drives_again=%d cause=%d away_m=%.2f "
       "fastest_mps=%.2f rearmed=%d\n",
       one.name, drove, stop.stopped_s, is_off, drives_again, stop.cause, away, fastest, rearmed);
-  return 0;
 }
 
 /// At rest, armed at speed 0: pushed by hand, or only GPS noise.
@@ -235,7 +187,7 @@ int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "list";
   const double number = argc > 2 ? atof(argv[2]) : 0;
   if (what == "list") {
-    for (const Case& one : cases()) printf("%s\n", one.name);
+    for (const Failure& one : hazards()) printf("%s\n", one.name);
     return 0;
   }
   if (what == "hold") return hold_still(number, argc > 3 ? atof(argv[3]) : 0.05), 0;
@@ -250,8 +202,9 @@ int main(int argc, char** argv) {
     return drive_and_stop(number), 0;
   }
   if (argc > 2) world.start_ms = static_cast<uint32_t>(strtoul(argv[2], nullptr, 10));
-  for (const Case& one : cases()) {
-    if (one.name == what) return run_case(one);
+  if (what == "none") return run_case({"none", [](World&) {}}), 0;
+  for (const Failure& one : hazards()) {
+    if (one.name == what) return run_case(one), 0;
   }
   return 2;
 }
