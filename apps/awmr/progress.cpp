@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "awmr/core/option_text.h"
+
 namespace awmr::cli {
 namespace {
 
@@ -41,7 +43,7 @@ bool tells_progress_in_lines() { return told_in_lines && !is_terminal(); }
 void print_notice(std::string_view text) {
   if (!told_in_lines) return;
   std::fputs((draws_progress() ? "\r\033[K" : ""), stderr);
-  std::fputs(fmt::format("{}\n", text).c_str(), stderr);
+  std::fputs(fmt::format("{}\n", spell_options(text, "--")).c_str(), stderr);
 }
 
 std::size_t terminal_columns() {

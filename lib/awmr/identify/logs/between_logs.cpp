@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -147,18 +146,16 @@ LogComparison compare_parts(const DrivingLog& log, const LogFitOptions& options,
   const DrivingLog first = rows_between(log, 0, log.rows() - second.rows(), "first half");
   LogFit by_first = fit_logs({first}, options);
   if (!by_first.usable) return found;
-  std::vector<HeldOut> predicted;
-  for (const DrivingLog& rows : {second, rows_from(log, 0.8, "last fifth")}) {
-    if (const auto held_out = predict(rows, by_first, options)) predicted.push_back(*held_out);
-  }
-  const auto agrees = [](const HeldOut& rows) { return rows.p_value > kAgree; };
-  if (!predicted.empty() && std::ranges::all_of(predicted, agrees)) return found;
+  const auto second_half = predict(second, by_first, options);
+  const auto last_fifth = predict(rows_from(log, 0.8, "last fifth"), by_first, options);
+  const auto agrees = [](const std::optional<HeldOut>& rows) {
+    return rows && rows->p_value > kAgree;
+  };
+  if (agrees(second_half) && agrees(last_fifth)) return found;
   found.disagreements =
       disagreements_of({first, second}, {std::move(by_first), fit_logs({second}, options)}, common);
-  if (!found.disagreements.empty()) return found;
-  const double level = kMiss / static_cast<double>(predicted.size());
-  std::ranges::copy_if(predicted, std::back_inserter(found.missed),
-                       [level](const HeldOut& rows) { return rows.p_value < level; });
+  const bool misses = last_fifth && last_fifth->p_value < kMiss;
+  if (found.disagreements.empty() && misses) found.missed = last_fifth;
   return found;
 }
 
@@ -177,7 +174,7 @@ LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& commo
   std::vector<LogFit> fits;
   fits.reserve(logs.size());
   for (const DrivingLog& one : logs) fits.push_back(fit_logs({one}, options));
-  return {disagreements_of(logs, fits, common), {}};
+  return {disagreements_of(logs, fits, common), std::nullopt};
 }
 
 }  // namespace awmr

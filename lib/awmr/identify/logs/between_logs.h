@@ -1,6 +1,7 @@
 /// Whether several logs show the same vehicle. Private to identify/.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,8 @@ struct LogDisagreement {
 /// What fits of single logs, or of the halves of a single one, say of each other.
 struct LogComparison {
   std::vector<LogDisagreement> disagreements;
-  std::vector<HeldOut>
-      missed;  ///< rows that the first half does not predict; only without disagreements
+  /// The last fifth of a single log, if its first half does not predict it and the halves agree.
+  std::optional<HeldOut> missed;
 };
 
 /// Fits every log on its own from the common optimum and compares: with x_l, w_l = 1/var(x_l) of the
@@ -35,7 +36,7 @@ struct LogComparison {
 ///
 /// Of a single log of 20 s and more, the first half is fitted and predicts the second half and the last
 /// fifth (held_out.h). Where it predicts both (p > 0.05), nothing differs; else the halves are compared
-/// as logs are. What it misses with p < 0.001 over both is reported where the halves do not disagree.
+/// as logs are. A last fifth that is missed with p < 0.001 is reported where the halves do not disagree.
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common);
 
 }  // namespace awmr

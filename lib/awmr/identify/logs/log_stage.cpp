@@ -441,20 +441,16 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements)
   return findings;
 }
 
-/// `held-out-misses` for every part of the log that its first half does not predict.
-std::vector<Finding> in_words(const std::vector<HeldOut>& missed, const std::string& file) {
-  std::vector<Finding> findings;
-  for (const HeldOut& part : missed) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "held-out-misses",
-         fmt::format("a fit of the first half predicts {} worse than its noise and intervals allow "
-                     "(p = {:.2g}): {} changes most, from {:.4g} to {:.4g}. Battery, temperature, "
-                     "ground or load changed, or the model lacks something. The intervals are "
-                     "withdrawn; identify the part under one condition ({}, {})",
-                     part.rows, part.p_value, part.quantity, part.by_fit, part.by_rows,
-                     option_text("from S"), option_text("until S"))});
-  }
-  return findings;
+/// `held-out-misses`: the first half of the log does not predict these rows.
+Finding in_words(const HeldOut& missed, const std::string& file) {
+  return {
+      file, 0, Severity::kWarning, "held-out-misses",
+      fmt::format("a fit of the first half predicts {} worse than its noise and intervals allow "
+                  "(p = {:.2g}): {} changes most, from {:.4g} to {:.4g}. Battery, temperature, "
+                  "ground or load changed, or the model lacks something. The intervals are "
+                  "withdrawn; identify the part under one condition ({}, {})",
+                  missed.rows, missed.p_value, missed.quantity, missed.by_fit, missed.by_rows,
+                  option_text("from S"), option_text("until S"))};
 }
 
 /// Fills the parameters that the fit shows and that no other trial gave, unless overruled.
@@ -577,8 +573,10 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   tell(options, "comparing the logs with each other");
   const LogComparison compared = compare_logs(logs, chosen);
   append(stage.findings, in_words(compared.disagreements));
-  append(stage.findings, in_words(compared.missed, logs.front().file));
-  stage.withdraws_intervals |= !compared.missed.empty();
+  if (compared.missed) {
+    stage.findings.push_back(in_words(*compared.missed, logs.front().file));
+    stage.withdraws_intervals = true;
+  }
   if (stage.withdraws_intervals) withdraw_intervals(chosen.fit.report);
   stage.reports[stage.chosen_report] = chosen.fit.report;
   const std::string& file = logs.front().file;
