@@ -5,21 +5,8 @@
 
 namespace awmr {
 
-/// Displacement in the vehicle's axes, m.
-struct BodyDisplacement {
-  float ahead_m;
-  float left_m;
-};
-
-///   ahead = dx cos psi + dy sin psi,   left = dy cos psi - dx sin psi
-AWMR_CALLED inline BodyDisplacement body_displacement(float dx_m, float dy_m, float psi_rad) {
-  float sine = 0.0F;
-  float cosine = 0.0F;
-  float_math::sin_cos(psi_rad, sine, cosine);
-  return {dx_m * cosine + dy_m * sine, dy_m * cosine - dx_m * sine};
-}
-
-/// The part ahead alone, m.
+/// The part of a displacement along a heading, m:
+///   ahead = dx cos psi + dy sin psi
 AWMR_CALLED inline float displacement_ahead_m(float dx_m, float dy_m, float psi_rad) {
   float sine = 0.0F;
   float cosine = 0.0F;
@@ -28,6 +15,12 @@ AWMR_CALLED inline float displacement_ahead_m(float dx_m, float dy_m, float psi_
 }
 inline double displacement_ahead_m(double dx_m, double dy_m, double psi_rad) {
   return dx_m * ::cos(psi_rad) + dy_m * ::sin(psi_rad);
+}
+
+/// The part to the left of it, m:
+///   left = dy cos psi - dx sin psi
+inline float displacement_left_m(float dx_m, float dy_m, float psi_rad) {
+  return displacement_ahead_m(dy_m, -dx_m, psi_rad);
 }
 
 }  // namespace awmr

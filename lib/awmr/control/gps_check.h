@@ -127,19 +127,15 @@ class GpsCheck {
     if (!has_fix_ || detail::elapsed_ms(now_ms, fix_.time_ms) > timeout_ms_) {
       return last_ != kSensorGood ? last_ : kGpsSilent;
     }
-    if (is_wrong_way_) return kWrongWay;
-    if (is_off_heading_) return kOffHeading;
-    if (is_off_course_) return kOffCourse;
-    if (is_inconsistent_) return kGpsInconsistent;
-    return kSensorGood;
+    return motion_fault_;
   }
 
   /// Clears the contradiction for the next arming.
-  void restart_motion() {
+  AWMR_CALLED void restart_motion() {
     has_anchor_ = false;
     same_m_ = against_m_ = 0.0F;
     against_fixes_ = 0;
-    is_wrong_way_ = is_inconsistent_ = is_off_heading_ = is_off_course_ = false;
+    motion_fault_ = kSensorGood;
     off_course_mrad_ = 0.0F;
     restart_track();
   }
@@ -205,35 +201,36 @@ class GpsCheck {
   Place fix_ = {0.0F, 0.0F, 0.0F, 0};   // last accepted fix
   Motion motion_ = {0.0F, 0.0F, 0.0F};  // displacement to it, valid if one is due
   GpsContext context_ = {0.0F, 0.0F, 0, false};
-  Place anchor_ = {0.0F, 0.0F, 0.0F, 0};   // where the window began, valid with has_anchor_
-  float travelled_m_ = 0.0F;               // integral of the speed since then
-  float same_m_ = 0.0F;                    // integral of the speed while the position stood still
-  float against_m_ = 0.0F;                 // against the commanded direction
-  BodyDisplacement moved_ = {0.0F, 0.0F};  // by the last fix, valid with Due::kTrack
-  float track_ahead_m_ = 0.0F;             // sum of ahead since the track was compared
-  float track_left_m_ = 0.0F;              // sum of left
-  float track_psi_rad_ = 0.0F;             // heading at the fix before
-  float off_course_mrad_ = 0.0F;           // distance driven off the wanted heading
-  float course_rad_ = 0.0F;                // wanted heading at the fix before
-  float braking_s_ = 0.0F;                 // left of kBraking_s
-  float braked_from_mps_ = 0.0F;           // speed when the commanded direction changed
+  Place anchor_ = {0.0F, 0.0F, 0.0F, 0};  // where the window began, valid with has_anchor_
+  float travelled_m_ = 0.0F;              // integral of the speed since then
+  float same_m_ = 0.0F;                   // integral of the speed while the position stood still
+  float against_m_ = 0.0F;                // against the commanded direction
+  float ahead_m_ = 0.0F;                  // of the last motion, valid with Due::kTrack
+  float track_ahead_m_ = 0.0F;            // sum of ahead since the track was compared
+  float track_left_m_ = 0.0F;             // sum of left
+  float track_psi_rad_ = 0.0F;            // heading at the fix before
+  float off_course_mrad_ = 0.0F;          // distance driven off the wanted heading
+  float course_rad_ = 0.0F;               // wanted heading at the fix before
+  float braking_s_ = 0.0F;                // left of kBraking_s
+  float braked_from_mps_ = 0.0F;          // speed when the commanded direction changed
   int8_t direction_ = 0;
   uint8_t against_fixes_ = 0;  // consecutive fixes beyond kAgainst_m
   uint8_t elsewhere_ = 0;      // consecutive fixes that were too far away
   uint8_t unsettled_ = 0;      // fixes to wait for after UTC ran back
   SensorFault last_ = kSensorGood;
+  SensorFault motion_fault_ = kSensorGood;  // the first that the motion showed
   bool has_utc_ = false;
   bool has_fix_ = false;
   bool has_anchor_ = false;
   Due due_ = Due::kNothing;
-  bool is_wrong_way_ = false;
-  bool is_off_heading_ = false;
-  bool is_off_course_ = false;
-  bool is_inconsistent_ = false;
 
   bool refuse(SensorFault why) {
     last_ = why;
     return false;
+  }
+
+  void note_motion_fault(SensorFault fault) {
+    if (motion_fault_ == kSensorGood) motion_fault_ = fault;
   }
 
   /// Updates the lag of the fixes behind the earliest. It grows by the advance of the clock minus
@@ -277,11 +274,11 @@ class GpsCheck {
     const float travelled_m = fix_.speed_mps * motion_.time_s;
     if (motion_.dx_m != 0.0F || motion_.dy_m != 0.0F) same_m_ = 0.0F;
     if (is_moving) same_m_ += travelled_m;
-    if (same_m_ > kSame_m) is_inconsistent_ = true;
+    if (same_m_ > kSame_m) note_motion_fault(kGpsInconsistent);
     travelled_m_ += travelled_m;
     const float moved_m =
         detail::size_of(fix_.x_m - anchor_.x_m) + detail::size_of(fix_.y_m - anchor_.y_m);
-    if (moved_m > 1.5F * travelled_m_ + kFurther_m) is_inconsistent_ = true;
+    if (moved_m > 1.5F * travelled_m_ + kFurther_m) note_motion_fault(kGpsInconsistent);
   }
 
   /// Restarts when the commanded direction changes. A moving vehicle must brake first.
@@ -300,15 +297,15 @@ class GpsCheck {
   /// Checks the displacement against the commanded direction.
   void compare_with_direction() {
     if (direction_ == 0) return;
-    moved_ = body_displacement(motion_.dx_m, motion_.dy_m, context_.psi_rad);
-    against_m_ -= direction_ > 0 ? moved_.ahead_m : -moved_.ahead_m;
+    ahead_m_ = displacement_ahead_m(motion_.dx_m, motion_.dy_m, context_.psi_rad);
+    against_m_ -= direction_ > 0 ? ahead_m_ : -ahead_m_;
     if (against_m_ < -kAhead_m) {
       against_m_ = -kAhead_m;
       braking_s_ = 0.0F;
     }
     if (braking_s_ > 0.0F && against_m_ > 0.0F) against_m_ = 0.0F;
     against_fixes_ = against_m_ > kAgainst_m ? static_cast<uint8_t>(against_fixes_ + 1) : 0;
-    if (against_fixes_ >= kAgainstFixes) is_wrong_way_ = true;
+    if (against_fixes_ >= kAgainstFixes) note_motion_fault(kWrongWay);
   }
 
   void restart_track() { track_ahead_m_ = track_left_m_ = 0.0F; }
@@ -320,12 +317,12 @@ class GpsCheck {
     track_psi_rad_ = context_.psi_rad;
     if (direction_ == 0) return restart_track();
     if (detail::size_of(turned_rad) > kStraight_rad) return;
-    track_ahead_m_ += moved_.ahead_m;
-    track_left_m_ += moved_.left_m;
+    track_ahead_m_ += ahead_m_;
+    track_left_m_ += displacement_left_m(motion_.dx_m, motion_.dy_m, context_.psi_rad);
     const float ahead_m = detail::size_of(track_ahead_m_);
     const float left_m = detail::size_of(track_left_m_);
     if (ahead_m + left_m < kTrack_m) return;
-    if (left_m > kOffTrack * ahead_m) is_off_heading_ = true;
+    if (left_m > kOffTrack * ahead_m) note_motion_fault(kOffHeading);
     restart_track();
   }
 
@@ -346,7 +343,7 @@ class GpsCheck {
     off_course_mrad_ +=
         (detail::size_of(error_rad) - kOnCourse_rad) * (fix_.speed_mps * motion_.time_s);
     if (off_course_mrad_ < 0.0F) off_course_mrad_ = 0.0F;
-    if (off_course_mrad_ > off_course_max_mrad_) is_off_course_ = true;
+    if (off_course_mrad_ > off_course_max_mrad_) note_motion_fault(kOffCourse);
   }
 };
 

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "../awmr/control/heading_check.h"
-#include "../awmr/model/float_math.h"
+#include "../awmr/model/float_bearing.h"
 #include "../awmr_params.h"
 
 /* `awmr compass` writes src/awmr_compass.h from the records of the sketch CompassCalibration. */
@@ -120,12 +120,13 @@ class Imu {
     field_ms = now_ms;
     return true;
   }
-  /* (a, l) = S (field - centre), a circle; counter-clockwise from magnetic north: atan2(-l, a) */
+  /* (a, l) = S (field - centre), a circle; counter-clockwise from magnetic north: angle of (a, -l) */
   float magnetic_heading() const {
     const float ahead = field_ahead - AWMR_COMPASS_AHEAD_0;
     const float left = field_left - AWMR_COMPASS_LEFT_0;
-    return atan2(-(AWMR_COMPASS_AHEAD_LEFT * ahead + AWMR_COMPASS_LEFT_LEFT * left),
-                 AWMR_COMPASS_AHEAD_AHEAD * ahead + AWMR_COMPASS_AHEAD_LEFT * left);
+    return awmr::float_math::bearing(
+        -(AWMR_COMPASS_AHEAD_LEFT * ahead + AWMR_COMPASS_LEFT_LEFT * left),
+        AWMR_COMPASS_AHEAD_AHEAD * ahead + AWMR_COMPASS_AHEAD_LEFT * left);
   }
   void lean(float measured_rad, float dt_s) {
     if (!has_heading_) psi_rad = awmr::float_math::wrapped(measured_rad);
