@@ -133,12 +133,12 @@ TEST_F(Live, AGrowingFileIsFollowedUntilNothingMoreComes) {
 
 TEST_F(Live, KeepsLogAndModelWhereItsTerminalIsClosed) {
   // Two signals, because kernel and shell each send one.
-  const ProcessResult run = shell("{ head -n 900 " + kDrive + kOnAndOn + " | { exec 3<&0; " +
+  const ProcessResult run = shell("{ head -n 1400 " + kDrive + kOnAndOn + " | { exec 3<&0; " +
                                   live("--log - --every 0.2") +
                                   " <&3 & pid=$!; sleep 1.5; kill -HUP $pid; sleep 0.1; "
                                   "kill -HUP $pid; wait $pid; }");
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("interrupted: 898 rows"));
+  EXPECT_THAT(run.out, HasSubstr("interrupted: 1398 rows"));
   EXPECT_EQ(read_all(path("live.json")), identified());
 }
 
@@ -151,9 +151,9 @@ TEST_F(Live, APipeThatNobodyWritesToEndsAtTheDuration) {
 
 TEST_F(Live, EndsAtADurationWithWhatItHas) {
   const ProcessResult run =
-      shell("{ head -n 900 " + kDrive + kOnAndOn + " | " + live("--log - --duration 1.5"));
+      shell("{ head -n 1400 " + kDrive + kOnAndOn + " | " + live("--log - --duration 1.5"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("the duration is over: 898 rows"));
+  EXPECT_THAT(run.out, HasSubstr("the duration is over: 1398 rows"));
   EXPECT_EQ(read_all(path("live.json")), identified());
 }
 
@@ -161,11 +161,11 @@ TEST_F(Live, AnInterruptionKeepsWhatItHas) {
   for (const std::string signal : {"INT", "TERM"}) {
     fs::remove(path("live.csv"));
     const ProcessResult run =
-        shell("mkfifo " + path(signal) + "; { head -n 900 " + kDrive + kOnAndOn + " > " +
+        shell("mkfifo " + path(signal) + "; { head -n 1400 " + kDrive + kOnAndOn + " > " +
               path(signal) + " & set -m; " + live("--log " + path(signal)) +
               " & sleep 1.5; kill -" + signal + " $!; wait $!");
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_THAT(run.out, HasSubstr("interrupted: 898 rows"));
+    EXPECT_THAT(run.out, HasSubstr("interrupted: 1398 rows"));
     EXPECT_EQ(read_all(path("live.json")), identified());
   }
 }

@@ -113,7 +113,7 @@ TEST(ParseColumn, RefusesWhatIsOfNoForm) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"x", "no '='"},        {"=a", "NAME is empty"}, {"x=", "EXPRESSION is empty"},
       {":x=a", "FILE is"},    {"f:=a", "NAME is"},     {"x=a*0", "scale of 0"},
-      {"x=a*", "no formula"}, {"x=*2", "no formula"},  {"x=a*2=b", "has no place"}};
+      {"x=a*", "no formula"}, {"x=*2", "no formula"},  {"x=a*2=b", "not allowed"}};
   for (const auto& [text, words] : cases) {
     const auto mapping = parse_column(text);
     EXPECT_THAT(faults_of(mapping), ElementsAre(AllOf(HasSubstr(words), HasSubstr("NAME="))))

@@ -82,7 +82,7 @@ TEST(CsvFaults, TwoMappingsForOneColumn) {
 
 TEST(CsvFaults, DuplicateColumnIsPlacedAtTheSecond) {
   EXPECT_THAT(faults("tau_speed,speed_mps,speed_mps\n1,2,3\n"),
-              ElementsAre(AllOf(StartsWith("a.csv:1:21: "), HasSubstr("stands twice"))));
+              ElementsAre(AllOf(StartsWith("a.csv:1:21: "), HasSubstr("appears twice"))));
 }
 
 TEST(CsvFaults, RaggedRows) {
