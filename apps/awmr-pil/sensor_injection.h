@@ -13,7 +13,7 @@
 
 namespace awmr::pil {
 
-/// What the autopilot commanded in the step before.
+/// Commands of the autopilot in the step before.
 struct Commanded {
   float moment_m;     ///< yaw moment; 0: the motors are off
   float psi_ref_rad;  ///< heading that is to be held

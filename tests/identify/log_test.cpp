@@ -516,26 +516,27 @@ DrivingLog log_with_change(double factor, std::uint64_t seed) {
   return log;
 }
 
+/// The model of a log whose a1 changes by this factor in the last fifth.
+Identification identified_with_change(double factor, std::uint64_t seed) {
+  TrialData data;
+  data.logs = {log_with_change(factor, seed)};
+  return identify(robot(), data, {}, {}).value();
+}
+
 TEST(HeldOut, AChangeInTheLastFifthIsReportedAndWithdrawsTheIntervals) {
   for (const std::uint64_t seed : {31U, 32U}) {
-    TrialData data;
-    data.logs = {log_with_change(1.02, seed)};
-    const auto result = identify(robot(), data, {}, {});
-    ASSERT_TRUE(result);
-    EXPECT_TRUE(has_finding(*result, "held-out-misses", "surge.alpha")) << seed;
-    EXPECT_FALSE(result->model[ParameterId::kSurgeAlpha].ci95) << seed;
+    const Identification result = identified_with_change(1.02, seed);
+    EXPECT_TRUE(has_finding(result, "held-out-misses", "surge.alpha")) << seed;
+    EXPECT_FALSE(result.model[ParameterId::kSurgeAlpha].ci95) << seed;
   }
 }
 
 // The level is 0.001: one of the five drives has the finding by chance at 1 in 200.
 TEST(HeldOut, ADriveWithoutAChangeIsPredicted) {
   for (const std::uint64_t seed : {31U, 32U, 33U, 34U, 35U}) {
-    TrialData data;
-    data.logs = {log_with_change(1.0, seed)};
-    const auto result = identify(robot(), data, {}, {});
-    ASSERT_TRUE(result);
-    EXPECT_FALSE(has_finding(*result, "held-out-misses", "")) << seed;
-    EXPECT_TRUE(result->model[ParameterId::kSurgeAlpha].ci95) << seed;
+    const Identification result = identified_with_change(1.0, seed);
+    EXPECT_FALSE(has_finding(result, "held-out-misses", "")) << seed;
+    EXPECT_TRUE(result.model[ParameterId::kSurgeAlpha].ci95) << seed;
   }
 }
 

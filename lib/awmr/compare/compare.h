@@ -137,8 +137,8 @@ struct Change {
 
 struct Comparison {
   std::vector<ComparisonRow> rows;  ///< the finished ones, by scenario, gains, mode, sample
-  /// Samples, the nominal one included, that every scenario, mode and set of gains has from 0 on:
-  /// what is judged. Fewer than requested where the comparison was stopped, or is a part.
+  /// Evaluated samples: those, the nominal one included, that every scenario, mode and set of gains
+  /// has from 0 on. Fewer than requested if the comparison was stopped, or is a part.
   int whole_samples = 0;
   bool stopped = false;  ///< before all of its runs were done
   /// How the runs were rounded (BatchArithmetic::rounding): rows of different ones are not mixed.

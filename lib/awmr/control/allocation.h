@@ -85,7 +85,7 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
   a.force_limited =
       math::is_different(a.force.left, left) || math::is_different(a.force.right, right);
 
-  // What clipped forces leave goes back to the steering, if it has room: they make tau_speed =
+  // The rest of clipped forces goes back to the steering, if it has room: they make tau_speed =
   // (F'L + F'R)/(2 k) and tau_diff = d (F'R - F'L)/(2 k), so 2 k times the rest goes by F'L + F'R.
   const Mask<T> returns = split.redistributes && a.force_limited && !leaves;
   if (any(returns)) {

@@ -1,5 +1,5 @@
-/// What the autopilot does from its next step on: routes, obstacles, shaping, observer. Freestanding
-/// C++14.
+/// Commands that the autopilot follows from its next step on: routes, obstacles, shaping, observer.
+/// Freestanding C++14.
 #pragma once
 
 #include "awmr/control/autopilot_state.h"
@@ -63,11 +63,7 @@ void shape_headings(Autopilot<G, P>& a, const HeadingShaping<float>& filter, flo
 template <class G, class P>
 void observe_disturbance(Autopilot<G, P>& a, const Observers<float>& observers,
                          float sample_time_s) {
-  Observer& part = part_of<Observer>(a);
-  part.observers = observers;
-  part.sample_time_s = sample_time_s;
-  part.is_on = true;
-  part.is_started = false;
+  enable(part_of<Observer>(a), observers, sample_time_s);
 }
 
 }  // namespace awmr

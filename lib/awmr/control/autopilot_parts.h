@@ -55,6 +55,13 @@ struct AllParts {
   static constexpr bool kIsDirected = true;
 };
 
+/// Estimates the disturbance from the next step on, starting from 0.
+inline void enable(Observer& part, const Observers<float>& observers, float sample_time_s) {
+  part.observers = observers;
+  part.sample_time_s = sample_time_s;
+  part.is_on = true;
+  part.is_started = false;
+}
 inline void disable(Observer& part) { part.is_on = false; }
 inline void reset(Observer& part) { part.is_started = false; }
 

@@ -40,11 +40,9 @@ inline void set_observer(const ObserverBlock* tuned, Observer& part) {
   if (tuned == 0) return;
   ObserverBlock read;
   read_flash(tuned, read);
-  part.observers = {
-      {read.bandwidth_radps, read.yaw_max_m}, {read.bandwidth_radps, read.surge_max}, true};
-  part.sample_time_s = read.sample_time_s;
-  part.is_on = true;
-  part.is_started = false;
+  enable(part,
+         {{read.bandwidth_radps, read.yaw_max_m}, {read.bandwidth_radps, read.surge_max}, true},
+         read.sample_time_s);
 }
 
 /// Reads the parameters and checks them against `crc`, the check sum in the emitted header. If they

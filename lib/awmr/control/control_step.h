@@ -20,7 +20,7 @@ struct Command {
   Allocation<T> allocation;  ///< forces and angle, within their limits
 };
 
-/// What is allocated, and with which limits.
+/// Request to the allocation, its limits, and the command that it fills.
 template <class T>
 struct AllocationRequest {
   const SteeringGeometry& geometry;

@@ -181,8 +181,8 @@ class GpsCheck {
   static constexpr float kOffTrack = 0.577F;
   /// Displacements over which the heading changes by more than this, rad, are left out.
   static constexpr float kStraight_rad = 0.1F;
-  /// Difference of heading and wanted heading up to which the vehicle is on its course: pi/4, beyond
-  /// what gusts, slopes and unequal motors hold it off.
+  /// Largest difference of heading and wanted heading of a vehicle on its course, rad: pi/4, more than
+  /// gusts, slopes and unequal motors cause.
   static constexpr float kOnCourse_rad = 0.785F;
   /// A change of the wanted heading between two fixes by more than this, rad, is a new one.
   static constexpr float kNewCourse_rad = 0.35F;

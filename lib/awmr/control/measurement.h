@@ -1,4 +1,4 @@
-/// What the controller measures and what it follows. Freestanding C++14.
+/// Measurements and references of the controller. Freestanding C++14.
 #pragma once
 
 namespace awmr {

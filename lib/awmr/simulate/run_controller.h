@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// What does not change over a run. The flags are the same for all runs of a register.
+/// Constants of a run. The flags are the same for all runs of a register.
 template <class T>
 struct RunController {
   PreparedController<T> laws;
@@ -26,14 +26,14 @@ struct RunController {
   Observers<T> observers;
 };
 
-/// What a run's controller remembers from sample to sample.
+/// State of a run's controller between two samples.
 template <class T>
 struct RunControllerState {
   ObserversState<T> observed;
   LqiState<T> lqi;
 };
 
-/// What a sample's commands are.
+/// Commands of one sample.
 template <class T>
 struct RunCommand {
   T tau_speed;          ///< as in Command
@@ -48,7 +48,7 @@ RunControllerState<T> start_controller(const RunController<T>& c, const Measurem
   return {start_observers(c.observers, observed_motion(c.laws, m).momentum), {T(0.0), T(0.0)}};
 }
 
-/// The commands of one sample. To be called once per sample, in order.
+/// Computes the commands of one sample. Call it once per sample, in order.
 template <class T>
 RunCommand<T> command_sample(const RunController<T>& c, const Measurement<T>& measured,
                              const Reference<T>& ref, RunControllerState<T>& state) {

@@ -83,14 +83,6 @@ RunEnd command(const Scenario& scenario, double force_most, const RunController<
 
 }  // namespace
 
-GeneralisedForces<double> delivered_forces(const AllocationLimits<double>& limits,
-                                           const SideForces<double>& force, double steering_rad) {
-  Allocation<double> a{};
-  a.force = force;
-  a.steering_rad = steering_rad;
-  return allocated_forces(geometry_of(limits), prepared(limits), a);
-}
-
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller) {
   controller.limits.form = scenario.control.allocation.value_or(controller.limits.form);
   if (scenario.control.split != CombinedSplit::kRedistribute) {

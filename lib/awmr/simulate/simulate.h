@@ -90,10 +90,6 @@ int substeps_for(const Plant<double>& plant, double sample_time_s);
 /// The same in a scenario, whose tyres replace some of the plant's resistances.
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
-/// What side forces and a steering angle amount to on the vehicle of these limits.
-GeneralisedForces<double> delivered_forces(const AllocationLimits<double>& limits,
-                                           const SideForces<double>& force, double steering_rad);
-
 /// The plant's controller with these gains and the vehicle's limits.
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
                                    const Gains<double>& gains,

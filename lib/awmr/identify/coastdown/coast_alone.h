@@ -16,8 +16,8 @@ void add_curve_figures(EstimatorReport& report, const CoastFit& fit);
 /// A number known by its logarithm: its standard error and interval, `half` the t quantile.
 EstimatorParameter by_logarithm(std::string name, double value, double error, double half);
 
-/// What the curves show without a surge law, by the family requested, or the one of minimum AICc
-/// for `auto`; the reason why that is not m'.
+/// Estimates m' and the law's terms over a1 from the curves alone, by the requested family, or the one of
+/// minimum AICc for `auto`, and the reason why m' itself is not identified.
 MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& vehicle,
                          const FamilyChoice& family, MassResult result);
 

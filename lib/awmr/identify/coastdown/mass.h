@@ -25,8 +25,8 @@ struct MassResult {
 };
 
 /// Precondition: at least a stop time or a curve. `surge` is null where its law is not identified.
-/// Curves that do not fall are set aside (`no-deceleration`). Without a surge law, `family` says
-/// what the curves alone are fitted with; one that was not requested is compared with the others
+/// Curves that do not fall are set aside (`no-deceleration`). Without a surge law, `family` is
+/// fitted to the curves alone; one that was not requested is compared with the others
 /// (`power-law-inadequate`).
 MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<StopTimeRow>>& stops,
                          const std::vector<CoastCurve>& curves, const Vehicle& vehicle,

@@ -18,7 +18,7 @@ struct LogDisagreement {
   std::vector<double> values;      ///< by file
 };
 
-/// What fits of single logs, or of the halves of a single one, say of each other.
+/// Differences between fits of single logs, or of the halves of a single one.
 struct LogComparison {
   std::vector<LogDisagreement> disagreements;
   /// The last fifth of a single log, if its first half does not predict it and the halves agree.

@@ -15,6 +15,12 @@ Eigen::MatrixXd undone(const WindowSums& window, Eigen::Index n) {
   return solve_ldlt(window.products.block(n, n, k, k), window.products.block(n, 0, k, n));
 }
 
+/// g_t - J_t^T J_s (J_s^T J_s)^-1 g_s; by_initial: J_t^T J_s (J_s^T J_s)^-1 of the window.
+Eigen::VectorXd score(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& by_initial) {
+  const Eigen::Index n = by_initial.rows();
+  return gradient.head(n) - by_initial * gradient.segment(n, by_initial.cols());
+}
+
 }  // namespace
 
 Eigen::MatrixXd information(const std::vector<WindowSums>& sums, Eigen::Index n) {
@@ -30,9 +36,7 @@ Eigen::MatrixXd information(const std::vector<WindowSums>& sums, Eigen::Index n)
 Eigen::VectorXd score(const std::vector<WindowSums>& sums, Eigen::Index n) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
   for (const WindowSums& window : sums) {
-    const Eigen::Index k = window.products.rows() - 1 - n;
-    const Eigen::VectorXd gradient = window.products.col(n + k);
-    sum += gradient.head(n) - undone(window, n).transpose() * gradient.segment(n, k);
+    sum += score(window.products.col(window.products.cols() - 1), undone(window, n).transpose());
   }
   return sum;
 }
@@ -46,7 +50,7 @@ Scores scores_of(const std::vector<FitWindow>& windows, const std::vector<Window
     log = windows[w].rows.log;
     const Eigen::MatrixXd by_initial = undone(sums[w], n).transpose();
     for (const Eigen::VectorXd& gradient : sums[w].block_gradients) {
-      scores.blocks.push_back(gradient.head(n) - by_initial * gradient.tail(gradient.size() - n));
+      scores.blocks.push_back(score(gradient, by_initial));
       scores.logs.back() += scores.blocks.back();
     }
   }

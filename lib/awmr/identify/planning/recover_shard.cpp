@@ -142,7 +142,7 @@ Result<std::vector<RecoverRun>> read_runs(const RecoverShardFile& file) {
   return runs;
 }
 
-/// What the parts report in addition to their runs: the refusal of the smallest run; an error where
+/// Report of the parts in addition to their runs: the refusal of the smallest run; an error where
 /// all have one, that of the first part, which has the first run.
 void take_words(const std::vector<RecoverShardFile>& files, RecoverPart& whole) {
   whole.refusal.reset();
