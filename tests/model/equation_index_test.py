@@ -86,8 +86,13 @@ def citations(root, faults):
     found = []
     for path in sources(root):
         file = path.relative_to(root).as_posix()
-        lines = path.read_text(encoding="utf-8").splitlines()
+        text = path.read_text(encoding="utf-8")
+        if "paper" not in text:
+            continue
+        lines = text.splitlines()
         for i, line in enumerate(lines):
+            if "paper" not in line:
+                continue
             place = f"{file}:{i + 1}"
             whole = CITATION.findall(line)
             if len(whole) != len(re.findall(r"\[paper\b", line)) or re.search(r"[\[(]paper\s*$", line):
@@ -165,22 +170,28 @@ class EquationIndex(unittest.TestCase):
 class Faults(unittest.TestCase):
     """Each kind of fault, made in a copy of the tree, is found."""
 
-    def setUp(self):
+    @classmethod
+    def setUpClass(cls):
         folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name)
+        cls.addClassCleanup(folder.cleanup)
+        cls.root = Path(folder.name)
         for part in ("lib", "tests"):
-            shutil.copytree(ROOT / part, self.root / part,
+            shutil.copytree(ROOT / part, cls.root / part,
                             ignore=lambda _, names: [n for n in names if Path(n).suffix in (".csv", ".json")])
         lines = (ROOT / INDEX).read_text(encoding="utf-8").splitlines()
-        self.row = next(line for line in lines if ROW.match(line) and not ROW.match(line)["by"])
-        self.before = check(self.root)[0]
+        cls.row = next(line for line in lines if ROW.match(line) and not ROW.match(line)["by"])
+        cls.before = check(cls.root)[0]
+
+    def write(self, file, text):
+        """Until the end of the test."""
+        path = self.root / file
+        self.addCleanup(path.write_text, path.read_text(encoding="utf-8"), encoding="utf-8")
+        path.write_text(text, encoding="utf-8")
 
     def edit(self, file, old, new):
-        path = self.root / file
-        text = path.read_text(encoding="utf-8")
+        text = (self.root / file).read_text(encoding="utf-8")
         self.assertIn(old, text)
-        path.write_text(text.replace(old, new, 1), encoding="utf-8")
+        self.write(file, text.replace(old, new, 1))
 
     def expect(self, text):
         new = [fault for fault in check(self.root)[0] if fault not in self.before]
@@ -212,13 +223,13 @@ class Faults(unittest.TestCase):
 
     def test_a_test_that_does_not_mention_the_function(self):
         row = ROW.match(self.row)
-        (self.root / row["test"]).write_text("// nothing\n", encoding="utf-8")
+        self.write(row["test"], "// nothing\n")
         self.expect(f"{row['test']} does not mention {row['function']}")
 
     def test_an_equation_of_the_paper_that_is_passed_over(self):
         text = (self.root / INDEX).read_text(encoding="utf-8")
         kept = [l for l in text.splitlines() if not (l.startswith("| (") and 103 in numbers(l.split(" | ")[0]))]
-        (self.root / INDEX).write_text("\n".join(kept) + "\n", encoding="utf-8")
+        self.write(INDEX, "\n".join(kept) + "\n")
         self.expect("says nothing of equation (103)")
 
 
