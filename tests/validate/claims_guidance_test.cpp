@@ -16,11 +16,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
+std::vector<Claim> guidance_claims_of(const Model& model) {
+  const Plant<double> plant = *model.plant();
+  const ClaimSetting setting{model, plant, kPaperGains, batch_arithmetic().value()};
+  return check_guidance_claims({&setting, 1}).front();
+}
+
 const Claim& claim_of(const std::string& id) {
-  static const Model model = fitted_paper_model();
-  static const Plant<double> plant = *model.plant();
-  static const std::vector<Claim> claims =
-      check_guidance_claims({model, plant, kPaperGains, batch_arithmetic().value()});
+  static const std::vector<Claim> claims = guidance_claims_of(fitted_paper_model());
   return *std::find_if(claims.begin(), claims.end(),
                        [&](const Claim& claim) { return claim.id == id; });
 }
@@ -45,9 +48,7 @@ TEST(GuidanceClaims, CombinedIsNotAloneAtTheTop) {
 TEST(GuidanceClaims, AVehicleThatCannotTurnFails) {
   Model model = fitted_paper_model();
   model.vehicle.steering_max_deg = 3.0;
-  const Plant<double> plant = *model.plant();
-  const auto claims =
-      check_guidance_claims({model, plant, kPaperGains, batch_arithmetic().value()});
+  const std::vector<Claim> claims = guidance_claims_of(model);
   EXPECT_FALSE(claims.front().reproduced);
   EXPECT_THAT(claims.front().why, HasSubstr("steering turns too wide"));
 }

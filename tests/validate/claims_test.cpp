@@ -38,10 +38,9 @@ std::vector<Claim> heading_claims_of(const Model& model, const Gains<double>& ga
 
 TEST(Claims, RunsOnlyTheOpenLoopOnesWithoutGains) {
   const Model model = fitted_paper_model();
-  EXPECT_THAT(
-      ids_of(check_claims(model, plant_of(model), std::nullopt, batch_arithmetic().value())),
-      ElementsAre("C1", "C2", "C14"));
-  EXPECT_THAT(ids_of(check_claims(model, plant_of(model), kPaperGains, batch_arithmetic().value())),
+  EXPECT_THAT(ids_of(check_claims(model, std::nullopt, batch_arithmetic().value())),
+              ElementsAre("C1", "C2", "C14"));
+  EXPECT_THAT(ids_of(check_claims(model, kPaperGains, batch_arithmetic().value())),
               ElementsAre("C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "C12",
                           "C13", "C14"));
 }
@@ -234,8 +233,7 @@ TEST(OpenCases, AreAllCombinationsWithTheMassThatTyresCarry) {
 
 TEST(OpenCases, ClaimsAreJudgedInEachAsTheModelThereWouldBe) {
   const Model model = identified_paper_model();
-  std::vector<Claim> claims =
-      check_claims(model, plant_of(model), kPaperGains, batch_arithmetic().value());
+  std::vector<Claim> claims = check_claims(model, kPaperGains, batch_arithmetic().value());
   add_open_cases(model, kPaperGains, batch_arithmetic().value(), claims);
   const Claim held = claim_of(claims, "C5");
   for (const ClaimCase& open : held.cases) {

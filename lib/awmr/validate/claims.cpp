@@ -34,17 +34,30 @@ Run run_or_failed(const Model& model, const Gains<double>& gains, const Scenario
   return simulate(model, gains, scenario, mode).value_or(std::move(failed));
 }
 
-ModeRuns run_modes(const Model& model, const Gains<double>& gains, const Scenario& scenario,
-                   const BatchArithmetic& arithmetic) {
-  const BatchRun run{.plant = plant_for(scenario, model).value(),
-                     .controller = controller_for(model, gains).value(),
-                     .mode = {}};
-  std::vector<BatchRun> in_modes(std::size(kYawModes), run);
-  for (std::size_t i = 0; i < in_modes.size(); ++i) in_modes[i].mode = kYawModes[i];
-  auto driven = drive_batch(in_modes, scenario, model.vehicle.sample_time_s, arithmetic);
-  ModeRuns runs;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    runs[i] = {kYawModes[i], std::move(driven[i].run), driven[i].metrics};
+ModeRuns ClaimSetting::run(const Scenario& scenario) const {
+  return std::move(run_all({this, 1}, scenario).front());
+}
+
+std::vector<ModeRuns> run_all(std::span<const ClaimSetting> settings, Scenario scenario) {
+  scenario.control = settings.front().control;
+  std::vector<BatchRun> batch;
+  for (const ClaimSetting& setting : settings) {
+    BatchRun run{.plant = plant_for(scenario, setting.model).value(),
+                 .controller = controller_for(setting.model, setting.gains).value(),
+                 .mode = {}};
+    for (const YawMode mode : kYawModes) {
+      run.mode = mode;
+      batch.push_back(run);
+    }
+  }
+  std::vector<DrivenRun> driven = drive_batch(
+      batch, scenario, settings.front().model.vehicle.sample_time_s, settings.front().arithmetic);
+  std::vector<ModeRuns> runs(settings.size());
+  auto next = driven.begin();
+  for (ModeRuns& in_modes : runs) {
+    for (std::size_t m = 0; m < in_modes.size(); ++m, ++next) {
+      in_modes[m] = {kYawModes[m], std::move(next->run), next->metrics};
+    }
   }
   return runs;
 }
@@ -82,25 +95,39 @@ int reversals(std::span<const double> signal, double band) {
   return count;
 }
 
-std::vector<Claim> check_claims(const Model& model, const Plant<double>& plant,
-                                const std::optional<Gains<double>>& gains,
-                                const BatchArithmetic& arithmetic, const ControlOptions& control) {
-  std::vector<Claim> claims;
-  claims.push_back(check_straight_run(model, plant, control));
-  claims.push_back(check_circle(model, plant, control));
-  if (gains) {
-    const ClaimSetting setting{model, plant, *gains, arithmetic, control};
-    for (Claim& claim : check_heading_claims(setting)) {
-      claims.push_back(std::move(claim));
-    }
-    // C13 follows C8 to C12.
-    const auto driven = claims.end() - 1;
-    std::vector<Claim> guided = check_guidance_claims(setting);
-    claims.insert(driven, std::make_move_iterator(guided.begin()),
-                  std::make_move_iterator(guided.end()));
+std::vector<std::vector<Claim>> check_claims_of(std::span<const Model> models,
+                                                const std::optional<Gains<double>>& gains,
+                                                const BatchArithmetic& arithmetic,
+                                                const ControlOptions& control) {
+  std::vector<Plant<double>> plants;
+  for (const Model& model : models) plants.push_back(model.plant().value());
+  std::vector<ClaimSetting> settings;
+  for (std::size_t i = 0; gains && i < models.size(); ++i) {
+    settings.push_back({models[i], plants[i], *gains, arithmetic, control});
   }
-  claims.push_back(check_time_constants(gains));
+  std::vector<std::vector<Claim>> guided;
+  if (gains) guided = check_guidance_claims(settings);
+  std::vector<std::vector<Claim>> claims(models.size());
+  const auto move_to = [](std::vector<Claim>& all, auto first, auto last) {
+    all.insert(all.end(), std::make_move_iterator(first), std::make_move_iterator(last));
+  };
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    claims[i].push_back(check_straight_run(models[i], plants[i], control));
+    claims[i].push_back(check_circle(models[i], plants[i], control));
+    if (gains) {
+      std::vector<Claim> heading = check_heading_claims(settings[i]);
+      move_to(claims[i], heading.begin(), heading.end() - 1);
+      move_to(claims[i], guided[i].begin(), guided[i].end());  // C8 to C12, before C13
+      move_to(claims[i], heading.end() - 1, heading.end());
+    }
+    claims[i].push_back(check_time_constants(gains));
+  }
   return claims;
+}
+
+std::vector<Claim> check_claims(const Model& model, const std::optional<Gains<double>>& gains,
+                                const BatchArithmetic& arithmetic) {
+  return std::move(check_claims_of({&model, 1}, gains, arithmetic, {}).front());
 }
 
 }  // namespace awmr

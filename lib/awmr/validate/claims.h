@@ -37,11 +37,6 @@ using ModeRuns = std::array<ModeRun, std::size(kYawModes)>;
 /// claims are not reproduced.
 Run run_or_failed(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                   YawMode mode);
-/// Runs the scenario in all three modes. Precondition: the model has every parameter, and an
-/// interval for each of the scenario's corner.
-ModeRuns run_modes(const Model& model, const Gains<double>& gains, const Scenario& scenario,
-                   const BatchArithmetic& arithmetic);
-
 /// Common inputs of the claims' simulations.
 struct ClaimSetting {
   const Model& model;
@@ -50,11 +45,13 @@ struct ClaimSetting {
   BatchArithmetic arithmetic;   ///< for the runs
   ControlOptions control = {};  ///< for every scenario
 
-  ModeRuns run(Scenario scenario) const {
-    scenario.control = control;
-    return run_modes(model, gains, scenario, arithmetic);
-  }
+  /// The scenario in all three modes. Precondition: the model has every parameter, and an interval
+  /// for each of the scenario's corner.
+  ModeRuns run(const Scenario& scenario) const;
 };
+/// run() of each setting, as one batch. Precondition: the settings have the same control, arithmetic
+/// and sample time.
+std::vector<ModeRuns> run_all(std::span<const ClaimSetting> settings, Scenario scenario);
 
 template <class Condition>
 bool all_modes(const ModeRuns& runs, Condition condition) {
@@ -80,8 +77,9 @@ Claim check_time_constants(const std::optional<Gains<double>>& gains);
 /// C3 to C7 from one set of runs, and C13.                            [paper 4.3, section 6]
 std::vector<Claim> check_heading_claims(const ClaimSetting& setting);
 
-/// C8 to C12: waypoints, line, obstacles, timed path, best modes.           [paper 5, section 7]
-std::vector<Claim> check_guidance_claims(const ClaimSetting& setting);
+/// C8 to C12: waypoints, line, obstacles, timed path, best modes, in each setting, as run_all().
+///                                                                       [paper 5, section 7]
+std::vector<std::vector<Claim>> check_guidance_claims(std::span<const ClaimSetting> settings);
 
 /// Longest settling time that counts as fast, see C3: the time for the step at the mode's largest
 /// steady yaw rate, plus 4 (T1 + 2 T2) of the paper's gains. e^-4 = 1.8 % is within the 2 % band; S
@@ -91,10 +89,14 @@ double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, Ya
 /// Number of reversals of a signal by more than `band` from its last extreme.
 int reversals(std::span<const double> signal, double band);
 
-/// Checks all claims in the paper's order; without gains, only those that need none.
-std::vector<Claim> check_claims(const Model& model, const Plant<double>& plant,
-                                const std::optional<Gains<double>>& gains,
-                                const BatchArithmetic& arithmetic,
-                                const ControlOptions& control = {});
+/// All claims in the paper's order; without gains, only those that need none.
+std::vector<Claim> check_claims(const Model& model, const std::optional<Gains<double>>& gains,
+                                const BatchArithmetic& arithmetic);
+/// check_claims() for each model, with the same control and sample time. Precondition: each model has
+/// a plant.
+std::vector<std::vector<Claim>> check_claims_of(std::span<const Model> models,
+                                                const std::optional<Gains<double>>& gains,
+                                                const BatchArithmetic& arithmetic,
+                                                const ControlOptions& control);
 
 }  // namespace awmr

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <span>
 
 #include "awmr/core/units.h"
 #include "awmr/validate/heading_runs.h"
@@ -84,9 +86,8 @@ double final_cross_track_m(const ModeRun& run) {
   return largest;
 }
 
-Claim line_followed(const ClaimSetting& setting) {
+Claim line_followed(const ModeRuns& runs) {
   const Scenario scenario = line_scenario();
-  const ModeRuns runs = setting.run(scenario);
   const auto& law = std::get<LineLaw<double>>(std::get<LineCourse>(scenario.guidance).law);
   const double accepted_m = kOnTheLineShare * law.width_m;
   const auto off = [](const ModeRun& run) -> std::optional<double> {
@@ -119,9 +120,7 @@ bool alike(const ModeRuns& runs) {
   return most <= (1.0 + kAlikeShare) * least;
 }
 
-Claim obstacles_avoided(const ClaimSetting& setting) {
-  const ModeRuns line = setting.run(obstacle_on_line_scenario());
-  const ModeRuns points = setting.run(obstacle_between_waypoints_scenario());
+Claim obstacles_avoided(const ModeRuns& line, const ModeRuns& points) {
   const bool avoided = all_modes(line, completed) && all_modes(points, completed);
   const bool same = alike(line) && alike(points);
   const auto figure = [](const ModeRuns& runs) {
@@ -162,11 +161,21 @@ double least_radius_m(const Lissajous<double>& path, double duration_s) {
   return least;
 }
 
-Claim timed_path_followed(const ClaimSetting& setting) {
+/// off_path_m() by mode. The runs are long: only one kind is kept at a time.
+using OffPath = std::map<YawMode, double>;
+OffPath off_path_by_mode(const ModeRuns& runs) {
+  OffPath off;
+  for (const ModeRun& run : runs) off[run.mode] = off_path_m(run);
+  return off;
+}
+
+Claim timed_path_followed(const ModeRuns& open, const OffPath& closed_off_m) {
   const Scenario open_scenario = lissajous_scenario(false);
-  const ModeRuns open = setting.run(open_scenario);
-  const ModeRuns closed = setting.run(lissajous_scenario(true));
-  const auto off = [](const ModeRun& run) -> std::optional<double> { return off_path_m(run); };
+  OffPath off_m = off_path_by_mode(open);
+  const auto off = [&](const ModeRun& run) -> std::optional<double> { return off_m[run.mode]; };
+  const auto closed_off = [&](const ModeRun& run) -> std::optional<double> {
+    return closed_off_m.at(run.mode);
+  };
   const auto followed = [&](const ModeRun& run) { return *off(run) <= kPathTolerance_m; };
   const bool all = all_modes(open, followed);
   const double radius_m = least_radius_m(std::get<LissajousCourse>(open_scenario.guidance).path,
@@ -177,7 +186,7 @@ Claim timed_path_followed(const ClaimSetting& setting) {
           .reproduced = all,
           .figure = fmt::format("largest distance from the path's point, heading alone (the "
                                 "paper's form): {}; with the position fed back: {}",
-                                by_mode(open, "m", off), by_mode(closed, "m", off)),
+                                by_mode(open, "m", off), by_mode(open, "m", closed_off)),
           .tolerance = fmt::format("{} m in every mode with the paper's form, a twentieth of the "
                                    "path's width",
                                    kPathTolerance_m),
@@ -203,8 +212,7 @@ bool is_best(const ModeRuns& runs, YawMode mode, Value value) {
   });
 }
 
-Claim best_modes(const ClaimSetting& setting, const ModeRuns& points) {
-  const ModeRuns path = setting.run(polyline_scenario());
+Claim best_modes(const ModeRuns& points, const ModeRuns& path) {
   const auto best_for = [](const ModeRuns& runs, YawMode mode) {
     return is_best(runs, mode, finish_s) && is_best(runs, mode, cross_track_m);
   };
@@ -237,10 +245,23 @@ Claim best_modes(const ClaimSetting& setting, const ModeRuns& points) {
 
 }  // namespace
 
-std::vector<Claim> check_guidance_claims(const ClaimSetting& setting) {
-  const ModeRuns points = setting.run(waypoint_scenario());
-  return {waypoints_reached(points), line_followed(setting), obstacles_avoided(setting),
-          timed_path_followed(setting), best_modes(setting, points)};
+std::vector<std::vector<Claim>> check_guidance_claims(std::span<const ClaimSetting> settings) {
+  std::vector<std::vector<Claim>> claims(settings.size());
+  const auto add = [&](const auto& claim, const auto&... runs) {
+    for (std::size_t i = 0; i < claims.size(); ++i) claims[i].push_back(claim(runs[i]...));
+  };
+  const std::vector<ModeRuns> points = run_all(settings, waypoint_scenario());
+  add(waypoints_reached, points);
+  add(line_followed, run_all(settings, line_scenario()));
+  add(obstacles_avoided, run_all(settings, obstacle_on_line_scenario()),
+      run_all(settings, obstacle_between_waypoints_scenario()));
+  std::vector<OffPath> closed;
+  for (const ModeRuns& runs : run_all(settings, lissajous_scenario(true))) {
+    closed.push_back(off_path_by_mode(runs));
+  }
+  add(timed_path_followed, run_all(settings, lissajous_scenario(false)), closed);
+  add(best_modes, points, run_all(settings, polyline_scenario()));
+  return claims;
 }
 
 }  // namespace awmr

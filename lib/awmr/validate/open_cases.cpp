@@ -38,6 +38,23 @@ ControlOptions control_in(const ClaimCase& open) {
   return control;
 }
 
+/// Indices of cases with the same allocation and split, whose runs are one batch. Two cases have six
+/// runs, whose rows of C11 take 120 MB.
+std::vector<std::vector<std::size_t>> batches_of(const std::vector<ClaimCase>& cases) {
+  constexpr std::size_t kCasesMax = 2;
+  std::map<std::pair<AllocationForm, CombinedSplit>, std::vector<std::size_t>> open;
+  std::vector<std::vector<std::size_t>> batches;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    std::vector<std::size_t>& batch = open[{cases[i].allocation, cases[i].split}];
+    batch.push_back(i);
+    if (batch.size() == kCasesMax) batches.push_back(std::exchange(batch, {}));
+  }
+  for (auto& [control, batch] : open) {
+    if (!batch.empty()) batches.push_back(std::move(batch));
+  }
+  return batches;
+}
+
 ClaimCase judged(ClaimCase open, bool reproduced) {
   open.reproduced = reproduced;
   return open;
@@ -94,16 +111,22 @@ void add_open_cases(const Model& model, const std::optional<Gains<double>>& gain
                     const BatchArithmetic& arithmetic, std::vector<Claim>& claims,
                     const Progress& progress) {
   const std::vector<ClaimCase> cases = open_cases(model);
+  const std::vector<std::vector<std::size_t>> batches = batches_of(cases);
   std::vector<std::vector<Claim>> judged_in(cases.size());
   std::atomic<std::size_t> done = 0;
   LoopControl control;
   if (progress) control.progress = [&] { progress(done, cases.size()); };
-  const auto judge = [&](std::size_t i) {
-    const Model other = model_in(cases[i], model);
-    judged_in[i] = check_claims(other, *other.plant(), gains, arithmetic, control_in(cases[i]));
-    ++done;
+  const auto judge = [&](std::size_t b) {
+    std::vector<Model> models;
+    for (const std::size_t i : batches[b]) models.push_back(model_in(cases[i], model));
+    auto claims_of =
+        check_claims_of(models, gains, arithmetic, control_in(cases[batches[b].front()]));
+    for (std::size_t i = 0; i < claims_of.size(); ++i) {
+      judged_in[batches[b][i]] = std::move(claims_of[i]);
+    }
+    done += claims_of.size();
   };
-  parallel_for(cases.size(), 0, judge, control);
+  parallel_for(batches.size(), 0, judge, control);
   for (std::size_t c = 0; c < claims.size(); ++c) {
     Claim& claim = claims[c];
     for (std::size_t i = 0; i < cases.size(); ++i) {

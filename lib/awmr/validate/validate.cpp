@@ -107,7 +107,7 @@ Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
   const bool all_modes = model.vehicle.drive == Drive::kFourWheel;
   if (whole && all_modes) {
     AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
-    validation.claims = check_claims(model, *whole, gains, arithmetic);
+    validation.claims = check_claims(model, gains, arithmetic);
     if (options.open_cases) {
       add_open_cases(model, gains, arithmetic, validation.claims, options.progress);
     }
