@@ -61,6 +61,14 @@ class Check : public ::testing::Test {
     write(name, json);
     return awmr("check " + project());
   }
+  /// With a short search for gains.
+  ProcessResult run() {
+    write("tune.json", {{"global_evaluations", 20}, {"local_evaluations", 10}, {"draws", 1}});
+    nlohmann::ordered_json json = read("project.json");
+    json["tune"] = "tune.json";
+    write("project.json", json);
+    return awmr("run " + path("project.json").string() + " -o " + path("out").string());
+  }
   TemporaryDirectory directory_;
 };
 
@@ -72,8 +80,7 @@ TEST_F(Check, AFilledProjectHasNothingToMend) {
 }
 
 TEST_F(Check, WhatCheckIsContentWithRunsToGainsAndAHeader) {
-  const ProcessResult result =
-      awmr("run --quiet " + path("project.json").string() + " -o " + path("out").string());
+  const ProcessResult result = run();
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const nlohmann::ordered_json model = read("out/model.json");
   for (const auto& [pointer, truth] : {std::pair{"/surge/alpha", 2.2},
@@ -93,8 +100,7 @@ TEST_F(Check, WithoutASwayResistanceTablesAloneReachGainsAndAHeader) {
   const ProcessResult checked = check_with("vehicle.json", "/sway_alpha", nullptr);
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
   EXPECT_THAT(checked.err, HasSubstr("vehicle.json:/sway_alpha: not given"));
-  const ProcessResult result =
-      awmr("run " + path("project.json").string() + " -o " + path("out").string());
+  const ProcessResult result = run();
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("assumed-sway"));
   const nlohmann::ordered_json model = read("out/model.json");
