@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "awmr/model/fitted_law.h"
+#include "awmr/model/gains.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/scenario.h"
 
