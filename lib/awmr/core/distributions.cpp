@@ -9,28 +9,39 @@ namespace awmr {
 
 namespace math = boost::math;
 
-double normal_cdf(double z) { return math::cdf(math::normal(), z); }
+namespace {
 
-double normal_tail(double z) { return math::cdf(math::complement(math::normal(), z)); }
+/// In double throughout: long double takes three times as long, and 128 bits on some processors.
+using InDouble = math::policies::policy<math::policies::promote_double<false>>;
+using Normal = math::normal_distribution<double, InDouble>;
+using StudentsT = math::students_t_distribution<double, InDouble>;
+using ChiSquared = math::chi_squared_distribution<double, InDouble>;
+using FisherF = math::fisher_f_distribution<double, InDouble>;
+
+}  // namespace
+
+double normal_cdf(double z) { return math::cdf(Normal(), z); }
+
+double normal_tail(double z) { return math::cdf(math::complement(Normal(), z)); }
 
 double students_t_tail(double t, double degrees_of_freedom) {
-  return math::cdf(math::complement(math::students_t(degrees_of_freedom), t));
+  return math::cdf(math::complement(StudentsT(degrees_of_freedom), t));
 }
 
 double students_t_quantile(double p, double degrees_of_freedom) {
-  return math::quantile(math::students_t(degrees_of_freedom), p);
+  return math::quantile(StudentsT(degrees_of_freedom), p);
 }
 
 double chi_squared_tail(double x, double degrees_of_freedom) {
-  return math::cdf(math::complement(math::chi_squared(degrees_of_freedom), x));
+  return math::cdf(math::complement(ChiSquared(degrees_of_freedom), x));
 }
 
 double chi_squared_quantile(double p, double degrees_of_freedom) {
-  return math::quantile(math::chi_squared(degrees_of_freedom), p);
+  return math::quantile(ChiSquared(degrees_of_freedom), p);
 }
 
 double fisher_f_tail(double f, double numerator_dof, double denominator_dof) {
-  return math::cdf(math::complement(math::fisher_f(numerator_dof, denominator_dof), f));
+  return math::cdf(math::complement(FisherF(numerator_dof, denominator_dof), f));
 }
 
 }  // namespace awmr

@@ -1,7 +1,9 @@
 #include "awmr/identify/uncertainty/posterior.h"
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "awmr/core/distributions.h"
@@ -57,12 +59,17 @@ double Posterior::quantile(Eigen::Index i, double p) const {
     bracket = is_first ? Interval{own, own}
                        : Interval{std::min(bracket.lo, own), std::max(bracket.hi, own)};
   }
-  constexpr int kHalvings = 60;
-  for (int halving = 0; halving < kHalvings && bracket.lo < bracket.hi; ++halving) {
-    const double middle = 0.5 * (bracket.lo + bracket.hi);
-    (probability_below(*this, i, middle) < p ? bracket.lo : bracket.hi) = middle;
-  }
-  return 0.5 * (bracket.lo + bracket.hi);
+  const auto excess = [&](double x) { return probability_below(*this, i, x) - p; };
+  const double at_low = excess(bracket.lo);
+  const double at_high = excess(bracket.hi);
+  if (!(at_low < 0.0)) return bracket.lo;
+  if (!(at_high > 0.0)) return bracket.hi;
+  constexpr int kBits = std::numeric_limits<double>::digits - 2;
+  std::uintmax_t evaluations = 100;
+  const auto [low, high] = boost::math::tools::toms748_solve(
+      excess, bracket.lo, bracket.hi, at_low, at_high,
+      boost::math::tools::eps_tolerance<double>(kBits), evaluations);
+  return 0.5 * (low + high);
 }
 
 void set_uncertainty(const Posterior& posterior, Eigen::Index i, double slope,
