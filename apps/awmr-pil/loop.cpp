@@ -109,7 +109,6 @@ void fail_actuators(Injection injection, LoopRow& row) {
 
 /// Moves the simulated vehicle on by a sample under the row's command.
 Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) {
-  physics.disturb(row.t_s);
   physics.step(row.t_s, row.force, row.steering_command_rad);
   if (physics.resolved()) return {};
   return input_error(

@@ -1,6 +1,5 @@
-/// Many runs at once, a lane of the processor's vector registers each. Guidance, sensors and events
-/// go on lane by lane; the laws, the allocation, the motion and the metrics are those of simulate(),
-/// the same templates on batches of numbers.
+/// Many runs at once, a lane of the processor's vector registers each, through the closed loop of
+/// simulate() (closed_loop.h).
 ///
 /// A run's numbers do not depend on the other runs, nor on its place among them. They are those of
 /// simulate() but for rounding: powers and angles are computed by other polynomials.

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
+#include <iterator>
 
 #include "awmr/simulate/metering.h"
+#include "awmr/simulate/pilot.h"
 
 namespace awmr {
 namespace {
@@ -24,6 +27,30 @@ bool asks_for_one_speed(const Scenario& scenario) {
 }
 
 }  // namespace
+
+bool is_finite(const MeterSums<double>& sums) {
+  double values[sizeof(MeterSums<double>) / sizeof(double)];
+  std::memcpy(values, &sums, sizeof sums);
+  return std::all_of(std::begin(values), std::end(values),
+                     [](double value) { return std::isfinite(value); });
+}
+
+MeteredTime MeterClock::next(double t_s) {
+  const auto* steps = std::get_if<HeadingSteps>(&scenario_->guidance);
+  const double goal_rad = steps ? heading_at(*steps, t_s) : 0.0;
+  const bool is_first = row_ == 0;
+  const MeteredTime time{
+      .t_s = t_s,
+      .since_last_s = is_first ? 0.0 : t_s - before_s_,
+      .is_first = is_first,
+      .starts_step = is_first || goal_rad < goal_before_rad_ || goal_rad > goal_before_rad_,
+      .is_in_second_half =
+          std::holds_alternative<LissajousCourse>(scenario_->guidance) && row_ >= (last_ + 1) / 2};
+  ++row_;
+  before_s_ = t_s;
+  goal_before_rad_ = goal_rad;
+  return time;
+}
 
 MeteredVehicle<double> metered_vehicle(const AllocationLimits<double>& limits) {
   return {.front_axle_m = limits.front_axle_m,
@@ -100,31 +127,21 @@ Metrics metrics_of(MeterSums<double> sums, const Ending& ending, const Scenario&
 Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<double>& controller) {
   const MeteredVehicle<double> vehicle = metered_vehicle(controller.limits);
   const MeteredCourse course = metered_course(scenario);
-  const bool timed = std::holds_alternative<LissajousCourse>(scenario.guidance);
+  MeterClock clock(scenario, run.rows.size() - 1);
   MeterSums<double> sums;
-  MeteredTime time;
-  double goal_before_rad = 0.0;
-  for (std::size_t i = 0; i < run.rows.size(); ++i) {
-    const RunRow& row = run.rows[i];
-    const double goal = goal_rad(row, scenario);
-    time = {.t_s = row.t_s,
-            .since_last_s = i == 0 ? 0.0 : row.t_s - run.rows[i - 1].t_s,
-            .is_first = i == 0,
-            .starts_step = i == 0 || goal < goal_before_rad || goal > goal_before_rad,
-            .is_in_second_half = timed && i >= run.rows.size() / 2};
-    goal_before_rad = goal;
+  for (const RunRow& row : run.rows) {
     measure({.state = row.state,
              .force = row.force,
              .acting = row.acting,
              .steering_command_rad = row.steering_command_rad,
              .yaw_resistance_m = controller.yaw(row.state.r_radps),
-             .goal_rad = goal,
+             .goal_rad = goal_rad(row, scenario),
              .cross_track_m = row.course.cross_track_m,
              .off_target_m = distance_m(row.course.target_m, {row.state.x_m, row.state.y_m}),
              .clearance_m = row.clearance_m,
              .speed_ref_mps = row.u_ref_mps,
              .tyre_power_mps = row.tyre_power_mps},
-            vehicle, course, time, sums);
+            vehicle, course, clock.next(row.t_s), sums);
   }
   return metrics_of(sums, {run.end, run.rows.back().t_s, run.missed_waypoints}, scenario);
 }

@@ -1,6 +1,6 @@
 /// The vehicle's motion over one sample: Runge-Kutta steps that are halved where the motion is too
 /// fast for them. Templates on the scalar: a double, or a batch with a trajectory per lane
-/// (lanes/kernel.h). Private to this folder.
+/// (vehicle_steps.h). Private to this folder.
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -20,11 +20,11 @@ inline constexpr double kMostHalves = 5e7;
 /// What pushes the vehicle over a sample other than its wheels.
 template <class T>
 struct Push {
-  BodyLoadOf<T> load;         ///< of the disturbances
-  bool is_loaded;             ///< false: neither load nor slope
-  bool is_sloped;             ///< the ground falls
-  double slope_accel_mps2;    ///< m g sin(slope) over m: the same for every vehicle
-  double slope_downhill_rad;  ///< the heading in which it falls
+  BodyLoadOf<T> load;               ///< of the disturbances
+  bool is_loaded = false;           ///< false: neither load nor slope
+  bool is_sloped = false;           ///< the ground falls
+  double slope_accel_mps2 = 0.0;    ///< m g sin(slope) over m: the same for every vehicle
+  double slope_downhill_rad = 0.0;  ///< the heading in which it falls
 };
 
 /// First-order lag of the motors over a sample, from the force F that they have at its start to a

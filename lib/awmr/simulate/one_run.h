@@ -1,4 +1,4 @@
-/// What the loop of one run and that of a batch have in common. Private to this folder.
+/// Set-up of a closed loop, and quantities of one sample. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,23 @@ inline constexpr double kStopped_mps = 1e-3;
 /// The controller with what the scenario changes of it.
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller);
 
-/// The controller of a run in this scenario and mode.
+/// Properties that the controllers of a scenario share; the allocation is that of one of them. is_observed
+/// depends on the runs and is left false.
+ControllerSetup controller_setup(const Scenario& scenario, const Controller<double>& controller,
+                                 double sample_time_s);
+
+/// The controller of a run in this mode. `controller` is the scenario's (controller_in()).
 RunController<double> run_controller(const Scenario& scenario, const Controller<double>& controller,
-                                     YawMode mode, double sample_time_s);
+                                     YawMode mode);
 
 /// F' of a wheel at the most, over F_max: what overcomes the dead zone, and the zone.
 double largest_force(const Controller<double>& controller);
 
 /// From the vehicle's circle to the nearest obstacle, < 0 inside of it.
 double clearance_m(const Scenario& scenario, const State<double>& state);
+
+/// True where every number of the row is finite.
+bool is_finite(const RunRow& row);
 
 /// The last sample at or before the duration, with room for rounding.
 std::size_t samples_in(double duration_s, double sample_time_s);

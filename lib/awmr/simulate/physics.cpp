@@ -24,10 +24,6 @@ double step_for_chord(const Resistance<double>& law, double inertia) {
   return relaxation_time_s(law, inertia, kChordSpeed);
 }
 
-RunSeed seed_of(const Scenario& scenario, const SimulateOptions& options) {
-  return run_seed(scenario.seed, options.seed, options.sample);
-}
-
 /// The command of which a wheel's force, beyond the dead zone, is no larger than `most`. With back-EMF
 /// that depends on the speed at which the wheel rolls: by F' = e - k_e w, the command is that of
 /// e = F' + k_e w.
@@ -83,27 +79,40 @@ double steps_of_run(const Plant<double>& plant, const Scenario& scenario, double
          steps_of_sample(plant, scenario.tyres.has_value(), sample_time_s);
 }
 
-Push<double> push_of(const Disturbance& disturbance, const BodyLoad& load) {
-  Push<double> push{load, disturbance.any(), disturbance.slope.has_value(), 0.0, 0.0};
-  if (disturbance.slope) {
-    push.slope_accel_mps2 = kGravity_mps2 * std::sin(disturbance.slope->angle_rad);
-    push.slope_downhill_rad = disturbance.slope->downhill_rad;
+VehicleSetup vehicle_setup(const Scenario& scenario, double sample_time_s) {
+  VehicleSetup setup;
+  setup.lag = motor_lag(scenario.actuators, sample_time_s);
+  setup.has_battery = scenario.battery.has_value();
+  if (scenario.battery) setup.battery_sag = scenario.battery->sag;
+  setup.is_by_wheel = forces_differ_by_wheel(scenario);
+  setup.is_on_tyres = scenario.tyres.has_value();
+  setup.tyres = scenario.tyres.value_or(Tyres<double>{});
+  setup.push.is_loaded = scenario.disturbance.any();
+  if (const auto& slope = scenario.disturbance.slope) {
+    setup.push.is_sloped = true;
+    setup.push.slope_accel_mps2 = kGravity_mps2 * std::sin(slope->angle_rad);
+    setup.push.slope_downhill_rad = slope->downhill_rad;
   }
-  return push;
+  return setup;
 }
 
 Physics::Physics(const Plant<double>& plant, double force_max, const Scenario& scenario,
                  const SimulateOptions& options)
-    : plant_(plant),
-      force_max_(force_max),
-      scenario_(&scenario),
-      sample_time_s_(options.sample_time_s),
-      substeps_(options.substeps.value_or(substeps_for(plant, scenario, options.sample_time_s))),
-      state_(scenario.initial),
-      lag_(motor_lag(scenario.actuators, sample_time_s_)),
-      disturbance_(scenario.disturbance, sample_time_s_, seed_of(scenario, options)),
-      by_wheel_(forces_differ_by_wheel(scenario)) {
-  plant_ = resolved_at_rest(plant, scenario, sample_time_s_ / substeps_);
+    : scenario_(&scenario),
+      disturbance_(scenario.disturbance, options.sample_time_s,
+                   run_seed(scenario.seed, options.seed, options.sample)) {
+  const double sample_time_s = options.sample_time_s;
+  vehicle_.setup = vehicle_setup(scenario, sample_time_s);
+  set_up_vehicle(plant, force_max, scenario, sample_time_s,
+                 options.substeps.value_or(substeps_for(plant, scenario, sample_time_s)), 0,
+                 vehicle_);
+}
+
+void Physics::step(double t_s, const SideForces<double>& force, double steering_command_rad) {
+  vehicle_.force = force;
+  vehicle_.steering_command_rad = steering_command_rad;
+  if (vehicle_.setup.push.is_loaded) vehicle_.load = disturbance_.next(t_s);
+  step_vehicles(*scenario_, t_s, kOneVehicleSteps, vehicle_);
 }
 
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario,
@@ -113,16 +122,6 @@ Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scena
     resolved.surge.rest_speed = rest_speed(plant.surge, rolling_inertia(plant), step_s);
   }
   return resolved;
-}
-
-double Physics::tyre_power_mps(const SideForces<double>& command) const {
-  if (!scenario_->tyres) return scrub_power_mps(plant_, state_, command);
-  return awmr::tyre_power_mps(FourWheels<double>{plant_, *scenario_->tyres}, state_, command);
-}
-
-const BodyLoad& Physics::disturb(double t_s) {
-  if (scenario_->disturbance.any()) load_ = disturbance_.next(t_s);
-  return load_;
 }
 
 bool forces_differ_by_wheel(const Scenario& scenario) {
@@ -155,25 +154,6 @@ WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>&
   return {wheels[0], wheels[1], wheels[2], wheels[3]};
 }
 
-/// Over one sample, commands held.
-template <class Forces>
-void Physics::move(const Forces& force, double steering_command_rad) {
-  const Push<double> push = push_of(scenario_->disturbance, load_);
-  const auto move_body = [&](const auto& body) {
-    integrate(
-        body, sample_time_s_ / substeps_, static_cast<double>(substeps_),
-        [&](const State<double>& at) {
-          return pushed_rates(body, push, at, force, steering_command_rad);
-        },
-        true, state_, resolution_);
-  };
-  if (scenario_->tyres) {
-    move_body(FourWheels<double>{plant_, *scenario_->tyres});
-  } else {
-    move_body(plant_);
-  }
-}
-
 MotorLag motor_lag(const std::optional<Actuators>& actuators, double sample_time_s) {
   const double tau_s = actuators ? actuators->motor_time_constant_s : 0.0;
   if (!(tau_s > 0.0)) return {};
@@ -185,25 +165,6 @@ double battery_share(const Battery& battery, double t_s) {
   const double gone =
       math::clamp((t_s - battery.from_s) / (battery.to_s - battery.from_s), 0.0, 1.0);
   return 1.0 - gone * (1.0 - battery.share_end);
-}
-
-void Physics::step(double t_s, const SideForces<double>& commanded, double steering_command_rad) {
-  SideForces<double> force = through_motors(lag_, commanded, motors_);
-  force = switched_off(plant_.back_emf_s_per_m, commanded, force);
-  if (const auto& battery = scenario_->battery) {
-    if (battery->sag > 0.0) {
-      force = under_sag(battery->sag, 1.0 + plant_.rear_driven, plant_.back_emf_s_per_m,
-                        plant_.half_track_m, state_, force);
-    }
-    force = up_to(force, force_max_ * battery_share(*battery, t_s));
-  }
-  if (by_wheel_) {
-    acting_ = at_the_ground(*scenario_, plant_, state_, t_s, force);
-    move(acting_, steering_command_rad);
-  } else {
-    acting_ = at_all_wheels(force, plant_.rear_driven);
-    move(force, steering_command_rad);
-  }
 }
 
 void quantise(const Actuators& actuators, double force_max, SideForces<double>& force,

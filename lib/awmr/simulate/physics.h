@@ -1,56 +1,41 @@
-/// The vehicle in its world, one sample at a time: what simulate() steps, and what a controller
-/// that runs elsewhere (on a chip) can be held against.
+/// Vehicles in their world, one sample at a time: those of the closed loop, and a single one for a
+/// controller that runs elsewhere (on a chip).
 #pragma once
 
 #include "awmr/model/dynamics.h"
 #include "awmr/model/parameters.h"
 #include "awmr/simulate/disturbance.h"
-#include "awmr/simulate/four_wheel_motion.h"
-#include "awmr/simulate/motion.h"
 #include "awmr/simulate/scenario.h"
+#include "awmr/simulate/vehicle_steps.h"
 
 namespace awmr {
 
 struct SimulateOptions;
 
+/// The steps of a single vehicle.
+inline constexpr VehicleSteps<double> kOneVehicleSteps = {
+    [](Vehicles<double>& v) { steps::dissipate(OneRun{}, v); },
+    [](Vehicles<double>& v) { steps::actuate(OneRun{}, v); },
+    [](Vehicles<double>& v) { steps::move(OneRun{}, v); }};
+
+/// A single vehicle.
 class Physics {
  public:
   /// `force_max` is F'max of the vehicle's motors, for the battery.
   Physics(const Plant<double>& plant, double force_max, const Scenario& scenario,
           const SimulateOptions& options);
 
-  const State<double>& state() const { return state_; }
-  int substeps() const { return substeps_; }
-  bool resolved() const { return resolution_.resolved; }
-  /// The disturbance over the sample that begins at `t_s`, without the slope's share; call it
-  /// once per sample, before step().
-  const BodyLoad& disturb(double t_s);
-  /// Power that the tyres' side forces dissipate with these commands, over F_max, m/s; without tyres,
-  /// the power of the model's scrub.
-  double tyre_power_mps(const SideForces<double>& command) const;
-  /// RunRow::acting of the last step().
-  const WheelForces<double>& acting() const { return acting_; }
-  /// Over one sample, with the commands held. Where no step is short enough for the motion, or it
-  /// is no longer finite, the state stays as it was and resolved() is false from then on.
+  const State<double>& state() const { return vehicle_.state; }
+  bool resolved() const { return vehicle_.active > 0.0; }
+  /// Over the sample that begins at `t_s`, with the commands held; in order from the first. Where no
+  /// step is short enough for the motion, or it is no longer finite, the state stays as it was and
+  /// resolved() is false from then on.
   void step(double t_s, const SideForces<double>& force, double steering_command_rad);
 
  private:
-  template <class Forces>
-  void move(const Forces& force, double steering_command_rad);
-
-  Plant<double> plant_;  ///< with its chord at rest
-  double force_max_;
   const Scenario* scenario_;
-  double sample_time_s_;
-  int substeps_;
-  Resolution<double> resolution_;
-  State<double> state_;
-  MotorLag lag_;
-  SideForces<double> motors_{};  ///< the forces of the motors, where they lag
-  WheelForces<double> acting_{0.0, 0.0, 0.0, 0.0};
+  Vehicles<double> vehicle_{};
   RunDisturbance disturbance_;
-  BodyLoad load_;
-  bool by_wheel_;
 };
 
 /// True where the two wheels of a side may have different forces.
@@ -67,9 +52,6 @@ MotorLag motor_lag(const std::optional<Actuators>& actuators, double sample_time
 
 /// The share of the largest force that is left at `t_s`.
 double battery_share(const Battery& battery, double t_s);
-
-/// What pushes the vehicle while the disturbance's terms come to `load`.
-Push<double> push_of(const Disturbance& disturbance, const BodyLoad& load);
 
 /// A command to the nearest step of the servo and count of the PWM. `force_max` is F'max of a wheel.
 void quantise(const Actuators& actuators, double force_max, SideForces<double>& force,
@@ -88,5 +70,55 @@ StepLimit step_limit(const Plant<double>& plant, bool on_tyres);
 
 /// RK4 steps of a run from start to end, with those of its last row.
 double steps_of_run(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
+
+/// Properties that the vehicles of a scenario share; set_up_vehicle() adds what any of them has.
+VehicleSetup vehicle_setup(const Scenario& scenario, double sample_time_s);
+
+/// Puts a vehicle at its start. `force_max` is F'max of its motors, for the battery.
+template <class Row>
+void set_up_vehicle(const Plant<double>& plant, double force_max, const Scenario& scenario,
+                    double sample_time_s, int substeps, std::size_t run, Vehicles<Row>& v) {
+  const double step_s = sample_time_s / substeps;
+  put(resolved_at_rest(plant, scenario, step_s), run, v.plant);
+  put(step_s, run, v.step_s);
+  put(static_cast<double>(substeps), run, v.substeps);
+  put(force_max, run, v.force_most);
+  put(scenario.initial, run, v.state);
+  put(1.0, run, v.active);
+  VehicleSetup& setup = v.setup;
+  setup.has_back_emf = setup.has_back_emf || plant.back_emf_s_per_m > 0.0;
+  setup.has_scrub = setup.has_scrub || plant.yaw_scrub_m > 0.0;
+  setup.is_front_driven = setup.is_front_driven || plant.rear_driven < 1.0;
+}
+
+template <class Row>
+bool is_active(const Vehicles<Row>& v, std::size_t run) {
+  return run_of<double>(v.active, run) > 0.0;
+}
+template <class Row>
+bool any_active(const Vehicles<Row>& v) {
+  for (std::size_t run = 0; run < kRunsOf<Row>; ++run) {
+    if (is_active(v, run)) return true;
+  }
+  return false;
+}
+
+/// Moves the active vehicles over the sample that begins at `t_s`, with commands and load held.
+template <class Row>
+void step_vehicles(const Scenario& scenario, double t_s, const VehicleSteps<Row>& steps,
+                   Vehicles<Row>& v) {
+  if (scenario.battery) v.battery_share = battery_share(*scenario.battery, t_s);
+  steps.actuate(v);
+  if (v.setup.is_by_wheel) {
+    for (std::size_t run = 0; run < kRunsOf<Row>; ++run) {
+      if (!is_active(v, run)) continue;
+      put(at_the_ground(scenario, run_of<Plant<double>>(v.plant, run),
+                        run_of<State<double>>(v.state, run), t_s,
+                        run_of<SideForces<double>>(v.arriving, run)),
+          run, v.wheels);
+    }
+  }
+  steps.move(v);
+}
 
 }  // namespace awmr

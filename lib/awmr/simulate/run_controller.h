@@ -8,22 +8,28 @@
 
 namespace awmr {
 
-/// Constants of a run. The flags are the same for all runs of a register.
+/// Properties that the controllers of runs driven together share.
+struct ControllerSetup {
+  SteeringGeometry geometry = kFourWheelSteering;
+  CombinedSplit split = CombinedSplit::kRedistribute;
+  bool is_open_loop = false;  ///< tau_speed and tau_turn_m are commanded, and nothing is measured
+  bool holds_tau_speed = false;  ///< tau_speed replaces the speed law
+  bool is_lqi = false;           ///< an LQI replaces the sliding mode
+  bool is_observed = false;      ///< by the observer of any run
+  bool anti_windup = true;       ///< as in Observers
+  double sample_time_s = 0.0;
+};
+
+/// Constants of a run's controller, of T alone.
 template <class T>
 struct RunController {
   PreparedController<T> laws;
-  SteeringGeometry geometry;
-  YawSplit<T> split;
+  T steering_share;    ///< YawSplit of the mode
   T dead_zone;         ///< F'0
   T back_emf_s_per_m;  ///< k_e
-  T sample_time_s;
-  bool is_open_loop;     ///< tau_speed and tau_turn_m are commanded, and nothing is measured
-  bool holds_tau_speed;  ///< tau_speed replaces the speed law
-  bool is_lqi;           ///< an LQI replaces the sliding mode
-  bool is_observed;
   T tau_speed, tau_turn_m;
   LqiGains<T> lqi;
-  Observers<T> observers;
+  DisturbanceObserver<T> yaw_observer, surge_observer;  ///< bandwidth 0: none
 };
 
 /// State of a run's controller between two samples.
@@ -42,34 +48,52 @@ struct RunCommand {
   T steering_rad;
 };
 
+template <class T>
+Observers<T> observers_of(const ControllerSetup& setup, const RunController<T>& c) {
+  return {c.yaw_observer, c.surge_observer, setup.anti_windup};
+}
+
+/// yaw_split() of the run's mode, which follows from its share.
+template <class T>
+YawSplit<T> yaw_split_of(const ControllerSetup& setup, const RunController<T>& c) {
+  const Mask<T> may = Mask<T>(setup.split == CombinedSplit::kRedistribute);
+  return {c.steering_share, may && c.steering_share > T(0.0) && c.steering_share < T(1.0)};
+}
+
 /// The state in which the observers see no disturbance.
 template <class T>
-RunControllerState<T> start_controller(const RunController<T>& c, const Measurement<T>& m) {
-  return {start_observers(c.observers, observed_motion(c.laws, m).momentum), {T(0.0), T(0.0)}};
+RunControllerState<T> start_controller(const ControllerSetup& setup, const RunController<T>& c,
+                                       const Measurement<T>& m) {
+  return {start_observers(observers_of(setup, c), observed_motion(c.laws, m).momentum),
+          {T(0.0), T(0.0)}};
 }
 
 /// Computes the commands of one sample. Call it once per sample, in order.
 template <class T>
-RunCommand<T> command_sample(const RunController<T>& c, const Measurement<T>& measured,
-                             const Reference<T>& ref, RunControllerState<T>& state) {
+RunCommand<T> command_sample(const ControllerSetup& setup, const RunController<T>& c,
+                             const Measurement<T>& measured, const Reference<T>& ref,
+                             RunControllerState<T>& state) {
   const T zero = T(0.0);
-  const Measurement<T> m = c.is_open_loop ? Measurement<T>{zero, zero, zero, zero} : measured;
+  const Measurement<T> m = setup.is_open_loop ? Measurement<T>{zero, zero, zero, zero} : measured;
   const AllocationConstants<T>& at_rest = c.laws.constants.allocation;
   const AllocationConstants<T> limits =
-      at_speed(at_rest, c.back_emf_s_per_m, m.u_mps, c.geometry.driven_wheels());
+      at_speed(at_rest, c.back_emf_s_per_m, m.u_mps, setup.geometry.driven_wheels());
   RunCommand<T> out{c.tau_speed, c.tau_turn_m, {zero, zero}, zero};
-  if (!c.is_open_loop) {
-    if (!c.holds_tau_speed) out.tau_speed = speed_law(c.laws, m, ref);
+  if (!setup.is_open_loop) {
+    if (!setup.holds_tau_speed) out.tau_speed = speed_law(c.laws, m, ref);
     out.tau_turn_m =
-        c.is_lqi ? lqi_law(c.laws.yaw, c.laws.constants.inertia_norm, c.lqi, m, ref, state.lqi)
-                 : heading_law(c.laws, m, ref);
+        setup.is_lqi ? lqi_law(c.laws.yaw, c.laws.constants.inertia_norm, c.lqi, m, ref, state.lqi)
+                     : heading_law(c.laws, m, ref);
   }
+  const T sample_time_s = T(setup.sample_time_s);
+  const Observers<T> observers = observers_of(setup, c);
+  const YawSplit<T> split = yaw_split_of(setup, c);
   Allocation<T> a;
-  allocate_compensated(c.is_observed ? &c.observers : nullptr, c.laws, m, c.sample_time_s,
-                       {c.geometry, c.split, limits, out.tau_speed, out.tau_turn_m, a},
+  allocate_compensated(setup.is_observed ? &observers : nullptr, c.laws, m, sample_time_s,
+                       {setup.geometry, split, limits, out.tau_speed, out.tau_turn_m, a},
                        &state.observed);
-  if (c.is_lqi) {
-    integrate_error(out.tau_turn_m, a, allocated_forces(c.geometry, limits, a), c.sample_time_s,
+  if (setup.is_lqi) {
+    integrate_error(out.tau_turn_m, a, allocated_forces(setup.geometry, limits, a), sample_time_s,
                     state.lqi);
   }
   out.force = motor_commands(a.force, at_rest, c.dead_zone, c.back_emf_s_per_m, m.u_mps, m.r_radps);

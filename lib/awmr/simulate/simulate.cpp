@@ -9,14 +9,12 @@
 
 #include "awmr/core/units.h"
 #include "awmr/model/observer_rate.h"
+#include "awmr/simulate/closed_loop.h"
 #include "awmr/simulate/one_run.h"
 #include "awmr/simulate/physics.h"
-#include "awmr/simulate/pilot.h"
-#include "awmr/simulate/sensing.h"
 #include "awmr/simulate/straight.h"
 
 namespace awmr {
-namespace {
 
 bool is_finite(const RunRow& row) {
   const double numbers[] = {row.state.x_m,
@@ -52,37 +50,6 @@ bool is_finite(const RunRow& row) {
                      [](double number) { return std::isfinite(number); });
 }
 
-/// What the guidance orders at this row. Returns how the run ends here; kDuration: it goes on.
-RunEnd follow_guidance(Pilot& pilot, const Sensed& sensed, Reference<double>& reference,
-                       RunRow& row) {
-  const Pilot::Order order = pilot.at(row.t_s, sensed);
-  reference = order.reference;
-  row.course = order.course;
-  row.psi_ref_rad = order.reference.psi_rad;
-  row.u_ref_mps = order.reference.speed_mps;
-  if (order.no_passage && std::abs(row.state.u_mps) < kStopped_mps) return RunEnd::kNoPassage;
-  return order.finished ? RunEnd::kFinished : RunEnd::kDuration;
-}
-
-/// What is commanded at this row, as far as the actuators can. Returns how the run ends here.
-RunEnd command(const Scenario& scenario, double force_most, const RunController<double>& controller,
-               const Sensed& sensed, Pilot& pilot, RunControllerState<double>& state, RunRow& row) {
-  RunEnd end = RunEnd::kDuration;
-  Reference<double> reference{};
-  if (!controller.is_open_loop) end = follow_guidance(pilot, sensed, reference, row);
-  const RunCommand<double> made = command_sample(controller, sensed.motion, reference, state);
-  row.tau_speed = made.tau_speed;
-  row.tau_turn_m = made.tau_turn_m;
-  row.force = made.force;
-  row.steering_command_rad = made.steering_rad;
-  if (scenario.actuators) {
-    quantise(*scenario.actuators, force_most, row.force, row.steering_command_rad);
-  }
-  return end;
-}
-
-}  // namespace
-
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller) {
   controller.limits.form = scenario.control.allocation.value_or(controller.limits.form);
   if (scenario.control.split != CombinedSplit::kRedistribute) {
@@ -95,44 +62,49 @@ namespace {
 
 /// The scenario's observer, or else the one of the gains; bandwidth 0 where there is none. An LQI takes
 /// no gains, and so not their observer.
-Observers<double> observers_in(const Scenario& scenario, const Gains<double>& gains) {
-  // A held thrust leaves a surge observer nothing to act on.
-  const auto surge_limit = [&](double limit) { return scenario.held_tau_speed() ? 0.0 : limit; };
+ObserverGains<double> observer_in(const Scenario& scenario, const Gains<double>& gains) {
+  ObserverGains<double> observer = scenario.control.lqi ? ObserverGains<double>{} : gains.observer;
   if (const auto& own = scenario.control.observer) {
-    return {{own->bandwidth_radps, own->yaw_max_m},
-            {own->bandwidth_radps, surge_limit(own->surge_max)},
-            own->anti_windup};
+    observer = {own->bandwidth_radps, own->yaw_max_m, own->surge_max};
   }
-  const ObserverGains<double> tuned =
-      scenario.control.lqi ? ObserverGains<double>{} : gains.observer;
-  return {{tuned.bandwidth_radps, tuned.yaw_max_m},
-          {tuned.bandwidth_radps, surge_limit(tuned.surge_max)},
-          true};
+  // A held thrust leaves a surge observer nothing to act on.
+  if (scenario.held_tau_speed()) observer.surge_max = 0.0;
+  return observer;
 }
 
 }  // namespace
 
+ControllerSetup controller_setup(const Scenario& scenario, const Controller<double>& controller,
+                                 double sample_time_s) {
+  const AllocationLimits<double> limits = controller_in(scenario, controller).limits;
+  const bool is_open_loop = std::holds_alternative<OpenLoop>(scenario.guidance);
+  return {.geometry = geometry_of(limits),
+          .split = limits.split,
+          .is_open_loop = is_open_loop,
+          .holds_tau_speed = scenario.held_tau_speed().has_value(),
+          .is_lqi = scenario.control.lqi.has_value() && !is_open_loop,
+          .anti_windup = !scenario.control.observer || scenario.control.observer->anti_windup,
+          .sample_time_s = sample_time_s};
+}
+
 RunController<double> run_controller(const Scenario& scenario, const Controller<double>& controller,
-                                     YawMode mode, double sample_time_s) {
-  const Controller<double> own = controller_in(scenario, controller);
+                                     YawMode mode) {
   const auto held = scenario.held_tau_speed();
   const auto* const open = std::get_if<OpenLoop>(&scenario.guidance);
-  RunController<double> c{.laws = prepared(own),
-                          .geometry = geometry_of(own.limits),
-                          .split = yaw_split<double>(mode, own.limits.split),
-                          .dead_zone = own.limits.dead_zone,
-                          .back_emf_s_per_m = own.limits.back_emf_s_per_m,
-                          .sample_time_s = sample_time_s,
-                          .is_open_loop = open != nullptr,
-                          .holds_tau_speed = held.has_value(),
-                          .is_lqi = scenario.control.lqi.has_value() && !open,
-                          .is_observed = false,
-                          .tau_speed = open ? open->tau_speed : held.value_or(0.0),
-                          .tau_turn_m = open ? open->tau_turn_m : 0.0,
-                          .lqi = {},
-                          .observers = observers_in(scenario, own.gains)};
-  c.is_observed = c.observers.yaw.bandwidth_radps > 0.0 && !open;
-  if (c.is_lqi) c.lqi = lqi_gains(*scenario.control.lqi, own.inertia_norm);
+  const ObserverGains<double> observer = observer_in(scenario, controller.gains);
+  RunController<double> c{
+      .laws = prepared(controller),
+      .steering_share = yaw_split<double>(mode, controller.limits.split).steering_share,
+      .dead_zone = controller.limits.dead_zone,
+      .back_emf_s_per_m = controller.limits.back_emf_s_per_m,
+      .tau_speed = open ? open->tau_speed : held.value_or(0.0),
+      .tau_turn_m = open ? open->tau_turn_m : 0.0,
+      .lqi = {},
+      .yaw_observer = {observer.bandwidth_radps, observer.yaw_max_m},
+      .surge_observer = {observer.bandwidth_radps, observer.surge_max}};
+  if (scenario.control.lqi && !open) {
+    c.lqi = lqi_gains(*scenario.control.lqi, controller.inertia_norm);
+  }
   return c;
 }
 
@@ -220,40 +192,15 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
   const double sample_s = options.sample_time_s;
   const bool too_much = !check_work(plant, "", scenario, sample_s) && !options.substeps.has_value();
   const auto samples = too_much ? std::size_t{0} : samples_in(scenario.duration_s, sample_s);
-  Physics physics(plant, largest_force(controller), scenario, options);
-  Sensing sensing(scenario.sensors, sample_s,
-                  run_seed(scenario.seed, options.seed, options.sample));
-  Sensed sensed = sensing.at(0, physics.state());
-  Pilot pilot(scenario, sample_s, sensed);
-  const RunController<double> laws = run_controller(scenario, controller, mode, sample_s);
-  RunControllerState<double> state = start_controller(laws, sensed.motion);
-
-  Run run;
-  run.substeps = physics.substeps();
-  run.rows.reserve(samples + 1);
-  for (std::size_t k = 0; k <= samples && run.end == RunEnd::kDuration; ++k) {
-    RunRow& row = run.rows.emplace_back();
-    row.t_s = static_cast<double>(k) * sample_s;
-    row.state = physics.state();
-    row.acting = physics.acting();
-    if (k > 0) sensed = sensing.at(k, row.state);
-    row.measured = sensed.motion;
-    row.measured_position_m = sensed.position_m;
-    if (!scenario.obstacles.empty()) row.clearance_m = clearance_m(scenario, row.state);
-    run.end = command(scenario, largest_force(controller), laws, sensed, pilot, state, row);
-    row.disturbance = physics.disturb(row.t_s);
-    row.tyre_power_mps = physics.tyre_power_mps(row.force);
-    if (!is_finite(row)) {
-      if (k > 0) run.rows.pop_back();
-      run.end = RunEnd::kFailed;
-    }
-    if (run.end == RunEnd::kDuration && k < samples) {
-      physics.step(row.t_s, row.force, row.steering_command_rad);
-      if (!physics.resolved()) run.end = RunEnd::kFailed;
-    }
-  }
+  const BatchRun only{plant, controller, mode, options.seed, options.sample};
+  ClosedLoop<double> loop(std::span(&only, 1), scenario, kOneRunSteps,
+                          {.sample_time_s = sample_s,
+                           .samples = samples,
+                           .substeps = options.substeps,
+                           .keeps_rows = true});
+  loop.drive();
+  Run run = loop.take_run(0);
   if (too_much) run.end = RunEnd::kFailed;
-  run.missed_waypoints = pilot.missed();
   return run;
 }
 

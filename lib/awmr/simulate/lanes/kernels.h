@@ -3,7 +3,17 @@
 
 #include <vector>
 
-#include "awmr/simulate/lanes/block.h"
+#include "awmr/simulate/lanes/row.h"
+#include "awmr/simulate/loop_steps.h"
+
+namespace awmr {
+namespace lanes {
+
+/// The steps of the closed loop for one instruction set.
+using Kernel = LoopSteps<Row>;
+
+}  // namespace lanes
+}  // namespace awmr
 
 extern "C" {
 extern const awmr::lanes::Kernel awmr_lanes_avx2;

@@ -14,8 +14,6 @@
 #error "lanes.h is for kernel files, which define AWMR_LANES"
 #endif
 #define AWMR_LANE_INLINE inline __attribute__((always_inline))
-/// All that is called is copied in: lanes live in registers, which a call would spill.
-#define AWMR_WHOLE __attribute__((flatten))
 
 namespace awmr {
 namespace lanes {

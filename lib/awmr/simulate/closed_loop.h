@@ -1,0 +1,317 @@
+/// The closed loop of a single run (Row = double) and of sixteen runs at a time (lanes::Row):
+///   sensors -> guidance -> controller -> actuators -> rows and metrics -> vehicle
+/// Sensors, guidance, disturbances and the ground are computed run by run; controller, motors, motion
+/// and metrics by steps on rows (loop_steps.h, vehicle_steps.h). Private to this folder.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "awmr/simulate/batch.h"
+#include "awmr/simulate/disturbance.h"
+#include "awmr/simulate/loop_steps.h"
+#include "awmr/simulate/metering.h"
+#include "awmr/simulate/metrics.h"
+#include "awmr/simulate/one_run.h"
+#include "awmr/simulate/physics.h"
+#include "awmr/simulate/pilot.h"
+#include "awmr/simulate/sensing.h"
+
+namespace awmr {
+
+/// The steps for a single run.
+inline constexpr LoopSteps<double> kOneRunSteps = {
+    "scalar", [](LoopRuns<double>& runs) { steps::control(OneRun{}, runs); },
+    [](LoopRuns<double>& runs) { steps::measure(OneRun{}, runs); }, kOneVehicleSteps};
+
+/// How the runs are driven.
+struct LoopOptions {
+  double sample_time_s = 0.01;
+  std::size_t samples = 0;           ///< the last one, counted from 0
+  std::optional<int> substeps = {};  ///< absent: substeps_for() each vehicle
+  bool keeps_rows = false;           ///< take_run() has rows
+  bool has_metrics = false;          ///< metrics() may be called
+};
+
+/// Runs of a scenario that are driven together.
+template <class Row>
+class ClosedLoop {
+ public:
+  /// At most kRunsOf<Row> runs, not empty; scenario and steps outlive the loop.
+  ClosedLoop(std::span<const BatchRun> runs, const Scenario& scenario, const LoopSteps<Row>& steps,
+             const LoopOptions& options);
+
+  /// Drives all runs to their ends.
+  void drive();
+
+  /// How a run ended, with its rows where they are kept. RunEnd::kFailed: a number was not finite, or no
+  /// step was short enough.
+  Run take_run(std::size_t run);
+  /// None where the run failed.
+  std::optional<Metrics> metrics(std::size_t run) const;
+
+ private:
+  /// State that each run has by itself.
+  struct Parts {
+    Sensing sensing;
+    RunDisturbance disturbance;
+    Sensed sensed = {};
+    std::optional<Pilot> pilot = {};  ///< once the first sample is sensed
+    CourseRow course = {};            ///< of the present sample
+    RunEnd ordered =
+        RunEnd::kDuration;  ///< how the present sample ends the run; kDuration: it goes on
+    std::vector<RunRow> rows = {};
+    std::optional<Ending> end = {};  ///< none: it goes on, or it failed
+  };
+
+  void set_up_controller(const BatchRun& run, std::size_t index);
+  void set_up_vehicle(const BatchRun& run, std::size_t index);
+  bool has_pilots() const;
+  template <class Body>
+  void for_active(const Body& body);
+
+  void sense(std::size_t k);
+  void guide(std::size_t k, double t_s);
+  void follow(std::size_t run, const Pilot::Order& order);
+  void quantise_commands();
+  void disturb(double t_s);
+  void keep_rows(std::size_t k, double t_s);
+  RunRow row_of(std::size_t run, double t_s) const;
+  void end_runs(std::size_t k, double t_s);
+
+  const Scenario& scenario_;
+  const LoopSteps<Row>& steps_;
+  LoopOptions options_;
+  std::unique_ptr<LoopRuns<Row>> runs_;
+  std::vector<Parts> parts_;  ///< by run
+  MeterClock clock_;
+};
+
+template <class Row>
+ClosedLoop<Row>::ClosedLoop(std::span<const BatchRun> runs, const Scenario& scenario,
+                            const LoopSteps<Row>& steps, const LoopOptions& options)
+    : scenario_(scenario),
+      steps_(steps),
+      options_(options),
+      runs_(std::make_unique<LoopRuns<Row>>()),
+      clock_(scenario, options.samples) {
+  runs_->control = controller_setup(scenario, runs.front().controller, options.sample_time_s);
+  runs_->course = metered_course(scenario);
+  runs_->vehicles.setup = vehicle_setup(scenario, options.sample_time_s);
+  for (std::size_t i = 0; i < kRunsOf<Row>; ++i) {
+    // A place without a run has a copy of the first, so that its numbers are harmless.
+    const bool has_run = i < runs.size();
+    const BatchRun& run = has_run ? runs[i] : runs.front();
+    set_up_controller(run, i);
+    set_up_vehicle(run, i);
+    put(has_run ? 1.0 : 0.0, i, runs_->vehicles.active);
+  }
+  for (const BatchRun& run : runs) {
+    const RunSeed seed = run_seed(scenario.seed, run.seed, run.sample);
+    parts_.push_back({Sensing(scenario.sensors, options.sample_time_s, seed, run.noise),
+                      RunDisturbance(scenario.disturbance, options.sample_time_s, seed)});
+    if (options.keeps_rows) parts_.back().rows.reserve(options.samples + 1);
+  }
+}
+
+template <class Row>
+void ClosedLoop<Row>::set_up_controller(const BatchRun& run, std::size_t index) {
+  const Controller<double> controller = controller_in(scenario_, run.controller);
+  const RunController<double> own = run_controller(scenario_, controller, run.mode);
+  ControllerSetup& setup = runs_->control;
+  setup.is_observed =
+      setup.is_observed || (own.yaw_observer.bandwidth_radps > 0.0 && !setup.is_open_loop);
+  put(own, index, runs_->controller);
+  put(metered_vehicle(controller.limits), index, runs_->metered);
+}
+
+template <class Row>
+void ClosedLoop<Row>::set_up_vehicle(const BatchRun& run, std::size_t index) {
+  const double sample_time_s = options_.sample_time_s;
+  const int substeps =
+      options_.substeps.value_or(substeps_for(run.plant, scenario_, sample_time_s));
+  awmr::set_up_vehicle(run.plant, largest_force(run.controller), scenario_, sample_time_s, substeps,
+                       index, runs_->vehicles);
+}
+
+/// Where the guidance is the same for all runs and no row tells of it, none of them has a pilot of its
+/// own.
+template <class Row>
+bool ClosedLoop<Row>::has_pilots() const {
+  if (runs_->control.is_open_loop) return false;
+  return options_.keeps_rows || !std::holds_alternative<HeadingSteps>(scenario_.guidance) ||
+         scenario_.avoidance || scenario_.shaping;
+}
+
+/// Calls body(run) for each run that goes on.
+template <class Row>
+template <class Body>
+void ClosedLoop<Row>::for_active(const Body& body) {
+  for (std::size_t run = 0; run < parts_.size(); ++run) {
+    if (is_active(runs_->vehicles, run)) body(run);
+  }
+}
+
+/// Measurements of the controllers.
+template <class Row>
+void ClosedLoop<Row>::sense(std::size_t k) {
+  const State<Row>& state = runs_->vehicles.state;
+  if (!scenario_.sensors) {
+    runs_->measured = {state.psi_rad, state.u_mps, state.v_mps, state.r_radps};
+    if (!has_pilots() && !options_.keeps_rows) return;
+  }
+  for_active([&](std::size_t run) {
+    Parts& parts = parts_[run];
+    parts.sensed = parts.sensing.at(k, run_of<State<double>>(state, run));
+    put(parts.sensed.motion, run, runs_->measured);
+  });
+}
+
+/// References of the laws.
+template <class Row>
+void ClosedLoop<Row>::guide(std::size_t k, double t_s) {
+  if (has_pilots()) {
+    for_active([&](std::size_t run) {
+      Parts& parts = parts_[run];
+      if (k == 0) parts.pilot.emplace(scenario_, options_.sample_time_s, parts.sensed);
+      follow(run, parts.pilot->at(t_s, parts.sensed));
+    });
+  } else if (const auto* steps = std::get_if<HeadingSteps>(&scenario_.guidance)) {
+    runs_->goal_rad = Row(heading_at(*steps, t_s));
+    runs_->reference.psi_rad = runs_->goal_rad;
+    runs_->reference.speed_mps = Row(scenario_.speed_mps);
+  }
+}
+
+template <class Row>
+void ClosedLoop<Row>::follow(std::size_t run, const Pilot::Order& order) {
+  const auto state = run_of<State<double>>(runs_->vehicles.state, run);
+  Parts& parts = parts_[run];
+  parts.course = order.course;
+  put(order.reference, run, runs_->reference);
+  put(order.course.psi_goal_rad, run, runs_->goal_rad);
+  put(order.course.cross_track_m, run, runs_->cross_track_m);
+  put(distance_m(order.course.target_m, {state.x_m, state.y_m}), run, runs_->off_target_m);
+  if (order.no_passage && std::abs(state.u_mps) < kStopped_mps) {
+    parts.ordered = RunEnd::kNoPassage;
+  } else if (order.finished) {
+    parts.ordered = RunEnd::kFinished;
+  }
+}
+
+template <class Row>
+void ClosedLoop<Row>::quantise_commands() {
+  if (!scenario_.actuators) return;
+  Vehicles<Row>& v = runs_->vehicles;
+  for_active([&](std::size_t run) {
+    auto force = run_of<SideForces<double>>(v.force, run);
+    auto steering_rad = run_of<double>(v.steering_command_rad, run);
+    quantise(*scenario_.actuators, run_of<double>(v.force_most, run), force, steering_rad);
+    put(force, run, v.force);
+    put(steering_rad, run, v.steering_command_rad);
+  });
+}
+
+template <class Row>
+void ClosedLoop<Row>::disturb(double t_s) {
+  if (!scenario_.disturbance.any()) return;
+  for_active(
+      [&](std::size_t run) { put(parts_[run].disturbance.next(t_s), run, runs_->vehicles.load); });
+}
+
+template <class Row>
+RunRow ClosedLoop<Row>::row_of(std::size_t run, double t_s) const {
+  const Vehicles<Row>& v = runs_->vehicles;
+  const Parts& parts = parts_[run];
+  const auto reference = run_of<Reference<double>>(runs_->reference, run);
+  return {.t_s = t_s,
+          .state = run_of<State<double>>(v.state, run),
+          .force = run_of<SideForces<double>>(v.force, run),
+          .steering_command_rad = run_of<double>(v.steering_command_rad, run),
+          .tau_speed = run_of<double>(runs_->tau_speed, run),
+          .tau_turn_m = run_of<double>(runs_->tau_turn_m, run),
+          .psi_ref_rad = reference.psi_rad,
+          .u_ref_mps = reference.speed_mps,
+          .course = parts.course,
+          .measured = parts.sensed.motion,
+          .measured_position_m = parts.sensed.position_m,
+          .disturbance = run_of<BodyLoad>(v.load, run),
+          .clearance_m = run_of<double>(runs_->clearance_m, run),
+          .tyre_power_mps = run_of<double>(v.tyre_power_mps, run),
+          .acting = v.setup.is_by_wheel ? run_of<WheelForces<double>>(v.wheels, run)
+                                        : at_all_wheels(run_of<SideForces<double>>(v.arriving, run),
+                                                        run_of<double>(v.plant.rear_driven, run))};
+}
+
+/// Keeps the sample's rows. A run fails where its row is not finite; such a row is kept only if it is
+/// the first.
+template <class Row>
+void ClosedLoop<Row>::keep_rows(std::size_t k, double t_s) {
+  if (!options_.keeps_rows) return;
+  for_active([&](std::size_t run) {
+    std::vector<RunRow>& rows = parts_[run].rows;
+    rows.push_back(row_of(run, t_s));
+    if (is_finite(rows.back())) return;
+    if (k > 0) rows.pop_back();
+    put(0.0, run, runs_->vehicles.active);
+  });
+}
+
+template <class Row>
+void ClosedLoop<Row>::end_runs(std::size_t k, double t_s) {
+  for_active([&](std::size_t run) {
+    Parts& parts = parts_[run];
+    if (parts.ordered == RunEnd::kDuration && k < options_.samples) return;
+    parts.end = {parts.ordered, t_s, parts.pilot ? parts.pilot->missed() : 0};
+    put(0.0, run, runs_->vehicles.active);
+  });
+}
+
+template <class Row>
+void ClosedLoop<Row>::drive() {
+  Vehicles<Row>& v = runs_->vehicles;
+  for (std::size_t k = 0; k <= options_.samples && any_active(v); ++k) {
+    const double t_s = static_cast<double>(k) * options_.sample_time_s;
+    runs_->time = clock_.next(t_s);
+    sense(k);
+    guide(k, t_s);
+    steps_.control(*runs_);
+    quantise_commands();
+    disturb(t_s);
+    steps_.vehicle.dissipate(v);
+    if (!scenario_.obstacles.empty()) {
+      for_active([&](std::size_t run) {
+        put(clearance_m(scenario_, run_of<State<double>>(v.state, run)), run, runs_->clearance_m);
+      });
+    }
+    keep_rows(k, t_s);
+    if (options_.has_metrics) steps_.measure(*runs_);
+    end_runs(k, t_s);
+    step_vehicles(scenario_, t_s, steps_.vehicle, v);
+  }
+}
+
+template <class Row>
+Run ClosedLoop<Row>::take_run(std::size_t run) {
+  Parts& parts = parts_[run];
+  Run taken;
+  taken.rows = std::move(parts.rows);
+  taken.substeps = static_cast<int>(run_of<double>(runs_->vehicles.substeps, run));
+  taken.end = parts.end ? parts.end->end : RunEnd::kFailed;
+  taken.missed_waypoints = parts.pilot ? parts.pilot->missed() : 0;
+  return taken;
+}
+
+template <class Row>
+std::optional<Metrics> ClosedLoop<Row>::metrics(std::size_t run) const {
+  const std::optional<Ending>& end = parts_[run].end;
+  const auto sums = run_of<MeterSums<double>>(runs_->sums, run);
+  if (!end || !is_finite(sums)) return std::nullopt;
+  return metrics_of(sums, *end, scenario_);
+}
+
+}  // namespace awmr

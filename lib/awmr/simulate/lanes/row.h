@@ -1,0 +1,20 @@
+/// A number of each of sixteen runs that are driven together. Plain data: the kernels are compiled for
+/// other instruction sets than the rest of the program, and share no code with it.
+#pragma once
+
+namespace awmr {
+namespace lanes {
+
+/// Runs of a block, whatever the instruction set: one, two or four steps of a kernel.
+constexpr int kLanes = 16;
+
+struct alignas(64) Row {
+  double lane[kLanes];
+  Row() = default;
+  explicit Row(double all) {
+    for (double& one : lane) one = all;
+  }
+};
+
+}  // namespace lanes
+}  // namespace awmr

@@ -1,0 +1,89 @@
+/// Controllers and meters of runs that are driven together, as steps on rows (row_view.h). With the
+/// vehicles' steps they are the arithmetic of the closed loop, for a double and for a register of
+/// doubles. Private to this folder.
+#pragma once
+
+#include "awmr/simulate/meter.h"
+#include "awmr/simulate/run_controller.h"
+#include "awmr/simulate/vehicle_steps.h"
+
+namespace awmr {
+
+/// All numbers of runs of one scenario. Plain data: the kernels of lanes/ are compiled for other
+/// instruction sets than the rest of the program, and share no code with it.
+template <class Row>
+struct LoopRuns {
+  ControllerSetup control;
+  MeteredCourse course;
+  MeteredTime time;  ///< of the present sample
+
+  Vehicles<Row> vehicles;
+  RunController<Row> controller;
+  RunControllerState<Row> controller_state;
+  MeteredVehicle<Row> metered;
+  MeterSums<Row> sums;
+
+  // Of the present sample: measurements, references and requests of the controller; its commands are
+  // the vehicles'.
+  Measurement<Row> measured;
+  Reference<Row> reference;
+  Row tau_speed, tau_turn_m;
+  // Inputs of the meter.
+  Row goal_rad, cross_track_m, off_target_m, clearance_m;
+};
+
+/// The steps of a sample for one kind of row, in this order. Runs that are not active do not
+/// change.
+template <class Row>
+struct LoopSteps {
+  const char* name;
+  /// From `measured` and `reference` to the commands.
+  void (*control)(LoopRuns<Row>& runs);
+  /// Takes the sample into the sums.
+  void (*measure)(LoopRuns<Row>& runs);
+  VehicleSteps<Row> vehicle;
+};
+
+namespace steps {
+
+template <class View, class Row>
+AWMR_WHOLE void control(const View& view, LoopRuns<Row>& runs) {
+  using T = typename View::Number;
+  const ControllerSetup& setup = runs.control;
+  const auto& controller = view(runs.controller);
+  const auto& measured = view(runs.measured);
+  RunControllerState<T> state = view(runs.controller_state);
+  if (runs.time.is_first) state = start_controller(setup, controller, measured);
+  const RunCommand<T> command =
+      command_sample(setup, controller, measured, view(runs.reference), state);
+  if (setup.is_observed) view.store(state.observed, runs.controller_state.observed);
+  if (setup.is_lqi) view.store(state.lqi, runs.controller_state.lqi);
+  view.store(command.tau_speed, runs.tau_speed);
+  view.store(command.tau_turn_m, runs.tau_turn_m);
+  view.store(command.force, runs.vehicles.force);
+  view.store(command.steering_rad, runs.vehicles.steering_command_rad);
+}
+
+template <class View, class Row>
+AWMR_WHOLE void measure(const View& view, LoopRuns<Row>& runs) {
+  using math::all;
+  using T = typename View::Number;
+  const Vehicles<Row>& v = runs.vehicles;
+  const State<T> state = view(v.state);
+  const Resistance<T> yaw = view(runs.controller.laws.yaw);
+  MeterSums<T> sums = view(runs.sums);
+  awmr::measure<T>(
+      {state, view(v.force), acting_forces(view, v), view(v.steering_command_rad),
+       yaw(state.r_radps), view(runs.goal_rad), view(runs.cross_track_m), view(runs.off_target_m),
+       view(runs.clearance_m), view(runs.reference.speed_mps), view(v.tyre_power_mps)},
+      view(runs.metered), runs.course, runs.time, sums);
+  const Mask<T> counts = view(v.active) > T(0.0);
+  if (all(counts)) {
+    view.store(sums, runs.sums);
+  } else {
+    view.store(counts, sums, runs.sums);
+  }
+}
+
+}  // namespace steps
+}  // namespace awmr

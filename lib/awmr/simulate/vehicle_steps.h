@@ -1,0 +1,194 @@
+/// Vehicles of runs that are driven together: commands -> motors -> battery -> motion, as steps on
+/// rows (row_view.h). Private to this folder.
+#pragma once
+
+#include "awmr/simulate/four_wheel_motion.h"
+#include "awmr/simulate/motion.h"
+#include "awmr/simulate/row_view.h"
+
+namespace awmr {
+
+/// Properties that all vehicles share.
+struct VehicleSetup {
+  MotorLag lag;
+  bool has_battery = false;
+  double battery_sag = 0.0;  ///< Battery::sag
+  bool is_by_wheel = false;  ///< each wheel has a force of its own
+  bool is_on_tyres = false;
+  Tyres<double> tyres;           ///< of vehicles on tyres
+  bool has_back_emf = false;     ///< a vehicle
+  bool has_scrub = false;        ///< a vehicle
+  bool is_front_driven = false;  ///< a vehicle
+  Push<double> push{};           ///< without a load; the same for every vehicle
+};
+
+/// The vehicles' numbers.
+template <class Row>
+struct Vehicles {
+  VehicleSetup setup;
+  double battery_share = 1.0;  ///< of the largest force, over the present sample
+
+  Row active;  ///< 1; 0 once the run has ended or failed, or where there is none
+
+  // Constant over a run.
+  Plant<Row> plant;  ///< with its chord at rest
+  Row step_s;        ///< h
+  Row substeps;
+  Row force_most;  ///< F' of a wheel at the most, with the dead zone
+
+  // As a run goes on.
+  State<Row> state;
+  SideForces<Row> motors;  ///< see MotorLag
+  Row halves;              ///< see Resolution
+
+  // Of the present sample: the commands, what of them arrives at the ground, by side or by wheel, and
+  // the load of the disturbances.
+  SideForces<Row> force;
+  Row steering_command_rad;
+  SideForces<Row> arriving;
+  WheelForces<Row> wheels;
+  BodyLoadOf<Row> load;
+  Row tyre_power_mps;  ///< RunRow::tyre_power_mps
+};
+
+/// Steps of a sample for one kind of row. Runs that are not active do not change.
+template <class Row>
+struct VehicleSteps {
+  /// From the commands to `tyre_power_mps`.
+  void (*dissipate)(Vehicles<Row>& v);
+  /// From the commands to `arriving`, through motors and battery.
+  void (*actuate)(Vehicles<Row>& v);
+  /// Moves the states on. A vehicle that no step can follow, or whose numbers are no longer finite,
+  /// stays, and its run is no longer active.
+  void (*move)(Vehicles<Row>& v);
+};
+
+namespace steps {
+
+/// The moving body: the 3-DOF plant, or its body on tyres.
+template <bool kIsOnTyres, class View, class Row>
+decltype(auto) body_of(const View& view, const Vehicles<Row>& v) {
+  using T = typename View::Number;
+  if constexpr (kIsOnTyres) {
+    const Tyres<double>& tyres = v.setup.tyres;
+    return FourWheels<T>{view(v.plant),
+                         {T(tyres.friction), T(tyres.cornering_per_rad), T(tyres.rest_speed_mps)}};
+  } else {
+    return view(v.plant);
+  }
+}
+
+/// RunRow::acting
+template <class View, class Row>
+WheelForces<typename View::Number> acting_forces(const View& view, const Vehicles<Row>& v) {
+  if (v.setup.is_by_wheel) return view(v.wheels);
+  return at_all_wheels(view(v.arriving), view(v.plant.rear_driven));
+}
+
+template <class View, class Row>
+AWMR_WHOLE void dissipate_on_tyres(const View& view, Vehicles<Row>& v) {
+  view.store(tyre_power_mps(body_of<true>(view, v), view(v.state), view(v.force)),
+             v.tyre_power_mps);
+}
+
+template <class View, class Row>
+AWMR_WHOLE void dissipate_by_scrub(const View& view, Vehicles<Row>& v) {
+  view.store(scrub_power_mps(view(v.plant), view(v.state), view(v.force)), v.tyre_power_mps);
+}
+
+template <class View, class Row>
+void dissipate(const View& view, Vehicles<Row>& v) {
+  if (v.setup.is_on_tyres) {
+    dissipate_on_tyres(view, v);
+  } else if (v.setup.has_scrub) {
+    dissipate_by_scrub(view, v);
+  }
+}
+
+template <class View, class Row>
+AWMR_WHOLE void actuate(const View& view, Vehicles<Row>& v) {
+  using T = typename View::Number;
+  const SideForces<T> command = view(v.force);
+  SideForces<T> motors = view(v.motors);
+  SideForces<T> force = through_motors(v.setup.lag, command, motors);
+  view.store(motors, v.motors);
+  if (v.setup.has_back_emf) {
+    force = switched_off(view(v.plant.back_emf_s_per_m), command, force);
+  }
+  if (v.setup.has_battery) {
+    if (v.setup.battery_sag > 0.0) {
+      const T motors_a_side = T(1.0) + view(v.plant.rear_driven);
+      force = under_sag(v.setup.battery_sag, motors_a_side, view(v.plant.back_emf_s_per_m),
+                        view(v.plant.half_track_m), view(v.state), force);
+    }
+    const T most = view(v.force_most) * T(v.battery_share);
+    force = up_to(force, most);
+  }
+  view.store(force, v.arriving);
+}
+
+/// `rates(body, state, steering command)`: those of the state, with forces that are held.
+template <bool kIsOnTyres, class View, class Row, class Rates>
+AWMR_WHOLE void move_by(const View& view, Vehicles<Row>& v, const Rates& rates) {
+  using math::select;
+  using T = typename View::Number;
+  const auto& body = body_of<kIsOnTyres>(view, v);
+  const T command = view(v.steering_command_rad);
+  const Mask<T> asked = view(v.active) > T(0.0);
+  State<T> state = view(v.state);
+  Resolution<T> resolution{view(v.halves), Mask<T>(true)};
+  integrate(
+      body, T(view(v.step_s)), T(view(v.substeps)),
+      [&](const State<T>& at) __attribute__((always_inline)) { return rates(body, at, command); },
+      asked, state, resolution);
+  view.store(state, v.state);
+  view.store(resolution.halves, v.halves);
+  view.store(select(asked && resolution.resolved, T(1.0), T(0.0)), v.active);
+}
+
+template <bool kIsOnTyres, class View, class Row, class Forces>
+void move_pushed(const View& view, Vehicles<Row>& v, const Forces& force) {
+  using T = typename View::Number;
+  const Push<double>& common = v.setup.push;
+  const Push<T> push{view(v.load), common.is_loaded, common.is_sloped, common.slope_accel_mps2,
+                     common.slope_downhill_rad};
+  move_by<kIsOnTyres>(
+      view, v,
+      [&](const auto& body, const State<T>& at, const T& command)
+          __attribute__((always_inline)) { return pushed_rates(body, push, at, force, command); });
+}
+template <class View, class Row>
+void move_alone(const View& view, Vehicles<Row>& v,
+                const SideForces<typename View::Number>& force) {
+  using T = typename View::Number;
+  move_by<false>(
+      view, v,
+      [&](const Plant<T>& plant, const State<T>& at, const T& command)
+          __attribute__((always_inline)) { return side_driven_rates(plant, at, force, command); });
+}
+
+/// Chooses rates without terms that no vehicle has: a branch inside the rates would stall the
+/// processor in every step.
+template <class View, class Row>
+void move(const View& view, Vehicles<Row>& v) {
+  using T = typename View::Number;
+  const VehicleSetup& setup = v.setup;
+  const SideForces<T> force = view(v.arriving);
+  if (setup.is_on_tyres) {
+    if (setup.is_by_wheel) {
+      move_pushed<true>(view, v, WheelForces<T>(view(v.wheels)));
+    } else {
+      move_pushed<true>(view, v, force);
+    }
+  } else if (setup.is_by_wheel) {
+    move_pushed<false>(view, v, WheelForces<T>(view(v.wheels)));
+  } else if (setup.has_back_emf || setup.has_scrub || setup.is_front_driven ||
+             setup.push.is_loaded) {
+    move_pushed<false>(view, v, force);
+  } else {
+    move_alone(view, v, beyond_dead_zone(force, T(view(v.plant.wheel_dead_zone))));
+  }
+}
+
+}  // namespace steps
+}  // namespace awmr
