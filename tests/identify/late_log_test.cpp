@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "awmr/identify/logs/log_fit.h"
+#include "awmr/identify/logs/log_fit_options.h"
 #include "awmr/identify/logs/residuals.h"
 #include "awmr/model/model_file.h"
 #include "identify/log_answers.h"
@@ -82,6 +84,25 @@ TEST(LateLog, AllowsForASpeedThatAFilterSmooths) {
   EXPECT_NEAR(lag->value, kLag_s, 4.5 * *lag->std_error);
   EXPECT_TRUE(has_finding(*result, "sensor-lag"));
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+}
+
+TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
+  LogFit fit;
+  fit.quantities = {steering_delay(), motor_lag(), sensor_delay_of(LogChannel::kX),
+                    sensor_lag_of(LogChannel::kSpeed)};
+  fit.coordinates = {0.1, 0.2, 0.3, 0.4};
+  LogFitOptions before;
+  before.sensor_lags = {{LogChannel::kYawRate, 0.5}};
+  const LogFitOptions options = with_delays_of(fit, before);
+  EXPECT_FALSE(options.input_delay_s);
+  EXPECT_EQ(options.steering_delay_s, 0.1);
+  EXPECT_EQ(options.motor_lag_s, 0.2);
+  ASSERT_EQ(options.sensor_delays.size(), 1U);
+  EXPECT_EQ(options.sensor_delays[0].channel, LogChannel::kX);
+  EXPECT_EQ(options.sensor_delays[0].delay_s, 0.3);
+  ASSERT_EQ(options.sensor_lags.size(), 1U);
+  EXPECT_EQ(options.sensor_lags[0].channel, LogChannel::kSpeed);
+  EXPECT_EQ(options.sensor_lags[0].delay_s, 0.4);
 }
 
 TEST(LateLog, GivesTheSameBytesOnALoadedMachine) {

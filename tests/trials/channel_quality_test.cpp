@@ -117,6 +117,24 @@ TEST(ChannelQuality, NoiseAloneHasNoSpikes) {
   EXPECT_EQ(alarms, 0);
 }
 
+TEST(ChannelQuality, SharpTurnsOfAMotionAreNoSpikes) {
+  // A triangle of two rows up and two down, once a second, far above the noise; and a slow position
+  // in circles of six readings each, between rests.
+  Drive d = drive(9, 0.001);
+  for (std::size_t i = 50; i + 4 < kRows; i += 50) {
+    for (std::size_t k = 0; k < 5; ++k)
+      d.speed[i + k] += 2.0 * (2.0 - std::abs(static_cast<double>(k) - 2.0));
+  }
+  EXPECT_TRUE(judged(d).spikes.empty());
+  std::vector<double> t_s, position, command;
+  for (std::size_t i = 0; i < 400; ++i) {
+    position.push_back(std::cos(static_cast<double>(std::min<std::size_t>(i % 100, 30))));
+    t_s.push_back(static_cast<double>(i));
+    command.push_back(i % 50 < 25 ? 0.3 : 0.5);
+  }
+  EXPECT_TRUE(channel_quality(t_s, position, command).spikes.empty());
+}
+
 TEST(ChannelQuality, AnEdgeOfTheSignalIsNoSpike) {
   Drive d = drive(7, 0.001);
   for (std::size_t i = 1000; i < kRows; ++i) d.speed[i] += 5.0;

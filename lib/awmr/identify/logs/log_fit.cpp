@@ -125,13 +125,18 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
 
 LogFitOptions with_delays_of(const LogFit& fit, LogFitOptions options) {
   options.sensor_delays.clear();
+  options.sensor_lags.clear();
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
     const double found_s = fit.coordinates[i];
     if (q.kind == FreeQuantity::Kind::kDelay) options.input_delay_s = found_s;
+    if (q.kind == FreeQuantity::Kind::kSteeringDelay) options.steering_delay_s = found_s;
     if (q.kind == FreeQuantity::Kind::kMotorLag) options.motor_lag_s = found_s;
     if (q.kind == FreeQuantity::Kind::kSensorDelay) {
       options.sensor_delays.push_back({q.channel, found_s});
+    }
+    if (q.kind == FreeQuantity::Kind::kSensorLag) {
+      options.sensor_lags.push_back({q.channel, found_s});
     }
   }
   return options;

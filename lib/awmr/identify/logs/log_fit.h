@@ -34,7 +34,7 @@ struct LogFit {
 /// has no quantities, and its report says why.
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
-/// The options with the delays and the lag that the fit found free, from where it found them.
+/// Returns the options with every delay and lag that is free in the fit, from where it found them.
 LogFitOptions with_delays_of(const LogFit& fit, LogFitOptions options);
 
 /// All parameters as the fit leaves them: the free ones fitted, the rest as they were held.
