@@ -14,17 +14,24 @@
 namespace awmr::cli {
 namespace {
 
-/// Writes all figures or none. A note lists those without data.
+/// Writes all figures or none. A note lists those without data. A plot.py that is there already may have
+/// been edited, and stays.
 Status write_figures(FigureSet figures, const fs::path& directory, Outcome& outcome) {
   AWMR_RETURN_IF_ERROR(make_directory(directory));
+  const fs::path plot = directory / kPlotName;
+  std::error_code unreadable;
+  const bool is_kept = fs::exists(plot, unreadable);
+  if (is_kept)
+    std::erase_if(figures.files, [](const OutputFile& f) { return f.path == kPlotName; });
   for (OutputFile& file : figures.files) {
     file.path = directory / file.path;
     outcome.written.push_back(file.path);
   }
   AWMR_RETURN_IF_ERROR(write_files(figures.files));
-  outcome.summary +=
-      fmt::format("wrote {} figures, each as .svg and .pdf, to {}:\n  {}\n", figures.names.size(),
-                  directory.string(), fmt::join(figures.names, "\n  "));
+  outcome.summary += fmt::format(
+      "wrote the data of {} figures to {}; python3 {}{} draws each as SVG and PDF:\n  {}\n",
+      figures.names.size(), directory.string(), plot.string(),
+      is_kept ? ", which is kept as it was," : "", fmt::join(figures.names, "\n  "));
   for (const std::string& lacking : figures.lacking) {
     outcome.findings.push_back({"", 0, Severity::kNote, "not-drawn", lacking});
   }
@@ -54,8 +61,10 @@ void add_report(CLI::App& app, Session& session) {
       app, session, "report", "Make report.html from a results directory, and figures for print",
       "awmr report out --figures figures", [command] { return execute(*command); });
   add_directory(*sub, "DIR", command->directory, "Directory that `awmr run` filled")->required();
-  add_directory(*sub, "--figures", command->figures,
-                "Write the main figures there too, each as SVG and PDF, 150 mm wide");
+  add_directory(
+      *sub, "--figures", command->figures,
+      "Write the main figures there too: a CSV each, and plot.py, which draws them as SVG and "
+      "PDF by matplotlib");
 }
 
 }  // namespace awmr::cli

@@ -310,8 +310,10 @@ void add_run(CLI::App& app, Session& session) {
                               [command] { return execute(*command); });
   add_file(*sub, "PROJECT", command->project, "project.json")->required();
   add_output_directory(*sub, command->output, "Directory for all results");
-  sub->add_flag("--figures", command->figures,
-                "Write the main figures to figures/ in it too, each as SVG and PDF, 150 mm wide");
+  sub->add_flag(
+      "--figures", command->figures,
+      "Write the main figures to figures/ in it too: a CSV each, and plot.py, which draws them as "
+      "SVG and PDF by matplotlib");
 }
 
 }  // namespace awmr::cli

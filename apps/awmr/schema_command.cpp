@@ -71,6 +71,7 @@ const std::vector<Schema>& schemas() {
                                        {"validation", validation_schema},
                                        {"comparison", comparison_schema},
                                        {"shard", shard_schema},
+                                       {"figures", figures_schema},
                                        {"pil", pil_schema},
                                        {"result", result_schema},
                                        {"error", error_schema}};

@@ -26,12 +26,11 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# What figures for print are set in.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
-# What `find_package(awmr)` looks for, what `awmr pil` compiles firmware with, and what the Python module gives rows as.
+# What `find_package(awmr)` looks for, what `awmr pil` compiles firmware with, what the Python module gives rows as, and what draws
+# figures for print.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, libceres-dev, libeigen3-dev, nlohmann-json3-dev, libfmt-dev, libmuparser-dev, \
-libexpected-dev, libssl-dev, libnlopt-dev, libnlopt-cxx-dev, libsqlite3-dev, libgeographiclib-dev, libcairo2-dev, gcc-avr, avr-libc, python3-numpy")
+libexpected-dev, libssl-dev, libnlopt-dev, libnlopt-cxx-dev, libsqlite3-dev, libgeographiclib-dev, gcc-avr, avr-libc, python3-numpy, python3-matplotlib")
 # Everything, and what is for Debian alone.
 set(CPACK_INSTALL_CMAKE_PROJECTS "${CMAKE_BINARY_DIR};awmr;ALL;/;${CMAKE_BINARY_DIR};awmr;debian;/")
 if(PROJECT_IS_TOP_LEVEL)

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""The figures of `awmr report --figures` for use in a thesis: complete, readable by other programs, reproducible.
+"""The figures of `awmr report --figures`, drawn by its plot.py: complete, readable by other programs, reproducible.
 
 usage: figures.py AWMR
 """
+import csv
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -50,20 +52,27 @@ def texts(root):
     return ["".join(node.itertext()) for node in root.iter(f"{SVG}text")]
 
 
-def series(root):
-    return [group.find(f"{SVG}title").text if group.find(f"{SVG}title") is not None else ""
-            for group in root.iter(f"{SVG}g") if group.get("class") == "series"]
+def draw(at, *names):
+    return subprocess.run([sys.executable, at / "plot.py", *names], capture_output=True, text=True)
+
+
+def series_of(at, name):
+    """Names of the series of figures.json that have rows in the CSV, by panel and series."""
+    figure = next(one for one in json.loads((at / "figures.json").read_text())["figures"] if one["name"] == name)
+    with open(at / f"{name}.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    names = {(int(row["panel"]), int(row["series"])): row["name"] for row in rows}
+    for (panel, series), text in names.items():
+        assert figure["panels"][panel]["series"][series]["name"] == text, (name, panel, series)
+    for row in rows:
+        assert all(math.isfinite(float(row[key])) for key in ("x", "y", "low", "high") if row[key]), (name, row)
+    return [text for text in names.values() if text]
 
 
 def check_svg(path):
-    """Well-formed, in millimetres, text as text, every coordinate on the page."""
+    """Well-formed, 150 mm wide, text as text."""
     root = ET.fromstring(path.read_bytes())
-    assert root.get("width") == "150mm", root.get("width")
-    width, height = map(float, root.get("viewBox").split()[2:])
-    for node in root.iter():
-        for pair in (node.get("points") or "").split():
-            x, y = map(float, pair.split(","))
-            assert -0.01 <= x <= width + 0.01 and -0.01 <= y <= height + 0.01, (path, pair)
+    assert abs(float(root.get("width").removesuffix("pt")) / 72 * 25.4 - 150) < 0.1, root.get("width")
     assert texts(root), path
     return root
 
@@ -78,29 +87,28 @@ def check_pdf(path):
     assert b"Date" not in pdf, path
 
 
-def expect(root, names, *labels):
-    assert sorted(series(root)) == sorted(names), (series(root), names)
-    for label in labels:
-        assert label in texts(root), (label, texts(root))
-
-
 def check_content(at):
     svg = {path.stem: check_svg(path) for path in at.glob("*.svg")}
-    expect(svg["surge_resistance"], ["95 % confidence band", "fit", "measured", "measured, doubtful"], "u (m/s)", "τspeed")
-    expect(svg["yaw_resistance"], ["95 % confidence band", "fit", "measured", "measured, doubtful"], "r (rad/s)", "τturn (m)")
+
+    def expect(name, names, *labels):
+        assert sorted(series_of(at, name)) == sorted(names), (name, series_of(at, name), names)
+        for label in labels:
+            assert any(label in text for text in texts(svg[name])), (name, label, texts(svg[name]))
+
+    expect("surge_resistance", ["95 % confidence band", "fit", "measured", "measured, doubtful"], "u (m/s)", "τ")
+    expect("yaw_resistance", ["95 % confidence band", "fit", "measured", "measured, doubtful"], "r (rad/s)", "τ")
     panels = texts(svg["log_drive_2"]).count("t (s)")
     assert panels == 1 and {"u (m/s)", "ψ (deg)", "x (m)"} <= set(texts(svg["log_drive_2"])), texts(svg["log_drive_2"])
-    assert set(series(svg["log_drive_2"])) == {"measured", "predicted"}, series(svg["log_drive_2"])
-    expect(svg["coastdown"], ["model", "stop, measured"], "t (s)", "u (m/s)")
-    expect(svg["heading_c3_heading_steps"], MODES + ["reference"], "t (s)", "ψ (deg)")
-    expect(svg["speed_c3_heading_steps"], MODES + ["reference"], "u (m/s)")
-    expect(svg["forces_c3_heading_steps"], MODES * 2, "F′L", "F′R")
-    expect(svg["steering_c3_heading_steps"], MODES * 2, "δcmd (deg)", "δ (deg)")
-    expect(svg["path_c10_obstacle_between_waypoints"], MODES + ["waypoints"], "x (m)", "y (m)")
-    expect(svg["heading_c10_obstacle_between_waypoints"], MODES + ["reference"] * 3, "ψ (deg)")
-    expect(svg["distribution_c3_heading_steps_settling_time_s"], ["sample", "median, 5 to 95 %"] * 3, "settling time (s)", *MODES)
-    expect(svg["tuning_history"], ["robust", "nominal", "the paper's gains"], "evaluation", "objective, best so far")
-    assert "obstacles" in texts(svg["path_c10_obstacle_between_waypoints"]), texts(svg["path_c10_obstacle_between_waypoints"])
+    assert set(series_of(at, "log_drive_2")) == {"measured", "predicted"}
+    expect("coastdown", ["model", "stop, measured"], "t (s)", "u (m/s)")
+    expect("heading_c3_heading_steps", MODES + ["reference"], "t (s)", "ψ (deg)")
+    expect("speed_c3_heading_steps", MODES + ["reference"], "u (m/s)")
+    expect("forces_c3_heading_steps", MODES * 2, "F′")
+    expect("steering_c3_heading_steps", MODES * 2, "δ")
+    expect("path_c10_obstacle_between_waypoints", MODES + ["waypoints"], "x (m)", "y (m)", "obstacles")
+    expect("heading_c10_obstacle_between_waypoints", MODES + ["reference"] * 3, "ψ (deg)")
+    expect("distribution_c3_heading_steps_settling_time_s", ["sample", "median, 5 to 95 %"] * 3, "settling time (s)", *MODES)
+    expect("tuning_history", ["robust", "nominal", "the paper's gains"], "evaluation", "objective, best so far")
     assert any(name.startswith("differences_c3_heading_steps_") for name in svg), svg.keys()
     assert "surge_residuals" in svg and "yaw_residuals" in svg, svg.keys()
     for name in svg:
@@ -115,12 +123,21 @@ def main():
         out.mkdir()
         results(out)
         told = json.loads(awmr("report", out, "--figures", at / "new/figures", "--json").stdout)
-        figures = check_content(at / "new/figures")
         written = {pathlib.Path(path).name for path in told["written"]}
-        assert written == {"report.html"} | {f"{name}.{kind}" for name in figures for kind in ["svg", "pdf"]}, written
+        drawn = draw(at / "new/figures")
+        assert drawn.returncode == 0 and not drawn.stderr, drawn.stderr
+        figures = check_content(at / "new/figures")
+        assert written == {"report.html", "figures.json", "plot.py"} | {f"{name}.csv" for name in figures}, written
         assert not told["findings"], told["findings"]
 
         awmr("report", out, "--figures", at / "again")
+        assert draw(at / "again", "surge_resistance", "coastdown").returncode == 0
+        assert "surge_resistance" in draw(at / "again", "no_such_figure").stderr
+        assert len(list((at / "again").glob("*.pdf"))) == 2
+        (at / "again/plot.py").write_text("# edited\n")
+        awmr("report", out, "--figures", at / "again")
+        assert (at / "again/plot.py").read_text() == "# edited\n"
+        (at / "again/plot.py").write_text((at / "new/figures/plot.py").read_text())
         for path in (at / "again").iterdir():
             assert path.read_bytes() == (at / "new/figures" / path.name).read_bytes(), path
 
@@ -131,7 +148,7 @@ def main():
              "-o", alone / "model.json")
         told = json.loads(awmr("report", alone, "--figures", alone / "figures", "--json").stdout)
         assert {path.name for path in (alone / "figures").iterdir()} == {
-            f"surge_{what}.{kind}" for what in ["resistance", "residuals"] for kind in ["svg", "pdf"]}
+            "surge_resistance.csv", "surge_residuals.csv", "figures.json", "plot.py"}
         assert {finding["code"] for finding in told["findings"]} == {"not-drawn"}, told["findings"]
         assert len(told["findings"]) == 6, told["findings"]
 

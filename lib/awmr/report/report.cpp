@@ -9,8 +9,8 @@
 #include "awmr/core/drawn_rows.h"
 #include "awmr/core/json.h"
 #include "awmr/model/model.h"
+#include "awmr/report/figures/figure_files.h"
 #include "awmr/report/figures/figures_of.h"
-#include "awmr/report/figures/layout.h"
 #include "awmr/report/live_numbers.h"
 #include "awmr/report/report_data.h"
 #include "awmr/simulate/scenario_file.h"
@@ -19,6 +19,7 @@ namespace awmr {
 
 extern const std::string_view kVegaJs;
 extern const std::string_view kPageHtml;
+extern const std::string_view kPlotPy;
 extern const std::string_view kPageCss;
 extern const std::string_view kPageJs;
 extern const std::string_view kLiveWasm;  ///< compressed, in base 64; empty: built without it
@@ -139,12 +140,12 @@ Result<FigureSet> report_figures(const fs::path& directory) {
   AWMR_ASSIGN_OR_RETURN(const FiguresOfResults figures, figures_of(data));
   FigureSet set{.lacking = figures.lacking};
   for (const Figure& figure : figures.figures) {
-    AWMR_ASSIGN_OR_RETURN(const Drawing drawing, layout(figure));
-    AWMR_ASSIGN_OR_RETURN(std::string pdf, drawing_pdf(drawing));
-    set.files.push_back({figure.name + ".svg", drawing_svg(drawing)});
-    set.files.push_back({figure.name + ".pdf", std::move(pdf)});
+    AWMR_ASSIGN_OR_RETURN(std::string csv, figure_csv(figure));
+    set.files.push_back({figure.name + ".csv", std::move(csv)});
     set.names.push_back(figure.name);
   }
+  set.files.push_back({"figures.json", figures_text(figures.figures)});
+  set.files.push_back({kPlotName, std::string(kPlotPy)});
   return set;
 }
 

@@ -1,4 +1,5 @@
-/// Creates report.html, one self-contained file, and print figures from a directory of results.
+/// Creates report.html, one self-contained file, and the data of print figures from a directory of
+/// results.
 #pragma once
 
 #include <filesystem>
@@ -28,15 +29,22 @@ Result<ReportPage> report_page(const std::filesystem::path& directory);
 /// Errors (input): a file of this name exists and is not a page of this program.
 Status check_report_page(const std::filesystem::path& path);
 
-/// The figures of a directory of results, each as SVG and as PDF.
+/// Name of the program that draws the figures.
+inline constexpr const char* kPlotName = "plot.py";
+
+/// The figures of a directory of results as CSV files, with figures.json and plot.py, a Python program
+/// that draws them by matplotlib.
 struct FigureSet {
-  std::vector<OutputFile> files = {};  ///< NAME.svg, NAME.pdf, ...: to be written below a directory
-  std::vector<std::string> names = {};    ///< without extension, in order
+  std::vector<OutputFile> files = {};     ///< to be written below a directory
+  std::vector<std::string> names = {};    ///< of the CSV files, without extension, in order
   std::vector<std::string> lacking = {};  ///< missing figures and the reasons, one sentence each
 };
 
 /// The same files give the same bytes. Errors: as report_html(); a figure would have a number that
-/// is not finite or beyond 1e100.
+/// is not finite.
 Result<FigureSet> report_figures(const std::filesystem::path& directory);
+
+/// JSON Schema of figures.json.
+std::string figures_schema();
 
 }  // namespace awmr

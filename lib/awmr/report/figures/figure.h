@@ -1,7 +1,7 @@
 /// A print figure as plain values: series and axes. Private to this folder.
 ///
-/// The functions of figures_of.h create figures from results; layout() (layout.h) places them on
-/// paper.
+/// The functions of figures_of.h create figures from results, figure_files.h writes them, and
+/// assets/plot.py draws them.
 #pragma once
 
 #include <string>
@@ -9,8 +9,7 @@
 
 namespace awmr {
 
-/// Role of a series, in the order of the legend. The table in pen.h defines the style of each role,
-/// distinguishable in colour, in grey and by colour-blind readers.
+/// Role of a series, in the order of the legend. plot.py has the style of each role.
 enum class Role {
   kMeasured,
   kDoubtful,  ///< measured, with a warning
@@ -63,8 +62,8 @@ struct Panel {
 };
 
 struct Figure {
-  std::string name = {};     ///< of its files, without extension
-  std::string meaning = {};  ///< one sentence for the files' metadata; it is not drawn
+  std::string name = {};     ///< of its file, without extension
+  std::string meaning = {};  ///< one sentence for figures.json; it is not drawn
   Axis x;
   std::vector<Panel> panels = {};
   bool equal_axes = false;                 ///< same scale on x and y; only for one panel
