@@ -171,7 +171,7 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
   const std::size_t samples = samples_of(setup);
   const Window window = injection_window(setup.injection, setup.middle, samples);
   const bool is_checked = disarms(setup.injection);
-  CheckedSensors checked(setup.injection, setup.sample_time_s, setup.limits, setup.off_course_mrad);
+  CheckedSensors checked(setup.injection, setup.sample_time_s, setup.gps_limits);
   CheckedCommands commands(setup.injection);
   Arming arming;
   arming.arm(kFaultNone, kSensorGood);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "awmr/control/sensor_fault.h"
+#include "awmr/control/gps_check.h"
 #include "awmr/core/progress.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/scenario.h"
@@ -21,7 +21,7 @@ struct LoopSetup {
   YawMode mode = YawMode::kCombined;
   cli::Injection injection = cli::Injection::kNone;
   SafetyLimits limits{};                 ///< limits of the firmware
-  float off_course_mrad = 0.0F;          ///< of the sketches, AWMR_OFF_COURSE_MRAD
+  GpsLimits gps_limits{};                ///< of the sketches
   std::size_t middle = 0;                ///< first sample at which the injection acts
   std::vector<std::size_t> resets = {};  ///< samples before which the executor is reset
 };

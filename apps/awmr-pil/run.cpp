@@ -88,7 +88,12 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   in.emit.parts = parameters->parts;
   in.parameters = *parameters;
   in.setup.limits = parameters->block.safety;
-  in.setup.off_course_mrad = parameters->off_course_mrad;
+  in.setup.gps_limits = {
+      .speed_max_mps = parameters->block.safety.speed_max_mps,
+      .on_course_rad = parameters->on_course_rad,
+      .off_course_mrad = parameters->off_course_mrad,
+      .timeout_ms = parameters->block.safety.speed_timeout_ms,
+  };
   return in;
 }
 

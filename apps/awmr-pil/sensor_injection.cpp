@@ -48,12 +48,11 @@ std::int16_t rounded(double counts) { return static_cast<std::int16_t>(std::lrou
 
 }  // namespace
 
-CheckedSensors::CheckedSensors(Injection injection, double sample_time_s,
-                               const SafetyLimits& limits, float off_course_mrad)
-    : injection_(injection), sample_time_s_(sample_time_s) {
+CheckedSensors::CheckedSensors(Injection injection, double sample_time_s, const GpsLimits& limits)
+    : injection_(injection), sample_time_s_(sample_time_s), gps_(limits) {
   heading_.begin(0);
   heading_.turn.begin(kRadpsPerWord, static_cast<float>(sample_time_s));
-  gps_.begin(limits.speed_max_mps, off_course_mrad, limits.speed_timeout_ms, 0);
+  gps_.begin(0);
   // At rest before the run.
   for (int i = 0; i < 100; ++i) {
     heading_.calibration.take(rounded(kGyroNoise * std::normal_distribution<double>()(random_)),

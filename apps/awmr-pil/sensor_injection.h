@@ -22,8 +22,7 @@ struct Commanded {
 /// Compass, gyroscope and GPS of one run.
 class CheckedSensors {
  public:
-  CheckedSensors(cli::Injection injection, double sample_time_s, const SafetyLimits& limits,
-                 float off_course_mrad);
+  CheckedSensors(cli::Injection injection, double sample_time_s, const GpsLimits& limits);
 
   /// The k-th step: puts the times of what is believed into `in`. `fails`: the injection is at work.
   SensorFault step(std::size_t k, bool fails, const Commanded& before, AutopilotInput& in);
@@ -32,7 +31,7 @@ class CheckedSensors {
   cli::Injection injection_;
   double sample_time_s_;
   HeadingCheck heading_;
-  GpsCheck gps_;
+  GpsCheck<> gps_;
   std::mt19937 random_{1};
   std::int16_t word_ = 0;
   std::int16_t field_[3] = {0, 0, 0};

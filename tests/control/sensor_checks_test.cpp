@@ -109,12 +109,15 @@ struct Port {
   }
 };
 
+constexpr GpsLimits kLimits{
+    .speed_max_mps = 8.0F, .on_course_rad = 0.262F, .off_course_mrad = 20.0F, .timeout_ms = 600};
+
 struct ReceiverOnAPort {
   Port port;
-  GpsReceiver gps;
+  GpsReceiver<> gps{kLimits};
   std::uint32_t now_ms = 0;
   std::string on_the_way;
-  ReceiverOnAPort() { gps.begin(8.0F, 20.0F, 600, 0); }
+  ReceiverOnAPort() { gps.begin(0); }
   /// A step of 10 ms at 38,400 baud. Returns the number of characters read.
   int step() {
     now_ms += 10;
@@ -205,16 +208,14 @@ TEST(GyroCalibration, WaitsUntilTheVehicleIsAtRest) {
   EXPECT_FALSE(calibrated(0.0, 0.1, false).is_done()) << "its mean is good, its spread is not";
 }
 
-constexpr float kOffCourse_mrad = 20.0F;
-
 struct Receiver {
-  GpsCheck check;
+  GpsCheck<> check{kLimits};
   GpsFix fix{1000, 0, 0, 1.0F};
   std::uint32_t now_ms = 5000;
   float x_m = 0.0F, y_m = 0.0F;
   GpsContext at{0.0F, 0.0F, 1, true};
 
-  Receiver() { check.begin(8.0F, kOffCourse_mrad, 600, now_ms); }
+  Receiver() { check.begin(now_ms); }
   bool next(std::uint32_t utc_ms = 200, std::uint32_t wait_ms = 200) {
     fix.utc_ms = (fix.utc_ms + utc_ms) % kDay_ms;
     now_ms += wait_ms;
@@ -327,24 +328,24 @@ double off_course_after_m(double wanted_rad, double turn_radps, double seconds) 
 }
 
 TEST(GpsCheck, FindsAVehicleThatDoesNotTurnToItsHeading) {
-  constexpr double kLimit_mrad = static_cast<double>(kOffCourse_mrad);
-  // Straight on: after kOffCourse_mrad/(e - pi/4). The first fix has no motion, the second a
+  constexpr double kLimit_mrad = static_cast<double>(kLimits.off_course_mrad);
+  // Straight on: after off_course_mrad/(e - on_course_rad). The first fix has no motion, the second a
   // new heading, and the last is at most one late: three fixes of 0.2 m.
   for (const double error_rad : {1.0, 1.57, 2.5, 3.1}) {
-    EXPECT_NEAR(off_course_after_m(error_rad, 0.0, 300.0), kLimit_mrad / (error_rad - 0.785), 0.6)
+    EXPECT_NEAR(off_course_after_m(error_rad, 0.0, 300.0), kLimit_mrad / (error_rad - 0.262), 0.6)
         << error_rad;
   }
-  EXPECT_EQ(off_course_after_m(0.75, 0.0, 300.0), -1.0);
-  // A turn by 180 deg with the radius R takes 2.8 R of the 20 m rad.
-  EXPECT_EQ(off_course_after_m(3.14, 1.0 / 6.8, 300.0), -1.0);
-  EXPECT_GT(off_course_after_m(3.14, 1.0 / 8.0, 300.0), 0.0);
+  EXPECT_EQ(off_course_after_m(0.25, 0.0, 300.0), -1.0);
+  // A turn by 180 deg with the radius R takes (pi - 0.262)^2/2 = 4.15 R of the 20 m rad: R = 4.8 m.
+  EXPECT_EQ(off_course_after_m(3.14, 1.0 / 4.6, 300.0), -1.0);
+  EXPECT_GT(off_course_after_m(3.14, 1.0 / 5.4, 300.0), 0.0);
 }
 
 TEST(GpsCheck, TakesANewHeadingForANewCourse) {
-  // The heading is reversed every 7 m, each of which adds 7 m (pi - pi/4) = 16.5 m rad; the limit is 20.
+  // The heading is reversed every 6 m, which adds 6 m (3.1 - 0.262) = 17 m rad; the limit is 20.
   Receiver gps;
   for (int i = 0; i < 3000; ++i) {
-    if (i % 35 == 0) gps.at.psi_ref_rad = gps.at.psi_ref_rad > 0.0F ? 0.0F : 3.1F;
+    if (i % 30 == 0) gps.at.psi_ref_rad = gps.at.psi_ref_rad > 0.0F ? 0.0F : 3.1F;
     gps.x_m += 0.2F;
     gps.next();
     ASSERT_EQ(gps.check.fault(gps.now_ms), kSensorGood) << i;
@@ -412,6 +413,46 @@ TEST(GpsCheck, RaisesNoFaultOnARoughDrive) {
       ASSERT_EQ(gps.check.fault(gps.now_ms), kSensorGood) << seed << " " << i;
     }
   }
+}
+
+/// Faults within two minutes of slow driving where positions wander by 1.5 m RMS with a time constant of 60 s, or
+/// with a speed that reads `speed_share`, or a track that is `off_rad` off the heading.
+int faults_of_slow_drives(float wander_m, float speed_share, float off_rad) {
+  int faults = 0;
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> noise(0.0F, 1.0F);
+    const float u_mps = std::uniform_real_distribution<float>(0.1F, 0.5F)(random);
+    Receiver gps;
+    EXPECT_TRUE(gps.next());
+    float x_m = 0.0F, y_m = 0.0F, wander_x_m = 0.0F, wander_y_m = 0.0F;
+    for (int i = 0; i < 600 && gps.check.fault(gps.now_ms) == kSensorGood; ++i) {
+      x_m += 0.2F * u_mps * std::cos(off_rad);
+      y_m += 0.2F * u_mps * std::sin(off_rad);
+      const float step_m = wander_m * std::sqrt(2.0F * 0.2F / 60.0F);
+      wander_x_m += step_m * noise(random) - 0.2F / 60.0F * wander_x_m;
+      wander_y_m += step_m * noise(random) - 0.2F / 60.0F * wander_y_m;
+      gps.x_m = x_m + wander_x_m;
+      gps.y_m = y_m + wander_y_m;
+      gps.fix.speed_mps = speed_share * std::abs(u_mps + 0.05F * noise(random));
+      EXPECT_TRUE(gps.next()) << seed << " " << i;
+    }
+    faults += gps.check.fault(gps.now_ms) != kSensorGood ? 1 : 0;
+  }
+  return faults;
+}
+
+TEST(MotionCheck, BelievesAWanderingPositionOfASlowVehicle) {
+  // The limits are 3.2 and 3.5 standard deviations of the drift: at most one in 200.
+  EXPECT_LE(faults_of_slow_drives(1.5F, 1.0F, 0.0F), 1);
+  EXPECT_EQ(faults_of_slow_drives(1.0F, 1.0F, 0.0F), 0);
+}
+
+TEST(MotionCheck, FindsASpeedOfZeroAndACompassThatIsOffOnASlowVehicle) {
+  // 6 m in 90 s: faster than 0.067 m/s.
+  EXPECT_EQ(faults_of_slow_drives(0.0F, 0.0F, 0.0F), 200);
+  // |ahead| + |left| = 10 m + 0.1 m/s t, within 120 s: faster than 0.16 m/s at 45 deg.
+  EXPECT_GE(faults_of_slow_drives(0.0F, 1.0F, 0.785F), 200 * 8 / 10);
 }
 
 TEST(StepCheck, FindsAJumpAndADriftAndNothingInNoise) {

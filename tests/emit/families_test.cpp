@@ -70,8 +70,8 @@ double zero_of(const F& rising) {
   return lo;
 }
 
-/// A turn by 180 deg takes 2.8 of its radius, of distance off course times its angle; 10 m rad are
-/// left for its beginning. Recomputed for turn_of_vehicle() and turn_of_law().
+/// A turn by 180 deg with the radius R takes R (pi - e0)^2/2, of distance off course times its angle beyond
+/// e0; 10 m rad are left for its beginning. Recomputed for turn_of_vehicle() and turn_of_law().
 TEST(OffCourse, IsTenPlusAHalfTurnOfTheWidestRadiusAtTheRoutesSpeeds) {
   const Model model = paper_robot();
   const Plant<double> plant = model.plant().value();
@@ -89,10 +89,34 @@ TEST(OffCourse, IsTenPlusAHalfTurnOfTheWidestRadiusAtTheRoutesSpeeds) {
       return 1.4 * plant.yaw.at(rate) + 0.08 * plant.half_track_m * force - plant.yaw.at(rate) -
              plant.inertia_norm * (gains.mu - gains.lambda * rate);
     });
-    most = std::max(most, 10.0 + 2.8 * speed_mps / std::min(by_vehicle, by_law));
+    const double beyond_rad = radians(180.0) - static_cast<double>(parameters->on_course_rad);
+    most = std::max(
+        most, 10.0 + 0.5 * beyond_rad * beyond_rad * speed_mps / std::min(by_vehicle, by_law));
   }
   EXPECT_NEAR(static_cast<double>(parameters->off_course_mrad), most, 1e-5 * most);
-  EXPECT_LT(most, 60.0);
+  EXPECT_LT(most, 90.0);
+}
+
+/// I'z lambda (mu/epsilon) e = 0.08 d g1(u): twice this error, from 15 to 45 deg.
+TEST(OnCourse, IsTwiceTheErrorThatUnequalMotorsCause) {
+  const Model model = paper_robot();
+  const Plant<double> plant = model.plant().value();
+  const auto error_rad = [&](double mu) {
+    Gains<double> gains = kPaperGains;
+    gains.heading.mu = mu;
+    const auto parameters = autopilot_parameters(model, gains, paper_inputs(), {});
+    EXPECT_TRUE(parameters) << to_text(parameters.error());
+    const double moment_m = 0.08 * plant.half_track_m *
+                            plant.surge.at(static_cast<double>(parameters->route_speed_mps));
+    const double twice_rad =
+        2.0 * moment_m * gains.heading.epsilon / (plant.inertia_norm * gains.heading.lambda * mu);
+    return std::pair(static_cast<double>(parameters->on_course_rad), twice_rad);
+  };
+  const auto [soft_rad, soft_twice_rad] = error_rad(60.0);
+  EXPECT_NEAR(soft_rad, soft_twice_rad, 1e-6);
+  EXPECT_GT(soft_rad, radians(15.0));
+  EXPECT_NEAR(error_rad(400.0).first, radians(15.0), 1e-6);
+  EXPECT_NEAR(error_rad(25.0).first, radians(45.0), 1e-6);
 }
 
 TEST(FrontWheelDrive, IsRefusedByTheFirmwareAndHasAHeader) {

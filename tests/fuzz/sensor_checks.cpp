@@ -35,11 +35,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Reader in{data, size};
   std::uint32_t now_ms = in.get<std::uint32_t>();
   awmr::HeadingCheck heading;
-  awmr::GpsCheck gps;
+  awmr::GpsCheck<> gps(
+      {.speed_max_mps = 3.0F, .on_course_rad = 0.26F, .off_course_mrad = 20.0F, .timeout_ms = 600});
   awmr::Arming arming;
   heading.begin(now_ms);
   heading.turn.begin(2.6e-4F, 0.05F);
-  gps.begin(3.0F, 20.0F, 600, now_ms);
+  gps.begin(now_ms);
   std::uint32_t last_utc_ms = 0xFFFFFFFFU;
   while (in.size > 0) {
     const auto use = in.get<std::uint8_t>();

@@ -14,9 +14,16 @@ const uint16_t kSteps = 1600;
 // Characters that arrive at a port of 38,400 baud in a step of 10 ms.
 const uint8_t kCharactersPerStep = 39;
 
+struct Limits {
+  static constexpr float speed_max_mps = AWMR_SPEED_MAX_MPS;
+  static constexpr float on_course_rad = AWMR_ON_COURSE_RAD;
+  static constexpr float off_course_mrad = AWMR_OFF_COURSE_MRAD;
+  static constexpr uint32_t timeout_ms = AWMR_SPEED_TIMEOUT_MS;
+};
+
 struct Sequence {
   awmr::HeadingCheck heading;
-  awmr::GpsReceiver gps;
+  awmr::GpsReceiver<Limits> gps;
   awmr::CommandReader commands;
   awmr::Arming arming;
   awmr_input input;
@@ -44,7 +51,7 @@ inline void begin(Sequence& s) {
   s.utc_ms = 43200000UL;
   s.heading.begin(s.now_ms);
   s.heading.turn.begin(2.6e-4F, 0.01F);
-  s.gps.begin(AWMR_SPEED_MAX_MPS, AWMR_OFF_COURSE_MRAD, AWMR_SPEED_TIMEOUT_MS, s.now_ms);
+  s.gps.begin(s.now_ms);
   s.input.mode = AWMR_COMBINED;
   s.input.speed_unsigned = 1;
 }

@@ -4,9 +4,9 @@
 ///   1. Read its characters, at most kCharactersPerStep per step.
 ///   2. Convert its numbers and accept or reject the fix.
 ///   3. Publish position and speed, for the autopilot in this step.
-///   4. Compare the displacement with the speed.
-///   5. Compare the displacement with the command.
-///   6. Compare the displacement with the heading.
+///   4. Compute the displacement along the heading.
+///   5. Compare it with command and speed.
+///   6. Compare it with the heading.
 ///   7. Compare the heading with the one that is to be held.
 /// If the next sentence ends earlier, a fix in step 2 is dropped and the rest is done at once.
 #pragma once
@@ -20,6 +20,7 @@ struct GpsPlace {
   float x_m, y_m;
 };
 
+template <class Limits = GpsLimits>
 class GpsReceiver {
  public:
   float x_m = 0.0F;
@@ -27,10 +28,9 @@ class GpsReceiver {
   float speed_mps = 0.0F;  ///< without a sign
   uint32_t time_ms = 0;    ///< arrival time of its sentence, valid once has_fix()
 
-  /// As GpsCheck::begin().
-  void begin(float speed_max_mps, float off_course_mrad, uint32_t timeout_ms, uint32_t now_ms) {
-    check_.begin(speed_max_mps, off_course_mrad, timeout_ms, now_ms);
-  }
+  constexpr explicit GpsReceiver(const Limits& limits = Limits()) : check_(limits) {}
+
+  void begin(uint32_t now_ms) { check_.begin(now_ms); }
   bool has_fix() const { return has_fix_; }
   /// Reason why fixes are rejected; kSensorGood: they are accepted.
   SensorFault fault(uint32_t now_ms) const { return check_.fault(now_ms); }
@@ -53,7 +53,7 @@ class GpsReceiver {
   enum class Work : uint8_t { kNone, kFix, kAccept, kPublish, kMotion };
 
   RmcReader reader_;
-  GpsCheck check_;
+  GpsCheck<Limits> check_;
   RmcNumbers numbers_ = {};           // of the current sentence
   GpsPlace believed_ = {0.0F, 0.0F};  // not published yet, valid from Work::kAccept on
   GpsFix fix_ = {};                   // of the same sentence

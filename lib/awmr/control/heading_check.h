@@ -14,7 +14,7 @@ constexpr uint32_t kCompassSilent_ms = 500;
 /// Detects words that do not change.
 class FrozenCheck {
  public:
-  void take(uint32_t words, uint32_t now_ms) {
+  AWMR_CALLED_MEMBER void take(uint32_t words, uint32_t now_ms) {
     if (!has_words_ || words != words_) {
       words_ = words;
       changed_ms_ = now_ms;
@@ -134,7 +134,7 @@ class TurnCheck {
   }
   /// A word of the gyroscope, its offset taken off, and the moment commanded since the last one, m; 0: the
   /// motors are off. In whole numbers, which cost the chip little.
-  void take(int16_t word, float moment_m) {
+  AWMR_CALLED_MEMBER void take(int16_t word, float moment_m) {
     if (word <= kTurning && word >= -kTurning) {
       if (is_wrong_ && float_math::magnitude_bits(moment_m) == 0) restart();
       return;

@@ -35,8 +35,11 @@ constexpr std::string_view kIntro =
 #define AWMR_STEP_TIMEOUT_MS {}UL
 /* m/s, of the sketch WaypointFollowing: 1, at most 60 % of the speed at full force */
 #define AWMR_ROUTE_SPEED_MPS {}
-/* m rad, of the sketches: distance driven at a heading beyond pi/4 off the wanted one before a fault:
-   10, and 2.8 radii of the turns that vehicle and gains allow at the speed above, at most 60 */
+/* rad, of the sketches: largest steady difference of heading and wanted heading: twice what motors that
+   differ by 16 % cause with these gains, 15 to 45 deg */
+#define AWMR_ON_COURSE_RAD {}
+/* m rad, of the sketches: distance driven with a larger difference, times what is beyond it, before a
+   fault: 10, and what a turn by 180 deg takes at the speed above, at most 90 */
 #define AWMR_OFF_COURSE_MRAD {}
 /* AWMR_SAMPLE_TIME_S as a text, for the header of logs */
 #define AWMR_SAMPLE_TIME_TEXT "{}"
@@ -144,6 +147,7 @@ std::string autopilot_header(const AutopilotParameters& parameters) {
                   block.safety.heading_timeout_ms, block.safety.speed_timeout_ms,
                   block.safety.command_timeout_ms, block.safety.step_timeout_ms,
                   float_literal(static_cast<double>(parameters.route_speed_mps)),
+                  float_literal(static_cast<double>(parameters.on_course_rad)),
                   float_literal(static_cast<double>(parameters.off_course_mrad)),
                   parameters.sample_time_s, parameters.crc);
   text += parts_text(parameters);

@@ -123,32 +123,48 @@ std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle&
   return steady_rate(plant.yaw, moment_m);
 }
 
+/// The yaw moment of motors that differ by 16 %, m: 0.08 d tau_speed.
+double unequal_moment_m(const Plant<double>& plant, double speed_mps) {
+  return 0.08 * plant.half_track_m * plant.surge.at(speed_mps);
+}
+
 /// The fastest steady turn that the heading law commands at a speed, rad/s, with 40 % more resistance
 /// than the model's and motors that differ by 16 %. Outside of the boundary layer, sat = 1:
 ///   1.4 g3(r) + 0.08 d tau_speed = g3(r) + I'z (mu - lambda r)                 [paper (89)]
 std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains<double>& gains,
                                   double speed_mps) {
   constexpr double kMore = 0.4;
-  constexpr double kUnequal = 0.08;
-  const double unequal_m = kUnequal * plant.half_track_m * plant.surge.at(speed_mps);
-  return steady_rate(plant.yaw, (plant.inertia_norm * gains.mu - unequal_m) / kMore,
+  return steady_rate(plant.yaw,
+                     (plant.inertia_norm * gains.mu - unequal_moment_m(plant, speed_mps)) / kMore,
                      plant.inertia_norm * gains.lambda / kMore);
 }
 
-/// AWMR_OFF_COURSE_MRAD: a turn by 180 deg with the radius R takes 2.8 R of it (control/gps_check.h),
-/// the way until a turn begins the rest. R is the largest at speeds from a quarter of the route's on:
-/// friction at rest makes slow turns wide.
+/// AWMR_ON_COURSE_RAD: twice the steady error of the heading with motors that differ by 16 %, 15 to
+/// 45 deg. In the boundary layer, at r = 0:
+///   0.08 d tau_speed = I'z lambda (mu/epsilon) e                               [paper (89)]
+double on_course_rad(const Plant<double>& plant, const HeadingGains<double>& gains,
+                     double route_mps) {
+  const double stiffness_m = plant.inertia_norm * gains.lambda * gains.mu / gains.epsilon;
+  return std::clamp(2.0 * unequal_moment_m(plant, route_mps) / stiffness_m, radians(15.0),
+                    radians(45.0));
+}
+
+/// AWMR_OFF_COURSE_MRAD: a turn by 180 deg with the radius R takes R (pi - e0)^2/2 of it
+/// (control/motion_check.h), the way until a turn begins the rest. R is the largest at speeds from a
+/// quarter of the route's on: friction at rest makes slow turns wide.
 double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
                        const HeadingGains<double>& gains, double full_force, double route_mps) {
   constexpr double kLeast_mrad = 10.0;
-  constexpr double kMost_mrad = 60.0;
+  constexpr double kMost_mrad = 90.0;
+  const double beyond_rad = radians(180.0) - on_course_rad(plant, gains, route_mps);
   double most = kLeast_mrad;
   for (const double share : {0.25, 0.5, 0.75, 1.0}) {
     const double speed_mps = share * route_mps;
     const auto by_vehicle = turn_of_vehicle(plant, vehicle, full_force, speed_mps);
     const auto by_law = turn_of_law(plant, gains, speed_mps);
     if (!by_vehicle || !by_law) return kMost_mrad;
-    most = std::max(most, kLeast_mrad + 2.8 * speed_mps / std::min(*by_vehicle, *by_law));
+    const double radius_m = speed_mps / std::min(*by_vehicle, *by_law);
+    most = std::max(most, kLeast_mrad + 0.5 * beyond_rad * beyond_rad * radius_m);
   }
   return std::min(most, kMost_mrad);
 }
@@ -234,6 +250,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   parameters.sample_time_s = single(model.vehicle.sample_time_s);
   const double route_mps = route_speed_mps(plant, full_force);
   parameters.route_speed_mps = single(route_mps);
+  parameters.on_course_rad = single(on_course_rad(plant, gains.heading, route_mps));
   parameters.off_course_mrad =
       single(off_course_mrad(plant, model.vehicle, gains.heading, full_force, route_mps));
   parameters.parts = options.parts;

@@ -122,7 +122,8 @@ struct AutopilotParameters {
   double table_error = 0.0;                            ///< bound for both tables
   float sample_time_s = 0.0F;                          ///< as in awmr_params.h
   float route_speed_mps = 0.0F;  ///< of the sketches: 1 m/s, at most 60 % of what can be reached
-  float off_course_mrad = 0.0F;  ///< of the sketches: driven off the wanted heading before a fault
+  float on_course_rad = 0.0F;    ///< of the sketches: largest steady error of the heading
+  float off_course_mrad = 0.0F;  ///< of the sketches: driven with a larger one before a fault
   std::set<FirmwarePart> parts;  ///< as in EmitOptions, and the observer of the gains
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< as in EmitOptions
   std::uint32_t crc = 0;                               ///< crc32_of_parameters() of all parameters

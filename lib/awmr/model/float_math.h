@@ -24,8 +24,12 @@
 /// without tight time limits.
 #ifdef __AVR__
 #define AWMR_CALLED __attribute__((noinline, optimize("Os")))
+/// Also never specialised for its object: access relative to the object's address is half as long as by
+/// absolute addresses.
+#define AWMR_CALLED_MEMBER __attribute__((noinline, noclone, optimize("Os")))
 #else
 #define AWMR_CALLED
+#define AWMR_CALLED_MEMBER
 #endif
 
 namespace awmr {

@@ -14,7 +14,7 @@ struct Drive {
   double watch_s = 15;
 };
 const std::map<std::string, Drive> kDrives = {{"compass-stuck", {"H 90\n"}},
-                                              {"gps-speed-zero", {"", 30}},
+                                              {"gps-speed-zero", {"", 60}},
                                               {"sides-swapped", {"M 0\nH 60\n"}},
                                               {"gyro-reversed", {"H 60\n"}},
                                               {"steering-stuck", {"M 1\nH 120\n", 60}},

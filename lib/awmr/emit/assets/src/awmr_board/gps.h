@@ -19,22 +19,29 @@ struct Origin {
 };
 static Origin kept_origin __attribute__((section(".noinit")));
 
+struct GpsLimits {
+  static constexpr float speed_max_mps = AWMR_SPEED_MAX_MPS;
+  static constexpr float on_course_rad = AWMR_ON_COURSE_RAD;
+  static constexpr float off_course_mrad = AWMR_OFF_COURSE_MRAD;
+  static constexpr uint32_t timeout_ms = AWMR_SPEED_TIMEOUT_MS;
+};
+
 /* x_m, y_m: north and west of the origin, the first fix; speed_mps without a sign; time_ms of the
    last accepted fix, valid once has_fix(). */
-class Gps : public awmr::GpsReceiver {
+class Gps : public awmr::GpsReceiver<GpsLimits> {
  public:
   /* x and y keep the origin across a reset, except after power-on. */
   void begin() {
     port_ = &begin_gps_port();
     if ((reset_cause() & kSwitchedOn) != 0 || !is_kept()) forget_origin();
     projection_.set_latitude();
-    awmr::GpsReceiver::begin(AWMR_SPEED_MAX_MPS, AWMR_OFF_COURSE_MRAD, AWMR_SPEED_TIMEOUT_MS, millis());
+    awmr::GpsReceiver<GpsLimits>::begin(millis());
   }
   bool has_origin() const { return is_kept(); }
   void forget_origin() { kept_origin.crc = static_cast<uint16_t>(~crc_of_origin()); }
 
   /* Reason why fixes are rejected; awmr::kSensorGood: they are accepted. */
-  awmr::SensorFault fault() const { return awmr::GpsReceiver::fault(millis()); }
+  awmr::SensorFault fault() const { return awmr::GpsReceiver<GpsLimits>::fault(millis()); }
 
   /* Call in the step, with the commanded speed, the heading, the heading that is to be held and
      whether the vehicle is armed. */
@@ -42,7 +49,7 @@ class Gps : public awmr::GpsReceiver {
             bool is_armed = false) {
     const int8_t direction = u_ref_mps > 0.0f ? 1 : u_ref_mps < 0.0f ? -1 : 0;
     const awmr::GpsContext context = {psi_rad, psi_ref_rad, direction, is_armed};
-    awmr::GpsReceiver::read(*port_, projection_, context, millis());
+    awmr::GpsReceiver<GpsLimits>::read(*port_, projection_, context, millis());
   }
 
  private:
