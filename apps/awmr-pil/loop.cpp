@@ -8,7 +8,7 @@
 
 #include "awmr/control/arming.h"
 #include "awmr/simulate/physics.h"
-#include "awmr/simulate/pilot.h"
+#include "awmr/simulate/scenario_guidance.h"
 #include "awmr/simulate/sensing.h"
 #include "command_injection.h"
 #include "injections.h"
@@ -29,14 +29,14 @@ std::size_t samples_of(const LoopSetup& setup) {
 /// The chip itself guides, avoids and shapes. Its input is the heading of a scenario without these,
 /// and the speed 0 at the end of the path or if there is no passage.
 AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed,
-                        const Pilot::Order& order) {
-  const bool stops = order.finished || order.no_passage;
+                        const GuidanceOutput& output) {
+  const bool stops = output.finished || output.no_passage;
   AutopilotInput in{};
   in.mode = static_cast<std::uint8_t>(setup.mode);
   in.measured = {single(sensed.motion.psi_rad), single(sensed.motion.u_mps),
                  single(sensed.motion.v_mps), single(sensed.motion.r_radps)};
   in.position_m = {single(sensed.position_m.x_m), single(sensed.position_m.y_m)};
-  in.reference.psi_rad = single(order.course.psi_goal_rad);
+  in.reference.psi_rad = single(output.course.psi_goal_rad);
   in.reference.speed_mps = stops ? 0.0F : single(setup.scenario.speed_mps);
   const auto now_ms = static_cast<std::uint32_t>(std::llround(t_s * 1000.0));
   in.times = {now_ms, now_ms, now_ms, now_ms};
@@ -164,7 +164,7 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
   Physics physics(setup.plant, setup.force_max, setup.scenario, options);
   Sensing sensing(setup.scenario.sensors, setup.sample_time_s, run_seed(setup.scenario.seed, 0, 0));
   Sensed sensed = sensing.at(0, physics.state());
-  Pilot pilot(setup.scenario, setup.sample_time_s, sensed);
+  ScenarioGuidance guidance(setup.scenario, setup.sample_time_s, sensed);
   if (!setup.mission.points.points_m.empty()) {
     AWMR_RETURN_IF_ERROR(executor.follow(setup.mission.points));
   }
@@ -181,8 +181,8 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     row.t_s = static_cast<double>(k) * setup.sample_time_s;
     row.state = physics.state();
     if (k > 0) sensed = sensing.at(k, row.state);
-    const Pilot::Order order = pilot.at(row.t_s, sensed);
-    AutopilotInput input = input_of(setup, row.t_s, sensed, order);
+    const GuidanceOutput output = guidance.step(row.t_s, sensed);
+    AutopilotInput input = input_of(setup, row.t_s, sensed, output);
     if (is_checked) {
       const bool fails = k >= window.first;
       if (is_command_failure(setup.injection)) {
@@ -209,7 +209,7 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     command(setup, row);
     if (k >= window.first) fail_actuators(setup.injection, row);
     if (progress) progress(k, samples);
-    if (step->output.arrived || order.no_passage || k == samples) break;
+    if (step->output.arrived || output.no_passage || k == samples) break;
     AWMR_RETURN_IF_ERROR(drive(physics, row, setup.scenario.name));
   }
   return rows;

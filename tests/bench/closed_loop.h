@@ -6,7 +6,7 @@
 
 #include "awmr/simulate/metering.h"
 #include "awmr/simulate/motion.h"
-#include "awmr/simulate/pilot.h"
+#include "awmr/simulate/scenario_guidance.h"
 
 namespace awmr::bench {
 

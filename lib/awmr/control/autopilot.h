@@ -52,8 +52,8 @@ template <class G, class P>
 AWMR_INLINE bool update_reference(Autopilot<G, P>& a, const AutopilotInput& in,
                                   Reference<float>& ref) {
   const VehiclePose<float, uint32_t> at = {in.position_m, in.measured, in.times.now_ms};
-  const GuidanceTarget<float> target = lead(a, at, ref);
-  steer_clear(part_of<typename P::Avoidance>(a), at, target, ref);
+  const GuidanceTarget<float> target = guide_by_route(a, at, ref);
+  steer_around_obstacles(part_of<typename P::Avoidance>(a), at, target, ref);
   shape_heading(part_of<typename P::Shaping>(a), at, ref);
   return target.arrived;
 }

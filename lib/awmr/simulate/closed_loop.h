@@ -18,7 +18,7 @@
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/one_run.h"
 #include "awmr/simulate/physics.h"
-#include "awmr/simulate/pilot.h"
+#include "awmr/simulate/scenario_guidance.h"
 #include "awmr/simulate/sensing.h"
 
 namespace awmr {
@@ -60,9 +60,9 @@ class ClosedLoop {
     Sensing sensing;
     RunDisturbance disturbance;
     Sensed sensed = {};
-    std::optional<Pilot> pilot = {};  ///< once the first sample is sensed
-    CourseRow course = {};            ///< of the present sample
-    RunEnd ordered =
+    std::optional<ScenarioGuidance> guidance = {};  ///< once the first sample is sensed
+    CourseRow course = {};                          ///< of the present sample
+    RunEnd ending =
         RunEnd::kDuration;  ///< how the present sample ends the run; kDuration: it goes on
     std::vector<RunRow> rows = {};
     std::optional<Ending> end = {};  ///< none: it goes on, or it failed
@@ -70,13 +70,13 @@ class ClosedLoop {
 
   void set_up_controller(const BatchRun& run, std::size_t index);
   void set_up_vehicle(const BatchRun& run, std::size_t index);
-  bool has_pilots() const;
+  bool has_own_guidance() const;
   template <class Body>
   void for_active(const Body& body);
 
   void sense(std::size_t k);
   void guide(std::size_t k, double t_s);
-  void follow(std::size_t run, const Pilot::Order& order);
+  void follow(std::size_t run, const GuidanceOutput& output);
   void quantise_commands();
   void disturb(double t_s);
   void keep_rows(std::size_t k, double t_s);
@@ -138,10 +138,9 @@ void ClosedLoop<Row>::set_up_vehicle(const BatchRun& run, std::size_t index) {
                        index, runs_->vehicles);
 }
 
-/// Where the guidance is the same for all runs and no row tells of it, none of them has a pilot of its
-/// own.
+/// False where the guidance is the same for all runs and no row needs it: then no run has its own.
 template <class Row>
-bool ClosedLoop<Row>::has_pilots() const {
+bool ClosedLoop<Row>::has_own_guidance() const {
   if (runs_->control.is_open_loop) return false;
   return options_.keeps_rows || !std::holds_alternative<HeadingSteps>(scenario_.guidance) ||
          scenario_.avoidance || scenario_.shaping;
@@ -162,7 +161,7 @@ void ClosedLoop<Row>::sense(std::size_t k) {
   const State<Row>& state = runs_->vehicles.state;
   if (!scenario_.sensors) {
     runs_->measured = {state.psi_rad, state.u_mps, state.v_mps, state.r_radps};
-    if (!has_pilots() && !options_.keeps_rows) return;
+    if (!has_own_guidance() && !options_.keeps_rows) return;
   }
   for_active([&](std::size_t run) {
     Parts& parts = parts_[run];
@@ -174,11 +173,11 @@ void ClosedLoop<Row>::sense(std::size_t k) {
 /// References of the laws.
 template <class Row>
 void ClosedLoop<Row>::guide(std::size_t k, double t_s) {
-  if (has_pilots()) {
+  if (has_own_guidance()) {
     for_active([&](std::size_t run) {
       Parts& parts = parts_[run];
-      if (k == 0) parts.pilot.emplace(scenario_, options_.sample_time_s, parts.sensed);
-      follow(run, parts.pilot->at(t_s, parts.sensed));
+      if (k == 0) parts.guidance.emplace(scenario_, options_.sample_time_s, parts.sensed);
+      follow(run, parts.guidance->step(t_s, parts.sensed));
     });
   } else if (const auto* steps = std::get_if<HeadingSteps>(&scenario_.guidance)) {
     runs_->goal_rad = Row(heading_at(*steps, t_s));
@@ -188,18 +187,18 @@ void ClosedLoop<Row>::guide(std::size_t k, double t_s) {
 }
 
 template <class Row>
-void ClosedLoop<Row>::follow(std::size_t run, const Pilot::Order& order) {
+void ClosedLoop<Row>::follow(std::size_t run, const GuidanceOutput& output) {
   const auto state = run_of<State<double>>(runs_->vehicles.state, run);
   Parts& parts = parts_[run];
-  parts.course = order.course;
-  put(order.reference, run, runs_->reference);
-  put(order.course.psi_goal_rad, run, runs_->goal_rad);
-  put(order.course.cross_track_m, run, runs_->cross_track_m);
-  put(distance_m(order.course.target_m, {state.x_m, state.y_m}), run, runs_->off_target_m);
-  if (order.no_passage && std::abs(state.u_mps) < kStopped_mps) {
-    parts.ordered = RunEnd::kNoPassage;
-  } else if (order.finished) {
-    parts.ordered = RunEnd::kFinished;
+  parts.course = output.course;
+  put(output.reference, run, runs_->reference);
+  put(output.course.psi_goal_rad, run, runs_->goal_rad);
+  put(output.course.cross_track_m, run, runs_->cross_track_m);
+  put(distance_m(output.course.target_m, {state.x_m, state.y_m}), run, runs_->off_target_m);
+  if (output.no_passage && std::abs(state.u_mps) < kStopped_mps) {
+    parts.ending = RunEnd::kNoPassage;
+  } else if (output.finished) {
+    parts.ending = RunEnd::kFinished;
   }
 }
 
@@ -265,8 +264,8 @@ template <class Row>
 void ClosedLoop<Row>::end_runs(std::size_t k, double t_s) {
   for_active([&](std::size_t run) {
     Parts& parts = parts_[run];
-    if (parts.ordered == RunEnd::kDuration && k < options_.samples) return;
-    parts.end = {parts.ordered, t_s, parts.pilot ? parts.pilot->missed() : 0};
+    if (parts.ending == RunEnd::kDuration && k < options_.samples) return;
+    parts.end = {parts.ending, t_s, parts.guidance ? parts.guidance->missed() : 0};
     put(0.0, run, runs_->vehicles.active);
   });
 }
@@ -302,7 +301,7 @@ Run ClosedLoop<Row>::take_run(std::size_t run) {
   taken.rows = std::move(parts.rows);
   taken.substeps = static_cast<int>(run_of<double>(runs_->vehicles.substeps, run));
   taken.end = parts.end ? parts.end->end : RunEnd::kFailed;
-  taken.missed_waypoints = parts.pilot ? parts.pilot->missed() : 0;
+  taken.missed_waypoints = parts.guidance ? parts.guidance->missed() : 0;
   return taken;
 }
 

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "awmr/simulate/metering.h"
-#include "awmr/simulate/pilot.h"
+#include "awmr/simulate/scenario_guidance.h"
 
 namespace awmr {
 namespace {

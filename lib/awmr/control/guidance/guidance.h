@@ -79,8 +79,8 @@ WaypointGuidance<T> guide_clear(const Avoider<T>& part, const Waypoints<T>& wayp
 
 /// Writes the line-of-sight heading to the waypoint into the reference. False: there is none.
 template <class T, class P, class Time>
-AWMR_INLINE bool lead_by_waypoints(GuidanceLaws<T, P>& g, const VehiclePose<T, Time>& at,
-                                   Reference<T>& ref, GuidanceTarget<T>& target) {
+AWMR_INLINE bool guide_by_waypoints(GuidanceLaws<T, P>& g, const VehiclePose<T, Time>& at,
+                                    Reference<T>& ref, GuidanceTarget<T>& target) {
   if (g.waypoints.count <= 0) return false;
   if (!g.is_leg_started) {
     g.progress = start_waypoints(at.position_m, at.measured.psi_rad);
@@ -106,13 +106,13 @@ AWMR_INLINE PolylineGuidance<T> guide_line(LineFollower<T>& part, const Position
 
 /// Writes the heading along the line into the reference. False: there is no line to follow.
 template <class Part, class Arrival, class T, class Time>
-AWMR_INLINE bool lead_by_line(Disabled<Part>&, const Arrival&, const VehiclePose<T, Time>&,
-                              Reference<T>&, GuidanceTarget<T>&) {
+AWMR_INLINE bool guide_by_line(Disabled<Part>&, const Arrival&, const VehiclePose<T, Time>&,
+                               Reference<T>&, GuidanceTarget<T>&) {
   return false;
 }
 template <class Line, class Arrival, class T, class Time>
-AWMR_CALLED bool lead_by_line(Line& part, const Arrival& arrival, const VehiclePose<T, Time>& at,
-                              Reference<T>& ref, GuidanceTarget<T>& target) {
+AWMR_CALLED bool guide_by_line(Line& part, const Arrival& arrival, const VehiclePose<T, Time>& at,
+                               Reference<T>& ref, GuidanceTarget<T>& target) {
   if (part.line.count <= 0) return false;
   if (!part.is_started) part.progress = start_polyline(at.measured.psi_rad);
   part.is_started = true;
@@ -127,19 +127,24 @@ AWMR_CALLED bool lead_by_line(Line& part, const Arrival& arrival, const VehicleP
   return true;
 }
 
+/// The path's point `t_s` seconds after its start.
+template <class T, class Time>
+AWMR_INLINE PathPoint<T> path_point(const PathFollower<T, Time>& part, const T& t_s) {
+  return part.path.at(t_s);
+}
+
 /// Writes heading and speed of the path into the reference; a requested speed above 0 is kept.
 template <class Part, class T, class Time>
-AWMR_INLINE void lead_by_path(Disabled<Part>&, const VehiclePose<T, Time>&, Reference<T>&) {}
-template <class T, class Time>
-AWMR_CALLED void lead_by_path(PathFollower<T, Time>& part, const VehiclePose<T, Time>& at,
-                              Reference<T>& ref) {
+AWMR_INLINE void guide_by_path(Disabled<Part>&, const VehiclePose<T, Time>&, Reference<T>&) {}
+template <class Path, class T, class Time>
+AWMR_CALLED void guide_by_path(Path& part, const VehiclePose<T, Time>& at, Reference<T>& ref) {
   if (!part.is_on) return;
   if (!part.is_started) {
     part.held_rad = at.measured.psi_rad;
     part.start = at.now;
     part.is_started = true;
   }
-  const PathPoint<T> point = part.path.at(elapsed_s(part.start, at.now));
+  const PathPoint<T> point = path_point(part, elapsed_s(part.start, at.now));
   const PathGuidance<T> guided =
       part.gain_per_s > T(0.0)
           ? closed_path(point, part.gain_per_s, at.position_m,
@@ -151,15 +156,15 @@ AWMR_CALLED void lead_by_path(PathFollower<T, Time>& part, const VehiclePose<T, 
   if (!(ref.speed_mps > T(0.0))) ref.speed_mps = guided.speed_mps;
 }
 
-/// Leads by waypoints, a line or a path; without them, the reference stays as it is.
+/// Follows waypoints, a line or a path; without them, the reference stays as it is.
 template <class T, class P, class Time>
-AWMR_INLINE GuidanceTarget<T> lead(GuidanceLaws<T, P>& g, const VehiclePose<T, Time>& at,
-                                   Reference<T>& ref) {
+AWMR_INLINE GuidanceTarget<T> guide_by_route(GuidanceLaws<T, P>& g, const VehiclePose<T, Time>& at,
+                                             Reference<T>& ref) {
   GuidanceTarget<T> target = {0, false};
-  if (!lead_by_waypoints(g, at, ref, target) &&
-      !lead_by_line(part_of<typename P::Line>(g), part_of<typename P::Arrival>(g), at, ref,
-                    target)) {
-    lead_by_path(part_of<typename P::Path>(g), at, ref);
+  if (!guide_by_waypoints(g, at, ref, target) &&
+      !guide_by_line(part_of<typename P::Line>(g), part_of<typename P::Arrival>(g), at, ref,
+                     target)) {
+    guide_by_path(part_of<typename P::Path>(g), at, ref);
   }
   return target;
 }
@@ -172,11 +177,11 @@ constexpr T no_target_m() {
 
 /// Turns the reference heading away from obstacles and reduces its speed if that is not enough.
 template <class Part, class T, class Time>
-AWMR_INLINE void steer_clear(Disabled<Part>&, const VehiclePose<T, Time>&, const GuidanceTarget<T>&,
-                             Reference<T>&) {}
+AWMR_INLINE void steer_around_obstacles(Disabled<Part>&, const VehiclePose<T, Time>&,
+                                        const GuidanceTarget<T>&, Reference<T>&) {}
 template <class T, class Time>
-AWMR_CALLED void steer_clear(Avoider<T>& part, const VehiclePose<T, Time>& at,
-                             const GuidanceTarget<T>& target, Reference<T>& ref) {
+AWMR_CALLED void steer_around_obstacles(Avoider<T>& part, const VehiclePose<T, Time>& at,
+                                        const GuidanceTarget<T>& target, Reference<T>& ref) {
   if (part.count <= 0) return;
   const T target_m =
       target.target_m != 0 ? distance_m(at.position_m, *target.target_m) : no_target_m<T>();

@@ -63,20 +63,15 @@ Places places_of(const LogProblem& problem, const std::vector<double>& coordinat
   return places;
 }
 
-/// Information and score of the compared coordinates over their large changes.
-struct Evidence {
-  Eigen::MatrixXd information;
-  Eigen::VectorXd score;
-};
-
-/// The biases are eliminated: H_cc - H_cb H_bb^-1 H_bc and S_c - H_cb H_bb^-1 S_b.
-Evidence evidence_of(const std::vector<WindowSums>& sums, const Eigen::VectorXd& scale,
-                     const Places& places) {
+/// Evidence about the compared coordinates over their large changes. The biases are eliminated:
+/// H_cc - H_cb H_bb^-1 H_bc and S_c - H_cb H_bb^-1 S_b.
+FitEvidence scaled_evidence(const std::vector<WindowSums>& sums, const Eigen::VectorXd& scale,
+                            const Places& places) {
+  const FitEvidence all = fit_evidence(sums, scale.size());
   const auto& c = places.compared;
   const auto& b = places.biases;
-  const Eigen::MatrixXd h =
-      scale.asDiagonal() * information(sums, scale.size()) * scale.asDiagonal();
-  const Eigen::VectorXd s = scale.asDiagonal() * score(sums, scale.size());
+  const Eigen::MatrixXd h = scale.asDiagonal() * all.information * scale.asDiagonal();
+  const Eigen::VectorXd s = scale.asDiagonal() * all.score;
   if (b.empty()) return {h(c, c), s(c)};
   const Eigen::MatrixXd by_bias = solve_ldlt(h(b, b), h(b, c)).transpose();
   return {h(c, c) - by_bias * h(b, c), s(c) - by_bias * s(b)};
@@ -91,7 +86,7 @@ struct Change {
 };
 
 /// d, cov d and X^2 of held_out.h. `c`: C.
-Change change_of(const Evidence& rows, const Eigen::MatrixXd& c, double f) {
+Change change_of(const FitEvidence& rows, const Eigen::MatrixXd& c, double f) {
   constexpr double kShown = 1.0 / (kUnknown * kUnknown);
   const SymmetricEigen eigen = symmetric_eigen(rows.information);
   const Eigen::Index shown = (eigen.values.array() > kShown).count();
@@ -121,8 +116,8 @@ std::optional<HeldOut> predict(const DrivingLog& rows, const LogFit& fit,
   for (Eigen::Index i = 0; i < scale.size(); ++i) scale(i) = fit.quantities[at(i)].large_change;
   const Eigen::VectorXd unit = scale.cwiseInverse();
   const Eigen::MatrixXd c = unit.asDiagonal() * fit.covariance * unit.asDiagonal();
-  const Change change =
-      change_of(evidence_of(sums, scale, places), c(places.compared, places.compared), fit.widened);
+  const Change change = change_of(scaled_evidence(sums, scale, places),
+                                  c(places.compared, places.compared), fit.widened);
   if (change.directions == 0) return std::nullopt;
   Eigen::Index most = 0;
   change.size.cwiseAbs().cwiseQuotient(change.covariance.diagonal().cwiseSqrt()).maxCoeff(&most);

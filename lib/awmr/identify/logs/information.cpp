@@ -9,8 +9,8 @@
 namespace awmr {
 namespace {
 
-/// (J_s^T J_s)^-1 J_s^T J_t: what the initial state does for each coordinate.
-Eigen::MatrixXd undone(const WindowSums& window, Eigen::Index n) {
+/// (J_s^T J_s)^-1 J_s^T J_t: change of the initial state that compensates each coordinate.
+Eigen::MatrixXd compensation(const WindowSums& window, Eigen::Index n) {
   const Eigen::Index k = window.products.rows() - 1 - n;
   return solve_ldlt(window.products.block(n, n, k, k), window.products.block(n, 0, k, n));
 }
@@ -23,22 +23,17 @@ Eigen::VectorXd score(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& by
 
 }  // namespace
 
-Eigen::MatrixXd information(const std::vector<WindowSums>& sums, Eigen::Index n) {
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+FitEvidence fit_evidence(const std::vector<WindowSums>& sums, Eigen::Index n) {
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd total = Eigen::VectorXd::Zero(n);
   for (const WindowSums& window : sums) {
-    const Eigen::Index k = window.products.rows() - 1 - n;
-    sum +=
-        window.products.topLeftCorner(n, n) - window.products.block(0, n, n, k) * undone(window, n);
+    const Eigen::MatrixXd by_coordinate = compensation(window, n);
+    const Eigen::Index k = by_coordinate.rows();
+    information +=
+        window.products.topLeftCorner(n, n) - window.products.block(0, n, n, k) * by_coordinate;
+    total += score(window.products.col(window.products.cols() - 1), by_coordinate.transpose());
   }
-  return 0.5 * (sum + sum.transpose());
-}
-
-Eigen::VectorXd score(const std::vector<WindowSums>& sums, Eigen::Index n) {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
-  for (const WindowSums& window : sums) {
-    sum += score(window.products.col(window.products.cols() - 1), undone(window, n).transpose());
-  }
-  return sum;
+  return {0.5 * (information + information.transpose()), total};
 }
 
 Scores scores_of(const std::vector<FitWindow>& windows, const std::vector<WindowSums>& sums,
@@ -48,7 +43,7 @@ Scores scores_of(const std::vector<FitWindow>& windows, const std::vector<Window
   for (std::size_t w = 0; w < windows.size(); ++w) {
     if (windows[w].rows.log != log) scores.logs.emplace_back(Eigen::VectorXd::Zero(n));
     log = windows[w].rows.log;
-    const Eigen::MatrixXd by_initial = undone(sums[w], n).transpose();
+    const Eigen::MatrixXd by_initial = compensation(sums[w], n).transpose();
     for (const Eigen::VectorXd& gradient : sums[w].block_gradients) {
       scores.blocks.push_back(score(gradient, by_initial));
       scores.logs.back() += scores.blocks.back();

@@ -1,4 +1,4 @@
-/// What the logs say of the quantities at the solution. Private to identify/.
+/// Information and scores of the logs at the solution. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,14 +8,16 @@
 
 namespace awmr {
 
-/// Fisher information on the n coordinates (n x n, symmetric, positive semidefinite), each window's
-/// initial state eliminated. With the Jacobian's parts J_t by coordinate and J_s by initial state:
+/// Evidence of the logs about the n coordinates, each window's initial state eliminated. With the
+/// Jacobian's parts J_t by coordinate and J_s by initial state, and the gradients g = J^T r:
 ///
 ///     H = J_t^T J_t - J_t^T J_s (J_s^T J_s)^-1 J_s^T J_t
-Eigen::MatrixXd information(const std::vector<WindowSums>& sums, Eigen::Index n);
-
-/// The score J^T r of the n coordinates at the same initial states: g_t - J_t^T J_s (J_s^T J_s)^-1 g_s.
-Eigen::VectorXd score(const std::vector<WindowSums>& sums, Eigen::Index n);
+///     S = g_t       - J_t^T J_s (J_s^T J_s)^-1 g_s
+struct FitEvidence {
+  Eigen::MatrixXd information;  ///< H, Fisher information: n x n, symmetric, positive semidefinite
+  Eigen::VectorXd score;        ///< S
+};
+FitEvidence fit_evidence(const std::vector<WindowSums>& sums, Eigen::Index n);
 
 /// The scores of parts b of the logs (n: g_t - J_t^T J_s (J_s^T J_s)^-1 g_s of the gradients g = J_b^T r_b).
 /// How they scatter tells how much the fit can be off, whatever the noise is.

@@ -57,7 +57,7 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
   const Eigen::Index n = rows_of(quantities);
   const Scores scores = scores_of(problem.windows, sums, n);
   const Identifiability found = without_stopped(
-      identifiability(information(sums, n), scores, quantities), problem, coordinates);
+      identifiability(fit_evidence(sums, n).information, scores, quantities), problem, coordinates);
   const std::vector<Interval> bootstrap95 =
       block_bootstrap({quantities, coordinates, found.covariance, scores.blocks},
                       {.resamples = options.bootstrap, .seed = options.seed});

@@ -65,7 +65,7 @@ std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& 
   if (!all_finite(sums)) return tests;
   const Eigen::Index n = rows_of(problem.model.quantities);
   const Eigen::Index all = rows_of(with.problem.model.quantities);
-  const Eigen::MatrixXd h = information(sums, all);
+  const Eigen::MatrixXd h = fit_evidence(sums, all).information;
   const std::vector<Eigen::VectorXd> scores = scores_of(with.problem.windows, sums, all).blocks;
   // The weak prior of the search keeps what no data show from making H_tt singular.
   Eigen::MatrixXd of_others = h.topLeftCorner(n, n);

@@ -1,5 +1,5 @@
-/// The high-level controller of a scenario: from where the vehicle is to what the heading and speed
-/// references of the laws are. Private to this folder.
+/// Guidance of a scenario: measurements -> heading and speed references of the laws. Private to this
+/// folder.
 #pragma once
 
 #include <optional>
@@ -17,22 +17,32 @@ namespace awmr {
 /// The heading that is to be held at `t_s`.
 double heading_at(const HeadingSteps& guidance, double t_s);
 
-/// The guidance of one run, with what it remembers from sample to sample.
-class Pilot {
- public:
-  /// `start` is what the sensors say at t = 0.
-  Pilot(const Scenario& scenario, double sample_time_s, const Sensed& start);
-  Pilot(const Pilot&) = delete;
-  Pilot(Pilot&&) = default;
+/// Output of the guidance at one sample.
+struct GuidanceOutput {
+  Reference<double> reference{};
+  CourseRow course;
+  bool finished = false;    ///< the route's end is reached
+  bool no_passage = false;  ///< obstacles block the way
+};
 
-  struct Order {
-    Reference<double> reference{};
-    CourseRow course;
-    bool finished = false;
-    bool no_passage = false;
-  };
+/// PathFollower that keeps the path's point of the last step.
+struct TimedPathFollower : PathFollower<double, double> {
+  PathPoint<double> point{};
+};
+inline PathPoint<double> path_point(TimedPathFollower& part, double t_s) {
+  return part.point = part.path.at(t_s);
+}
+
+/// The guidance of one run, with its state between samples.
+class ScenarioGuidance {
+ public:
+  /// `start`: measurements at t = 0.
+  ScenarioGuidance(const Scenario& scenario, double sample_time_s, const Sensed& start);
+  ScenarioGuidance(const ScenarioGuidance&) = delete;
+  ScenarioGuidance(ScenarioGuidance&&) = default;
+
   /// Call it once per sample, in order; not in open loop.
-  Order at(double t_s, const Sensed& sensed);
+  GuidanceOutput step(double t_s, const Sensed& sensed);
   /// Waypoints passed by or covered by an obstacle, so far.
   int missed() const { return laws_.progress.missed; }
 
@@ -40,7 +50,7 @@ class Pilot {
   /// The parts of the guidance that a scenario can have; without a clock that wraps.
   struct Parts {
     using Line = CourseFollower;
-    using Path = PathFollower<double, double>;
+    using Path = TimedPathFollower;
     using Arrival = SlowDown<double>;
     using Avoidance = Avoider<double>;
     using Shaping = Shaper<double>;
@@ -51,11 +61,11 @@ class Pilot {
   void set_up(const WaypointCourse& course, const Sensed& start);
   void set_up(const LineCourse& course, const Sensed& start);
   void set_up(const LissajousCourse& course, const Sensed& start);
-  void describe(const OpenLoop&, double, const Sensed&, Order&) {}
-  void describe(const HeadingSteps&, double, const Sensed&, Order&) {}
-  void describe(const WaypointCourse& course, double t_s, const Sensed& sensed, Order& order);
-  void describe(const LineCourse& course, double t_s, const Sensed& sensed, Order& order);
-  void describe(const LissajousCourse& course, double t_s, const Sensed& sensed, Order& order);
+  void describe(const OpenLoop&, const Sensed&, GuidanceOutput&) {}
+  void describe(const HeadingSteps&, const Sensed&, GuidanceOutput&) {}
+  void describe(const WaypointCourse& course, const Sensed& sensed, GuidanceOutput& output);
+  void describe(const LineCourse& course, const Sensed& sensed, GuidanceOutput& output);
+  void describe(const LissajousCourse& course, const Sensed& sensed, GuidanceOutput& output);
   bool way_is_free(const Position<double>& from, const Position<double>& to, int leg);
 
   const Scenario* scenario_;

@@ -1,4 +1,4 @@
-#include "awmr/simulate/pilot.h"
+#include "awmr/simulate/scenario_guidance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,8 @@ double heading_at(const HeadingSteps& guidance, double t_s) {
   return psi_rad;
 }
 
-Pilot::Pilot(const Scenario& scenario, double sample_time_s, const Sensed& start)
+ScenarioGuidance::ScenarioGuidance(const Scenario& scenario, double sample_time_s,
+                                   const Sensed& start)
     : scenario_(&scenario), sample_time_s_(sample_time_s), sectors_(scenario.obstacles.size()) {
   std::visit([&](const auto& course) { set_up(course, start); }, scenario.guidance);
   if (scenario.avoidance) {
@@ -43,7 +44,7 @@ Pilot::Pilot(const Scenario& scenario, double sample_time_s, const Sensed& start
   }
 }
 
-void Pilot::set_up(const WaypointCourse& course, const Sensed& start) {
+void ScenarioGuidance::set_up(const WaypointCourse& course, const Sensed& start) {
   laws_.waypoints = {course.points_m.data(), static_cast<int>(course.points_m.size()),
                      course.acceptance_m, course.skip_passed};
   laws_.progress = start_waypoints(start.position_m, start.motion.psi_rad);
@@ -52,7 +53,7 @@ void Pilot::set_up(const WaypointCourse& course, const Sensed& start) {
   laws_.distance_m = course.slow_down_m.value_or(0.0);
 }
 
-void Pilot::set_up(const LineCourse& course, const Sensed& start) {
+void ScenarioGuidance::set_up(const LineCourse& course, const Sensed& start) {
   CourseFollower& part = laws_;
   part.line = {course.points_m.data(), static_cast<int>(course.points_m.size())};
   part.course = &course;
@@ -63,8 +64,8 @@ void Pilot::set_up(const LineCourse& course, const Sensed& start) {
   laws_.distance_m = course.slow_down_m.value_or(0.0);
 }
 
-void Pilot::set_up(const LissajousCourse& course, const Sensed& start) {
-  PathFollower<double, double>& part = laws_;
+void ScenarioGuidance::set_up(const LissajousCourse& course, const Sensed& start) {
+  TimedPathFollower& part = laws_;
   part.path = course.path;
   part.gain_per_s = course.closed_loop ? course.position_gain_per_s : 0.0;
   part.held_rad = start.motion.psi_rad;
@@ -73,28 +74,28 @@ void Pilot::set_up(const LissajousCourse& course, const Sensed& start) {
   part.is_on = true;
 }
 
-Pilot::Order Pilot::at(double t_s, const Sensed& sensed) {
+GuidanceOutput ScenarioGuidance::step(double t_s, const Sensed& sensed) {
   const VehiclePose<double, double> pose{sensed.position_m, sensed.motion, t_s};
-  Order order;
-  order.reference.speed_mps = scenario_->speed_mps;
+  GuidanceOutput output;
+  output.reference.speed_mps = scenario_->speed_mps;
   if (const auto* steps = std::get_if<HeadingSteps>(&scenario_->guidance)) {
-    order.reference.psi_rad = heading_at(*steps, t_s);
+    output.reference.psi_rad = heading_at(*steps, t_s);
   }
-  const GuidanceTarget<double> target = lead(laws_, pose, order.reference);
-  order.finished = target.arrived;
-  std::visit([&](const auto& course) { describe(course, t_s, sensed, order); },
-             scenario_->guidance);
-  order.course.psi_goal_rad = order.reference.psi_rad;
-  if (order.finished || order.no_passage) order.reference.speed_mps = 0.0;
-  if (!order.no_passage) {
-    steer_clear(part_of<Avoider<double>>(laws_), pose, target, order.reference);
+  const GuidanceTarget<double> target = guide_by_route(laws_, pose, output.reference);
+  output.finished = target.arrived;
+  std::visit([&](const auto& course) { describe(course, sensed, output); }, scenario_->guidance);
+  output.course.psi_goal_rad = output.reference.psi_rad;
+  if (output.finished || output.no_passage) output.reference.speed_mps = 0.0;
+  if (!output.no_passage) {
+    steer_around_obstacles(part_of<Avoider<double>>(laws_), pose, target, output.reference);
   }
-  shape_heading(part_of<Shaper<double>>(laws_), pose, order.reference);
-  return order;
+  shape_heading(part_of<Shaper<double>>(laws_), pose, output.reference);
+  return output;
 }
 
 /// Looked for once per leg, from where the vehicle then is.
-bool Pilot::way_is_free(const Position<double>& from, const Position<double>& to, int leg) {
+bool ScenarioGuidance::way_is_free(const Position<double>& from, const Position<double>& to,
+                                   int leg) {
   if (!scenario_->avoidance) return true;
   if (leg_checked_ != leg) {
     const Avoidance<double>& a = *scenario_->avoidance;
@@ -104,32 +105,35 @@ bool Pilot::way_is_free(const Position<double>& from, const Position<double>& to
   return passage_;
 }
 
-void Pilot::describe(const WaypointCourse& course, double, const Sensed& sensed, Order& order) {
+void ScenarioGuidance::describe(const WaypointCourse& course, const Sensed& sensed,
+                                GuidanceOutput& output) {
   const int count = static_cast<int>(course.points_m.size());
-  order.course.leg = std::min(laws_.progress.next, count - 1);
-  order.course.target_m = course.points_m[static_cast<std::size_t>(order.course.leg)];
-  if (order.finished) return;
-  order.course.cross_track_m =
-      from_line_m(laws_.progress.leg_start_m, order.course.target_m, sensed.position_m);
-  order.no_passage = !way_is_free(sensed.position_m, order.course.target_m, laws_.progress.next);
+  output.course.leg = std::min(laws_.progress.next, count - 1);
+  output.course.target_m = course.points_m[static_cast<std::size_t>(output.course.leg)];
+  if (output.finished) return;
+  output.course.cross_track_m =
+      from_line_m(laws_.progress.leg_start_m, output.course.target_m, sensed.position_m);
+  output.no_passage = !way_is_free(sensed.position_m, output.course.target_m, laws_.progress.next);
 }
 
-void Pilot::describe(const LineCourse& course, double, const Sensed& sensed, Order& order) {
+void ScenarioGuidance::describe(const LineCourse& course, const Sensed& sensed,
+                                GuidanceOutput& output) {
   const int count = static_cast<int>(course.points_m.size());
   const CourseFollower& part = laws_;
-  order.course.leg = std::min(part.progress.segment, count - 2);
-  order.course.target_m = course.points_m[static_cast<std::size_t>(order.course.leg) + 1];
-  order.course.cross_track_m = part.guided.cross_track_m;
-  order.no_passage = !order.finished && !way_is_free(sensed.position_m, course.points_m.back(), 0);
+  output.course.leg = std::min(part.progress.segment, count - 2);
+  output.course.target_m = course.points_m[static_cast<std::size_t>(output.course.leg) + 1];
+  output.course.cross_track_m = part.guided.cross_track_m;
+  output.no_passage =
+      !output.finished && !way_is_free(sensed.position_m, course.points_m.back(), 0);
 }
 
-void Pilot::describe(const LissajousCourse& course, double t_s, const Sensed& sensed,
-                     Order& order) {
-  const PathPoint<double> path = course.path.at(t_s);
-  order.course.target_m = path.position_m;
+void ScenarioGuidance::describe(const LissajousCourse&, const Sensed& sensed,
+                                GuidanceOutput& output) {
+  const PathPoint<double>& path = laws_.point;
+  output.course.target_m = path.position_m;
   const Position<double> ahead{path.position_m.x_m + path.vx_mps,
                                path.position_m.y_m + path.vy_mps};
-  order.course.cross_track_m = from_line_m(path.position_m, ahead, sensed.position_m);
+  output.course.cross_track_m = from_line_m(path.position_m, ahead, sensed.position_m);
 }
 
 }  // namespace awmr
