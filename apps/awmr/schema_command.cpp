@@ -12,6 +12,7 @@
 #include "awmr/identify/planning/suggest.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/vehicle_file.h"
+#include "awmr/report/report.h"
 #include "awmr/simulate/run_side.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/tune/tune_file.h"
