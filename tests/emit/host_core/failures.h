@@ -59,6 +59,7 @@ inline const std::vector<Failure>& hazards() {
       {"gyro-reversed", [](World& w) { w.gyro_gain = -1; }, [](World& w) { w.gyro_gain = 1; }},
       {"steering-stuck", [](World& w) { w.servo_stuck = 0; },
        [](World& w) { w.servo_stuck = NAN; }},
+      {"servo-reversed", [](World& w) { w.servo_sign = -1; }, [](World& w) { w.servo_sign = 1; }},
       {"compass-turning", [](World& w) { w.compass_rate = 0.0436; },
        [](World& w) { w.compass_rate = w.compass_offset = 0; }},
       {"command-silence", [](World& w) { w.keeps = false; }, [](World& w) { w.keeps = true; }},
