@@ -64,6 +64,7 @@ constexpr InjectionEffect kEffects[] = {
      40.0},
     {Injection::kSteeringStuck, Duration::kFromTheMiddle, kFaultCommandTimeout, kOffCourse,
      kSensorGood, 60.0},
+    {Injection::kServoReversed, Duration::kFromTheMiddle, kHeading, kWrongTurn, kOffCourse, 60.0},
     {Injection::kCompassTurning, Duration::kFromTheMiddle, kFaultCommandTimeout, kOffHeading,
      kWrongWay, 40.0},
     // The command time-out and the wait between two commands; STOP acts in the next step.

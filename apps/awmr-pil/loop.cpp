@@ -105,6 +105,7 @@ void fail_actuators(Injection injection, LoopRow& row) {
   if (injection == Injection::kMotorsReversed) reverse_motors(row);
   if (injection == Injection::kSidesSwapped) swap_sides(row);
   if (injection == Injection::kSteeringStuck) row.steering_command_rad = 0.0;
+  if (injection == Injection::kServoReversed) row.steering_command_rad *= -1.0;
 }
 
 /// Moves the simulated vehicle on by a sample under the row's command.

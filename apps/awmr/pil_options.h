@@ -60,6 +60,7 @@ enum class Injection {
   kSidesSwapped,       ///< left and right motors exchanged
   kGyroReversed,       ///< yaw rate of the wrong sign
   kSteeringStuck,      ///< the servo is stuck straight
+  kServoReversed,      ///< the servo turns the wrong way
   kCompassTurning,     ///< turned away by 2.5 deg/s
   // Failures of the operator's line, read as the sketches do (control/command_line.h).
   kCommandSilence,        ///< no command
@@ -69,7 +70,7 @@ enum class Injection {
   kStop,                  ///< STOP
   kStopInNoise            ///< STOP within noise, without a line end
 };
-inline constexpr NameTable<Injection, 39> kInjectionNames{
+inline constexpr NameTable<Injection, 40> kInjectionNames{
     {{"none", Injection::kNone},
      {"nan", Injection::kNaN},
      {"infinite", Injection::kInfinite},
@@ -102,6 +103,7 @@ inline constexpr NameTable<Injection, 39> kInjectionNames{
      {"sides-swapped", Injection::kSidesSwapped},
      {"gyro-reversed", Injection::kGyroReversed},
      {"steering-stuck", Injection::kSteeringStuck},
+     {"servo-reversed", Injection::kServoReversed},
      {"compass-turning", Injection::kCompassTurning},
      {"command-silence", Injection::kCommandSilence},
      {"command-noise", Injection::kCommandNoise},

@@ -57,6 +57,8 @@ constexpr Hazard kHazards[] = {
      false},
     {"steering-stuck", "servo stands still", "distance driven off the wanted heading", 17, 40.0,
      false},
+    {"servo-reversed", "servo turns the wrong way", "quarter turn against the commanded moment", 16,
+     20.0, false},
     {"compass-turning", "compass turns away by 2.5 deg/s", "track 30 deg off the heading over 10 m",
      15, 35.0, false},
     {"command-silence", "operator silent", "no command for the command time-out", 0, 1.4},

@@ -368,6 +368,7 @@ constexpr const char* kFaults[] = {"nan",
                                    "sides-swapped",
                                    "gyro-reversed",
                                    "steering-stuck",
+                                   "servo-reversed",
                                    "compass-turning",
                                    "command-silence",
                                    "command-noise",
@@ -386,7 +387,7 @@ TEST(PilFaults, AreAllHazardsOfTheSafetyPage) {
     const std::size_t name = line.rfind(" `") + 2;
     hazards.push_back(line.substr(name, line.size() - 3 - name));
   }
-  EXPECT_EQ(hazards.size(), 28U);
+  EXPECT_EQ(hazards.size(), 29U);
   EXPECT_THAT(kFaults, ::testing::IsSupersetOf(hazards));
 }
 
@@ -403,9 +404,10 @@ TEST_P(PilFault, GivesTheSafeCommandAndItsCode) {
       {{"t_s", 60}, {"psi_deg", name == "steering-stuck" ? 150 : 30}});
   write_all(path("long.json"), scenario.dump());
   // Combined, each path undoes what the other does wrong.
-  const char* mode = name == "sides-swapped"    ? "differential"
-                     : name == "steering-stuck" ? "steering"
-                                                : "combined";
+  const bool is_of_servo = name == "steering-stuck" || name == "servo-reversed";
+  const char* mode = name == "sides-swapped" ? "differential"
+                     : is_of_servo           ? "steering"
+                                             : "combined";
   const ProcessResult run = pil(path("long.json"), mode, "--inject " + name);
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   const Json injected = result()["injected"];

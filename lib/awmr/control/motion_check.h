@@ -118,7 +118,7 @@ class MotionCheck {
   GpsMotion motion_ = {0.0F, 0.0F, 0.0F, 0.0F};  // valid if a comparison is due
   GpsContext context_ = {0.0F, 0.0F, 0, false};
   float window_s_ = 0.0F;         // time since the window began
-  float window_m_ = 0.0F;          // along the heading since then
+  float window_m_ = 0.0F;         // along the heading since then
   float travelled_m_ = 0.0F;      // integral of the speed since then
   float same_m_ = 0.0F;           // integral of the speed while the position stood still
   float against_m_ = 0.0F;        // against the commanded direction
@@ -132,7 +132,7 @@ class MotionCheck {
   float braking_s_ = 0.0F;        // left of kBraking_s
   float braked_from_mps_ = 0.0F;  // speed when the commanded direction changed
   int8_t direction_ = 0;
-  uint8_t against_fixes_ = 0;         // consecutive fixes beyond kAgainst_m
+  uint8_t against_fixes_ = 0;        // consecutive fixes beyond kAgainst_m
   SensorFault fault_ = kSensorGood;  // the first that the motion showed
   bool is_straight_ = false;         // the last motion, valid from Due::kTrack on
   Due due_ = Due::kNothing;

@@ -18,6 +18,7 @@ const std::map<std::string, Drive> kDrives = {{"compass-stuck", {"H 90\n"}},
                                               {"sides-swapped", {"M 0\nH 60\n"}},
                                               {"gyro-reversed", {"H 60\n"}},
                                               {"steering-stuck", {"M 1\nH 120\n", 60}},
+                                              {"servo-reversed", {"M 1\nH 90\n", 40}},
                                               {"compass-turning", {"", 40}}};
 
 /// Starts the sketch, leaves it 3 s for its sensors, arms it and runs it for `armed_s`.

@@ -59,6 +59,7 @@ inline const std::vector<Failure>& hazards() {
       {"gyro-reversed", [](World& w) { w.gyro_gain = -1; }, [](World& w) { w.gyro_gain = 1; }},
       {"steering-stuck", [](World& w) { w.servo_stuck = 0; },
        [](World& w) { w.servo_stuck = NAN; }},
+      {"servo-reversed", [](World& w) { w.servo_sign = -1; }, [](World& w) { w.servo_sign = 1; }},
       {"compass-turning", [](World& w) { w.compass_rate = 0.0436; },
        [](World& w) { w.compass_rate = w.compass_offset = 0; }},
       {"command-silence", [](World& w) { w.keeps = false; }, [](World& w) { w.keeps = true; }},
@@ -81,6 +82,11 @@ inline const std::vector<Failure>& further_failures() {
       {"servo-stuck-turned", [](World& w) { w.servo_stuck = 0.2; }},
       {"gps-speed-half", [](World& w) { w.gps_speed_gain = 0.5; }},
       {"gps-speed-double", [](World& w) { w.gps_speed_gain = 2; }},
+      {"gps-speed-stuck", [](World& w) { w.gps_speed_stuck = 0.3; }},
+      {"gps-utc-back", [](World& w) { w.utc_s -= 3600; }},
+      {"gps-once-a-second", [](World& w) { w.gps_period_ms = 1000; }},
+      {"compass-hard-iron", [](World& w) { w.hard_iron = 300; }},
+      {"command-storm", [](World& w) { w.keep_period_ms = 1, w.keep = "\xff\x01S 3"; }},
   };
   return all;
 }

@@ -58,10 +58,13 @@ struct World {
   bool gyro_answers = true, gyro_frozen = false, compass_answers = true, compass_frozen = false;
   bool compass_stuck = false;
   double stuck_psi = 0;
+  double hard_iron = 0;  // counts of the field to the left, from iron near the compass
   std::map<int, int> registers;
   int gyro_word = 0, field[3] = {0, 0, 0};
   double gps_noise_m = 0.1, gps_speed_noise = 0.05, gps_jump_m = 0, gps_speed_gain = 1;
   double gps_wander_m = 0, wander_x = 0, wander_y = 0;
+  double gps_speed_stuck = NAN;                 // m/s that it gives, whatever the vehicle does
+  uint32_t gps_period_ms = 200, utc_s = 43200;  // between two fixes; time of day at the start
   uint32_t gps_delay_ms = 0, gps_latency_ms = 0;
   bool gps_answers = true, gps_repeats = false, gps_empty = false, gps_void = false,
        gps_still = false;
@@ -71,6 +74,7 @@ struct World {
   std::deque<std::pair<uint32_t, std::string>> on_the_way;
   // Operator.
   bool keeps = true;
+  uint32_t keep_period_ms = 300;
   std::string keep = "KEEP\n";
   int sequence = 0;
 
@@ -129,15 +133,15 @@ struct World {
     if (compass_frozen) return;
     const double seen =
         (compass_stuck ? stuck_psi : psi + compass_offset) + compass_distortion * sin(2 * psi);
-    field[0] =
-        static_cast<int>(lround(compass_left_sign * -250 * sin(seen) + noise(compass_noise)));
+    field[0] = static_cast<int>(
+        lround(compass_left_sign * -250 * sin(seen) + hard_iron + noise(compass_noise)));
     field[1] =
         static_cast<int>(lround(compass_ahead_sign * 250 * cos(seen) + noise(compass_noise)));
     if (compass_axes_swapped) std::swap(field[0], field[1]);
     field[2] = static_cast<int>(lround(400 + noise(compass_noise)));
   }
   void navigate() {
-    if (elapsed_ms % 200 == 0 && gps_answers) {
+    if (elapsed_ms % gps_period_ms == 0 && gps_answers) {
       if (!gps_repeats || last_sentence.empty()) last_sentence = sentence();
       on_the_way.push_back({elapsed_ms + gps_delay_ms, last_sentence});
     }
@@ -157,21 +161,22 @@ struct World {
     const double py = gps_still ? still_y : y + wander_y + noise(gps_noise_m);
     const double lat = 48.1 + px / 111319.491,
                  lon = 11.5 - py / (111319.491 * cos(48.1 * 0.0174532925));
-    const double knots = fabs(gps_speed_gain * u + noise(gps_speed_noise)) / 0.514444444;
+    const double seen_mps = fabs(gps_speed_gain * u + noise(gps_speed_noise));
+    const double knots = (std::isnan(gps_speed_stuck) ? seen_mps : gps_speed_stuck) / 0.514444444;
     const auto degrees = [](double v, int digits) {
       char text[32];
       snprintf(text, sizeof text, "%0*d%010.7f", digits, static_cast<int>(v),
                (v - static_cast<int>(v)) * 60);
       return std::string(text);
     };
-    const unsigned s = elapsed_ms / 1000;
+    const unsigned s = (utc_s + elapsed_ms / 1000) % 86400;
     char body[160];
     if (gps_empty) {
-      snprintf(body, sizeof body, "GPRMC,%02u%02u%02u.%02u,A,,,,,,,230394,,,A", 12 + s / 3600,
+      snprintf(body, sizeof body, "GPRMC,%02u%02u%02u.%02u,A,,,,,,,230394,,,A", s / 3600,
                s / 60 % 60, s % 60, elapsed_ms % 1000 / 10);
     } else {
-      snprintf(body, sizeof body, "GPRMC,%02u%02u%02u.%02u,%c,%s,N,%s,E,%.3f,,230394,,,A",
-               12 + s / 3600, s / 60 % 60, s % 60, elapsed_ms % 1000 / 10, gps_void ? 'V' : 'A',
+      snprintf(body, sizeof body, "GPRMC,%02u%02u%02u.%02u,%c,%s,N,%s,E,%.3f,,230394,,,A", s / 3600,
+               s / 60 % 60, s % 60, elapsed_ms % 1000 / 10, gps_void ? 'V' : 'A',
                degrees(lat, 2).c_str(), degrees(lon, 3).c_str(), knots);
     }
     unsigned sum = 0;
@@ -189,7 +194,7 @@ struct World {
     compass_offset += 0.001 * compass_rate;
     move(0.001);
     navigate();
-    if (keeps && elapsed_ms % 300 == 0) say(keep);
+    if (keeps && elapsed_ms % keep_period_ms == 0) say(keep);
     if (elapsed_ms % step_ms == 0) {
       sense();
       TIMER3_COMPA_vect();
