@@ -29,8 +29,10 @@ Result<IdentifyCommand> command_of(const IdentifyWords& words) {
 void add_table_files(CLI::App& sub, IdentifyCommand& command) {
   add_file(sub, "--vehicle", command.vehicle, "vehicle.json: what is known beforehand")->required();
   add_file(sub, "--surge", command.surge, "CSV of runs at constant thrust, wheels straight");
-  add_file(sub, "--coastdown", command.coastdowns,
-           "CSV of coast-downs, motors off: stop times or whole curves; may be repeated");
+  add_file(
+      sub, "--coastdown", command.coastdowns,
+      "CSV of coast-downs, motors off: stop times, whole curves or times per speed bin; may be "
+      "repeated");
   add_file(sub, "--turning", command.turning, "CSV of runs at constant thrust and steering");
 }
 

@@ -523,6 +523,21 @@ Identification identified_with_change(double factor, std::uint64_t seed) {
   return identify(robot(), data, {}, {}).value();
 }
 
+TEST(Log, ASpeedInAnotherUnitWithoutPositionsShowsInTheInertiaAndWithdrawsTheIntervals) {
+  DrivingLog log = drive(kTruths[0], 25, {.duration_s = 20.0});
+  // rad/s of wheels of 0.1 m: I'z/m' reads 0.82 * 10 times that of the box, beyond the largest, 3.
+  for (double& u : log[LogChannel::kSpeed]->value) u *= 10.0;
+  for (const LogChannel c : {LogChannel::kX, LogChannel::kY}) log[c].reset();
+  TrialData data;
+  data.logs = {log};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "inertia-mismatch", "rate of rotation"));
+  EXPECT_FALSE(result->model[ParameterId::kInertiaNorm].value);
+  EXPECT_FALSE(result->model[ParameterId::kMassNorm].ci95);
+  EXPECT_FALSE(result->model[ParameterId::kSurgeAlpha].ci95);
+}
+
 TEST(HeldOut, AChangeInTheLastFifthIsReportedAndWithdrawsTheIntervals) {
   for (const std::uint64_t seed : {31U, 32U}) {
     const Identification result = identified_with_change(1.02, seed);

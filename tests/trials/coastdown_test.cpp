@@ -48,7 +48,30 @@ TEST(CoastdownTrial, RefusesACurveWhoseTimeDoesNotRiseOrThatIsTooShort) {
   EXPECT_THAT(faults_of(read_coastdown, "t_s,speed_mps\n0,3\n0.1,2\n0.1,1\n0.2,1\n0.3,1\n"),
               ElementsAre(AllOf(StartsWith("4:1: "), HasSubstr("rise"))));
   EXPECT_THAT(faults_of(read_coastdown, "t_s,speed_mps\n0,3\n0.1,2\n"),
-              ElementsAre(AllOf(StartsWith("2:1: "), HasSubstr("2 rows"))));
+              ElementsAre(AllOf(StartsWith("2:1: "), HasSubstr("2 speeds"))));
+}
+
+TEST(CoastdownTrial, ReadsTheTimePerSpeedBinAsCurves) {
+  const auto read = accepted(read_coastdown,
+                             "from_mps,to_mps,elapsed_s\n1.5,1,0.2\n1,0.5,0.3\n0.5,0.25,0.25\n"
+                             "1.5,1,0.25\n1,0.5,0.25\n");
+  const auto& curves = std::get<Curves>(read.set);
+  ASSERT_THAT(curves, SizeIs(2));
+  EXPECT_THAT(curves[0].t_s, ElementsAre(0.0, 0.2, 0.5, 0.75));
+  EXPECT_THAT(curves[0].speed_mps, ElementsAre(1.5, 1.0, 0.5, 0.25));
+  EXPECT_EQ(curves[1].line, 5);
+  EXPECT_THAT(curves[1].t_s, ElementsAre(0.0, 0.25, 0.5));
+}
+
+TEST(CoastdownTrial, RefusesSpeedBinsThatDoNotSlowDownOrAreIncomplete) {
+  EXPECT_THAT(faults_of(read_coastdown, "from_mps,to_mps,elapsed_s\n1,1.5,0.2\n1.5,1,0\n1,0,1\n"),
+              ElementsAre(StartsWith("2:3: "), StartsWith("3:7: ")));
+  EXPECT_THAT(faults_of(read_coastdown, "from_mps,elapsed_s\n1,0.2\n"),
+              ElementsAre(HasSubstr("from_mps, to_mps and elapsed_s")));
+  EXPECT_THAT(faults_of(read_coastdown, "from_mps,to_mps,elapsed_s\n1.5,1,0.2\n"),
+              ElementsAre(HasSubstr("2 speeds")));
+  EXPECT_THAT(faults_of(read_coastdown, "from_mps,to_mps,elapsed_s,t_s,speed_mps\n1,0.5,0.2,0,1\n"),
+              ElementsAre(HasSubstr("two files")));
 }
 
 TEST(CoastdownTrial, RefusesBothFormsInOneFile) {

@@ -104,6 +104,25 @@ TEST(LoadTrials, AStopInMillisecondsIsRefused) {
               AllOf(HasSubstr("milliseconds"), HasSubstr("stop_time_s=\"stop_time_s\"*0.001")));
 }
 
+TEST(LoadTrials, ARecordingThatIsGivenTwiceIsRefused) {
+  std::string text = "t_s,force_left,force_right,steering_cmd_deg,speed_mps\n";
+  for (int i = 0; i < 200; ++i) {
+    text += std::to_string(0.1 * i) + ",0.3,0.3,0," + std::to_string(0.01 * (i % 40)) + "\n";
+  }
+  const ScratchFile first("drive.csv", text);
+  const ScratchFile copy("copy.csv", text);
+  const ScratchFile other("other.csv", text + "20,0.3,0.3,0,0.2\n");
+  TrialFiles files{.vehicle = paper_vehicle(), .options = {.columns = {}, .as_is = true}};
+  files.logs = {first.path(), other.path()};
+  EXPECT_TRUE(load_trials(files));
+  files.logs = {first.path(), copy.path()};
+  const auto trials = load_trials(files);
+  ASSERT_FALSE(trials);
+  EXPECT_THAT(
+      to_text(trials.error()),
+      AllOf(HasSubstr("drive.csv"), HasSubstr("the same recording"), HasSubstr("copy.csv")));
+}
+
 TEST(LoadTrials, ACoastDownThatBeginsFasterThanTheSurgeRunsAllowIsRefusedWithTheLikelyUnit) {
   const ScratchFile file("coastdown.csv", "initial_speed_mps,stop_time_s\n5.98,0.573\n");
   TrialFiles files{.vehicle = paper_vehicle(), .surge = kPaper / "surge.csv"};

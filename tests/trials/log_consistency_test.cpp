@@ -331,6 +331,23 @@ INSTANTIATE_TEST_SUITE_P(
             [](DrivingLog& l) { scale(channel(l, LogChannel::kYawRate), 180.0 / pi<double>()); },
             "yaw_rate_radps", "0.01745329"},
         WrongTurn{"Milliseconds", [](DrivingLog& l) { scale(l.t_s, 1000.0); }, "t_s", "0.001"},
+        WrongTurn{"Nanoseconds", [](DrivingLog& l) { scale(l.t_s, 1e9); }, "t_s", "1e-09"},
+        WrongTurn{"RightSideReversed", [](DrivingLog& l) { scale(l.force_right, -1.0); },
+                  "force_right", "\"force_right\"*-1", 9},
+        WrongTurn{"LeftSideReversed", [](DrivingLog& l) { scale(l.force_left, -1.0); },
+                  "force_left", "\"force_left\"*-1", 9},
+        WrongTurn{"AReceiverWithoutAFix",
+                  [](DrivingLog& l) {
+                    for (const LogChannel c : {LogChannel::kX, LogChannel::kY}) {
+                      for (std::size_t i = 0; i < l.rows() / 8; ++i) {
+                        channel(l, c)[i + l.rows() / 2] = 0.0;
+                      }
+                      for (std::size_t i = 0; i < l.rows(); ++i) {
+                        if (channel(l, c)[i] != 0.0) channel(l, c)[i] += 20.0;
+                      }
+                    }
+                  },
+                  "x_m", "without a fix", 9},
         WrongTurn{"Percent",
                   [](DrivingLog& l) {
                     scale(l.force_left, 150.0);

@@ -167,7 +167,7 @@ void judge_steering(const Vehicle& vehicle, std::vector<Implausible>& found) {
          fmt::format("a steering rate of {:g} deg/s; it looks like rad/s: {:.4g}",
                      vehicle.steering_max_rate_degps, degrees(vehicle.steering_max_rate_degps))});
   }
-  if (vehicle.steering_time_constant_s > 2.0) {
+  if (vehicle.steering_time_constant_s > kSlowestServo_s) {
     found.push_back(
         {"/steering/time_constant_s",
          fmt::format("a servo with a time constant of {:g} s; it looks like ms: {:.4g}",

@@ -23,6 +23,8 @@ namespace awmr {
 
 /// Iz divided by that of a box of the same mass and size: all mass in the corners makes 3.
 inline constexpr Interval kInertiaOverBox{0.05, 3.0};
+/// Time constant of a steering servo: a larger one is in ms.
+inline constexpr double kSlowestServo_s = 2.0;
 
 /// A number that is impossible or very unlikely.
 struct Implausible {

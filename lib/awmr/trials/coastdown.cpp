@@ -20,7 +20,19 @@ bool is_stop_time(const TrialReader& reader) {
   return reader.has("initial_speed_mps") && reader.has("stop_time_s");
 }
 
+/// A row per speed bin, as on a road-load rig.
+bool is_binned(const TrialReader& reader) {
+  return reader.has("from_mps") && reader.has("to_mps") && reader.has("elapsed_s");
+}
+
 void check_coastdown_columns(TrialReader& reader) {
+  if (is_binned(reader) && (is_curve(reader) || is_stop_time(reader))) {
+    reader.header_fault(
+        fmt::format("speed bins (from_mps, to_mps, elapsed_s) and a curve or stop times: give "
+                    "two files, {} twice",
+                    option_text("coastdown")));
+    return;
+  }
   if (is_curve(reader) && is_stop_time(reader)) {
     reader.header_fault(
         fmt::format("both a curve (t_s, speed_mps) and stop times (initial_speed_mps, "
@@ -28,15 +40,20 @@ void check_coastdown_columns(TrialReader& reader) {
                     option_text("coastdown")));
     return;
   }
-  if (is_curve(reader) || is_stop_time(reader)) return;
+  if (is_curve(reader) || is_stop_time(reader) || is_binned(reader)) return;
+  if (reader.has("from_mps") || reader.has("to_mps")) {
+    reader.header_fault("speed bins need from_mps, to_mps and elapsed_s");
+    return;
+  }
   const bool meant_curve = reader.has("t_s") || reader.has("speed_mps");
   const std::string_view stop[] = {"initial_speed_mps", "stop_time_s"};
   const std::string_view curve[] = {"t_s", "speed_mps"};
   for (const std::string_view column : meant_curve ? curve : stop) {
     if (reader.has(column)) continue;
     reader.header_fault(
-        fmt::format("missing column {}; a coast-down has t_s and speed_mps (its curve), or "
-                    "initial_speed_mps and stop_time_s (a row per run)",
+        fmt::format("missing column {}; a coast-down has t_s and speed_mps (its curve), "
+                    "initial_speed_mps and stop_time_s (a row per run), or from_mps, to_mps and "
+                    "elapsed_s (a row per speed bin)",
                     column));
   }
 }
@@ -71,27 +88,63 @@ TrialSet<StopTimeRow> read_stop_times(TrialReader& reader, std::vector<Finding>&
   return set;
 }
 
+CoastCurve new_curve(const TrialReader& reader, std::size_t row) {
+  return {.file = finding_file(reader.table()),
+          .line = reader.table().line(row),
+          .t_s = {},
+          .speed_mps = {},
+          .mapped = reader.table().mapped()};
+}
+
+void check_length(TrialReader& reader, const std::vector<CoastCurve>& curves) {
+  for (const CoastCurve& curve : curves) {
+    if (curve.t_s.size() >= kShortestCurve) continue;
+    reader.faults().push_back({fmt::format("{}:{}:1", reader.table().file(), curve.line),
+                               fmt::format("this coast-down has {} speeds; record at least {}",
+                                           curve.t_s.size(), kShortestCurve)});
+  }
+}
+
+/// Rows of time per speed bin as a curve: its speeds are the ends of the bins, its times the sums of
+/// their durations. Bins of a run follow each other; another run begins where `run` changes, or with a
+/// bin that does not begin where the one before ends.
+std::vector<CoastCurve> read_bins(TrialReader& reader) {
+  std::vector<CoastCurve> curves;
+  std::optional<double> run;
+  for (std::size_t i = 0; i < reader.table().rows(); ++i) {
+    const double from_mps = *reader.non_negative(i, "from_mps");
+    const double to_mps = *reader.non_negative(i, "to_mps");
+    const double elapsed_s = *reader.non_negative(i, "elapsed_s");
+    if (!(to_mps < from_mps) || elapsed_s == 0.0) {
+      reader.fault(i, to_mps < from_mps ? "elapsed_s" : "to_mps",
+                   fmt::format("found from_mps {}, to_mps {} in {} s: a coast-down slows from "
+                               "from_mps to to_mps, which takes time",
+                               from_mps, to_mps, elapsed_s));
+    }
+    const double this_run = reader.cell(i, "run").value_or(0.0);
+    if (run != this_run || curves.back().speed_mps.back() != from_mps) {
+      curves.push_back(new_curve(reader, i));
+      curves.back().of_bins = true;
+      curves.back().t_s.push_back(0.0);
+      curves.back().speed_mps.push_back(from_mps);
+      run = this_run;
+    }
+    curves.back().t_s.push_back(curves.back().t_s.back() + elapsed_s);
+    curves.back().speed_mps.push_back(to_mps);
+  }
+  check_length(reader, curves);
+  return curves;
+}
+
 /// A run is a contiguous block with one value of `run`; without that column the file is one run.
 std::vector<CoastCurve> read_curves(TrialReader& reader) {
   std::vector<CoastCurve> curves;
   std::optional<double> run;
-  const auto close = [&] {
-    if (curves.empty() || curves.back().t_s.size() >= kShortestCurve) return;
-    const CoastCurve& curve = curves.back();
-    reader.faults().push_back({fmt::format("{}:{}:1", reader.table().file(), curve.line),
-                               fmt::format("this coast-down has {} rows; record at least {}",
-                                           curve.t_s.size(), kShortestCurve)});
-  };
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
     const double t_s = *reader.cell(i, "t_s");
     const double this_run = reader.cell(i, "run").value_or(0.0);
     if (run != this_run) {
-      close();
-      curves.push_back({.file = finding_file(reader.table()),
-                        .line = reader.table().line(i),
-                        .t_s = {},
-                        .speed_mps = {},
-                        .mapped = reader.table().mapped()});
+      curves.push_back(new_curve(reader, i));
       run = this_run;
     } else if (!(t_s > curves.back().t_s.back())) {
       reader.fault(i, "t_s",
@@ -102,7 +155,7 @@ std::vector<CoastCurve> read_curves(TrialReader& reader) {
     curves.back().t_s.push_back(t_s);
     curves.back().speed_mps.push_back(*reader.cell(i, "speed_mps"));
   }
-  close();
+  check_length(reader, curves);
   return curves;
 }
 
@@ -120,6 +173,8 @@ Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const Tri
   CoastdownSet set;
   if (is_curve(reader)) {
     set = read_curves(reader);
+  } else if (is_binned(reader)) {
+    set = read_bins(reader);
   } else {
     set = read_stop_times(reader, findings);
   }

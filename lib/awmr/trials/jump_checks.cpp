@@ -75,6 +75,24 @@ std::vector<std::size_t> rows_with(const DrivingLog& log, std::initializer_list<
   return rows;
 }
 
+/// Rows at exactly (0, 0) on one side of a jump, where a receiver without a fix writes zeros.
+std::optional<Contradiction> zero_fix(const DrivingLog& log, const Move& jump) {
+  const std::vector<double>& x = log[LogChannel::kX]->value;
+  const std::vector<double>& y = log[LogChannel::kY]->value;
+  const auto is_zero = [&](std::size_t row) { return x[row] == 0.0 && y[row] == 0.0; };
+  constexpr std::size_t kFewestZeros = 3;
+  const std::size_t zero = is_zero(jump.to) ? jump.to : jump.from;
+  std::size_t rows = 0;
+  for (std::size_t row = 0; row < log.rows(); ++row) rows += is_zero(row) ? 1U : 0U;
+  if (!is_zero(zero) || rows < kFewestZeros) return std::nullopt;
+  return Contradiction{"x_m",
+                       fmt::format("x_m and y_m are both exactly 0 in {} rows (line {}), {:.3g} m "
+                                   "from the next reading: a receiver without a fix. Leave these "
+                                   "cells empty",
+                                   rows, log.line[zero], jump.size),
+                       ""};
+}
+
 Contradiction told(const DrivingLog& log, const Move& jump, std::string column,
                    const std::string& how_far) {
   return {std::move(column),
@@ -97,7 +115,10 @@ std::optional<Contradiction> jump_contradiction(const Evidence& evidence) {
     };
     const auto moves = moves_between(log, rows_with(log, {LogChannel::kX, LogChannel::kY}), size);
     const auto jump = jump_in(moves, kVehicleLengths * evidence.vehicle.length_m, size);
-    if (jump) return told(log, *jump, "x_m", fmt::format("{:.3g} m with y_m", jump->size));
+    if (jump) {
+      if (auto zeros = zero_fix(log, *jump)) return zeros;
+      return told(log, *jump, "x_m", fmt::format("{:.3g} m with y_m", jump->size));
+    }
   }
   if (!evidence.has(LogChannel::kHeading)) return std::nullopt;
   const std::vector<double>& heading = log[LogChannel::kHeading]->value;

@@ -100,11 +100,13 @@ void check_time(TrialReader& reader, RowSpan run) {
   const std::span<const double> t_s = reader.table().column("t_s");
   for (std::size_t i = run.begin + 1; i < run.end; ++i) {
     if (t_s[i] > t_s[i - 1]) continue;
-    reader.fault(i, "t_s",
-                 fmt::format("found {} after {}: time has to rise{}", t_s[i], t_s[i - 1],
-                             t_s[i] < t_s[i - 1] && !reader.has("run")
-                                 ? "; several runs in one file need a column run"
-                                 : ""));
+    reader.fault(
+        i, "t_s",
+        fmt::format("found {} after {}: time has to rise{}", t_s[i], t_s[i - 1],
+                    t_s[i] == t_s[i - 1] ? "; delete repeated rows, or write the time with "
+                                           "more digits (from the start of the log)"
+                    : reader.has("run")  ? ""
+                                         : "; several runs in one file need a column run"));
   }
   const std::size_t rows = run.end - run.begin;
   if (rows >= kShortestLog) return;

@@ -52,9 +52,11 @@ std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s) {
   for (std::size_t row = 1; row <= log.rows(); ++row) {
     if (row == log.rows() || log.t_s[row] - log.t_s[row - 1] > gap_s) {
       piece_end = row;
-      // Equal parts, so that no short remainder is left.
+      // Equal parts, so that no short remainder is left. A time in nanoseconds has more parts than rows.
       const double span_s = log.t_s[piece_end - 1] - log.t_s[begin];
-      const auto parts = static_cast<std::size_t>(std::max(1.0, std::ceil(span_s / longest_s)));
+      const double most = static_cast<double>(piece_end - begin);
+      const auto parts =
+          static_cast<std::size_t>(std::clamp(std::ceil(span_s / longest_s), 1.0, most));
       const std::size_t first = begin;
       for (std::size_t part = 1; part <= parts; ++part) {
         close(first + (piece_end - first) * part / parts);

@@ -158,6 +158,42 @@ std::optional<Contradiction> judge_direction(const Evidence& evidence) {
                        scaled_mapping(evidence, "speed_mps", -1.0)};
 }
 
+/// Detects one side with the wrong sign: the vehicle's speed follows the difference of the logged
+/// forces, and not their sum. Shares of sum v^2 that a proportional law explains:
+///
+///     R^2 = (sum v s)^2 / (sum v^2 sum s^2)   for s = F'L + F'R and s = F'R - F'L
+std::optional<Contradiction> judge_one_side(const Evidence& evidence) {
+  constexpr double kExplains = 0.5;
+  constexpr double kMoreThanSum = 3.0;
+  constexpr std::size_t kFewestSeconds = 10;
+  if (!evidence.has(LogChannel::kSpeed) || evidence.windows.size() < kFewestSeconds) {
+    return std::nullopt;
+  }
+  double vv = 0.0, ss = 0.0, dd = 0.0, vs = 0.0, vd = 0.0;
+  for (const EvidenceWindow& w : evidence.windows) {
+    const double v = w.driven_m / w.span_s;
+    vv += v * v;
+    ss += w.thrust * w.thrust;
+    dd += w.tau_diff_m * w.tau_diff_m;
+    vs += v * w.thrust;
+    vd += v * w.tau_diff_m;
+  }
+  const auto share = [vv](double vx, double xx) { return xx > 0.0 ? vx * vx / (vv * xx) : 0.0; };
+  const double of_difference = share(vd, dd);
+  if (!(vv > 0.0) || !(of_difference > kExplains) ||
+      !(of_difference > kMoreThanSum * share(vs, ss))) {
+    return std::nullopt;
+  }
+  const std::string column = vd > 0.0 ? "force_left" : "force_right";
+  return Contradiction{
+      column,
+      fmt::format("the speed follows force_right - force_left (R^2 {:.2f}) and not "
+                  "their sum ({:.2f}): this side has the wrong sign; forward is "
+                  "positive on both",
+                  of_difference, share(vs, ss)),
+      scaled_mapping(evidence, column, -1.0)};
+}
+
 /// Largest speed gain, m/s, during spans of rearward thrust: the rise of quarter-second means above
 /// the smallest earlier mean of the span. The first half second is excluded because motors and
 /// sensors may lag.
@@ -212,6 +248,8 @@ std::optional<Contradiction> judge_unsigned(const Evidence& evidence) {
 }  // namespace
 
 std::vector<Contradiction> sign_contradictions(const Evidence& evidence) {
+  // With one side reversed, thrust and moment are exchanged: no other sign can be compared.
+  if (auto one_side = judge_one_side(evidence)) return {*std::move(one_side)};
   std::vector<Contradiction> found;
   if (auto is_unsigned = judge_unsigned(evidence)) found.push_back(*is_unsigned);
   if (auto direction = judge_direction(evidence)) found.push_back(*direction);

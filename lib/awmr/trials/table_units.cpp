@@ -250,8 +250,10 @@ std::optional<WrongUnit> wrong_unit(const std::vector<CoastCurve>& curves,
   }
   // Curves that do not fall are set aside elsewhere.
   if (!(hardest_mps2 > 0.0)) return std::nullopt;
-  return wrong_unit({curves.front().line, fastest_mps, hardest_mps2, "speed_mps", "t_s"}, surge,
-                    vehicle);
+  const bool of_bins = curves.front().of_bins;
+  return wrong_unit({curves.front().line, fastest_mps, hardest_mps2,
+                     of_bins ? "from_mps" : "speed_mps", of_bins ? "elapsed_s" : "t_s"},
+                    surge, vehicle);
 }
 
 }  // namespace awmr

@@ -47,6 +47,9 @@ const CsvColumn kCoastdownColumns[] = {{"initial_speed_mps", false},
                                        {"stop_time_s", false},
                                        {"t_s", false},
                                        {"speed_mps", false, EmptyCells::kAbsent},
+                                       {"from_mps", false},
+                                       {"to_mps", false},
+                                       {"elapsed_s", false},
                                        {"run", false}};
 
 const CsvColumn kLogColumns[] = {{"t_s", true},

@@ -58,6 +58,7 @@ struct CoastCurve {
   std::vector<double> t_s;
   std::vector<double> speed_mps;
   std::vector<std::size_t> mapped = {};  ///< indices of the TrialOptions' mappings that were used
+  bool of_bins = false;                  ///< from from_mps, to_mps and elapsed_s of every speed bin
 };
 
 /// Rows of one file. A row at rest or without force has no logarithm and no information for a power

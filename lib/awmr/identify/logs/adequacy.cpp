@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "awmr/core/option_text.h"
@@ -42,6 +43,14 @@ bool judges_model(const NoiseLevels& noise, LogChannel channel) {
   }
 }
 
+/// Nothing but positions: an error that lasts is then as long as the motion itself, and may be the end of
+/// a search in a wrong place as well as a receiver that wanders.
+bool has_only_positions(const NoiseLevels& noise) {
+  return std::ranges::all_of(noise, [](const auto& channel) {
+    return channel.first == LogChannel::kX || channel.first == LogChannel::kY;
+  });
+}
+
 }  // namespace
 
 std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::string& file) {
@@ -66,15 +75,16 @@ Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
   for (const auto& [channel, noise] : chosen.fit.noise) {
     if (!noise.of_the_model()) continue;
     std::string advice =
-        "something that the model does not know acts on the vehicle (a side that pulls, a slope, "
-        "tyres "
-        "that give way), or the sensor wanders";
+        "something that the model does not know acts on the vehicle (a steering trim or a side "
+        "that pulls, a motor driver that brakes at a command of 0, a slope, tyres that give way), "
+        "or the sensor wanders";
     if (channel == LogChannel::kSpeed && try_families) {
       advice = try_rivals(best_family(logs, power_law, chosen, {.only_suspects = false}), chosen,
                           adequacy)
                    .value_or(advice);
     }
-    const bool withdraws = noise.overwhelms_sensor() && judges_model(chosen.fit.noise, channel);
+    const bool is_models = noise.overwhelms_sensor() && judges_model(chosen.fit.noise, channel);
+    const bool withdraws = is_models || has_only_positions(chosen.fit.noise);
     adequacy.withdraws_intervals |= withdraws;
     adequacy.findings.push_back(
         {logs.front().file, 0, Severity::kWarning, "model-inadequate",

@@ -118,6 +118,17 @@ bool is_of_yaw(ParameterId term) {
   return term == ParameterId::kYawCoulomb || term == ParameterId::kYawQuadratic;
 }
 
+/// The largest gain of the suspects of an axis; 0 for a fit without suspects.
+double largest_gain(const LogFit& fit, const std::vector<ParameterId>& suspects, bool of_yaw) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < std::min(suspects.size(), fit.suspect_gain.size()); ++i) {
+    const bool is_of_axis =
+        suspects[i] != ParameterId::kBackEmf && is_of_yaw(suspects[i]) == of_yaw;
+    if (is_of_axis) most = std::max(most, fit.suspect_gain[i]);
+  }
+  return most;
+}
+
 /// Whether a family with more terms may do better: a suspect that a score test finds worth freeing, or
 /// errors with a memory, behind which a missing term can hide.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& suspects, bool of_yaw) {
@@ -328,16 +339,17 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
                        FamilyFit first, const FamilyContest& contest) {
   const bool surge = is_contested(power_law, first, contest, false);
   const bool yaw = is_contested(power_law, first, contest, true);
+  // A wrong law of one axis leaves errors in the other, whose families are then slow to fit.
+  const bool yaw_first = largest_gain(first.fit, power_law.suspects, true) >
+                         largest_gain(first.fit, power_law.suspects, false);
   LogFit power_fit = first.fit;
   const auto [first_surge, first_yaw] = std::pair(first.surge, first.yaw);
   BestFamily result;
   result.best = std::move(first);
-  if (surge) {
-    power_fit = compete(logs, power_law, contenders(result.best, false), contest.lead, result);
-  }
-  if (yaw) {
+  for (const bool of_yaw : {yaw_first, !yaw_first}) {
+    if (!(of_yaw ? yaw : surge)) continue;
     const bool is_first = result.best.surge == first_surge && result.best.yaw == first_yaw;
-    LogFit fit = compete(logs, power_law, contenders(result.best, true), contest.lead, result);
+    LogFit fit = compete(logs, power_law, contenders(result.best, of_yaw), contest.lead, result);
     if (is_first) power_fit = std::move(fit);
   }
   const bool other = result.best.surge != Family::kPower || result.best.yaw != Family::kPower;

@@ -75,7 +75,9 @@ ParameterValues<double> guess_from_logs(const std::vector<DrivingLog>& logs,
   guess[at(ParameterId::kSwayAlpha)] = mass / 0.1;
   guess[at(ParameterId::kMassNorm)] = mass;
   guess[at(ParameterId::kInertiaNorm)] = mass * vehicle.inertia_kgm2() / vehicle.mass_kg;
-  guess[at(ParameterId::kSteeringTimeConstant)] = 0.05;
+  // A vehicle without steering has no servo, and any time constant will do.
+  const double servo_s = vehicle.steering_time_constant_s;
+  guess[at(ParameterId::kSteeringTimeConstant)] = servo_s > 0.0 ? servo_s : 0.05;
   return guess;
 }
 

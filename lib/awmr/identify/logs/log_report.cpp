@@ -101,4 +101,11 @@ EstimatorReport log_report(const LogReportInput& input) {
   return report;
 }
 
+void withdraw_intervals(EstimatorReport& report) {
+  for (EstimatorParameter& parameter : report.parameters) {
+    parameter.std_error.reset();
+    parameter.ci95.reset();
+  }
+}
+
 }  // namespace awmr

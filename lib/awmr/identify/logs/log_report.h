@@ -21,4 +21,7 @@ struct LogReportInput {
 /// residuals of each channel are white and normal. The multistart is not in it.
 EstimatorReport log_report(const LogReportInput& input);
 
+/// Leaves the values without standard errors and intervals.
+void withdraw_intervals(EstimatorReport& report);
+
 }  // namespace awmr

@@ -17,7 +17,9 @@
 #include "awmr/identify/logs/back_emf.h"
 #include "awmr/identify/logs/between_logs.h"
 #include "awmr/identify/logs/cross_validation.h"
+#include "awmr/identify/logs/inertia_check.h"
 #include "awmr/identify/logs/initial_guess.h"
+#include "awmr/identify/logs/log_report.h"
 #include "awmr/identify/uncertainty/akaike.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/trials/calibration_checks.h"
@@ -81,15 +83,6 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
     default:
       return {};
   }
-}
-
-/// Whether the commanded forces of the two sides differ anywhere.
-bool pushes_apart(const DrivingLog& log) {
-  constexpr double kMuch = 0.01;  // of the largest force
-  for (std::size_t i = 0; i < log.rows(); ++i) {
-    if (std::abs(log.force_right[i] - log.force_left[i]) > kMuch) return true;
-  }
-  return false;
 }
 
 /// Whether the vehicle is told to turn anywhere in the logs.
@@ -303,14 +296,6 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   return chosen;
 }
 
-/// Leaves the values without standard errors and intervals.
-void withdraw_intervals(EstimatorReport& report) {
-  for (EstimatorParameter& parameter : report.parameters) {
-    parameter.std_error.reset();
-    parameter.ci95.reset();
-  }
-}
-
 void refuse_all(const FamilyFit& chosen, const std::string& file, LogStage& stage) {
   stage.findings.push_back(
       {file, 0, Severity::kError, "not-converged",
@@ -484,34 +469,6 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
   }
 }
 
-/// Why I'z as fitted cannot be the vehicle's; empty where it can.
-std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
-                           const Model& model, const LogStage& stage) {
-  const auto estimate_of = [&](ParameterId id) -> const Estimate* {
-    const auto found = std::ranges::find(stage.main, id, &LogStage::Main::id);
-    if (found != stage.main.end()) return &found->estimate;
-    return model[id].value ? &model[id] : nullptr;
-  };
-  const Estimate* inertia = estimate_of(ParameterId::kInertiaNorm);
-  if (inertia == nullptr) return {};
-  const Estimate* mass = estimate_of(ParameterId::kMassNorm);
-  if (mass == nullptr) {
-    return stage.reasons.contains(ParameterId::kMassNorm) &&
-                   std::ranges::none_of(logs, pushes_apart)
-               ? "m' is open, and only the steering turned the vehicle: with it I'z is open too"
-               : "";
-  }
-  if (!inertia->ci95 || !mass->ci95) return {};
-  const double box = vehicle.inertia_kgm2() / vehicle.mass_kg;
-  const double least = inertia->ci95->lo / mass->ci95->hi / box;
-  const double most = inertia->ci95->hi / mass->ci95->lo / box;
-  if (most > kInertiaOverBox.lo && least < kInertiaOverBox.hi) return {};
-  return fmt::format(
-      "I'z/m' as fitted is {:.3g} times Iz/m of the vehicle, which no distribution of "
-      "its mass makes: something else turns it, or a unit or a sign is wrong",
-      *inertia->value / *mass->value / box);
-}
-
 /// `speed-controlled`, a warning: resistance that is linear in surge and yaw, and in yaw by d^2 of that in
 /// surge, is what every wheel by itself makes of its command: the drag of its motor, or a loop that holds its
 /// speed at a set-point which stands in the place of the force.
@@ -545,17 +502,15 @@ std::vector<Finding> speed_findings(const Vehicle& vehicle, const std::vector<Dr
                vehicle.driven_wheels() / surge)}};
 }
 
-/// Refuses an I'z that the vehicle cannot have.
-void judge_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, const Model& model,
-                   LogStage& stage) {
-  const std::string why = why_no_inertia(vehicle, logs, model, stage);
-  if (why.empty()) return;
-  stage.reasons[ParameterId::kInertiaNorm] = why;
-  std::erase_if(stage.main,
-                [](const LogStage::Main& value) { return value.id == ParameterId::kInertiaNorm; });
-}
-
 }  // namespace
+
+bool pushes_apart(const DrivingLog& log) {
+  constexpr double kMuch = 0.01;  // of the largest force
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    if (std::abs(log.force_right[i] - log.force_left[i]) > kMuch) return true;
+  }
+  return false;
+}
 
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                                const IdentifyOptions& options,
@@ -586,7 +541,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   }
   take(chosen.fit, model, overrule, file, stage);
   append(stage.findings, speed_findings(vehicle, logs, stage));
-  judge_inertia(vehicle, logs, model, stage);
+  check_inertia(vehicle, logs, model, stage);
   if (options.cross_validate && logs.size() > 1) {
     tell(options, "predicting each log from the others");
     const CrossValidation held_out = leave_one_log_out(logs, from_optimum(chosen.options, chosen));

@@ -33,11 +33,14 @@ struct LogStage {
   bool withdraws_intervals = false;  ///< the values are shown without standard errors and intervals
 };
 
+/// Whether the commanded forces of the two sides differ anywhere.
+bool pushes_apart(const DrivingLog& log);
+
 /// Fits the logs from the model's values so far. All of `asked` are free; others are held at their
 /// value, or free as well where they have none. `overrule`: the logs also fill what other trials
 /// did.
 /// Findings: `estimates-disagree` (logs against tables, p < 0.01), `coloured-residuals`,
-/// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `back-emf`, `sensor-delay`, `logs-disagree`, `not-identifiable`, `not-converged`, `held-out-misses`, `held-out-log`
+/// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `back-emf`, `sensor-delay`, `logs-disagree`, `not-identifiable`, `not-converged`, `held-out-misses`, `inertia-mismatch`, `held-out-log`
 /// (each log predicted by the others), `families-not-compared` (the time limit ended).
 /// Errors (input): a given time constant is too fast for a log.
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,

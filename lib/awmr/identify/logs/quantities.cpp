@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "awmr/core/index.h"
+#include "awmr/model/plausibility.h"
 #include "awmr/model/sensor_delay_name.h"
 
 namespace awmr {
@@ -20,7 +23,12 @@ Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& 
     return {vehicle.yaw_beta_range.lo, vehicle.yaw_beta_range.hi};
   }
   if (quantity.scale == Scale::kLinear) return {0.0, 1e6};
-  return {initial - 10.0, initial + 10.0};
+  // A servo is not slower than kSlowestServo_s. Servo and yaw (I'z/g3') are two lags in a row: without an
+  // end, a search may exchange them.
+  const double most = quantity.is(ParameterId::kSteeringTimeConstant)
+                          ? to_coordinate(quantity.scale, kSlowestServo_s)
+                          : initial + 10.0;
+  return {initial - 10.0, std::max(initial, most)};
 }
 
 }  // namespace

@@ -1,0 +1,85 @@
+#include "awmr/identify/logs/inertia_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "awmr/identify/logs/log_report.h"
+#include "awmr/model/plausibility.h"
+
+namespace awmr {
+namespace {
+
+/// The unit of a speed that nothing was compared with and that would explain I'z/m'; empty for none.
+/// With a speed that reads k times the true one, m' is 1/k of the true one, and I'z/m' k times.
+std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_over_box) {
+  constexpr Interval kUsual{0.3, 2.0};  // I'z/m' of vehicles, over that of their box
+  const bool is_compared = std::ranges::all_of(
+      logs, [](const DrivingLog& log) { return log[LogChannel::kX] || !log[LogChannel::kSpeed]; });
+  if (is_compared || inertia_over_box < kInertiaOverBox.hi) return "";
+  struct Unit {
+    double factor;
+    std::string_view name;
+  };
+  for (const Unit& unit : {Unit{3.6, "km/h"}, Unit{100.0, "cm/s"}, Unit{1000.0, "mm/s"}}) {
+    if (!kUsual.contains(inertia_over_box / unit.factor)) continue;
+    return fmt::format(" (with speed_mps in {} it would be {:.2g} times)", unit.name,
+                       inertia_over_box / unit.factor);
+  }
+  return " (speed_mps may be a rate of rotation of the wheels: multiply it by their radius)";
+}
+
+/// Why I'z as fitted cannot be the vehicle's; empty where it can.
+std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
+                           const Model& model, const LogStage& stage) {
+  const auto estimate_of = [&](ParameterId id) -> const Estimate* {
+    const auto found = std::ranges::find(stage.main, id, &LogStage::Main::id);
+    if (found != stage.main.end()) return &found->estimate;
+    return model[id].value ? &model[id] : nullptr;
+  };
+  const Estimate* inertia = estimate_of(ParameterId::kInertiaNorm);
+  if (inertia == nullptr) return {};
+  const Estimate* mass = estimate_of(ParameterId::kMassNorm);
+  if (mass == nullptr) {
+    return stage.reasons.contains(ParameterId::kMassNorm) &&
+                   std::ranges::none_of(logs, pushes_apart)
+               ? "m' is open, and only the steering turned the vehicle: with it I'z is open too"
+               : "";
+  }
+  if (!inertia->ci95 || !mass->ci95) return {};
+  const double box = vehicle.inertia_kgm2() / vehicle.mass_kg;
+  const double least = inertia->ci95->lo / mass->ci95->hi / box;
+  const double most = inertia->ci95->hi / mass->ci95->lo / box;
+  if (most > kInertiaOverBox.lo && least < kInertiaOverBox.hi) return {};
+  const double times = *inertia->value / *mass->value / box;
+  return fmt::format(
+      "I'z/m' as fitted is {:.3g} times Iz/m of the vehicle, which no distribution of its mass "
+      "makes: a unit or a sign is wrong{}, or something else turns it",
+      times, speed_unit_hint(logs, times));
+}
+
+}  // namespace
+
+void check_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, const Model& model,
+                   LogStage& stage) {
+  const std::string why = why_no_inertia(vehicle, logs, model, stage);
+  if (why.empty()) return;
+  stage.reasons[ParameterId::kInertiaNorm] = why;
+  if (!stage.reasons.contains(ParameterId::kMassNorm)) {
+    stage.findings.push_back({logs.front().file, 0, Severity::kWarning, "inertia-mismatch",
+                              why + ". The intervals are withdrawn; check the units of the speed, "
+                                    "the yaw rate and the forces, and the sizes of the vehicle"});
+    withdraw_intervals(stage.reports[stage.chosen_report]);
+    for (LogStage::Main& value : stage.main) {
+      value.estimate.std_error.reset();
+      value.estimate.ci95.reset();
+    }
+  }
+  std::erase_if(stage.main,
+                [](const LogStage::Main& value) { return value.id == ParameterId::kInertiaNorm; });
+}
+
+
+}  // namespace awmr
