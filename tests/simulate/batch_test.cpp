@@ -325,18 +325,24 @@ TEST_F(Batch, IsTheRunOfSimulateWithBackEmf) {
   }
 }
 
-/// Lanes allocate to four wheels: front-wheel-drive vehicles run in simulate(), with its bits.
-TEST_F(Batch, LeavesFrontWheelDriveToSimulate) {
-  std::vector<BatchRun> runs = drawn_runs(2, 0.2);
-  for (BatchRun& run : runs) {
-    run.plant.rear_driven = 0.0;
-    run.controller = make_controller(run.plant, paper_vehicle(), kPaperGains);
-  }
-  const Scenario heading{"heading", 2.0, {}, 0.6, HeadingSteps{{{0.0, 0.5}, {1.0, -0.5}}}};
-  for (const BatchArithmetic& arithmetic : all_arithmetics()) {
-    const auto batch = simulate_batch(runs, heading, kSampleTime_s, arithmetic);
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      expect_same(*batch[i], judged(runs[i], heading), "front-wheel drive");
+TEST_F(Batch, IsTheRunOfSimulateWithFrontWheelDrive) {
+  for (const Scenario& scenario : shipped_scenarios()) {
+    if (scenario.duration_s > 40.0) continue;
+    for (const YawMode mode : kYawModes) {
+      std::vector<BatchRun> runs = drawn_runs(2, 0.2, mode);
+      for (BatchRun& run : runs) {
+        run.plant.rear_driven = 0.0;
+        run.controller = make_controller(run.plant, paper_vehicle(), kPaperGains);
+      }
+      const std::vector<Reference> references = references_of(runs, scenario);
+      for (const BatchArithmetic& arithmetic : all_arithmetics()) {
+        const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+          expect_near(
+              batch[i].value(), references[i],
+              scenario.name + ", " + std::string(name_of(mode)) + ", run " + std::to_string(i));
+        }
+      }
     }
   }
 }

@@ -17,12 +17,6 @@ using lanes::Kernel;
 
 static_assert(kBatchRuns == kRunsOf<lanes::Row>);
 
-/// The lanes know no other allocation.
-bool all_wheels_driven(std::span<const BatchRun> runs) {
-  return std::ranges::all_of(
-      runs, [](const BatchRun& run) { return run.controller.limits.is_rear_driven; });
-}
-
 DrivenRun one_by_one(const BatchRun& run, const Scenario& scenario, double sample_time_s) {
   DrivenRun driven{
       .run = simulate(
@@ -47,7 +41,7 @@ void drive_by_blocks(std::span<const BatchRun> runs, const Scenario& scenario, d
   const Kernel* const kernel = kernel_of(arithmetic);
   for (std::size_t first = 0; first < runs.size(); first += kBatchRuns) {
     const auto block = runs.subspan(first, std::min(kBatchRuns, runs.size() - first));
-    if (!kernel || !all_wheels_driven(block)) {
+    if (!kernel) {
       for (std::size_t i = 0; i < block.size(); ++i) take(first + i, std::nullopt, Run{});
       continue;
     }

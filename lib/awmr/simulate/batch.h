@@ -55,7 +55,7 @@ inline constexpr std::size_t kBatchRuns = 16;
 Result<BatchArithmetic> batch_arithmetic();
 
 /// The metrics of each run, in order. Errors (input) of a run: as failure_of(). All controllers have
-/// the same allocation, split and form.
+/// the same driven wheels, split and form of the allocation.
 std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
                                             const Scenario& scenario, double sample_time_s,
                                             const BatchArithmetic& arithmetic);
