@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "awmr/control/arming.h"
+#include "awmr/simulate/one_run.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/scenario_guidance.h"
 #include "awmr/simulate/sensing.h"
@@ -20,11 +21,6 @@ namespace {
 using cli::Injection;
 
 float single(double value) { return static_cast<float>(value); }
-
-std::size_t samples_of(const LoopSetup& setup) {
-  return static_cast<std::size_t>(
-      std::floor(setup.scenario.duration_s / setup.sample_time_s + 1e-9));
-}
 
 /// The chip itself guides, avoids and shapes. Its input is the heading of a scenario without these,
 /// and the speed 0 at the end of the path or if there is no passage.
@@ -169,7 +165,7 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
   if (!setup.mission.points.points_m.empty()) {
     AWMR_RETURN_IF_ERROR(executor.follow(setup.mission.points));
   }
-  const std::size_t samples = samples_of(setup);
+  const std::size_t samples = samples_in(setup.scenario.duration_s, setup.sample_time_s);
   const Window window = injection_window(setup.injection, setup.middle, samples);
   const bool is_checked = disarms(setup.injection);
   CheckedSensors checked(setup.injection, setup.sample_time_s, setup.gps_limits);
