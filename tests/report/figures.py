@@ -22,6 +22,11 @@ GAINS = {"schema": "awmr.gains/1", "heading": {"lambda": 3, "mu": 50, "epsilon":
          "robust": {"draws": 4, "seed": 1, "motor_time_constant_s": 0.02, "noise": {"heading_deg": 1, "yaw_rate_degps": 0.5, "speed_mps": 0.02},
                     "latency": {"heading_s": 0.02, "yaw_rate_s": 0.02, "speed_s": 0.02}, "nominal_history": {"evaluations": 12, "global_evaluations": 7, "best": [{"evaluation": 1, "objective": 0.7}]}}}
 MODES = ["differential", "steering", "combined"]
+# One of each kind.
+DRAWN = ["surge_resistance", "yaw_resistance", "surge_residuals", "log_drive_2", "coastdown", "tuning_history",
+         "forces_c3_heading_steps", "heading_c3_heading_steps", "speed_c3_heading_steps", "steering_c3_heading_steps",
+         "path_c10_obstacle_between_waypoints", "heading_c10_obstacle_between_waypoints",
+         "distribution_c3_heading_steps_settling_time_s", "differences_c3_heading_steps_differential_steering"]
 
 
 def awmr(*words, code=0):
@@ -109,8 +114,8 @@ def check_content(at):
     expect("heading_c10_obstacle_between_waypoints", MODES + ["reference"] * 3, "ψ (deg)")
     expect("distribution_c3_heading_steps_settling_time_s", ["sample", "median, 5 to 95 %"] * 3, "settling time (s)", *MODES)
     expect("tuning_history", ["robust", "nominal", "the paper's gains"], "evaluation", "objective, best so far")
-    assert any(name.startswith("differences_c3_heading_steps_") for name in svg), svg.keys()
-    assert "surge_residuals" in svg and "yaw_residuals" in svg, svg.keys()
+    assert set(svg) == set(DRAWN), svg.keys()
+    assert {"surge_residuals.csv", "yaw_residuals.csv"} <= {path.name for path in at.iterdir()}
     for name in svg:
         check_pdf(at / f"{name}.pdf")
     return svg
@@ -124,10 +129,11 @@ def main():
         results(out)
         told = json.loads(awmr("report", out, "--figures", at / "new/figures", "--json").stdout)
         written = {pathlib.Path(path).name for path in told["written"]}
-        drawn = draw(at / "new/figures")
+        drawn = draw(at / "new/figures", *DRAWN)
         assert drawn.returncode == 0 and not drawn.stderr, drawn.stderr
         figures = check_content(at / "new/figures")
-        assert written == {"report.html", "figures.json", "plot.py"} | {f"{name}.csv" for name in figures}, written
+        names = {one["name"] for one in json.loads((at / "new/figures/figures.json").read_text())["figures"]}
+        assert written == {"report.html", "figures.json", "plot.py"} | {f"{name}.csv" for name in names}, written
         assert not told["findings"], told["findings"]
 
         awmr("report", out, "--figures", at / "again")

@@ -140,8 +140,8 @@ std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains
 }
 
 /// AWMR_ON_COURSE_RAD: twice the steady error of the heading with motors that differ by 16 %, 15 to
-/// 45 deg. In the boundary layer, at r = 0:
-///   0.08 d tau_speed = I'z lambda (mu/epsilon) e                               [paper (89)]
+/// 45 deg. In the boundary layer of the heading law (heading_law.h), at r = 0:
+///   0.08 d tau_speed = I'z lambda (mu/epsilon) e
 double on_course_rad(const Plant<double>& plant, const HeadingGains<double>& gains,
                      double route_mps) {
   const double stiffness_m = plant.inertia_norm * gains.lambda * gains.mu / gains.epsilon;

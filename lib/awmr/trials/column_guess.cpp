@@ -259,7 +259,12 @@ std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample&
 
 std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind) {
   std::vector<ColumnGuess> all;
+  const auto has = [&](std::string_view name) {
+    return std::find(sample.names.begin(), sample.names.end(), name) != sample.names.end();
+  };
   for (const CsvColumn& column : columns_of(kind)) {
+    // Speed bins alone take a time each; a curve has t_s.
+    if (kind == TrialKind::kCoastdown && column.name == "elapsed_s" && !has("from_mps")) continue;
     const std::vector<ColumnGuess> guesses = guesses_of(column.name, sample, kind);
     all.insert(all.end(), guesses.begin(), guesses.end());
   }

@@ -81,5 +81,4 @@ void check_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, 
                 [](const LogStage::Main& value) { return value.id == ParameterId::kInertiaNorm; });
 }
 
-
 }  // namespace awmr
