@@ -55,7 +55,7 @@ std::string browser(const fs::path& profile, const std::string& arguments) {
          "' --headless --no-sandbox --disable-gpu --disable-quic --no-first-run "
          "--hide-scrollbars --disable-background-networking --disable-component-update "
          "--disable-sync "
-         "--virtual-time-budget=8000 --user-data-dir='" +
+         "--virtual-time-budget=30000 --user-data-dir='" +
          profile.string() + "' " + arguments;
 }
 
