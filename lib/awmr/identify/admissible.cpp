@@ -11,6 +11,13 @@
 #include "awmr/model/ranges.h"
 
 namespace awmr {
+
+void withdraw_uncertainty(Estimate& estimate) {
+  estimate.std_error.reset();
+  estimate.ci95.reset();
+  estimate.quantiles.reset();
+}
+
 namespace {
 
 void take_out(ParameterId id, std::string why, Model& model,
@@ -18,9 +25,7 @@ void take_out(ParameterId id, std::string why, Model& model,
   Estimate& estimate = model[id];
   if (!estimate.value || estimate.source == Source::kGiven) return;
   estimate.value.reset();
-  estimate.std_error.reset();
-  estimate.ci95.reset();
-  estimate.quantiles.reset();
+  withdraw_uncertainty(estimate);
   reasons.emplace(id, std::move(why));
 }
 
@@ -84,9 +89,7 @@ std::map<ParameterId, std::string> take_out_inadmissible(Model& model) {
     const bool interval =
         !estimate.ci95 || (std::isfinite(estimate.ci95->lo) && std::isfinite(estimate.ci95->hi));
     if (error && interval) continue;
-    estimate.std_error.reset();
-    estimate.ci95.reset();
-    estimate.quantiles.reset();
+    withdraw_uncertainty(estimate);
     model.record.findings.push_back(
         {"", 0, Severity::kWarning, "no-interval",
          fmt::format("the standard error of {} is not finite: its uncertainty is "

@@ -1,4 +1,4 @@
-/// The last look at a model before it is handed out. Private to identify/.
+/// Final check of a model before it is returned. Private to identify/.
 #pragma once
 
 #include <map>
@@ -7,6 +7,9 @@
 #include "awmr/model/model.h"
 
 namespace awmr {
+
+/// Leaves the value without its standard error, interval and quantiles.
+void withdraw_uncertainty(Estimate& estimate);
 
 /// Takes every fitted or derived value out of the model that is not finite or outside of what a
 /// model file may hold, with the parameters that depend on it: an exponent without its factor says

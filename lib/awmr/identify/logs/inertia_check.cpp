@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "awmr/identify/admissible.h"
 #include "awmr/identify/logs/log_report.h"
 #include "awmr/model/plausibility.h"
 
@@ -72,10 +73,7 @@ void check_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, 
                               why + ". The intervals are withdrawn; check the units of the speed, "
                                     "the yaw rate and the forces, and the sizes of the vehicle"});
     withdraw_intervals(stage.reports[stage.chosen_report]);
-    for (LogStage::Main& value : stage.main) {
-      value.estimate.std_error.reset();
-      value.estimate.ci95.reset();
-    }
+    for (LogStage::Main& value : stage.main) withdraw_uncertainty(value.estimate);
   }
   std::erase_if(stage.main,
                 [](const LogStage::Main& value) { return value.id == ParameterId::kInertiaNorm; });
