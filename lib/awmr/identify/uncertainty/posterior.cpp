@@ -59,6 +59,7 @@ double Posterior::quantile(Eigen::Index i, double p) const {
     bracket = is_first ? Interval{own, own}
                        : Interval{std::min(bracket.lo, own), std::max(bracket.hi, own)};
   }
+  if (!(bracket.lo < bracket.hi)) return bracket.lo;
   const auto excess = [&](double x) { return probability_below(*this, i, x) - p; };
   const double at_low = excess(bracket.lo);
   const double at_high = excess(bracket.hi);
