@@ -21,8 +21,9 @@ Status write_figures(FigureSet figures, const fs::path& directory, Outcome& outc
   const fs::path plot = directory / kPlotName;
   std::error_code unreadable;
   const bool is_kept = fs::exists(plot, unreadable);
-  if (is_kept)
+  if (is_kept) {
     std::erase_if(figures.files, [](const OutputFile& f) { return f.path == kPlotName; });
+  }
   for (OutputFile& file : figures.files) {
     file.path = directory / file.path;
     outcome.written.push_back(file.path);

@@ -32,17 +32,22 @@ TEST(ScenarioGuidance, HoldsTheHeadingOfTheLastStepThatHasCome) {
   EXPECT_EQ(heading_at(steps, 9.0), 0.3);
 }
 
+/// Towards (10 m, 0) at the full speed, this far from the leg.
+void expect_on_first_leg(const GuidanceOutput& output, double cross_track_m) {
+  EXPECT_EQ(output.course.leg, 0);
+  EXPECT_EQ(output.course.target_m.x_m, 10.0);
+  EXPECT_EQ(output.course.target_m.y_m, 0.0);
+  EXPECT_NEAR(output.course.cross_track_m, cross_track_m, 1e-12);
+  EXPECT_EQ(output.reference.speed_mps, 2.0);
+}
+
 TEST(ScenarioGuidance, GoesToOnePointAfterTheOtherAndSlowsDownBeforeTheLast) {
   const Scenario scenario = along(WaypointCourse{
       .points_m = {{10.0, 0.0}, {10.0, 10.0}}, .acceptance_m = 1.0, .slow_down_m = 4.0});
   ScenarioGuidance guidance(scenario, 0.01, at(0.0, 0.0));
   const GuidanceOutput first =
       guidance.step(0.0, at(7.5, 0.5));  // within 4 m, but not of the last one
-  EXPECT_EQ(first.course.leg, 0);
-  EXPECT_EQ(first.course.target_m.x_m, 10.0);
-  EXPECT_EQ(first.course.target_m.y_m, 0.0);
-  EXPECT_NEAR(first.course.cross_track_m, 0.5, 1e-12);
-  EXPECT_EQ(first.reference.speed_mps, 2.0);
+  expect_on_first_leg(first, 0.5);
   const GuidanceOutput last = guidance.step(0.01, at(10.0, 0.5));
   EXPECT_EQ(last.course.leg, 1);
   EXPECT_EQ(last.course.target_m.y_m, 10.0);
@@ -61,11 +66,7 @@ TEST(ScenarioGuidance, FollowsALineToItsEndAndSlowsDownBeforeIt) {
                                              .slow_down_m = 4.0});
   ScenarioGuidance guidance(scenario, 0.01, at(0.0, 0.0));
   const GuidanceOutput first = guidance.step(0.0, at(7.0, 0.2));
-  EXPECT_EQ(first.course.leg, 0);
-  EXPECT_EQ(first.course.target_m.x_m, 10.0);
-  EXPECT_EQ(first.course.target_m.y_m, 0.0);
-  EXPECT_NEAR(first.course.cross_track_m, 0.2, 1e-12);
-  EXPECT_EQ(first.reference.speed_mps, 2.0);
+  expect_on_first_leg(first, 0.2);
   const GuidanceOutput last = guidance.step(0.01, at(10.2, 7.0));
   EXPECT_EQ(last.course.leg, 1);
   EXPECT_EQ(last.course.target_m.y_m, 10.0);

@@ -6,7 +6,7 @@
 
 namespace awmr {
 
-/// What a healthy vehicle with its GPS keeps within.
+/// Bounds that a healthy vehicle and its GPS do not exceed.
 struct GpsLimits {
   float speed_max_mps;    ///< largest speed
   float on_course_rad;    ///< largest difference of heading and wanted heading in steady motion

@@ -78,7 +78,7 @@ class MotionCheck {
   }
 
  private:
-  /// What is left to compare the last motion with.
+  /// Next comparison of the last motion.
   enum class Due : uint8_t { kNothing, kDirection, kSpeed, kTrack, kCourse };
 
   /// Maximum gap between fixes across which motion is evaluated, s.
