@@ -126,6 +126,7 @@ struct ValidateCommand {
   bool other_columns = false;  ///< mappings may refer to files that this command does not read
   double horizon_s = 10.0;
   double log_tolerance = 0.3;
+  bool tyres = false;   ///< fit the four-wheel plant to the logs
   bool claims = false;  ///< print all fourteen claims, each with tolerance and reason
   std::optional<fs::path> claims_table = {};  ///< output file in Markdown
   std::optional<fs::path> scenario = {};      ///< scenario that the logs are drives of

@@ -76,6 +76,7 @@ std::vector<fs::path> inputs_of(const CompareCommand& command) {
   std::vector<fs::path> paths{command.model};
   paths.insert(paths.end(), command.gains.begin(), command.gains.end());
   paths.insert(paths.end(), command.scenarios.begin(), command.scenarios.end());
+  if (command.plant.tyres_file) paths.push_back(*command.plant.tyres_file);
   return paths;
 }
 
@@ -213,12 +214,10 @@ void note_scrub(const Model& model, std::vector<Finding>& findings) {
                    model.yaw_scrub->ci95_m.hi)});
 }
 
-/// Returns all findings except the one on the fastest turn. They are the same for a shard and the
+/// Adds all findings except the one on the fastest turn. They are the same for a shard and the
 /// whole.
-Result<std::vector<Finding>> findings_of(const CompareCommand& command,
-                                         const Comparison& comparison, const Model& model,
-                                         const std::vector<Scenario>& scenarios) {
-  std::vector<Finding> findings;
+Status add_findings(const CompareCommand& command, const Comparison& comparison, const Model& model,
+                    const std::vector<Scenario>& scenarios, std::vector<Finding>& findings) {
   for (const fs::path& gains : command.gains) {
     AWMR_RETURN_IF_ERROR(note_other_model(gains, command.model, findings));
   }
@@ -236,7 +235,7 @@ Result<std::vector<Finding>> findings_of(const CompareCommand& command,
   }
   if (auto finding = not_led(command.heading_rate_limit, model)) findings.push_back(*finding);
   note_scrub(model, findings);
-  return findings;
+  return {};
 }
 
 Outcome outcome_of_part(const CompareCommand& command, const Comparison& part,
@@ -272,14 +271,17 @@ Result<Outcome> execute(const CompareCommand& command) {
   AWMR_ASSIGN_OR_RETURN(std::vector<Scenario> scenarios,
                         read_each(command.scenarios, read_scenario));
   choose(command.allocation, model, scenarios);
-  AWMR_RETURN_IF_ERROR(choose(command.plant, scenarios));
+  std::vector<Finding> findings;
+  AWMR_ASSIGN_OR_RETURN(const Tyres<double> tyres, tyres_of(command.plant, findings));
+  AWMR_RETURN_IF_ERROR(choose(command.plant, tyres, scenarios));
   const HeadingRateChoice rate = rate_to_compare_at(command.heading_rate_limit, model);
   AWMR_RETURN_IF_ERROR(limit_heading_rate(rate, model, scenarios));
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, scenarios, rate));
   AWMR_RETURN_IF_ERROR(
       check_outputs(command.output, {"comparison.csv", json_of(command)}, inputs_of(command)));
   CompareOptions options = command.compare;
-  options.other_settings = !command.plant;
+  options.other_settings = !command.plant.kind;
+  options.tyres = tyres;
   if (command.resume && command.shard) {
     if (is_finished_shard(command.output, options, provenance)) {
       return finished_part(*command.shard, command.output);
@@ -290,8 +292,7 @@ Result<Outcome> execute(const CompareCommand& command) {
   const StopOnInterrupt interrupt;
   AWMR_ASSIGN_OR_RETURN(const Comparison comparison,
                         compare_until_interrupted(model, gains, scenarios, std::move(options)));
-  AWMR_ASSIGN_OR_RETURN(std::vector<Finding> findings,
-                        findings_of(command, comparison, model, scenarios));
+  AWMR_RETURN_IF_ERROR(add_findings(command, comparison, model, scenarios, findings));
   Outcome outcome = command.shard ? outcome_of_part(command, comparison, std::move(findings))
                                   : outcome_of_whole(command, comparison, model, scenarios, rate,
                                                      provenance, std::move(findings));

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -14,14 +15,20 @@
 
 #include "awmr/core/result.h"
 #include "awmr/simulate/scenario.h"
+#include "awmr/validate/tyre_fit.h"
 #include "choices.h"
+#include "paths.h"
 
 namespace awmr::cli {
 
-/// Plant that overrides the scenarios'; empty: no override.
-using PlantChoice = std::optional<PlantKind>;
+struct PlantChoice {
+  std::optional<PlantKind> kind = {};  ///< overrides the scenarios'; empty: no override
+  /// validation.json whose tyres override the scenarios' and the defaults.
+  std::optional<std::filesystem::path> tyres_file = {};
+};
 
 inline constexpr const char* kPlantOption = "--plant";
+inline constexpr const char* kTyresOption = "--tyres";
 /// Key of the plant among the options recorded in an output.
 inline constexpr const char* kPlantName = "plant";
 
@@ -30,7 +37,9 @@ inline constexpr const char* kBothPlants = "both";
 
 inline void add_plant_of(CLI::App& command, PlantChoice& choice, std::vector<std::string> names,
                          const std::string& by_default) {
-  const auto set = [&choice](const std::string& name) { choice = value_in(kPlantKindNames, name); };
+  const auto set = [&choice](const std::string& name) {
+    choice.kind = value_in(kPlantKindNames, name);
+  };
   command
       .add_option_function<std::string>(kPlantOption, set,
                                         "What moves in every scenario: the model's 3-DOF "
@@ -39,6 +48,8 @@ inline void add_plant_of(CLI::App& command, PlantChoice& choice, std::vector<std
                                         "their defaults (default: " +
                                             by_default + ")")
       ->check(one_of(std::move(names)));
+  add_file(command, kTyresOption, choice.tyres_file,
+           "validation.json of validate --tyres: the tyres of the four-wheel plant");
 }
 
 inline void add_plant(CLI::App& command, PlantChoice& choice) {
@@ -55,20 +66,35 @@ inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
                "other one and with slower and faster gains");
 }
 
+/// The tyres of the file; without one the defaults. Adds how well they predict (`tyres-simulated`).
+/// Errors: as read_tyres().
+inline Result<Tyres<double>> tyres_of(const PlantChoice& choice, std::vector<Finding>& findings) {
+  if (!choice.tyres_file) return Tyres<double>{};
+  AWMR_ASSIGN_OR_RETURN(const TyreFit fit, read_tyres(*choice.tyres_file));
+  findings.push_back(
+      {choice.tyres_file->string(), 0, Severity::kNote, "tyres-simulated",
+       fmt::format("the four-wheel plant has fitted tyres (friction {:.3g}, {:.3g} per rad); on "
+                   "held-out parts of their logs {}",
+                   fit.tyres.friction, fit.tyres.cornering_per_rad,
+                   fit.better ? fmt::format("the {} plant predicts better: rely on its verdict",
+                                            name_in(kPlantKindNames, *fit.better))
+                              : "neither plant predicts better")});
+  return fit.tyres;
+}
+
 /// Applies the choice to every scenario. Errors (input): a scenario uses a feature that the
 /// four-wheel plant does not support.
-inline Status choose(const PlantChoice& choice, std::span<Scenario> scenarios) {
-  if (!choice) return {};
+inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
+                     std::span<Scenario> scenarios) {
   std::vector<Fault> faults;
   for (Scenario& scenario : scenarios) {
-    if (*choice == PlantKind::kModel) {
-      scenario.tyres.reset();
-      continue;
-    }
-    if (!scenario.tyres) scenario.tyres.emplace();
+    if (choice.kind == PlantKind::kModel) scenario.tyres.reset();
+    if (scenario.tyres && choice.tyres_file) scenario.tyres = tyres;
+    if (choice.kind != PlantKind::kFourWheel) continue;
+    if (!scenario.tyres) scenario.tyres = tyres;
     for (const TyreConflict& conflict : tyre_conflicts(scenario)) {
       faults.push_back(
-          {fmt::format("{} {}", kPlantOption, name_in(kPlantKindNames, *choice)),
+          {fmt::format("{} {}", kPlantOption, name_in(kPlantKindNames, *choice.kind)),
            fmt::format("scenario '{}', /{}: {}", scenario.name, conflict.key, conflict.message)});
     }
   }
@@ -96,7 +122,7 @@ inline std::vector<std::pair<std::string, std::string>> options_of(
     const PlantChoice& choice, std::span<const Scenario> scenarios) {
   const bool is_model = std::none_of(scenarios.begin(), scenarios.end(),
                                      [](const Scenario& s) { return s.tyres.has_value(); });
-  if (scenarios.empty() || (is_model && !choice)) return {};
+  if (scenarios.empty() || (is_model && !choice.kind)) return {};
   return {{kPlantName, plants_text(scenarios)}};
 }
 

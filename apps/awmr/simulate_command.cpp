@@ -119,11 +119,14 @@ Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(Model model, read_model(command.model));
   AWMR_ASSIGN_OR_RETURN(Scenario scenario, read_scenario(command.scenario));
   choose(command.allocation, model, std::span(&scenario, 1));
-  AWMR_RETURN_IF_ERROR(choose(command.plant, std::span(&scenario, 1)));
+  std::vector<Finding> findings;
+  AWMR_ASSIGN_OR_RETURN(const Tyres<double> tyres, tyres_of(command.plant, findings));
+  AWMR_RETURN_IF_ERROR(choose(command.plant, tyres, std::span(&scenario, 1)));
   AWMR_RETURN_IF_ERROR(
       limit_heading_rate(command.heading_rate_limit, model, std::span(&scenario, 1)));
   std::vector<fs::path> inputs{command.model, command.scenario};
   if (command.gains) inputs.push_back(*command.gains);
+  if (command.plant.tyres_file) inputs.push_back(*command.plant.tyres_file);
   AWMR_RETURN_IF_ERROR(check_output(command.output, inputs));
   if (has_side_file(command.output)) {
     AWMR_RETURN_IF_ERROR(check_output(run_side_path(command.output), inputs));
@@ -139,7 +142,6 @@ Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
   Metrics metrics = metrics_of(run, scenario, controller);
   metrics.electric_work_j = electric_work_j(metrics, model.vehicle, controller.mass_norm);
-  std::vector<Finding> findings;
   if (command.gains) {
     AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings, command.mode));
   }

@@ -77,11 +77,17 @@ Status add_judged_logs(const ValidateCommand& command, const Model& model,
                        const std::optional<Gains<double>>& gains, Validation& validation,
                        std::vector<Finding>& findings) {
   if (!command.scenario) {
+    std::vector<DrivingLog> read;
     const auto by_model = [&](const DrivingLog& log) {
+      if (command.tyres) read.push_back(log);
       return validate_log(log, model, command.horizon_s, command.log_tolerance);
     };
     AWMR_ASSIGN_OR_RETURN(auto logs, judge_logs(command, model.vehicle, by_model, findings));
     add_logs(validation, std::move(logs), command.log_tolerance);
+    if (!command.tyres) return {};
+    const Working working("fitting tyres");
+    AWMR_ASSIGN_OR_RETURN(validation.tyres, fit_tyres(read, model, findings));
+    validation.passed = validation.passed && validation.tyres.has_value();
     return {};
   }
   AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(*command.scenario));
@@ -119,6 +125,7 @@ Result<Provenance> provenance_of(const ValidateCommand& command) {
                         input_files(inputs_of(command), command.names));
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   options.emplace_back("tolerance", format_number(command.validate.tolerance));
+  if (command.tyres) options.emplace_back("tyres", "true");
   if (command.scenario) {
     options.emplace_back("mode", std::string(name_of(command.acceptance.mode)));
     options.emplace_back("draws", std::to_string(command.acceptance.draws));
@@ -169,6 +176,10 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& colum
   sub.add_option("--log-tolerance", command.log_tolerance,
                  "Largest accepted NRMSE of a channel over a window (default 0.3)")
       ->check(within(1e-9, 1e6));
+  sub.add_flag("--tyres", command.tyres,
+               "Also fit friction and cornering stiffness of four wheels on tyres to the logs, and "
+               "compare both plants on windows held out from that fit")
+      ->needs("--log");
   sub.add_flag("--as-is", command.trials.as_is,
                "Take logs whose units, signs or sides contradict themselves as they are");
   sub.add_option("--column", columns.columns, kColumnHelp);

@@ -89,6 +89,13 @@ std::string edited(const std::string& good, const std::string& edit) {
 
 constexpr const char* kGains =
     R"({"heading": {"lambda": 3, "mu": 50, "epsilon": 12}, "speed": {"mu": 5, "epsilon": 1.2}})";
+constexpr const char* kTyres =
+    R"({"schema": "awmr.validation/1", "command": "validate", "version": "0", "inputs": [], "options": {},
+        "passed": true, "verdict": "", "trials": [], "logs": [], "claims": [], "findings": [],
+        "rms_relative_error": {"surge": null, "turning": null, "coastdown": null},
+        "tyres": {"friction": 0.6, "cornering_stiffness_per_rad": 7, "windows": 12, "better": "undecided",
+                  "estimates": {"friction": {"value": 0.6, "std_error": 0.1, "ci95": [0.5, 0.8]}},
+                  "held_out": {"speed_mps": {"model_rms": 0.1, "four_wheel_rms": 0.1}}}})";
 constexpr const char* kTune =
     R"({"form": "strict", "margin": 0.8, "weights": {"itae": 1}, "bounds": {"lambda": [0.5, 15]},
         "global_evaluations": 10, "local_evaluations": 5, "seed": 1})";
@@ -116,6 +123,9 @@ const Kind kKinds[] = {{"vehicle", ".json", "identify --vehicle @ --surge SURGE 
                         "simulate --model MODEL --gains GAINS --scenario @ --mode combined -o OUT"},
                        {"gains", ".json", "emit --model MODEL --gains @ --header-only -o OUT"},
                        {"model", ".json", "emit --model @ --gains GAINS --header-only -o OUT"},
+                       {"tyres", ".json",
+                        "simulate --model MODEL --gains GAINS --scenario SCENARIO --mode combined "
+                        "--plant four-wheel --tyres @ -o OUT"},
                        {"tune", ".json", "tune --model MODEL --config @ -o OUT"},
                        {"project", ".json", "run @ -o OUT"},
                        {"surge", ".csv", "identify --vehicle VEHICLE --surge @ -o OUT"},
@@ -136,6 +146,7 @@ class Malformed : public ::testing::TestWithParam<Kind> {
     fs::copy(source("configs/paper/scenarios/c3_heading_steps.json"), path("scenario"));
     write_all(path("gains"), kGains);
     write_all(path("tune"), kTune);
+    write_all(path("tyres"), kTyres);
     write_all(path("project"), project_text());
     const ProcessResult identified =
         awmr("identify --vehicle " + path("vehicle") + " --surge " + path("surge", ".csv") +

@@ -48,6 +48,56 @@ class PlantOption : public ::testing::Test {
   inline static std::string model_, gains_;
 };
 
+/// Two runs on tyres, one by steering and one by the sides' forces: the tyres are found in them and used.
+TEST_F(PlantOption, TyresOfValidateAreThoseOfTheRuns) {
+  Json scenario = Json::parse(read_all(std::string(AWMR_SOURCE_DIR) + "/" + kC3));
+  scenario["duration_s"] = 40;
+  scenario["guidance"]["steps"] = Json::array();
+  for (int i = 0; i < 10; ++i) {
+    scenario["guidance"]["steps"].push_back(
+        {{"t_s", 4.0 * i}, {"psi_deg", i % 2 == 0 ? 25 + i : -20}});
+  }
+  scenario["tyres"] = {{"friction", 0.6}, {"cornering_stiffness_per_rad", 7}};
+  write_all(path("turns.json"), scenario.dump());
+  std::string logs;
+  for (const std::string mode : {"differential", "steering"}) {
+    const std::string csv = path(mode + ".csv");
+    ASSERT_EQ(awmr(with("simulate", fmt::format("--scenario {} --mode {} -o {}", path("turns.json"),
+                                                mode, csv)))
+                  .exit_code,
+              0);
+    logs += " --log " + csv;
+  }
+  const std::string columns =
+      " --column heading_deg=psi_rad*57.29577951308232 --column speed_mps=u_mps --column "
+      "sway_mps=v_mps "
+      "--column yaw_rate_radps=r_radps --column "
+      "steering_cmd_deg=steering_cmd_rad*57.29577951308232";
+  const ProcessResult found = awmr(fmt::format("validate --model {}{}{} --tyres -o {}", model_,
+                                               logs, columns, path("tyres.json")));
+  ASSERT_THAT(found.exit_code, ::testing::AnyOf(0, 1)) << found.err;
+  const Json tyres = Json::parse(read_all(path("tyres.json"))).at("tyres");
+  EXPECT_NEAR(tyres.at("friction").get<double>(), 0.6, 0.01);
+  EXPECT_NEAR(tyres.at("cornering_stiffness_per_rad").get<double>(), 7.0, 0.1);
+  EXPECT_EQ(tyres.at("better"), "four-wheel");
+
+  const ProcessResult run =
+      awmr(with("simulate", fmt::format("--scenario {} --mode combined --plant four-wheel "
+                                        "--tyres {} --json -o {}",
+                                        kC3, path("tyres.json"), path("run.csv"))));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(Json::parse(run.out).at("result").at("plant").get<std::string>(),
+              HasSubstr("friction 0.6"));
+  const ProcessResult compared =
+      awmr(with("compare", fmt::format("--scenario {} --tyres {} -o {}", kC3, path("tyres.json"),
+                                       path("compared"))));
+  ASSERT_EQ(compared.exit_code, 0) << compared.err;
+  EXPECT_THAT(read_all(path("compared") + "/comparison.json"), HasSubstr("tyres-simulated"));
+  EXPECT_EQ(
+      awmr(fmt::format("validate --model {} --tyres -o {}", model_, path("none.json"))).exit_code,
+      2);
+}
+
 TEST_F(PlantOption, OfSimulateIsNamedAndChangesTheRun) {
   const auto run = [&](const std::string& words) {
     return awmr(with("simulate", fmt::format("--scenario {} --mode combined {} -o {}", kC3, words,

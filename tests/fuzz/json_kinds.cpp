@@ -5,6 +5,7 @@
 #include "awmr/model/vehicle_file.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/tune/tune_file.h"
+#include "awmr/validate/tyre_fit.h"
 #include "fuzz/file_of_bytes.h"
 #include "fuzz/target.h"
 #include "project.h"
@@ -42,6 +43,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   (void)is_refused(awmr::read_scenario(path));
   (void)is_refused(awmr::cli::read_project(path));
+  if (const auto fit = awmr::read_tyres(path); !is_refused(fit)) {
+    require(fit->tyres.friction > 0.0 && fit->tyres.cornering_per_rad > 0.0, "tyres are above 0");
+  }
   check_model(path);
   return 0;
 }

@@ -69,6 +69,8 @@ struct CompareOptions {
   /// Also Comparison::changes: who is first on the other plant and with slower and faster gains. Of a
   /// comparison in parts, the first part has them.
   bool other_settings = false;
+  /// Of the four-wheel plant, where that is the other one.
+  Tyres<double> tyres = {};
   /// What of the samples to run: all, or a part that merge_shards() (shard.h) puts to the others. At
   /// most as many parts as samples, the nominal one included.
   Shard shard = {};

@@ -104,7 +104,7 @@ PlantKind other_plant(const Scenario& scenario) {
 }
 
 /// The scenario on that plant. Errors (input): it has no meaning there.
-Result<Scenario> on_other_plant(Scenario scenario) {
+Result<Scenario> on_other_plant(Scenario scenario, const Tyres<double>& tyres) {
   if (scenario.tyres) {
     scenario.tyres.reset();
     return scenario;
@@ -112,7 +112,7 @@ Result<Scenario> on_other_plant(Scenario scenario) {
   for (const TyreConflict& conflict : tyre_conflicts(scenario)) {
     return input_error("/" + conflict.key, conflict.message);
   }
-  scenario.tyres.emplace();
+  scenario.tyres = tyres;
   return scenario;
 }
 
@@ -127,6 +127,7 @@ struct ChangedCourse {
 /// `changes` with their reason.
 std::vector<ChangedCourse> changed_courses(const std::vector<NamedGains>& gains,
                                            const std::vector<Scenario>& scenarios,
+                                           const Tyres<double>& tyres,
                                            std::vector<Change>& changes) {
   std::vector<ChangedCourse> courses;
   for (const Scenario& scenario : scenarios) {
@@ -135,7 +136,7 @@ std::vector<ChangedCourse> changed_courses(const std::vector<NamedGains>& gains,
                   .kind = ChangeKind::kPlant,
                   .setting = std::string(name_in(kPlantKindNames, other_plant(scenario))),
                   .first = {}};
-    if (auto other = on_other_plant(scenario)) {
+    if (auto other = on_other_plant(scenario, tyres)) {
       courses.push_back({std::move(change), *std::move(other), gains});
     } else {
       change.not_run = message_of(other.error());
@@ -227,7 +228,7 @@ std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedG
                                     const CompareOptions& options) {
   std::vector<Change> changes;
   if (gains.size() * yaw_modes(model.vehicle).size() < 2) return changes;  // nothing to choose
-  std::vector<ChangedCourse> courses = changed_courses(gains, scenarios, changes);
+  std::vector<ChangedCourse> courses = changed_courses(gains, scenarios, options.tyres, changes);
   // A course to a thread; each has no more samples than a thread runs at a time.
   CompareOptions few;
   few.samples = std::min(options.samples, static_cast<int>(kBatchRuns) - 1);

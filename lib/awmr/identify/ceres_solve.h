@@ -2,7 +2,6 @@
 #pragma once
 
 #include <ceres/ceres.h>
-#include <glog/logging.h>
 
 #include <Eigen/Core>
 #include <cmath>
@@ -11,16 +10,10 @@
 #include <vector>
 
 #include "awmr/core/index.h"
+#include "awmr/core/silent_ceres.h"
 #include "awmr/trials/replay.h"
 
 namespace awmr {
-
-/// Ceres says on stderr why it stopped, through its logging library; here that is in the result.
-inline void silence_ceres() {
-  static const int level = FLAGS_minloglevel =
-      google::GLOG_FATAL;  // once, whichever thread is first
-  static_cast<void>(level);
-}
 
 /// Runs until nothing moves any more: the data are few, the digits cheap.
 inline ceres::Solver::Options exact_options() {

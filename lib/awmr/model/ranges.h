@@ -26,6 +26,9 @@ inline constexpr NumberRule kFastestTurn_degps{.min = 1e-3, .max = 1e6};
 inline constexpr NumberRule kCoefficient{.min = 1e-9, .max = 1e9};
 inline constexpr NumberRule kTerm{.min = 0.0, .max = 1e9};
 inline constexpr NumberRule kExponent{.min = 0.0, .max = 20.0};
+/// Of tyres: from ice to more than rubber holds, from a soft tyre to a rigid wheel.
+inline constexpr NumberRule kTyreFrictionRule{.min = 0.01, .max = 5.0};
+inline constexpr NumberRule kCorneringStiffnessRule_per_rad{.min = 0.1, .max = 100.0};
 inline constexpr NumberRule kGain{.min = 1e-9, .max = 1e9};
 /// Also below 1/sample_time_s, which is not known when gains are read.
 inline constexpr NumberRule kObserverBandwidth{.min = 1e-6, .max = 1e4};

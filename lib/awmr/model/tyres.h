@@ -10,6 +10,8 @@
 #include "awmr/core/gravity.h"
 #include "awmr/core/tyre_friction.h"
 #include "awmr/model/dynamics.h"
+#include "awmr/model/resolved_steps.h"
+#include "awmr/model/rest.h"
 
 namespace awmr {
 
@@ -187,6 +189,13 @@ T rolling_inertia(const Plant<T>& p) {
   return select(turning < p.mass_norm, turning, p.mass_norm);
 }
 
+/// resolved_at_rest() of rest.h, with g1 at the wheels.
+inline Plant<double> resolved_at_rest_on_tyres(const Plant<double>& body, double step_s) {
+  Plant<double> resolved = resolved_at_rest(body, step_s);
+  resolved.surge.rest_speed = rest_speed(body.surge, rolling_inertia(body), step_s);
+  return resolved;
+}
+
 /// Upper bound of the rate at which the tyres damp a sideways motion, 1/s: their stiffness c_a F'z
 /// divided by each wheel's rolling speed,
 ///   max(1/m' sum_i c_a F'z/V_i,  1/I'z sum_i a_i^2 c_a F'z/V_i),   V_i = sqrt(w_i^2 + v_0^2)
@@ -207,6 +216,20 @@ T tyre_rate(const FourWheels<T>& p, const State<T>& s) {
   const T wheel_m2 = axle_m2 + p.body.half_track_m * p.body.half_track_m;
   return stiffness * math::larger(T((front + rear) / p.body.mass_norm),
                                   T((wheel_m2 * front + axle_m2 * rear) / p.body.inertia_norm));
+}
+
+/// Faster than this nothing of the vehicle changes at `at`: the turning of the velocity in its frame, the
+/// tyres, and the resistance of the drives at the speed of the fastest wheel.
+template <class T>
+T fastest_rate(const FourWheels<T>& vehicle, const State<T>& at) {
+  using math::abs;
+  using math::larger;
+  const Plant<T>& body = vehicle.body;
+  const WheelSpeeds<T> w = wheel_speeds(body.front_axle_m, body.half_track_m, at);
+  const T fastest_mps = larger(larger(T(abs(w.front_left)), T(abs(w.front_right))),
+                               larger(T(abs(w.rear_left)), T(abs(w.rear_right))));
+  const T rolling = decay_rate(body.surge, rolling_inertia(body), fastest_mps);
+  return larger(larger(T(abs(at.r_radps)), tyre_rate(vehicle, at)), rolling);
 }
 
 }  // namespace awmr

@@ -117,11 +117,8 @@ void Physics::step(double t_s, const SideForces<double>& force, double steering_
 
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario,
                                double step_s) {
-  Plant<double> resolved = resolved_at_rest(plant, step_s);
-  if (scenario.tyres) {
-    resolved.surge.rest_speed = rest_speed(plant.surge, rolling_inertia(plant), step_s);
-  }
-  return resolved;
+  return scenario.tyres ? resolved_at_rest_on_tyres(plant, step_s)
+                        : resolved_at_rest(plant, step_s);
 }
 
 bool forces_differ_by_wheel(const Scenario& scenario) {

@@ -26,9 +26,6 @@ inline constexpr NumberRule kSignedRate_radps{.min = -1e3, .max = 1e3};
 inline constexpr NumberRule kSensorSize{.min = 0.0, .max = 1e6};
 inline constexpr NumberRule kSensorBias{.min = -1e6, .max = 1e6};
 
-// Of tyres: from ice to more than rubber holds, from a soft tyre to a rigid wheel.
-inline constexpr NumberRule kTyreFrictionRule{.min = 0.01, .max = 5.0};
-inline constexpr NumberRule kCorneringStiffnessRule_per_rad{.min = 0.1, .max = 100.0};
 inline constexpr NumberRule kTyreRestSpeedRule_mps{.min = 0.01, .max = 10.0};
 
 Guidance read_guidance(JsonObject json);

@@ -2,7 +2,6 @@
 /// rows (row_view.h). Private to this folder.
 #pragma once
 
-#include "awmr/simulate/four_wheel_motion.h"
 #include "awmr/simulate/motion.h"
 #include "awmr/simulate/row_view.h"
 

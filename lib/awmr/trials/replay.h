@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "awmr/core/result.h"
+#include "awmr/model/resolved_steps.h"
 #include "awmr/model/sliding.h"
+#include "awmr/model/tyres.h"
 #include "awmr/trials/lagged_forces.h"
 #include "awmr/trials/log.h"
 
@@ -48,19 +50,15 @@ SideForces<T> lagged_force(const LaggedForces& lagged, const LogSignals& signals
           side(mean.force.right, mean.by_delay.right, command.right)};
 }
 
-/// Runs the model over rows [begin, end) from the initial state `state` and calls visit(row, state)
-/// at every row. Steps are at most `longest_step_s`. `delay_s` null: none. `lagged` null: motors that follow
-/// their commands at once. The plant is one of resolved_beside_friction().
-template <class T, class Visit>
-void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant<T> plant,
-            const T* delay_s, double longest_step_s, State<T> state, Visit visit,
-            const LaggedForces* lagged = nullptr) {
+/// Calls visit(row, state) at every row of [begin, end), from the initial state `state` on, and moves it
+/// in steps of at most `longest_step_s` by step(state, h_s, force, steering_rad). `delay_s` null: none.
+/// `lagged` null: motors that follow their commands at once. A logged angle is used as it is: no lag.
+template <class T, class Visit, class Step>
+void replay_rows(const LogSignals& signals, std::size_t begin, std::size_t end,
+                 const Plant<T>& plant, const T* delay_s, double longest_step_s, State<T> state,
+                 Visit visit, const LaggedForces* lagged, Step step) {
   const DrivingLog& log = *signals.log;
   const bool servo = log.steering_command_rad.has_value();
-  // A logged angle is used as it is: no stop, no lag.
-  if (!servo) plant.steering_max_rad = T(10.0);
-  const FrictionRates<T> friction = friction_rates(plant);
-  if (friction.any()) plant = without_friction(plant);
   const auto angle_at = [&](std::size_t row, double share) {
     const std::vector<double>& angle = log[LogChannel::kSteering]->value;
     return angle[row] + share * (angle[std::min(row + 1, log.rows() - 1)] - angle[row]);
@@ -88,11 +86,51 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
         steering = delay_s ? delayed_mean(signals.steering, at_s, h, *delay_s)
                            : T((*log.steering_command_rad)[row]);
       }
-      state = rk4_step_with_friction(friction, state, T(h), [&](const State<T>& at) {
-        return state_rates(plant, at, force, steering);
-      });
+      state = step(state, T(h), force, steering);
     }
   }
+}
+
+/// No stop limits an angle that was logged itself.
+template <class T>
+Plant<T> without_stop_of_logged_angle(Plant<T> plant, const DrivingLog& log) {
+  if (!log.steering_command_rad) plant.steering_max_rad = T(10.0);
+  return plant;
+}
+
+/// replay_rows() of the 3-DOF model. The plant is one of resolved_beside_friction().
+template <class T, class Visit>
+void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant<T> plant,
+            const T* delay_s, double longest_step_s, State<T> state, Visit visit,
+            const LaggedForces* lagged = nullptr) {
+  plant = without_stop_of_logged_angle(plant, *signals.log);
+  const FrictionRates<T> friction = friction_rates(plant);
+  if (friction.any()) plant = without_friction(plant);
+  replay_rows(signals, begin, end, plant, delay_s, longest_step_s, state, visit, lagged,
+              [&](const State<T>& from, const T& h, const SideForces<T>& force, const T& steering) {
+                return rk4_step_with_friction(friction, from, h, [&](const State<T>& at) {
+                  return state_rates(plant, at, force, steering);
+                });
+              });
+}
+
+/// replay_rows() of four wheels, which are those of resolved_at_rest(). False: the tyres are too stiff for
+/// any step, and the states after that have no meaning.
+template <class Visit>
+bool replay(const LogSignals& signals, std::size_t begin, std::size_t end,
+            FourWheels<double> vehicle, double longest_step_s, const State<double>& state,
+            Visit visit, const LaggedForces* lagged = nullptr) {
+  vehicle.body = without_stop_of_logged_angle(vehicle.body, *signals.log);
+  Resolution<double> resolution;
+  replay_rows<double>(
+      signals, begin, end, vehicle.body, nullptr, longest_step_s, state, visit, lagged,
+      [&](const State<double>& from, double h, const SideForces<double>& force, double steering) {
+        const auto rates = [&](const State<double>& at) {
+          return state_rates(vehicle, at, force, steering);
+        };
+        return advance(vehicle, from, h, rates, true, 0, resolution);
+      });
+  return resolution.resolved;
 }
 
 /// State at delay_s >= 0 before the last of `states`, the states at the rows from `begin` on. It is
@@ -108,7 +146,7 @@ State<T> earlier_state(const LogSignals& signals, std::size_t begin,
   std::size_t row = begin + states.size() - 1;
   while (row > begin && log.t_s[row] > then_s) --row;
   const bool servo = log.steering_command_rad.has_value();
-  if (!servo) plant.steering_max_rad = T(10.0);
+  plant = without_stop_of_logged_angle(plant, log);
   const FrictionRates<T> friction = friction_rates(plant);
   if (friction.any()) plant = without_friction(plant);
   State<T> state = states[row - begin];

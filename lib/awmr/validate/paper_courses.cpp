@@ -11,7 +11,7 @@ constexpr double kCourseSpeed_mps = 1.0;  ///< [paper 5.1]
 constexpr double kAcceptance_m = 1.0;
 constexpr double kDelta_deg = 60.0;
 
-State<double> at(double x_m, double y_m, double psi_deg) {
+State<double> pose(double x_m, double y_m, double psi_deg) {
   State<double> state{};
   state.x_m = x_m;
   state.y_m = y_m;
@@ -41,7 +41,7 @@ Scenario waypoint_scenario() {
   course.acceptance_m = kAcceptance_m;
   return {.name = "C8 waypoints by line of sight",
           .duration_s = 180.0,
-          .initial = at(80.0, 0.0, 0.0),
+          .initial = pose(80.0, 0.0, 0.0),
           .speed_mps = kCourseSpeed_mps,
           .guidance = course};
 }
@@ -50,7 +50,7 @@ Scenario line_scenario() {
   return {
       .name = "C9 line following",
       .duration_s = 120.0,
-      .initial = at(0.0, 10.0, 0.0),
+      .initial = pose(0.0, 10.0, 0.0),
       .speed_mps = kCourseSpeed_mps,
       .guidance = LineCourse{
           .points_m = {{0, 0}, {50, 25}}, .law = lane(5.0), .corner_m = 0.0, .slow_down_m = {}}};
@@ -81,7 +81,7 @@ Scenario lissajous_scenario(bool closed_loop) {
   return {
       .name = closed_loop ? "C11 timed path, position fed back" : "C11 timed path, heading alone",
       .duration_s = 628.0,  // one period: 2 pi/0.01 s
-      .initial = at(10.0, 0.0, 90.0),
+      .initial = pose(10.0, 0.0, 90.0),
       .speed_mps = 0.0,
       .guidance = LissajousCourse{.path = {10.0, 10.0, 0.01, 0.03},
                                   .closed_loop = closed_loop,
@@ -92,7 +92,7 @@ Scenario lissajous_scenario(bool closed_loop) {
 Scenario polyline_scenario() {
   return {.name = "C12 polyline",
           .duration_s = 150.0,
-          .initial = at(80.0, 0.0, 0.0),
+          .initial = pose(80.0, 0.0, 0.0),
           .speed_mps = kCourseSpeed_mps,
           .guidance = LineCourse{.points_m = {{80, 0}, {90, 20}, {80, 40}, {70, 20}, {80, 0}},
                                  .law = lane(3.0),

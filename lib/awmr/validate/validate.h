@@ -13,6 +13,7 @@
 #include "awmr/simulate/scenario.h"
 #include "awmr/validate/acceptance.h"
 #include "awmr/validate/logs.h"
+#include "awmr/validate/tyre_fit.h"
 
 namespace awmr {
 
@@ -64,6 +65,7 @@ struct Validation {
   std::optional<double> turning_rms_relative_error;
   std::optional<double> coastdown_rms_relative_error;
   std::vector<LogValidation> logs;
+  std::optional<TyreFit> tyres;    ///< of the four-wheel plant, fitted to the logs if requested
   std::vector<Acceptance> drives;  ///< from logs of a scenario under the controller
   std::vector<Claim> claims;
   /// Every kind of trial and every log is predicted within its tolerance, every drive of a scenario

@@ -50,6 +50,31 @@ Json log_json(const LogValidation& log) {
           {"channels", channels}};
 }
 
+Json estimate_json(const Estimate& estimate) {
+  return {{"value", *estimate.value},
+          {"std_error", *estimate.std_error},
+          {"ci95", {estimate.ci95->lo, estimate.ci95->hi}}};
+}
+
+Json tyres_json(const TyreFit& tyres) {
+  Json held_out = Json::object();
+  for (const HeldOutError& error : tyres.held_out) {
+    held_out[error.channel] = {{"model_rms", error.model_rms},
+                               {"four_wheel_rms", error.four_wheel_rms}};
+  }
+  Json estimates = Json::object();
+  if (tyres.friction) estimates["friction"] = estimate_json(*tyres.friction);
+  if (tyres.cornering_per_rad) {
+    estimates["cornering_stiffness_per_rad"] = estimate_json(*tyres.cornering_per_rad);
+  }
+  return {{"friction", tyres.tyres.friction},
+          {"cornering_stiffness_per_rad", tyres.tyres.cornering_per_rad},
+          {"estimates", estimates},
+          {"windows", tyres.windows},
+          {"held_out", held_out},
+          {"better", tyres.better ? name_in(kPlantKindNames, *tyres.better) : kUndecidedPlant}};
+}
+
 Json drive_json(const Acceptance& drive) {
   Json channels = Json::object();
   for (const ChannelAcceptance& one : drive.channels) {
@@ -131,6 +156,7 @@ std::string validation_text(const Validation& validation, const Provenance& prov
   for (const TrialResidual& trial : validation.trials) json["trials"].push_back(trial_json(trial));
   json["logs"] = Json::array();
   for (const LogValidation& log : validation.logs) json["logs"].push_back(log_json(log));
+  if (validation.tyres) json["tyres"] = tyres_json(*validation.tyres);
   if (!validation.drives.empty()) {
     json["drives"] = Json::array();
     for (const Acceptance& drive : validation.drives) json["drives"].push_back(drive_json(drive));

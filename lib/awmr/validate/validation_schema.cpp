@@ -1,9 +1,10 @@
-// Schema of validation.json as written by validation_text().
+// Reads validation.json as written by validation_text(), whole: for its schema and for its tyres.
 #include <limits>
 #include <string>
 
 #include "awmr/core/json.h"
 #include "awmr/model/findings_json.h"
+#include "awmr/model/ranges.h"
 #include "awmr/validate/validate.h"
 
 namespace awmr {
@@ -48,6 +49,42 @@ void describe_logs(JsonObject& json) {
     }
     log.reject_unknown_keys();
   }
+}
+
+std::optional<Estimate> read_estimate(JsonObject& json, const char* key) {
+  auto object = json.optional_object(key);
+  if (!object) return std::nullopt;
+  Estimate estimate;
+  estimate.value = object->number("value", kPositive);
+  estimate.std_error = object->number("std_error", kPositive);
+  estimate.ci95 = object->interval("ci95");
+  object->reject_unknown_keys();
+  return estimate;
+}
+
+TyreFit tyres_from_json(JsonObject json) {
+  TyreFit fit;
+  fit.tyres.friction = json.number("friction", kTyreFrictionRule);
+  fit.tyres.cornering_per_rad =
+      json.number("cornering_stiffness_per_rad", kCorneringStiffnessRule_per_rad);
+  JsonObject estimates = json.object("estimates");
+  fit.friction = read_estimate(estimates, "friction");
+  fit.cornering_per_rad = read_estimate(estimates, "cornering_stiffness_per_rad");
+  estimates.reject_unknown_keys();
+  fit.windows = static_cast<int>(json.integer("windows", kFewestTyreWindows, kMost));
+  JsonObject channels = json.object("held_out");
+  for (const std::string& channel : channels.keys()) {
+    JsonObject error = channels.object(channel);
+    fit.held_out.push_back({.channel = channel,
+                            .model_rms = error.number("model_rms", kNonNegative),
+                            .four_wheel_rms = error.number("four_wheel_rms", kNonNegative)});
+    error.reject_unknown_keys();
+  }
+  std::vector<std::string> plants = names_in(kPlantKindNames);
+  plants.emplace_back(kUndecidedPlant);
+  fit.better = value_in(kPlantKindNames, plants[json.choice("better", plants)]);
+  json.reject_unknown_keys();
+  return fit;
 }
 
 void describe_drives(JsonObject& json) {
@@ -106,7 +143,8 @@ void describe_claims(JsonObject& json) {
   }
 }
 
-void describe_validation(JsonObject& json) {
+/// Reads the whole file, and what other commands use of it.
+std::optional<TyreFit> validation_from_json(JsonObject& json) {
   json.schema("awmr.validation/1");
   read_provenance(json);
   json.boolean("passed");
@@ -116,13 +154,31 @@ void describe_validation(JsonObject& json) {
   errors.reject_unknown_keys();
   describe_trials(json);
   describe_logs(json);
+  std::optional<TyreFit> tyres;
+  if (const auto object = json.optional_object("tyres")) tyres = tyres_from_json(*object);
   describe_drives(json);
   describe_claims(json);
   read_findings(json);
   json.reject_unknown_keys();
+  return tyres;
 }
 
+void describe_validation(JsonObject& json) { validation_from_json(json); }
+
 }  // namespace
+
+Result<TyreFit> read_tyres(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
+  std::vector<Fault> faults;
+  JsonObject root(json, path.string(), "", faults);
+  std::optional<TyreFit> tyres = validation_from_json(root);
+  if (faults.empty() && !tyres) {
+    faults.push_back({path.string() + ":/tyres",
+                      "there are no tyres: fit them by awmr validate --log FILE --tyres"});
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return *std::move(tyres);
+}
 
 std::string validation_schema() {
   return json_schema_text("awmr.validation/1", "A model held against its trials, logs and claims",

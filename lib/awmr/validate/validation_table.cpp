@@ -38,6 +38,31 @@ std::string wrapped(const std::string& text, std::size_t indent) {
   return out + '\n';
 }
 
+namespace {
+
+std::string parameter_text(const char* name, double value, const std::optional<Estimate>& shown) {
+  if (!shown)
+    return fmt::format("  {:<28} {:>9.4g}  not shown by the logs, the default\n", name, value);
+  return fmt::format("  {:<28} {:>9.4g}  {:.4g} to {:.4g}\n", name, value, shown->ci95->lo,
+                     shown->ci95->hi);
+}
+
+std::string tyres_text(const TyreFit& fit) {
+  std::string text = "four wheels on tyres, fitted to the logs\n";
+  text += parameter_text("friction", fit.tyres.friction, fit.friction);
+  text += parameter_text("cornering stiffness, 1/rad", fit.tyres.cornering_per_rad,
+                         fit.cornering_per_rad);
+  text += fmt::format("  {:<28} {:>9} {:>11}\n", "held-out RMS error", "model", "four-wheel");
+  for (const HeldOutError& error : fit.held_out) {
+    text += fmt::format("  {:<28} {:>9.4g} {:>11.4g}\n", error.channel, error.model_rms,
+                        error.four_wheel_rms);
+  }
+  return text + fmt::format("  better on held-out windows: {}\n",
+                            fit.better ? name_in(kPlantKindNames, *fit.better) : kUndecidedPlant);
+}
+
+}  // namespace
+
 std::string logs_table(const Validation& validation) {
   std::string text;
   for (const LogValidation& log : validation.logs) {
@@ -48,6 +73,7 @@ std::string logs_table(const Validation& validation) {
                           c.one_step.r2, c.long_horizon.r2, c.long_horizon.nrmse);
     }
   }
+  if (validation.tyres) text += tyres_text(*validation.tyres);
   return text;
 }
 

@@ -1,0 +1,152 @@
+/// Runge-Kutta steps that are halved where the motion is too fast for them. Templates on the scalar: a
+/// double, or a batch with a trajectory per lane (simulate/vehicle_steps.h).
+#pragma once
+
+#include "awmr/model/dynamics.h"
+#include "awmr/model/runge_kutta.h"
+
+namespace awmr {
+
+/// The largest product of a rate (1/s) and an RK4 step: a deviation that dies out at this rate
+/// does so without changing its sign, and Runge-Kutta is stable to 2.78.
+inline constexpr double kMostRateTimesStep = 1.0;
+
+/// A step is halved at most this often, and a run has at most so many halves.
+inline constexpr int kMostHalvings = 40;
+inline constexpr double kMostHalves = 5e7;
+
+/// g'(w)/inertia, at which a deviation from the speed w dies out:
+///   g'(w) = alpha beta |w|^(beta-1) + 2 q |w|
+/// For beta <= 1 it falls with |w| and is below 1/h from the chord's end on, by the choice of h.
+template <class T>
+T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
+  using math::abs;
+  using math::any;
+  using math::pow;
+  using math::select;
+  const T w = abs(speed);
+  const Mask<T> counts = (law.beta >= T(1.0) || law.quadratic > T(0.0)) && !(w < law.rest_speed);
+  if (!any(counts)) return T(0.0);
+  // Lanes that do not count compute with a speed of 1, which is then left out.
+  const Mask<T> moves = w > T(0.0);
+  const T power = pow(select(counts && moves, w, T(1.0)), T(law.beta - T(1.0)));
+  const T share = select(moves || !(law.beta > T(1.0)), power, T(0.0));
+  const T slope = select(law.beta > T(0.0), T(law.alpha * law.beta * share), T(0.0));
+  return select(counts, T((slope + T(2.0) * law.quadratic * w) / inertia), T(0.0));
+}
+
+/// Faster than this nothing of the plant changes at `at`: resistance that grows with speed, and
+/// the turning of the velocity in the vehicle's frame (m' r v and m' r u), at r.
+template <class T>
+T fastest_rate(const Plant<T>& plant, const State<T>& at) {
+  using math::abs;
+  using math::select;
+  const T turning = abs(at.r_radps);
+  const T surge = decay_rate(plant.surge, plant.mass_norm, at.u_mps);
+  const T yaw = decay_rate(plant.yaw, plant.inertia_norm, at.r_radps);
+  const T faster = select(turning < surge, surge, turning);
+  return select(faster < yaw, yaw, faster);
+}
+
+/// `a` where the mask holds, else `b`.
+template <class T>
+State<T> blend(const Mask<T>& mask, const State<T>& a, const State<T>& b) {
+  using math::select;
+  return {select(mask, a.x_m, b.x_m),
+          select(mask, a.y_m, b.y_m),
+          select(mask, a.psi_rad, b.psi_rad),
+          select(mask, a.u_mps, b.u_mps),
+          select(mask, a.v_mps, b.v_mps),
+          select(mask, a.r_radps, b.r_radps),
+          select(mask, a.steering_rad, b.steering_rad)};
+}
+
+/// Whether the steps of a run can follow it.
+template <class T>
+struct Resolution {
+  T halves = T(0.0);                 ///< steps that were halved so far
+  Mask<T> resolved = Mask<T>(true);  ///< false: no step is short enough, or a number is not finite
+};
+
+/// `body` is a Plant or what else has a fastest_rate() of its own (tyres.h); here and below.
+template <class Body, class T, class Rates>
+State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
+                 const Mask<T>& asked, int halvings, Resolution<T>& resolution);
+
+/// Two steps of half the length where `asked`; unresolved where they would be one too many.
+template <class Body, class T, class Rates>
+AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates, Mask<T> asked,
+                                     int halvings, Resolution<T>& resolution) {
+  using math::any;
+  using math::select;
+  const Mask<T> too_many =
+      asked && (Mask<T>(halvings == kMostHalvings) || resolution.halves >= T(kMostHalves));
+  resolution.resolved = resolution.resolved && !too_many;
+  const Mask<T> halved = asked && resolution.resolved;
+  if (!any(halved)) return from;
+  resolution.halves = select(halved, T(resolution.halves + T(1.0)), resolution.halves);
+  const T half = h / T(2.0);
+  const State<T> middle = advance(body, from, half, rates, halved, halvings + 1, resolution);
+  const State<T> end = advance(body, middle, half, rates, halved, halvings + 1, resolution);
+  return blend(halved, end, from);
+}
+
+/// One step of the classical Runge-Kutta method where it resolves the rates at both of its ends,
+/// else two of half the length. What lanes hold that are not asked has no meaning.
+template <class Body, class T, class Rates>
+State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
+                 const Mask<T>& asked, int halvings, Resolution<T>& resolution) {
+  using math::all;
+  using math::any;
+  const T most = T(kMostRateTimesStep);
+  Mask<T> fits = fastest_rate(body, from) * h <= most;
+  State<T> to = from;
+  if (any(fits)) {
+    to = rk4_step(from, h, rates);
+    fits = fits && fastest_rate(body, to) * h <= most;
+    if (all(fits || !asked)) return to;
+  }
+  return blend(fits, to,
+               advance_by_halves(body, from, h, rates, asked && !fits, halvings, resolution));
+}
+
+/// True where every number is finite: 0 times a number is NaN else.
+template <class T>
+Mask<T> is_finite(const State<T>& s) {
+  using math::abs;
+  const T none = T(0.0) * s.x_m + T(0.0) * s.y_m + T(0.0) * s.psi_rad + T(0.0) * s.u_mps +
+                 T(0.0) * s.v_mps + T(0.0) * s.r_radps + T(0.0) * s.steering_rad;
+  return abs(none) <= T(0.0);
+}
+
+/// A speed whose square would be below the normal range is rest: no crawl through subnormal
+/// numbers.
+template <class T>
+T settled(const T& speed) {
+  using math::abs;
+  using math::select;
+  return select(abs(speed) < T(1e-150), T(0.0), speed);
+}
+
+/// Moves the state on by `substeps` steps of h where `asked`, with the rates of held commands. Where
+/// the motion is not resolved, the state stays as it was.
+template <class Body, class T, class Rates>
+void integrate(const Body& body, const T& h, const T& substeps, const Rates& rates,
+               const Mask<T>& asked, State<T>& state, Resolution<T>& resolution) {
+  using math::all;
+  using math::any;
+  State<T> moved = state;
+  for (int i = 0;; ++i) {
+    const Mask<T> steps = asked && resolution.resolved && T(i) < substeps;
+    if (!any(steps)) break;
+    const State<T> next = advance(body, moved, h, rates, steps, 0, resolution);
+    moved = all(steps) ? next : blend(steps, next, moved);
+  }
+  resolution.resolved = resolution.resolved && (is_finite(moved) || !asked);
+  moved.u_mps = settled(moved.u_mps);
+  moved.v_mps = settled(moved.v_mps);
+  moved.r_radps = settled(moved.r_radps);
+  state = blend(asked && resolution.resolved, moved, state);
+}
+
+}  // namespace awmr
