@@ -157,6 +157,7 @@ void Emulator::connect_uart() {
   const auto irq = [&](int which) {
     return avr_io_getirq(avr_, AVR_IOCTL_UART_GETIRQ('0'), which);
   };
+  uart_input_ = irq(UART_IRQ_INPUT);
   avr_irq_register_notify(
       irq(UART_IRQ_OUTPUT),
       [](avr_irq_t*, std::uint32_t value, void* self) {
@@ -179,9 +180,8 @@ void Emulator::connect_uart() {
 }
 
 void Emulator::feed_uart() {
-  avr_irq_t* input = avr_io_getirq(avr_, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT);
   while (uart_ready_ && sent_ < to_send_.size()) {
-    avr_raise_irq(input, static_cast<std::uint8_t>(to_send_[sent_++]));
+    avr_raise_irq(uart_input_, static_cast<std::uint8_t>(to_send_[sent_++]));
   }
 }
 

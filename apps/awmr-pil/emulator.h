@@ -11,6 +11,7 @@
 
 #include "awmr/core/result.h"
 
+struct avr_irq_t;
 struct avr_t;
 
 namespace awmr::pil {
@@ -66,6 +67,7 @@ class Emulator {
   void feed_uart();
 
   avr_t* avr_ = nullptr;
+  avr_irq_t* uart_input_ = nullptr;  ///< once connect_uart() is called
   std::map<std::string, std::uint32_t> symbols_;
   unsigned flash_bytes_ = 0;
   unsigned ram_bytes_ = 0;

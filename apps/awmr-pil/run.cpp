@@ -109,12 +109,14 @@ std::vector<std::size_t> restarts_of(const std::vector<LoopRow>& rows) {
 /// Runs the same loop in float on this machine, with resets at the same samples as the chip.
 Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
                                       const std::vector<std::size_t>& resets = {}) {
-  EmitOptions options = in.emit;
-  options.resistance = form;
-  auto parameters = autopilot_parameters(in.model, in.gains, in.names, options);
-  if (!parameters) return tl::unexpected(parameters.error());
-  if (in.setup.injection == Injection::kParameters) parameters->crc ^= 1U;
-  const auto host = host_executor(*parameters, in.setup.mission);
+  AutopilotParameters parameters = in.parameters;
+  if (form != in.emit.resistance) {
+    EmitOptions options = in.emit;
+    options.resistance = form;
+    AWMR_ASSIGN_OR_RETURN(parameters, autopilot_parameters(in.model, in.gains, in.names, options));
+  }
+  if (in.setup.injection == Injection::kParameters) parameters.crc ^= 1U;
+  const auto host = host_executor(parameters, in.setup.mission);
   if (const auto started = host->start(); !started) return tl::unexpected(started.error());
   LoopSetup setup = in.setup;
   setup.resets = resets;

@@ -63,7 +63,9 @@ class Check : public ::testing::Test {
   }
   /// With a short search for gains.
   ProcessResult run() {
-    write("tune.json", {{"global_evaluations", 20}, {"local_evaluations", 10}, {"draws", 1}});
+    write(
+        "tune.json",
+        {{"global_evaluations", 20}, {"local_evaluations", 10}, {"draws", 1}, {"judged_draws", 4}});
     nlohmann::ordered_json json = read("project.json");
     json["tune"] = "tune.json";
     write("project.json", json);

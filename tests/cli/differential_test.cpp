@@ -64,7 +64,9 @@ class DifferentialDrive : public ::testing::Test {
     write_all(path("surge.csv"), surge_text());
     write_all(path("turning.csv"), turning_text());
     write_all(path("coastdown.csv"), coastdown_text());
-    write_all(path("tune.json"), R"({"global_evaluations": 60, "local_evaluations": 30})");
+    write_all(
+        path("tune.json"),
+        R"({"global_evaluations": 20, "local_evaluations": 10, "draws": 4, "judged_draws": 4})");
     write_all(path("gains.json"), R"({"heading": {"lambda": 3, "mu": 50, "epsilon": 12},
                                       "speed": {"mu": 5, "epsilon": 1.2}})");
   }

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Every `awmr` example of the README and of the commands' helps runs where `init --example` wrote their files, and the
-JSON files that they write are valid by the program's schemas. usage: examples.py AWMR"""
+JSON files that they write are valid by the program's schemas. usage: examples.py AWMR [RUN]
+RUN: results of configs/paper/project.json, which is then not run again (pipeline_test.cpp)."""
 import importlib.util
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -37,6 +39,12 @@ def runs(line, folder):
     return done.returncode == 0
 
 
+def is_like_source(folder):
+    """Whether the inputs of the paper's project in the folder are those of the source."""
+    names = [path.relative_to(folder) for place in ("configs/paper", "datasets/paper") for path in (folder / place).rglob("*.*")]
+    return names and all((folder / name).read_bytes() == (SOURCE / name).read_bytes() for name in names)
+
+
 def main():
     readme = list(examples_of_readme())
     assert len(readme) >= 7, readme
@@ -47,7 +55,14 @@ def main():
         first = "awmr init --example ."
         assert first in lines
         lines = [first, *(line for line in lines if line != first)]
-        fine = all([runs(line, folder) for line in lines])
+        fine = runs(first, folder)
+        paper_run = "awmr run configs/paper/project.json -o out"
+        assert paper_run in lines
+        if len(sys.argv) > 2:
+            assert is_like_source(Path(folder))
+            shutil.copytree(sys.argv[2], Path(folder, "out"))
+            lines.remove(paper_run)
+        fine &= all([runs(line, folder) for line in lines[1:]])
         print(f"{len(lines)} examples")
         if importlib.util.find_spec("jsonschema"):
             schemas = [sys.executable, Path(__file__).with_name("schemas.py"), AWMR, folder]

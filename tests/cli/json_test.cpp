@@ -24,8 +24,12 @@ class JsonOutput : public ::testing::Test {
         "surge.csv --coastdown datasets/paper/coastdown.csv --turning "
         "datasets/paper/turning.csv --json -o " +
         path("model.json"));
-    tuned_ =
-        awmr("tune --nominal --json --model " + path("model.json") + " -o " + path("gains.json"));
+    write_all(
+        path("tune.json"),
+        std::string(R"({"global_evaluations": 20, "local_evaluations": 10, "scenarios": [")") +
+            AWMR_SOURCE_DIR + R"(/configs/paper/scenarios/c3_heading_steps.json"]})");
+    tuned_ = awmr("tune --nominal --json --config " + path("tune.json") + " --model " +
+                  path("model.json") + " -o " + path("gains.json"));
   }
   static void TearDownTestSuite() { delete directory_; }
   static std::string path(const std::string& name) { return (directory_->path() / name).string(); }

@@ -12,17 +12,18 @@ namespace {
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-/// One run of the whole pipeline, shared by the tests below.
+/// One run of the whole pipeline, shared by the tests below; kept in the folder AWMR_PAPER_RUN, if set, for examples.py.
 class Pipeline : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    directory_ = new TemporaryDirectory;
-    result_ = awmr("run configs/paper/project.json --json -o " + directory_->path().string());
+    temporary_ = new TemporaryDirectory;
+    const char* kept = std::getenv("AWMR_PAPER_RUN");
+    folder_ = kept != nullptr ? kept : temporary_->path() / "out";
+    std::filesystem::remove_all(folder_);
+    result_ = awmr("run configs/paper/project.json --json -o '" + folder_.string() + "'");
   }
-  static void TearDownTestSuite() { delete directory_; }
-  static Json json(const std::string& name) {
-    return Json::parse(read_all(directory_->path() / name));
-  }
+  static void TearDownTestSuite() { delete temporary_; }
+  static Json json(const std::string& name) { return Json::parse(read_all(folder_ / name)); }
   static bool has_finding(const std::string& file, int line, const std::string& code) {
     const Json model = json("model.json");
     for (const Json& f : model.at("findings")) {
@@ -33,7 +34,8 @@ class Pipeline : public ::testing::Test {
     }
     return false;
   }
-  static inline TemporaryDirectory* directory_ = nullptr;
+  static inline TemporaryDirectory* temporary_ = nullptr;
+  static inline std::filesystem::path folder_;
   static inline ProcessResult result_;
 };
 
@@ -42,7 +44,7 @@ TEST_F(Pipeline, EndsWellAndLeavesEveryFile) {
   for (const char* name :
        {"model.json", "gains.json", "validation.json", "awmr_params.h", "comparison.csv",
         "comparison.json", "report.html", "firmware/src/awmr.cpp", "firmware/library.properties"}) {
-    EXPECT_GT(read_all(directory_->path() / name).size(), 100u) << name;
+    EXPECT_GT(read_all(folder_ / name).size(), 100u) << name;
   }
 }
 

@@ -14,6 +14,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
 
+constexpr const char* kC3 = "configs/paper/scenarios/c3_heading_steps.json";
+
 class TunedGains : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -23,9 +25,12 @@ class TunedGains : public ::testing::Test {
         "--coastdown "
         "datasets/paper/coastdown.csv --turning datasets/paper/turning.csv -o " +
         path("model.json"));
-    write_all(
-        path("tune.json"),
-        R"({"global_evaluations": 20, "local_evaluations": 10, "draws": 4, "judged_draws": 4})");
+    // A short search, on one short scenario.
+    Json scenario = Json::parse(read_all(std::string(AWMR_SOURCE_DIR) + "/" + kC3));
+    scenario["duration_s"] = 6;
+    write_all(path("turn.json"), scenario.dump());
+    write_all(path("tune.json"), R"({"global_evaluations": 20, "local_evaluations": 10, "draws": 2,
+                                     "judged_draws": 4, "scenarios": ["turn.json"]})");
     write_all(path("own.json"), R"({"heading": {"lambda": 2, "mu": 30, "epsilon": 5},
                                    "speed": {"mu": 6, "epsilon": 1.5}})");
   }
@@ -90,8 +95,7 @@ TEST_F(TunedGains, OfOneModeAreExaminedThereAndWarnElsewhere) {
   }
   const auto simulate = [](const std::string& mode) {
     return awmr("simulate --model " + path("model.json") + " --gains " + path("gains.json") +
-                " --scenario configs/paper/scenarios/c3_heading_steps.json --mode " + mode +
-                " -o " + path("run.csv"));
+                " --scenario " + kC3 + " --mode " + mode + " -o " + path("run.csv"));
   };
   EXPECT_THAT(simulate("steering").err, HasSubstr("gains-of-another-mode"));
   EXPECT_THAT(simulate("differential").err, Not(HasSubstr("gains-of-another-mode")));

@@ -106,30 +106,27 @@ class SafeSketches : public ::testing::Test {
       std::filesystem::create_directories((directory.path() / file.path).parent_path());
       write_all(directory.path() / file.path, file.bytes);
     }
+    const std::string core = std::string(AWMR_SOURCE_DIR) + "/tests/emit/host_core";
+    // naked functions exist only on the chip
     const std::string flags =
-        " -O1 -w -ffp-contract=off -fsanitize=address,undefined -fno-sanitize-recover=all ";
-    ASSERT_TRUE(succeeded(
-        run_process(std::string(kGxx) + " -std=c++14" + flags + "-Isrc -c src/awmr.cpp -o awmr.o",
-                    directory.path())));
-    for (const auto& [sketch, start] :
-         {std::pair{"HeadingHold", "S 1.0"}, std::pair{"WaypointFollowing", "G"}}) {
-      // naked functions exist only on the chip
-      ASSERT_TRUE(succeeded(run_process(
-          fmt::format(
-              "{0} -std=c++17{1}-Dnaked= -D__AVR_ATmega2560__ '-DAWMR_START=\"{2}\\n\"' "
-              "'-DAWMR_SKETCH=\"{3}/examples/{4}/{4}.ino\"' -I{5}/tests/emit/host_core -Isrc "
-              "{5}/tests/emit/host_core/drive_case.cpp awmr.o -o {4}",
-              kGxx, flags, start, directory.path().string(), sketch, AWMR_SOURCE_DIR),
-          directory.path())));
-    }
-    if (&directory != paper_) return;  // the trials of one vehicle are recorded
-    ASSERT_TRUE(succeeded(run_process(
-        fmt::format("{0} -std=c++17{1}-Dnaked= -D__AVR_ATmega2560__ "
-                    "'-DAWMR_SKETCH=\"{2}/examples/RecordTrials/RecordTrials.ino\"' "
-                    "-I{3}/tests/emit/host_core "
-                    "-Isrc {3}/tests/emit/host_core/record_case.cpp awmr.o -o RecordTrials",
-                    kGxx, flags, directory.path().string(), AWMR_SOURCE_DIR),
-        directory.path())));
+        " -O1 -w -ffp-contract=off -Isrc -I" + core + " -Dnaked= -D__AVR_ATmega2560__ ";
+    const std::string sanitize = flags + "-fsanitize=address,undefined -fno-sanitize-recover=all ";
+    const auto compile = [&](const std::string& arguments) {
+      return succeeded(run_process(kGxx + arguments, directory.path()));
+    };
+    ASSERT_TRUE(compile(" -std=c++14" + sanitize + "-c src/awmr.cpp -o awmr.o"));
+    // The simulated world is not under test. The linker keeps the first copy of an inline function: the sketch's.
+    const auto compile_case = [&](const char* name, std::initializer_list<const char*> sketches) {
+      ASSERT_TRUE(compile(fmt::format(" -std=c++17{0}-c {1}/{2}.cpp -o {2}.o", flags, core, name)));
+      for (const char* sketch : sketches) {
+        ASSERT_TRUE(compile(
+            fmt::format(" -std=c++17{0}-x c++ examples/{1}/{1}.ino -x none awmr.o {2}.o -o {1}",
+                        sanitize, sketch, name)));
+      }
+    };
+    compile_case("drive_case", {"HeadingHold", "WaypointFollowing"});
+    // The trials of one vehicle are recorded.
+    if (&directory == paper_) compile_case("record_case", {"RecordTrials"});
   }
   /// NAME=VALUE pairs printed by a run of the sketch.
   static std::map<std::string, double> drive(const TemporaryDirectory& directory,

@@ -91,4 +91,5 @@ enum {
   CS31 = 1,
   OCIE3A = 1
 };
-#define ISR(vector) extern "C" void vector()
+// Weak: the case includes the board's header, too.
+#define ISR(vector) extern "C" __attribute__((weak)) void vector()

@@ -1,12 +1,14 @@
 // Runs one case of SAFETY.md with a sketch: drives it in the simulated world, injects a failure at
-// t = 10 s, and prints the result. Compiled once per sketch, which is included as AWMR_SKETCH.
-#include "failures.h"
-
-#include AWMR_SKETCH
-
+// t = 10 s, and prints the result.
 #include <algorithm>
 
+#include "failures.h"
+#include "sketch.h"
+
 namespace {
+
+/// What starts the drive.
+const char* start_command = "S 1.0\n";
 
 /// What is commanded once a failure is injected, and how long it is then driven.
 struct Drive {
@@ -47,7 +49,7 @@ void run_case(const Failure& one) {
   const auto found = kDrives.find(one.name);
   const Drive drive = found == kDrives.end() ? Drive() : found->second;
   start_and_arm(0.2);
-  w.say(AWMR_START);
+  w.say(start_command);
   w.run(6.8);
   const bool drove = w.is_driven() && w.u > 0.3;
   one.inject(w);
@@ -118,7 +120,7 @@ void drive_wrong(double offset_deg, double servo_sign) {
   w.servo_sign = servo_sign;
   start_and_arm(0.2);
   if (servo_sign < 0) w.say("M 1\n");
-  w.say(AWMR_START);
+  w.say(start_command);
   w.run(5);
   w.say("H 90\n");
   FirstStop stop;
@@ -157,11 +159,11 @@ void turn_often(double turns) {
   printf("largest_rad=%.4f armed=%d fault=%d\n", largest, safety.is_armed(), output.fault);
 }
 
-/// Drives what AWMR_START starts for `seconds`, then at speed 0 for a minute.
+/// Drives what start_command starts for `seconds`, then at speed 0 for a minute.
 void drive_and_stop(double seconds) {
   World& w = world;
   start_and_arm(0.2);
-  w.say(AWMR_START);
+  w.say(start_command);
   bool was_armed = true;
   double slowest = 0, fastest = 0, ended_s = -1, end_x = 0, end_y = 0, t = 0;
   const auto watch = [&] {
@@ -185,6 +187,7 @@ void drive_and_stop(double seconds) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (is_route(argv[0])) start_command = "G\n";
   const std::string what = argc > 1 ? argv[1] : "list";
   const double number = argc > 2 ? atof(argv[2]) : 0;
   if (what == "list") {

@@ -1,19 +1,17 @@
 // Runs failures and healthy drives for scripts/fault_matrix: each in a simulated world, until the
-// vehicle is disarmed or for kWatch_s. Prints name=value pairs, one drive a line. Compiled once per
-// sketch, which is included as AWMR_SKETCH.
+// vehicle is disarmed or for kWatch_s. Prints name=value pairs, one drive a line.
 //
 // usage: PROGRAM MODE SPEED SERVO_LAG MOTOR_LAG [NAME]...  every failure, or those named, in mode
 //                                                          MODE at SPEED m/s
 //        PROGRAM MODE SPEED SERVO_LAG MOTOR_LAG healthy SEED WANDER
 //        a healthy drive whose GPS positions wander by up to WANDER m RMS, correlated over a minute
-#include "failures.h"
-
-#include AWMR_SKETCH
-
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+
+#include "failures.h"
+#include "sketch.h"
 
 namespace {
 
@@ -21,7 +19,7 @@ constexpr double kPi = 3.14159265358979;
 constexpr double kWatch_s = 300;
 // At rest until the gyroscope's 100 samples are taken and the GPS has a fix.
 constexpr double kStart_s = 2 + 120.0 * AWMR_SAMPLE_TIME_S;
-constexpr bool kIsRoute = AWMR_ROUTE;
+bool follows_route = false;
 
 struct Setting {
   int mode;
@@ -76,7 +74,7 @@ bool start_and_arm() {
 /// Commands a heading 90 deg to the left, and returns it.
 double turn_left() {
   const double goal = remainder(imu.psi_rad + 0.5 * kPi, 2 * kPi);
-  if (!kIsRoute) world.say(text_of("H %.1f\n", goal * 57.29578));
+  if (!follows_route) world.say(text_of("H %.1f\n", goal * 57.29578));
   return goal;
 }
 
@@ -91,8 +89,8 @@ void run_failure(const Failure& one, Time when, const Setting& setting) {
   w.motor_lag_s = setting.motor_lag_s;
   if (when == Time::kWiring) one.inject(w);
   const bool was_armed = start_and_arm();
-  w.say(kIsRoute ? "G\n"
-                 : text_of("M %.0f\n", setting.mode) + text_of("S %.3f\n", setting.speed_mps));
+  w.say(follows_route ? "G\n"
+                      : text_of("M %.0f\n", setting.mode) + text_of("S %.3f\n", setting.speed_mps));
   if (when != Time::kWiring) w.run(when == Time::kStart ? 1 : 12);
   double goal = 0;
   if (when == Time::kTurning) {
@@ -110,9 +108,9 @@ void run_failure(const Failure& one, Time when, const Setting& setting) {
   watch_for(3);
   if (when != Time::kTurning) goal = turn_left();
   // The route is 90 m long.
-  watch_for((kIsRoute ? std::max(kWatch_s, 150 / setting.speed_mps) : kWatch_s) - 30);
+  watch_for((follows_route ? std::max(kWatch_s, 150 / setting.speed_mps) : kWatch_s) - 30);
   // Speed and track of the last half minute, compared with the wanted direction.
-  const double x1 = w.x, y1 = w.y, wanted = kIsRoute ? output.psi_ref_rad : goal;
+  const double x1 = w.x, y1 = w.y, wanted = follows_route ? output.psi_ref_rad : goal;
   const double before_m = record.path_m;
   watch_for(30);
   const double error_deg = fabs(wrapped_deg(atan2(w.y - y1, w.x - x1) - wanted));
@@ -164,11 +162,11 @@ void run_healthy(int seed, double wander_m, Setting setting) {
     record.watch();
     w.gyro_bias += drift / 60000;
   };
-  if (kIsRoute) {
+  if (follows_route) {
     w.say("G\n");
     w.run(120, each);
   }
-  while (!kIsRoute && record.t < 120) {
+  while (!follows_route && record.t < 120) {
     if (is_steered && uniform(0, 1) < 0.3) {
       setting.mode = static_cast<int>(uniform(0, 2.999));
       w.say(text_of("M %.0f\n", setting.mode));
@@ -205,6 +203,7 @@ void run_apart(const Failure& one, Time when, const Setting& setting) {
 
 int main(int argc, char** argv) {
   if (argc < 5) return 2;
+  follows_route = is_route(argv[0]);
   const Setting setting = {atoi(argv[1]), atof(argv[2]), atof(argv[3]), atof(argv[4])};
   const std::vector<std::string> names(argv + 5, argv + argc);
   if (names.size() == 3 && names[0] == "healthy") {

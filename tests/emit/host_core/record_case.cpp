@@ -1,10 +1,8 @@
 // Runs RecordTrials in the simulated world for two runs, with a sensor failure in the second half
 // of the first. Prints the number of table rows after each.
-#include "world.h"
-
-#include AWMR_SKETCH
-
 #include <algorithm>
+
+#include "world.h"
 
 namespace {
 
