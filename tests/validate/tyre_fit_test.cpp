@@ -27,7 +27,8 @@ TEST(TyreFit, FindsTheTyresAndIsReadAsItWasWritten) {
   Model model = identified();
   model[ParameterId::kInertiaNorm].source = Source::kFitted;
   std::vector<Finding> findings;
-  const auto fit = fit_tyres({driven({.friction = 0.5, .stiffness = 7.0})}, model, findings).value();
+  const auto fit =
+      fit_tyres({driven({.friction = 0.5, .stiffness = 7.0})}, model, findings).value();
   ASSERT_TRUE(fit && fit->friction && fit->cornering_per_rad);
   EXPECT_EQ(codes(findings), (std::vector<std::string>{"inertia-of-logs", "plants-compared"}));
   EXPECT_LT(log_errors_off(*fit->friction, 0.5), 3.5) << *fit->friction->value;
@@ -54,12 +55,13 @@ TEST(TyreFit, AVehicleWithoutTyresIsPredictedByTheModel) {
   const LogSignals signals(log);
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
-  replay<double>(signals, 0, log.rows(), resolved_beside_friction(plant, 1e-3), nullptr, 1e-3, {},
-                 [&](std::size_t row, const State<double>& s) {
-                   log[LogChannel::kHeading]->value[row] = s.psi_rad + radians(1.0) * normal(random);
-                   log[LogChannel::kSpeed]->value[row] = s.u_mps + 0.02 * normal(random);
-                   log[LogChannel::kYawRate]->value[row] = s.r_radps + radians(0.5) * normal(random);
-                 });
+  replay<double>(
+      signals, 0, log.rows(), resolved_beside_friction(plant, 1e-3), nullptr, 1e-3, {},
+      [&](std::size_t row, const State<double>& s) {
+        log[LogChannel::kHeading]->value[row] = s.psi_rad + radians(1.0) * normal(random);
+        log[LogChannel::kSpeed]->value[row] = s.u_mps + 0.02 * normal(random);
+        log[LogChannel::kYawRate]->value[row] = s.r_radps + radians(0.5) * normal(random);
+      });
   std::vector<Finding> findings;
   const auto fit = fitted(log, findings);
   if (fit) {

@@ -13,16 +13,19 @@ struct Truth {
 };
 
 TEST(TyreTruths, AreFoundWithinTheirIntervals) {
-  constexpr Truth kTruths[] = {{0.8, 10.0}, {0.4, 6.0}, {0.6, 14.0}, {0.3, 20.0}, {0.7, 5.0}, {0.5, 8.0}};
+  constexpr Truth kTruths[] = {{0.8, 10.0}, {0.4, 6.0}, {0.6, 14.0},
+                               {0.3, 20.0}, {0.7, 5.0}, {0.5, 8.0}};
   int held = 0;
   int shown = 0;
   int four_wheel = 0;
   for (unsigned seed = 1; seed <= 18; ++seed) {
     const Truth truth = kTruths[seed % std::size(kTruths)];
     std::vector<Finding> findings;
-    const auto fit = fit_tyres(
-        {driven({.friction = truth.friction, .stiffness = truth.stiffness, .duration_s = 90.0, .seed = seed})},
-        identified(), findings);
+    const auto fit = fit_tyres({driven({.friction = truth.friction,
+                                        .stiffness = truth.stiffness,
+                                        .duration_s = 90.0,
+                                        .seed = seed})},
+                               identified(), findings);
     ASSERT_TRUE(fit && *fit) << seed;
     const auto count = [&](const std::optional<Estimate>& estimate, double value) {
       if (!estimate) return;

@@ -50,8 +50,8 @@ inline Numbers rates(const Numbers& s, const Commands& c, double friction, doubl
       const double rolls = along_body * cd + across_body * sd;
       const double slides = across_body * cd - along_body * sd;
       const double slow = std::min(1.0, std::abs(rolls) / 1e-3);
-      const double resists = kAlpha / 4.0 * std::pow(std::max(std::abs(rolls), 1e-3), kBeta) * slow *
-                             (rolls < 0.0 ? -1.0 : 1.0);
+      const double resists = kAlpha / 4.0 * std::pow(std::max(std::abs(rolls), 1e-3), kBeta) *
+                             slow * (rolls < 0.0 ? -1.0 : 1.0);
       const double grip = friction * load;
       const double fx = std::clamp((side > 0.0 ? c.left : c.right) - resists, -grip, grip);
       const double most = std::sqrt(std::max(0.0, grip * grip - fx * fx));
@@ -86,9 +86,9 @@ struct LogDrive {
   double duration_s = 60.0;
   bool by_sides = true;
   bool by_steering = true;
-  double force = 0.45;          ///< the largest mean force
-  double apart = 0.5;           ///< the largest difference of the sides
-  double steering_deg = 20.0;   ///< the largest
+  double force = 0.45;         ///< the largest mean force
+  double apart = 0.5;          ///< the largest difference of the sides
+  double steering_deg = 20.0;  ///< the largest
   unsigned seed = 1;
 };
 

@@ -41,10 +41,13 @@ Tyres<double> tyres_at(const LogTyres& at) {
   return tyres;
 }
 
-LogTyres default_tyres() { return {std::log(kTyreFriction), std::log(kCorneringStiffness_per_rad)}; }
+LogTyres default_tyres() {
+  return {std::log(kTyreFriction), std::log(kCorneringStiffness_per_rad)};
+}
 
 Interval range_of(Eigen::Index parameter) {
-  const NumberRule& rule = parameter == kFriction ? kTyreFrictionRule : kCorneringStiffnessRule_per_rad;
+  const NumberRule& rule =
+      parameter == kFriction ? kTyreFrictionRule : kCorneringStiffnessRule_per_rad;
   return {std::log(rule.min), std::log(rule.max)};
 }
 
@@ -161,7 +164,8 @@ struct Fit {
   std::string stop_reason = {};
 };
 
-Eigen::VectorXd weighted(const ReplayedWindow& window, const Weights& weights, Eigen::VectorXd errors) {
+Eigen::VectorXd weighted(const ReplayedWindow& window, const Weights& weights,
+                         Eigen::VectorXd errors) {
   for (Eigen::Index i = 0; i < errors.size(); ++i) errors[i] *= weights[at(window.channels[at(i)])];
   return errors;
 }
@@ -347,7 +351,8 @@ std::array<std::optional<double>, 2> log_errors(const Windows& windows, const Pl
   std::array<std::optional<double>, 2> of;
   for (const Eigen::Index p : {kFriction, kCornering}) {
     const double variance = covariance(p, p);
-    if (is_free[at(p)] && variance > 0.0 && std::isfinite(variance)) of[at(p)] = std::sqrt(variance);
+    if (is_free[at(p)] && variance > 0.0 && std::isfinite(variance))
+      of[at(p)] = std::sqrt(variance);
   }
   return of;
 }
@@ -384,14 +389,15 @@ Turns turns_in(const LogWindow& rows, const Plant<double>& plant) {
   constexpr double kLittleForce = 0.02;
   constexpr double kMuchMore = 3.0;
   const DrivingLog& log = *rows.log;
-  double by_sides = 0.0;     // sums of squares of moments over F_max
+  double by_sides = 0.0;  // sums of squares of moments over F_max
   double by_steering = 0.0;
   double angles = 0.0;
   double apart = 0.0;
   for (std::size_t row = rows.begin; row < rows.end; ++row) {
     const double angle = log.driving_steering_rad()[row];
     const double difference = log.force_right[row] - log.force_left[row];
-    const double steered = plant.front_axle_m * (log.force_left[row] + log.force_right[row]) * std::sin(angle);
+    const double steered =
+        plant.front_axle_m * (log.force_left[row] + log.force_right[row]) * std::sin(angle);
     by_sides += std::pow(2.0 * plant.half_track_m * difference, 2);
     by_steering += steered * steered;
     angles += angle * angle;
@@ -409,8 +415,9 @@ Finding finding(const DrivingLog& log, Severity severity, const char* code, std:
 }
 
 /// What the windows lack to show tyres; none: nothing.
-std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows, const DrivingLog& log,
-                                     const Vehicle& vehicle, const Plant<double>& plant) {
+std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
+                                     const DrivingLog& log, const Vehicle& vehicle,
+                                     const Plant<double>& plant) {
   std::size_t by_sides = 0;
   std::size_t by_steering = 0;
   for (const ReplayedWindow& window : windows) {
@@ -424,14 +431,15 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
   if (enough) return std::nullopt;
   return finding(
       log, Severity::kError, "tyres-need-turns",
-      fmt::format("tyres are fitted to at least {} windows of {:g} s, {} of them with each kind of turn; "
-                  "these logs have {}, {} with turns by left and right wheel forces{}. Record a drive "
-                  "that turns {}",
-                  kFewestTyreWindows, kWindow_s, kFewestTurns, windows.size(), by_sides,
-                  steers ? fmt::format(" and {} with steered ones", by_steering) : "",
-                  steers ? "by the forces with straight wheels, then by steering with equal forces, "
-                           "and coasts while it steers"
-                         : "by the forces at several speeds"));
+      fmt::format(
+          "tyres are fitted to at least {} windows of {:g} s, {} of them with each kind of turn; "
+          "these logs have {}, {} with turns by left and right wheel forces{}. Record a drive "
+          "that turns {}",
+          kFewestTyreWindows, kWindow_s, kFewestTurns, windows.size(), by_sides,
+          steers ? fmt::format(" and {} with steered ones", by_steering) : "",
+          steers ? "by the forces with straight wheels, then by steering with equal forces, "
+                   "and coasts while it steers"
+                 : "by the forces at several speeds"));
 }
 
 /// Squared errors of both plants on windows that the tyres were not fitted to.
@@ -464,7 +472,8 @@ std::optional<HeldOutSums> held_out(const Windows& windows, const Plants& plants
   for (const std::size_t fold : {0U, 1U}) {
     Windows fitted;
     Windows rest;
-    for (std::size_t i = 0; i < windows.size(); ++i) (i % 2 == fold ? fitted : rest).push_back(windows[i]);
+    for (std::size_t i = 0; i < windows.size(); ++i)
+      (i % 2 == fold ? fitted : rest).push_back(windows[i]);
     const auto tyres = fit(fitted, plants, shown.is_free, shown.fit.at);
     if (!tyres) return std::nullopt;
     for (const ReplayedWindow* window : rest) {
@@ -520,17 +529,18 @@ std::string comparison_text(const TyreFit& tyres) {
     text += fmt::format("{}{} {:.3g} on tyres and {:.3g} on the model", text.empty() ? "" : ", ",
                         error.channel, error.four_wheel_rms, error.model_rms);
   }
-  const std::string verdict =
-      !tyres.better                             ? "neither plant predicts better"
-      : *tyres.better == PlantKind::kFourWheel ? "four wheels on tyres predict better than the model"
-                                                : "the model predicts better than four wheels on tyres";
-  return fmt::format("over {} windows of {:g} s that the tyres were not fitted to, {} (root mean square "
-                     "errors: {})",
-                     tyres.windows, kWindow_s, verdict, text);
+  const std::string verdict = !tyres.better ? "neither plant predicts better"
+                              : *tyres.better == PlantKind::kFourWheel
+                                  ? "four wheels on tyres predict better than the model"
+                                  : "the model predicts better than four wheels on tyres";
+  return fmt::format(
+      "over {} windows of {:g} s that the tyres were not fitted to, {} (root mean square "
+      "errors: {})",
+      tyres.windows, kWindow_s, verdict, text);
 }
 
 std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
-                               const std::vector<ReplayedLog>& replayed) {
+                                       const std::vector<ReplayedLog>& replayed) {
   std::vector<ReplayedWindow> windows;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     for (const LogWindow& rows : windows_of(logs[i], kWindow_s)) {
@@ -585,8 +595,9 @@ std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, 
                                          const DrivingLog& log, std::vector<Finding>& findings) {
   if (shown.is_free[at(p)]) return estimate_of(shown.fit.at[p], *shown.errors[at(p)], windows);
   const char* name = p == kFriction ? "friction" : "cornering stiffness";
-  const char* trial = p == kFriction ? "turn so that the tyres slide: tighter, faster, with more force"
-                                     : "steer gently at speed, and while coasting";
+  const char* trial = p == kFriction
+                          ? "turn so that the tyres slide: tighter, faster, with more force"
+                          : "steer gently at speed, and while coasting";
   findings.push_back(
       finding(log, Severity::kWarning, "tyres-not-shown",
               fmt::format("the logs do not show the tyres' {}, which is held at {:g}: {}", name,
@@ -596,10 +607,11 @@ std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, 
 
 Status check_vehicle(const Model& model) {
   if (model.vehicle.driven_wheels() == 4) return {};
-  return input_error(option_text("tyres"),
-                     fmt::format("the four-wheel plant drives all wheels, a vehicle of drive \"{}\" does "
-                                 "not",
-                                 name_in(kDriveNames, model.vehicle.drive)));
+  return input_error(
+      option_text("tyres"),
+      fmt::format("the four-wheel plant drives all wheels, a vehicle of drive \"{}\" does "
+                  "not",
+                  name_in(kDriveNames, model.vehicle.drive)));
 }
 
 }  // namespace
@@ -626,28 +638,33 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   }
   const Windows windows = evenly_chosen(all);
   const auto shown = fit_what_is_shown(windows, plants);
-  if (!shown) return refuse("tyres-not-converged", "no step is short enough to replay these logs on tyres");
+  if (!shown)
+    return refuse("tyres-not-converged", "no step is short enough to replay these logs on tyres");
   if (!shown->is_free[kFriction] && !shown->is_free[kCornering]) {
-    return refuse("tyres-not-shown",
-                  "the logs show neither the friction nor the cornering stiffness of the tyres: record "
-                  "tighter and faster turns of both kinds");
+    return refuse(
+        "tyres-not-shown",
+        "the logs show neither the friction nor the cornering stiffness of the tyres: record "
+        "tighter and faster turns of both kinds");
   }
   if (!shown->fit.converged) {
-    return refuse("tyres-not-converged", "the fit of the tyres did not converge: " + shown->fit.stop_reason);
+    return refuse("tyres-not-converged",
+                  "the fit of the tyres did not converge: " + shown->fit.stop_reason);
   }
   const auto sums = held_out(windows, plants, *shown);
-  if (!sums) return refuse("tyres-not-converged", "the tyres cannot be fitted to every other window");
-  TyreFit tyres{.tyres = tyres_at(shown->fit.at),
-                .friction = estimate_or_held(*shown, kFriction, windows.size(), first, findings),
-                .cornering_per_rad = estimate_or_held(*shown, kCornering, windows.size(), first, findings),
-                .windows = static_cast<int>(windows.size()),
-                .held_out = errors_by_channel(*sums),
-                .better = better_plant(*sums)};
+  if (!sums)
+    return refuse("tyres-not-converged", "the tyres cannot be fitted to every other window");
+  TyreFit tyres{
+      .tyres = tyres_at(shown->fit.at),
+      .friction = estimate_or_held(*shown, kFriction, windows.size(), first, findings),
+      .cornering_per_rad = estimate_or_held(*shown, kCornering, windows.size(), first, findings),
+      .windows = static_cast<int>(windows.size()),
+      .held_out = errors_by_channel(*sums),
+      .better = better_plant(*sums)};
   if (model[ParameterId::kInertiaNorm].source == Source::kFitted) {
-    findings.push_back(
-        finding(first, Severity::kWarning, "inertia-of-logs",
-                "I'z of the model was fitted to logs on the 3-DOF plant, where it may hold moments of the "
-                "tyres: a model from tables, whose I'z is m' Iz/m, suits the four-wheel plant better"));
+    findings.push_back(finding(
+        first, Severity::kWarning, "inertia-of-logs",
+        "I'z of the model was fitted to logs on the 3-DOF plant, where it may hold moments of the "
+        "tyres: a model from tables, whose I'z is m' Iz/m, suits the four-wheel plant better"));
   }
   findings.push_back(finding(first, Severity::kNote, "plants-compared", comparison_text(tyres)));
   return std::optional(std::move(tyres));

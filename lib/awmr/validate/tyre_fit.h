@@ -41,8 +41,8 @@ struct HeldOutError {
 };
 
 struct TyreFit {
-  Tyres<double> tyres;  ///< a parameter that the logs do not show is at its default
-  std::optional<Estimate> friction;           ///< mu; absent: the logs do not show it
+  Tyres<double> tyres;               ///< a parameter that the logs do not show is at its default
+  std::optional<Estimate> friction;  ///< mu; absent: the logs do not show it
   std::optional<Estimate> cornering_per_rad;  ///< c_a, 1/rad; likewise
   int windows = 0;                            ///< of 5 s each, >= kFewestTyreWindows
   std::vector<HeldOutError> held_out = {};    ///< by channel
