@@ -91,8 +91,13 @@ class MotionCheck {
   ///   1.5 sqrt(2 (1 - exp(-t/60 s))) m RMS
   /// to one side in the time t: 1.9 m in a window.
   static constexpr float kFurther_m = 6.0F;
-  /// Maximum distance travelled without any change of position, m.
+  /// Displacement along the heading that is required, as a share of the distance travelled. With a compass
+  /// 30 deg off and three times that drift, a healthy vehicle reaches 0.39.
+  static constexpr float kNotFurther = 0.25F;
+  /// Maximum distance travelled without any change of position, m. A vehicle that is to move counts as at
+  /// least kStill_mps fast, 10 s: a receiver that froze at rest.
   static constexpr float kSame_m = 1.5F;
+  static constexpr float kStill_mps = 0.15F;
   /// Maximum displacement against the commanded direction, m, in as many consecutive fixes. At most
   /// kAhead_m of displacement ahead is deducted. It exceeds the drift of the position while the
   /// vehicle moves.
@@ -143,9 +148,15 @@ class MotionCheck {
 
   AWMR_CALLED_MEMBER void restart_window() { window_s_ = window_m_ = travelled_m_ = 0.0F; }
 
-  /// |int ahead| <= 1.25 int u dt + the drift since the window began.
+  /// |int ahead| <= 1.25 int u dt + the drift since the window began, and at the end of a window that
+  /// was driven one way
+  ///   |int ahead| >= 0.25 int u dt
   AWMR_CALLED_MEMBER void compare_with_speed() {
-    if (travelled_m_ > kWindow_m || window_s_ > kWindow_s) restart_window();
+    const bool is_long = travelled_m_ > kWindow_m;
+    if (is_long && direction_ != 0 && detail::size_of(window_m_) < kNotFurther * travelled_m_) {
+      note(kGpsInconsistent);
+    }
+    if (is_long || window_s_ > kWindow_s || braking_s_ > 0.0F) restart_window();
     const float travelled_m = motion_.speed_mps * motion_.time_s;
     window_s_ += motion_.time_s;
     travelled_m_ += travelled_m;
@@ -154,7 +165,11 @@ class MotionCheck {
       note(kGpsInconsistent);
     }
     if (motion_.dx_m != 0.0F || motion_.dy_m != 0.0F) same_m_ = 0.0F;
-    if (motion_.speed_mps > kStandstill_mps) same_m_ += travelled_m;
+    if (motion_.speed_mps > kStandstill_mps) {
+      same_m_ += travelled_m;
+    } else if (direction_ != 0) {
+      same_m_ += kStill_mps * motion_.time_s;
+    }
     if (same_m_ > kSame_m) note(kGpsInconsistent);
   }
 
@@ -167,6 +182,7 @@ class MotionCheck {
       braked_from_mps_ = motion_.speed_mps;
       against_m_ = 0.0F;
       against_fixes_ = 0;
+      restart_window();
     }
     braking_s_ -= motion_.time_s;
     if (!is_moving || motion_.speed_mps > braked_from_mps_ + kFaster_mps) braking_s_ = 0.0F;

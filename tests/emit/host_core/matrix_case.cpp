@@ -64,6 +64,11 @@ std::string text_of(const char* format, double a) {
   return text;
 }
 
+/// Sends a command, as a frame after the first one.
+void command(const std::string& text) {
+  world.say(world.sequence > 0 ? frame(world.sequence += 2, text) : text + "\n");
+}
+
 /// Starts the sketch at rest and arms it. True: it is armed.
 bool start_and_arm() {
   setup();
@@ -76,7 +81,7 @@ bool start_and_arm() {
 /// Commands a heading 90 deg to the left, and returns it.
 double turn_left() {
   const double goal = remainder(imu.psi_rad + 0.5 * kPi, 2 * kPi);
-  if (!kIsRoute) world.say(text_of("H %.1f\n", goal * 57.29578));
+  if (!kIsRoute) command(text_of("H %.1f", goal * 57.29578));
   return goal;
 }
 
