@@ -319,6 +319,16 @@ TEST(GpsCheck, FindsAPositionThatDoesNotFollowTheSpeed) {
   frozen.at.direction = 0;
   frozen.at.is_armed = false;
   ASSERT_TRUE(frozen.drive(500)) << "nothing moves, nothing is to move";
+  // A speed that is stuck, at rest: after 10 s of braking and 12 m.
+  Receiver stuck;
+  ASSERT_TRUE(stuck.drive(10));
+  stuck.at.direction = 0;
+  int waited = 0;
+  for (; waited < 200 && stuck.check.fault(stuck.now_ms) == kSensorGood; ++waited) {
+    stuck.x_m += waited % 2 == 0 ? 0.05F : -0.05F;
+    stuck.next();
+  }
+  EXPECT_NEAR(waited, 5 * (10 + 12), 5);
   // At speed 0 the noise of a speed without a sign adds up, forth and back the displacements cancel.
   Receiver resting;
   resting.fix.speed_mps = 0.25F;

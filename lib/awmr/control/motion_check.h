@@ -94,6 +94,8 @@ class MotionCheck {
   /// Displacement along the heading that is required, as a share of the distance travelled. With a compass
   /// 30 deg off and three times that drift, a healthy vehicle reaches 0.39.
   static constexpr float kNotFurther = 0.25F;
+  /// At u_ref = 0 a window counts only within this time, s: the noise of a speed without a sign adds up.
+  static constexpr float kMoving_s = kWindow_m / kStandstill_mps;
   /// Maximum distance travelled without any change of position, m. A vehicle that is to move counts as at
   /// least kStill_mps fast, 10 s: a receiver that froze at rest.
   static constexpr float kSame_m = 1.5F;
@@ -124,6 +126,7 @@ class MotionCheck {
   GpsContext context_ = {0.0F, 0.0F, 0, false};
   float window_s_ = 0.0F;         // time since the window began
   float window_m_ = 0.0F;         // along the heading since then
+  float window_left_m_ = 0.0F;    // to the left of it, where the motion is straight
   float travelled_m_ = 0.0F;      // integral of the speed since then
   float same_m_ = 0.0F;           // integral of the speed while the position stood still
   float against_m_ = 0.0F;        // against the commanded direction
@@ -146,14 +149,18 @@ class MotionCheck {
     if (fault_ == kSensorGood) fault_ = fault;
   }
 
-  AWMR_CALLED_MEMBER void restart_window() { window_s_ = window_m_ = travelled_m_ = 0.0F; }
+  AWMR_CALLED_MEMBER void restart_window() {
+    window_s_ = window_m_ = window_left_m_ = travelled_m_ = 0.0F;
+  }
 
   /// |int ahead| <= 1.25 int u dt + the drift since the window began, and at the end of a window that
   /// was driven one way
-  ///   |int ahead| >= 0.25 int u dt
+  ///   |int ahead| + |int left| >= 0.25 int u dt
+  /// where left is for a compass that is off (kOffHeading).
   AWMR_CALLED_MEMBER void compare_with_speed() {
     const bool is_long = travelled_m_ > kWindow_m;
-    if (is_long && direction_ != 0 && detail::size_of(window_m_) < kNotFurther * travelled_m_) {
+    if (is_long && (direction_ != 0 || window_s_ < kMoving_s) &&
+        detail::size_of(window_m_) + detail::size_of(window_left_m_) < kNotFurther * travelled_m_) {
       note(kGpsInconsistent);
     }
     if (is_long || window_s_ > kWindow_s || braking_s_ > 0.0F) restart_window();
@@ -218,7 +225,9 @@ class MotionCheck {
     if (!is_straight_) return;
     track_s_ += motion_.time_s;
     track_ahead_m_ += ahead_m_;
-    track_left_m_ += displacement_left_m(motion_.dx_m, motion_.dy_m, context_.psi_rad);
+    const float moved_left_m = displacement_left_m(motion_.dx_m, motion_.dy_m, context_.psi_rad);
+    track_left_m_ += moved_left_m;
+    window_left_m_ += moved_left_m;
     const float ahead_m = detail::size_of(track_ahead_m_);
     const float left_m = detail::size_of(track_left_m_);
     if (ahead_m + left_m < kTrack_m + kTrack_mps * track_s_) return;
