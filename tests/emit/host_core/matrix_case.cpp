@@ -114,8 +114,8 @@ void run_failure(const Failure& one, Time when, const Setting& setting) {
   if (when != Time::kWiring) one.inject(w);
   watch_for(3);
   if (when != Time::kTurning) goal = turn_left();
-  // The route is 90 m long.
-  watch_for((kIsRoute ? std::max(kWatch_s, 150 / setting.speed_mps) : kWatch_s) - 30);
+  // The route is 90 m long, at a third of the speed.
+  watch_for((kIsRoute ? std::max(kWatch_s, 300 / setting.speed_mps) : kWatch_s) - 30);
   // Speed and track of the last half minute, compared with the wanted direction.
   const double x1 = w.x, y1 = w.y, wanted = kIsRoute ? output.psi_ref_rad : goal;
   const double before_m = record.path_m;
