@@ -106,6 +106,20 @@ TEST(CommandFrame, TakesEachSequenceNumberOnce) {
   EXPECT_EQ(only_verdict(reader, frame("127 KEEP")), CommandVerdict::kRepeated);
 }
 
+TEST(CommandFrame, RefusesARecordingOfLessThan130Frames) {
+  for (const int count : {20, 129, 130}) {
+    CommandReader reader;
+    for (int i = 0; i < count; ++i) {
+      ASSERT_EQ(only_verdict(reader, frame(std::to_string(i) + " K")), CommandVerdict::kTaken);
+    }
+    for (int i = 0; i < count; ++i) {
+      EXPECT_EQ(only_verdict(reader, frame(std::to_string(i) + " K")),
+                count < 130 ? CommandVerdict::kRepeated : CommandVerdict::kTaken)
+          << count << " " << i;
+    }
+  }
+}
+
 TEST(CommandFrame, RefusesDamageAndTextAfterIt) {
   CommandReader reader;
   const std::string good = frame("1 S 0.5");

@@ -296,6 +296,54 @@ TEST(GpsCheck, FindsSpeedAndPositionThatContradictEachOther) {
   EXPECT_EQ(fast.check.fault(fast.now_ms), kGpsInconsistent);
 }
 
+TEST(GpsCheck, FindsAPositionThatDoesNotFollowTheSpeed) {
+  // Twice along the same heading: a window of 12 m ends after 13 m.
+  for (const float share : {0.0F, 0.2F}) {
+    Receiver held;
+    ASSERT_TRUE(held.drive(10));
+    int fixes = 0;
+    for (; fixes < 200 && held.check.fault(held.now_ms) == kSensorGood; ++fixes) {
+      held.x_m += share * 0.2F + (fixes % 2 == 0 ? 0.05F : -0.05F);
+      held.next();
+    }
+    EXPECT_EQ(held.check.fault(held.now_ms), kGpsInconsistent);
+    EXPECT_LT(fixes, 130);
+  }
+  // A receiver that froze at rest: 10 s.
+  Receiver frozen;
+  frozen.fix.speed_mps = 0.0F;
+  for (int i = 0; i < 49; ++i) ASSERT_TRUE(frozen.next());
+  EXPECT_EQ(frozen.check.fault(frozen.now_ms), kSensorGood);
+  for (int i = 0; i < 3; ++i) frozen.next();
+  EXPECT_EQ(frozen.check.fault(frozen.now_ms), kGpsInconsistent);
+  frozen.at.direction = 0;
+  frozen.at.is_armed = false;
+  ASSERT_TRUE(frozen.drive(500)) << "nothing moves, nothing is to move";
+  // A speed that is stuck, at rest: after 10 s of braking and 12 m.
+  Receiver stuck;
+  ASSERT_TRUE(stuck.drive(10));
+  stuck.at.direction = 0;
+  int waited = 0;
+  for (; waited < 200 && stuck.check.fault(stuck.now_ms) == kSensorGood; ++waited) {
+    stuck.x_m += waited % 2 == 0 ? 0.05F : -0.05F;
+    stuck.next();
+  }
+  EXPECT_NEAR(waited, 5 * (10 + 12), 5);
+  // At speed 0 the noise of a speed without a sign adds up, forth and back the displacements cancel.
+  Receiver resting;
+  resting.fix.speed_mps = 0.25F;
+  resting.at.direction = 0;
+  for (int i = 0; i < 1000; ++i) {
+    resting.x_m = i % 2 == 0 ? 0.05F : -0.05F;
+    ASSERT_TRUE(resting.next());
+  }
+  resting.fix.speed_mps = 1.0F;
+  for (int i = 0; i < 20; ++i) {
+    resting.at.direction = static_cast<std::int8_t>(i % 2 == 0 ? 1 : -1);
+    ASSERT_TRUE(resting.drive(35)) << i;
+  }
+}
+
 TEST(GpsCheck, FindsAVehicleThatMovesTheWrongWay) {
   Receiver gps;
   ASSERT_TRUE(gps.drive(20));

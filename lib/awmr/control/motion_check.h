@@ -91,8 +91,15 @@ class MotionCheck {
   ///   1.5 sqrt(2 (1 - exp(-t/60 s))) m RMS
   /// to one side in the time t: 1.9 m in a window.
   static constexpr float kFurther_m = 6.0F;
-  /// Maximum distance travelled without any change of position, m.
+  /// Displacement along the heading that is required, as a share of the distance travelled. With a compass
+  /// 30 deg off and three times that drift, a healthy vehicle reaches 0.39.
+  static constexpr float kNotFurther = 0.25F;
+  /// At u_ref = 0 a window counts only within this time, s: the noise of a speed without a sign adds up.
+  static constexpr float kMoving_s = kWindow_m / kStandstill_mps;
+  /// Maximum distance travelled without any change of position, m. A vehicle that is to move counts as at
+  /// least kStill_mps fast, 10 s: a receiver that froze at rest.
   static constexpr float kSame_m = 1.5F;
+  static constexpr float kStill_mps = 0.15F;
   /// Maximum displacement against the commanded direction, m, in as many consecutive fixes. At most
   /// kAhead_m of displacement ahead is deducted. It exceeds the drift of the position while the
   /// vehicle moves.
@@ -119,6 +126,7 @@ class MotionCheck {
   GpsContext context_ = {0.0F, 0.0F, 0, false};
   float window_s_ = 0.0F;         // time since the window began
   float window_m_ = 0.0F;         // along the heading since then
+  float window_left_m_ = 0.0F;    // to the left of it, where the motion is straight
   float travelled_m_ = 0.0F;      // integral of the speed since then
   float same_m_ = 0.0F;           // integral of the speed while the position stood still
   float against_m_ = 0.0F;        // against the commanded direction
@@ -141,11 +149,21 @@ class MotionCheck {
     if (fault_ == kSensorGood) fault_ = fault;
   }
 
-  AWMR_CALLED_MEMBER void restart_window() { window_s_ = window_m_ = travelled_m_ = 0.0F; }
+  AWMR_CALLED_MEMBER void restart_window() {
+    window_s_ = window_m_ = window_left_m_ = travelled_m_ = 0.0F;
+  }
 
-  /// |int ahead| <= 1.25 int u dt + the drift since the window began.
+  /// |int ahead| <= 1.25 int u dt + the drift since the window began, and at the end of a window that
+  /// was driven one way
+  ///   |int ahead| + |int left| >= 0.25 int u dt
+  /// where left is for a compass that is off (kOffHeading).
   AWMR_CALLED_MEMBER void compare_with_speed() {
-    if (travelled_m_ > kWindow_m || window_s_ > kWindow_s) restart_window();
+    const bool is_long = travelled_m_ > kWindow_m;
+    if (is_long && (direction_ != 0 || window_s_ < kMoving_s) &&
+        detail::size_of(window_m_) + detail::size_of(window_left_m_) < kNotFurther * travelled_m_) {
+      note(kGpsInconsistent);
+    }
+    if (is_long || window_s_ > kWindow_s || braking_s_ > 0.0F) restart_window();
     const float travelled_m = motion_.speed_mps * motion_.time_s;
     window_s_ += motion_.time_s;
     travelled_m_ += travelled_m;
@@ -154,7 +172,11 @@ class MotionCheck {
       note(kGpsInconsistent);
     }
     if (motion_.dx_m != 0.0F || motion_.dy_m != 0.0F) same_m_ = 0.0F;
-    if (motion_.speed_mps > kStandstill_mps) same_m_ += travelled_m;
+    if (motion_.speed_mps > kStandstill_mps) {
+      same_m_ += travelled_m;
+    } else if (direction_ != 0) {
+      same_m_ += kStill_mps * motion_.time_s;
+    }
     if (same_m_ > kSame_m) note(kGpsInconsistent);
   }
 
@@ -167,6 +189,7 @@ class MotionCheck {
       braked_from_mps_ = motion_.speed_mps;
       against_m_ = 0.0F;
       against_fixes_ = 0;
+      restart_window();
     }
     braking_s_ -= motion_.time_s;
     if (!is_moving || motion_.speed_mps > braked_from_mps_ + kFaster_mps) braking_s_ = 0.0F;
@@ -202,7 +225,9 @@ class MotionCheck {
     if (!is_straight_) return;
     track_s_ += motion_.time_s;
     track_ahead_m_ += ahead_m_;
-    track_left_m_ += displacement_left_m(motion_.dx_m, motion_.dy_m, context_.psi_rad);
+    const float moved_left_m = displacement_left_m(motion_.dx_m, motion_.dy_m, context_.psi_rad);
+    track_left_m_ += moved_left_m;
+    window_left_m_ += moved_left_m;
     const float ahead_m = detail::size_of(track_ahead_m_);
     const float left_m = detail::size_of(track_left_m_);
     if (ahead_m + left_m < kTrack_m + kTrack_mps * track_s_) return;

@@ -19,6 +19,11 @@ inline std::string frame(int sequence, const std::string& text) {
   return line;
 }
 
+/// Of each `period_ms`, the last `share`.
+inline bool is_in_burst(const World& w, uint32_t period_ms, double share) {
+  return w.elapsed_ms % period_ms >= (1 - share) * period_ms;
+}
+
 /// The rows of SAFETY.md.
 inline const std::vector<Failure>& hazards() {
   static const std::vector<Failure> all = {
@@ -87,6 +92,51 @@ inline const std::vector<Failure>& further_failures() {
       {"gps-once-a-second", [](World& w) { w.gps_period_ms = 1000; }},
       {"compass-hard-iron", [](World& w) { w.hard_iron = 300; }},
       {"command-storm", [](World& w) { w.keep_period_ms = 1, w.keep = "\xff\x01S 3"; }},
+      {"left-motor-half", [](World& w) { w.left_gain = 0.5; }},
+      {"left-motor-double", [](World& w) { w.left_gain = 2; }},
+      {"left-motor-stuck", [](World& w) { w.left_stuck = w.left_force; }},
+      {"motors-half", [](World& w) { w.left_gain = w.right_gain = 0.5; }},
+      {"servo-stuck-as-it-is", [](World& w) { w.servo_stuck = w.servo_rad; }},
+      {"imu-bursts",
+       [](World& w) {
+         w.each_ms = [](World& v) {
+           v.compass_answers = !is_in_burst(v, 4000, 0.1);
+           v.gyro_answers = !is_in_burst(v, 700, 0.1);
+         };
+       }},
+      {"gps-bursts",
+       [](World& w) { w.each_ms = [](World& v) { v.gps_answers = !is_in_burst(v, 4000, 0.1); }; }},
+      {"compass-creeping", [](World& w) { w.compass_rate = 0.0035; }},
+      {"gps-frozen",
+       [](World& w) {
+         w.gps_still = true, w.still_x = w.x, w.still_y = w.y, w.gps_speed_stuck = fabs(w.u);
+       }},
+      {"gps-speed-held", [](World& w) { w.gps_speed_stuck = fabs(w.u); }},
+      {"gps-speed-held-to-stop", [](World& w) { w.gps_speed_stuck = fabs(w.u), w.say("S 0\n"); }},
+      {"gps-west-frozen", [](World& w) { w.gps_west_still = true, w.still_y = w.y; }},
+      {"command-in-noise",
+       [](World& w) {
+         w.keeps = false;
+         w.each_ms = [](World& v) {
+           if (v.elapsed_ms % 300 == 0) v.say("\xff\x80K\n");
+         };
+       }},
+      {"command-old-frames",
+       [](World& w) {
+         w.keeps = false;
+         w.each_ms = [](World& v) {
+           if (v.elapsed_ms % 300 == 0) v.say(frame(++v.sequence % 20, "KEEP"));
+         };
+       }},
+      {"operators-two",
+       [](World& w) {
+         w.keeps = false;
+         w.sequence = 100;
+         w.each_ms = [](World& v) {
+           if (v.elapsed_ms % 300 == 0) v.say(frame(v.sequence - 100, "KEEP"));
+           if (v.elapsed_ms % 300 == 150) v.say(frame(++v.sequence, "KEEP"));
+         };
+       }},
   };
   return all;
 }
@@ -104,11 +154,16 @@ inline const std::vector<Failure>& wrong_wirings() {
       {"gyro-reversed-servo-reversed", [](World& w) { w.gyro_gain = -1, w.servo_sign = -1; }},
       {"gyro-reversed-moments-reversed",
        [](World& w) { w.gyro_gain = -1, w.servo_sign = -1, w.sides_swapped = true; }},
+      {"imu-upside-down", [](World& w) { w.gyro_gain = -1, w.compass_left_sign = -1; }},
       {"gyro-half", [](World& w) { w.gyro_gain = 0.5; }},
       {"gyro-double", [](World& w) { w.gyro_gain = 2; }},
       {"gyro-times-57", [](World& w) { w.gyro_gain = 57.3; }},
       {"gyro-over-57", [](World& w) { w.gyro_gain = 1 / 57.3; }},
       {"gyro-other-axis", [](World& w) { w.gyro_gain = 0; }},
+      {"gps-frozen-at-rest",
+       [](World& w) {
+         w.gps_still = true, w.still_x = w.x, w.still_y = w.y, w.gps_speed_stuck = 0;
+       }},
       {"compass-mirrored", [](World& w) { w.compass_left_sign = -1; }},
       {"compass-mirrored-ahead", [](World& w) { w.compass_ahead_sign = -1; }},
       {"compass-axes-swapped", [](World& w) { w.compass_axes_swapped = true; }},

@@ -62,6 +62,11 @@ std::string text_of(const char* format, double a) {
   return text;
 }
 
+/// Sends a command, as a frame after the first one.
+void command(const std::string& text) {
+  world.say(world.sequence > 0 ? frame(world.sequence += 2, text) : text + "\n");
+}
+
 /// Starts the sketch at rest and arms it. True: it is armed.
 bool start_and_arm() {
   setup();
@@ -74,7 +79,7 @@ bool start_and_arm() {
 /// Commands a heading 90 deg to the left, and returns it.
 double turn_left() {
   const double goal = remainder(imu.psi_rad + 0.5 * kPi, 2 * kPi);
-  if (!follows_route) world.say(text_of("H %.1f\n", goal * 57.29578));
+  if (!follows_route) command(text_of("H %.1f", goal * 57.29578));
   return goal;
 }
 
@@ -107,8 +112,8 @@ void run_failure(const Failure& one, Time when, const Setting& setting) {
   if (when != Time::kWiring) one.inject(w);
   watch_for(3);
   if (when != Time::kTurning) goal = turn_left();
-  // The route is 90 m long.
-  watch_for((follows_route ? std::max(kWatch_s, 150 / setting.speed_mps) : kWatch_s) - 30);
+  // The route is 90 m long, at a third of the speed.
+  watch_for((follows_route ? std::max(kWatch_s, 300 / setting.speed_mps) : kWatch_s) - 30);
   // Speed and track of the last half minute, compared with the wanted direction.
   const double x1 = w.x, y1 = w.y, wanted = follows_route ? output.psi_ref_rad : goal;
   const double before_m = record.path_m;

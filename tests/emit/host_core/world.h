@@ -44,6 +44,7 @@ struct World {
   double mass_factor = 1, drag_factor = 1, motor_sign = 1, slope = 0;
   bool sides_swapped = false;
   double left_gain = 1, right_gain = 1;
+  double left_stuck = NAN;  // force of the left motor, whatever is commanded
   double motor_lag_s = 0, left_force = 0, right_force = 0;
   double servo_sign = 1, servo_offset = 0, servo_lag_s = 0, servo_stuck = NAN, servo_rad = 0;
   double forced_turn = 0;  // rad/s: turned by hand
@@ -67,7 +68,7 @@ struct World {
   uint32_t gps_period_ms = 200, utc_s = 43200;  // between two fixes; time of day at the start
   uint32_t gps_delay_ms = 0, gps_latency_ms = 0;
   bool gps_answers = true, gps_repeats = false, gps_empty = false, gps_void = false,
-       gps_still = false;
+       gps_still = false, gps_west_still = false;
   double still_x = 0, still_y = 0;
   bool gps_bad_sum = false;
   std::string last_sentence;
@@ -77,6 +78,8 @@ struct World {
   uint32_t keep_period_ms = 300;
   std::string keep = "KEEP\n";
   int sequence = 0;
+  // Called every ms: a failure that changes with time.
+  std::function<void(World&)> each_ms = [](World&) {};
 
   double noise(double sigma) { return std::normal_distribution<double>(0, sigma)(random); }
   double force(int pwm, int direction) {
@@ -84,7 +87,10 @@ struct World {
   }
   // Reversed, the sides are exchanged as well: it drives the wrong way and turns the right one.
   bool is_exchanged() const { return (motor_sign < 0) != sides_swapped; }
-  double left() { return left_gain * (is_exchanged() ? force(45, 23) : force(44, 22)); }
+  double left() {
+    if (!std::isnan(left_stuck)) return left_stuck;
+    return left_gain * (is_exchanged() ? force(45, 23) : force(44, 22));
+  }
   double right() { return right_gain * (is_exchanged() ? force(44, 22) : force(45, 23)); }
   bool is_driven() { return duty[44] != 0 || duty[45] != 0; }
   double steering() const {
@@ -158,7 +164,7 @@ struct World {
       }
     }
     const double px = gps_still ? still_x : x + gps_jump_m + wander_x + noise(gps_noise_m);
-    const double py = gps_still ? still_y : y + wander_y + noise(gps_noise_m);
+    const double py = gps_still || gps_west_still ? still_y : y + wander_y + noise(gps_noise_m);
     const double lat = 48.1 + px / 111319.491,
                  lon = 11.5 - py / (111319.491 * cos(48.1 * 0.0174532925));
     const double seen_mps = fabs(gps_speed_gain * u + noise(gps_speed_noise));
@@ -191,6 +197,7 @@ struct World {
   }
   void tick() {
     ++elapsed_ms;
+    each_ms(*this);
     compass_offset += 0.001 * compass_rate;
     move(0.001);
     navigate();
