@@ -114,6 +114,12 @@ class ReportInBrowser : public ::testing::Test {
              (data / "surge.csv").string() + "' --coastdown '" + (data / "coastdown.csv").string() +
              "' --turning '" + (data / "turning.csv").string() + "' -o model.json"));
     run(awmr("validate --model model.json --gains gains.json -o validation.json"));
+    Json validation = Json::parse(read_all(directory_->path() / "validation.json"));
+    validation["tyres"] = Json::parse(
+        R"({"friction": 0.8, "cornering_stiffness_per_rad": 6.96, "windows": 26, "better": "four-wheel",
+            "estimates": {"cornering_stiffness_per_rad": {"value": 6.96, "std_error": 0.1, "ci95": [6.8, 7.2]}},
+            "held_out": {"yaw_rate_radps": {"model_rms": 0.111, "four_wheel_rms": 0.0036}}})");
+    write_all(directory_->path() / "validation.json", validation.dump());
     const std::string steps = read_all(paper / "scenarios/c3_heading_steps.json");
     Json hostile = Json::parse(steps);
     hostile["name"] = kHostileName;

@@ -181,7 +181,28 @@ function identificationSection(data) {
   influenceTable(box, model.estimates);
   estimatorsTable(box, model.estimates);
   logsPart(box, data.validation);
+  tyresPart(box, data.validation);
   drivesPart(box, data.validation);
+}
+
+/// Tyres fitted to logs, and the errors of both plants where the tyres were not fitted.
+function tyresPart(parent, validation) {
+  const {tyres} = validation || {};
+  if (!tyres) return;
+  const better = {model: "the 3-DOF model predicts better",
+    "four-wheel": "four wheels on tyres predict better"}[tyres.better] || "neither plant predicts better";
+  add(parent, "h3", `Four wheels on tyres: ${better}`);
+  small(parent, "Friction and cornering stiffness were fitted to the logs. Errors are root mean " +
+    `squares over ${tyres.windows} windows that were held out from the fit.`);
+  const range = (key) => (tyres.estimates[key] ? interval(tyres.estimates[key].ci95)
+    : "not shown by the logs: the default");
+  table(parent, ["tyres", "#value", "95 % interval"], [
+    ["friction", digits(tyres.friction), range("friction")],
+    ["cornering stiffness, 1/rad", digits(tyres.cornering_stiffness_per_rad),
+      range("cornering_stiffness_per_rad")]]);
+  table(parent, ["channel", "#error of the model", "#error on tyres"],
+    Object.entries(tyres.held_out).map(([name, error]) =>
+      [channelWords(name), digits(error.model_rms), digits(error.four_wheel_rms)]));
 }
 
 /// Drives under the controller compared with their predictions.
