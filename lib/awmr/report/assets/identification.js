@@ -190,7 +190,7 @@ function tyresPart(parent, validation) {
   const {tyres} = validation || {};
   if (!tyres) return;
   const better = {model: "the 3-DOF model predicts better",
-    "four-wheel": "four wheels on tyres predict better"}[tyres.better] || "neither plant predicts better";
+    "four-wheel": "they predict better than the 3-DOF model"}[tyres.better] || "neither plant predicts better";
   add(parent, "h3", `Four wheels on tyres: ${better}`);
   small(parent, "Friction and cornering stiffness were fitted to the logs. Errors are root mean " +
     `squares over ${tyres.windows} windows that were held out from the fit.`);
