@@ -288,6 +288,29 @@ ControlOptions::Observer observer(bool anti_windup) {
   return {.bandwidth_radps = 5.0, .yaw_max_m = 0.3, .surge_max = 0.5, .anti_windup = anti_windup};
 }
 
+/// Errors of neighbouring samples have the correlation exp(-T_s/tau), and the spread of independent ones.
+TEST(SensorChannels, HaveNoiseWithACorrelationTime) {
+  Sensors sensors;
+  sensors.heading = {.noise = 0.02, .correlation_s = 0.2};
+  double squares = 0.0;
+  double products = 0.0;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Sensing sensing(sensors, 0.01, run_seed(seed, 1, 0));
+    double before = 0.0;
+    for (std::size_t k = 0; k < 5000; ++k) {
+      const double error = sensing.at(k, {}).motion.psi_rad;
+      squares += error * error;
+      products += k > 0 ? error * before : 0.0;
+      before = error;
+      ++count;
+    }
+  }
+  // 100,000 readings, as many as 2,500 independent ones.
+  EXPECT_NEAR(std::sqrt(squares / count), 0.02, 0.001);
+  EXPECT_NEAR(products / squares, std::exp(-0.01 / 0.2), 0.01);
+}
+
 TEST(SensorChannels, TellWhatWasTrueAsLongAgoAsTheyAreLate) {
   Sensors sensors;
   sensors.heading.late_s = 0.03;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <random>
 
 #include "awmr/control/disturbance_observer.h"
 #include "awmr/model/gains_file.h"
@@ -175,6 +176,42 @@ TEST(SteeringRate, IsThatOfIndependentReadingsThroughTheLaw) {
   EXPECT_LT(named(constraints_of(kPaperGains, context), "steering rate").margin, 0.0);
   context.has_steering = false;
   EXPECT_EQ(steering_rate_rms_degps(kPaperGains, context), 0.0);
+}
+
+/// Of the power law, whose w is no straight line, by a million pairs of readings with the correlation.
+TEST(SteeringRate, OfCorrelatedReadingsIsThatOfDrawnPairs) {
+  ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  context.heading_noise_rad = 0.02;
+  context.yaw_rate_noise_radps = 0.05;
+  context.heading_correlation = 0.5;
+  context.yaw_rate_correlation = 0.9;
+  const double correlated = steering_rate_rms_degps(kPaperGains, context);
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  const Resistance<double> g3 = feed_forward(context.plant.yaw);
+  const double k = 50.0 / 12.0;
+  const auto after = [&](double reading, double correlation) {
+    return correlation * reading + std::sqrt(1.0 - correlation * correlation) * normal(random);
+  };
+  const auto law = [&](double heading, double rate) {
+    const double n = 0.05 * rate;
+    return fed_forward(g3, n, 0.0) / context.plant.inertia_norm - (3.0 + k) * n -
+           3.0 * k * 0.02 * heading;
+  };
+  double squares = 0.0;
+  constexpr int kPairs = 1'000'000;
+  for (int i = 0; i < kPairs; ++i) {
+    const double heading = normal(random);
+    const double rate = normal(random);
+    const double change = law(after(heading, 0.5), after(rate, 0.9)) - law(heading, rate);
+    squares += change * change;
+  }
+  const double per_moment = 2.0 / (context.plant.front_axle_m * context.plant.surge(1.0));
+  const double drawn = degrees(per_moment * context.plant.inertia_norm *
+                               std::sqrt(squares / kPairs) / context.sample_time_s);
+  // What the series leaves out counts as uncorrelated: a little too much, never too little.
+  EXPECT_GT(correlated, 0.99 * drawn);
+  EXPECT_LT(correlated, 1.05 * drawn);
 }
 
 /// No pole pair whose slower pole is faster by a twentieth meets every constraint.

@@ -18,6 +18,8 @@ inline constexpr NumberRule kSampleTime_s{.min = 1e-4, .max = 1.0};
 inline constexpr NumberRule kSensorNoise{.min = 0.0, .max = 1e3};
 /// Latency of a sensor, or lag of a motor.
 inline constexpr NumberRule kLatency_s{.min = 0.0, .max = 1.0};
+/// Time constant of the correlation of a sensor's noise; 0: none.
+inline constexpr NumberRule kCorrelation_s{.min = 0.0, .max = 1e3};
 /// 1/k_e is the speed at which a motor under full voltage has no force left: at least 1 mm/s.
 inline constexpr NumberRule kStallPower_w{.min = 0.0, .max = 1e6, .min_excluded = true};
 inline constexpr NumberRule kBackEmf_s_per_m{.min = 0.0, .max = 1e3};

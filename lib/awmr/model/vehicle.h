@@ -24,17 +24,20 @@ inline constexpr NameTable<Drive, 3> kDriveNames{{{"four_wheel", Drive::kFourWhe
 inline constexpr NameTable<AllocationForm, 2> kAllocationFormNames{
     {{"exact", AllocationForm::kExact}, {"paper", AllocationForm::kPaper}}};
 
-/// Errors of the vehicle's sensors: standard deviations of noise, independent between readings, and
-/// latencies. Absent: not known.
+/// Errors of the vehicle's sensors: standard deviations of noise, latencies, and time constants of the noise's
+/// correlation (0: independent readings). Absent: not known.
 struct SensorQuality {
-  std::optional<double> heading_deg = {};      ///< deg, >= 0
-  std::optional<double> yaw_rate_degps = {};   ///< deg/s, >= 0
-  std::optional<double> speed_mps = {};        ///< m/s, >= 0
-  std::optional<double> position_m = {};       ///< m, >= 0
-  std::optional<double> heading_late_s = {};   ///< s, >= 0
-  std::optional<double> yaw_rate_late_s = {};  ///< s, >= 0
-  std::optional<double> speed_late_s = {};     ///< s, >= 0
-  std::optional<double> position_late_s = {};  ///< s, >= 0
+  std::optional<double> heading_deg = {};             ///< deg, >= 0
+  std::optional<double> yaw_rate_degps = {};          ///< deg/s, >= 0
+  std::optional<double> speed_mps = {};               ///< m/s, >= 0
+  std::optional<double> position_m = {};              ///< m, >= 0
+  std::optional<double> heading_late_s = {};          ///< s, >= 0
+  std::optional<double> yaw_rate_late_s = {};         ///< s, >= 0
+  std::optional<double> speed_late_s = {};            ///< s, >= 0
+  std::optional<double> position_late_s = {};         ///< s, >= 0
+  std::optional<double> heading_correlation_s = {};   ///< s, >= 0
+  std::optional<double> yaw_rate_correlation_s = {};  ///< s, >= 0
+  std::optional<double> speed_correlation_s = {};     ///< s, >= 0
   bool operator==(const SensorQuality&) const = default;
 };
 

@@ -58,7 +58,7 @@ void columns_from_json(JsonObject json, Vehicle& vehicle) {
   }
 }
 
-/// A property of each sensor, by its key in `noise` or `latency_s`.
+/// A property of each sensor, by its key in `noise`, `noise_correlation_s` or `latency_s`.
 struct SensorKey {
   std::string_view key;
   std::optional<double> SensorQuality::*member;
@@ -71,6 +71,9 @@ constexpr SensorKey kLatencyKeys[] = {{"heading", &SensorQuality::heading_late_s
                                       {"yaw_rate", &SensorQuality::yaw_rate_late_s},
                                       {"speed", &SensorQuality::speed_late_s},
                                       {"position", &SensorQuality::position_late_s}};
+constexpr SensorKey kCorrelationKeys[] = {{"heading", &SensorQuality::heading_correlation_s},
+                                          {"yaw_rate", &SensorQuality::yaw_rate_correlation_s},
+                                          {"speed", &SensorQuality::speed_correlation_s}};
 
 void sensors_from_json(std::optional<JsonObject> json, std::span<const SensorKey> keys,
                        const NumberRule& rule, SensorQuality& sensors) {
@@ -91,6 +94,8 @@ void sensors_to_json(const SensorQuality& sensors, std::span<const SensorKey> ke
 void control_from_json(JsonObject& json, Vehicle& vehicle) {
   if (json.has("allocation")) vehicle.allocation = json.choice("allocation", kAllocationFormNames);
   sensors_from_json(json.optional_object("noise"), kNoiseKeys, kSensorNoise, vehicle.sensors);
+  sensors_from_json(json.optional_object("noise_correlation_s"), kCorrelationKeys, kCorrelation_s,
+                    vehicle.sensors);
   sensors_from_json(json.optional_object("latency_s"), kLatencyKeys, kLatency_s, vehicle.sensors);
   if (auto motor = json.optional_object("motor")) {
     vehicle.motor_time_constant_s = motor->optional_number("time_constant_s", kLatency_s);
@@ -106,6 +111,7 @@ void control_to_json(const Vehicle& vehicle, Json& json) {
     json["allocation"] = name_in(kAllocationFormNames, vehicle.allocation);
   }
   sensors_to_json(vehicle.sensors, kNoiseKeys, "noise", json);
+  sensors_to_json(vehicle.sensors, kCorrelationKeys, "noise_correlation_s", json);
   sensors_to_json(vehicle.sensors, kLatencyKeys, "latency_s", json);
   if (vehicle.motor_time_constant_s) {
     json["motor"]["time_constant_s"] = *vehicle.motor_time_constant_s;

@@ -10,6 +10,9 @@ LoopConditions conditions_of(const Vehicle& vehicle) {
   c.heading_noise_deg = sensors.heading_deg.value_or(c.heading_noise_deg);
   c.yaw_rate_noise_degps = sensors.yaw_rate_degps.value_or(c.yaw_rate_noise_degps);
   c.speed_noise_mps = sensors.speed_mps.value_or(c.speed_noise_mps);
+  c.heading_correlation_s = sensors.heading_correlation_s.value_or(c.heading_correlation_s);
+  c.yaw_rate_correlation_s = sensors.yaw_rate_correlation_s.value_or(c.yaw_rate_correlation_s);
+  c.speed_correlation_s = sensors.speed_correlation_s.value_or(c.speed_correlation_s);
   c.heading_late_s = sensors.heading_late_s.value_or(c.heading_late_s);
   c.yaw_rate_late_s = sensors.yaw_rate_late_s.value_or(c.yaw_rate_late_s);
   c.speed_late_s = sensors.speed_late_s.value_or(c.speed_late_s);
@@ -18,15 +21,16 @@ LoopConditions conditions_of(const Vehicle& vehicle) {
 }
 
 Scenario under(const LoopConditions& c, Scenario scenario) {
-  const auto channel = [](double noise, double late_s) {
-    return Channel{.noise = noise, .late_s = late_s};
+  const auto channel = [](double noise, double late_s, double correlation_s) {
+    return Channel{.noise = noise, .late_s = late_s, .correlation_s = correlation_s};
   };
   if (!scenario.sensors) {
-    scenario.sensors =
-        Sensors{.heading = channel(radians(c.heading_noise_deg), c.heading_late_s),
-                .yaw_rate = channel(radians(c.yaw_rate_noise_degps), c.yaw_rate_late_s),
-                .speed = channel(c.speed_noise_mps, c.speed_late_s),
-                .gps = {}};
+    scenario.sensors = Sensors{
+        .heading = channel(radians(c.heading_noise_deg), c.heading_late_s, c.heading_correlation_s),
+        .yaw_rate =
+            channel(radians(c.yaw_rate_noise_degps), c.yaw_rate_late_s, c.yaw_rate_correlation_s),
+        .speed = channel(c.speed_noise_mps, c.speed_late_s, c.speed_correlation_s),
+        .gps = {}};
   }
   if (!scenario.actuators) {
     scenario.actuators = Actuators{.motor_time_constant_s = c.motor_time_constant_s};

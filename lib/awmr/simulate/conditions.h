@@ -7,12 +7,15 @@
 namespace awmr {
 
 /// Noise and latency of the sensors, lag of the motors. vehicle.json gives them (`noise`,
-/// `latency_s`, `motor`); where it does not, these: a compass, a MEMS gyro and a coarse encoder, read
+/// `noise_correlation_s`, `latency_s`, `motor`); where it does not, these: a compass, a MEMS gyro and a coarse encoder, read
 /// in the sample before, and small brushed motors.
 struct LoopConditions {
   double heading_noise_deg = 1.0;
   double yaw_rate_noise_degps = 0.5;
   double speed_noise_mps = 0.02;
+  double heading_correlation_s = 0.0;
+  double yaw_rate_correlation_s = 0.0;
+  double speed_correlation_s = 0.0;
   double heading_late_s = 0.02;
   double yaw_rate_late_s = 0.02;
   double speed_late_s = 0.02;

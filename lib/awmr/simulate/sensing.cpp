@@ -49,11 +49,22 @@ Sensing::Sensor::Sensor(const Channel& its_channel, double sample_time_s, const 
                         const std::vector<double>* its_normals)
     : channel(its_channel),
       late(static_cast<std::size_t>(std::lround(its_channel.late_s / sample_time_s))),
+      correlation(its_channel.correlation_s > 0.0
+                      ? std::exp(-sample_time_s / its_channel.correlation_s)
+                      : 0.0),
       random(its_random),
       normals(its_normals) {}
 
 double Sensing::Sensor::read(std::size_t k, double truth) {
-  return awmr::read(channel, truth, [&] { return normals ? (*normals)[k] : random.normal(); });
+  return awmr::read(channel, truth, [&] { return next_noise(k); });
+}
+
+double Sensing::Sensor::next_noise(std::size_t k) {
+  const double normal = normals ? (*normals)[k] : random.normal();
+  if (correlation == 0.0) return normal;
+  noise =
+      k == 0 ? normal : correlation * noise + std::sqrt(1.0 - correlation * correlation) * normal;
+  return noise;
 }
 
 Sensing::Sensing(const std::optional<Sensors>& sensors, double sample_time_s, const RunSeed& seed,

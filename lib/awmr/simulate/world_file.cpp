@@ -115,10 +115,12 @@ Battery read_battery(JsonObject json) {
 
 /// A sensor's numbers in the unit of the file, times `unit` in that of the program.
 Channel read_channel(JsonObject json, double unit) {
-  Channel channel{.noise = unit * json.optional_number("noise", kSensorSize).value_or(0.0),
-                  .bias = unit * json.optional_number("bias", kSensorBias).value_or(0.0),
-                  .quantum = unit * json.optional_number("quantum", kSensorSize).value_or(0.0),
-                  .late_s = json.optional_number("latency_s", kLatency_s).value_or(0.0)};
+  Channel channel{
+      .noise = unit * json.optional_number("noise", kSensorSize).value_or(0.0),
+      .bias = unit * json.optional_number("bias", kSensorBias).value_or(0.0),
+      .quantum = unit * json.optional_number("quantum", kSensorSize).value_or(0.0),
+      .late_s = json.optional_number("latency_s", kLatency_s).value_or(0.0),
+      .correlation_s = json.optional_number("correlation_s", kCorrelation_s).value_or(0.0)};
   json.reject_unknown_keys();
   return channel;
 }

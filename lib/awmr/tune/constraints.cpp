@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <span>
@@ -208,19 +209,33 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
   const double k = gains.heading.mu / gains.heading.epsilon;
   const double rate_gain = gains.heading.lambda + k + gains.observer.bandwidth_radps;
   const Resistance<double> g3 = feed_forward(plant.yaw);
-  // E[w^2] over the standard normal z = n/sigma_r, by the midpoint rule over +-6.
+  // E[w^2] over the standard normal z = n/sigma_r, by the midpoint rule over +-6. Of two readings with the
+  // correlation rho, E[w w'] = sum over k of rho^k E[w He_k(z)]^2/k! (Mehler), here up to k = 7: w is odd, and
+  // what is left out counts as uncorrelated.
   constexpr int kPoints = 240;
   constexpr double kReach = 6.0;
   constexpr double kWidth = 2.0 * kReach / kPoints;
   double mean_square = 0.0;
+  std::array<double, 4> hermite{};  // E[w He_k(z)], k = 1, 3, 5, 7
   for (int i = 0; i < kPoints; ++i) {
     const double z = -kReach + (i + 0.5) * kWidth;
     const double n = z * context.yaw_rate_noise_radps;
     const double w = fed_forward(g3, n, 0.0) / plant.inertia_norm - rate_gain * n;
     mean_square += kWidth * w * w * std::exp(-0.5 * z * z) / std::sqrt(2.0 * pi<double>());
+    const double weighted = kWidth * w * std::exp(-0.5 * z * z) / std::sqrt(2.0 * pi<double>());
+    const double zz = z * z;
+    const double polynomials[] = {z, z * (zz - 3.0), z * ((zz - 10.0) * zz + 15.0),
+                                  z * (((zz - 21.0) * zz + 105.0) * zz - 105.0)};
+    for (std::size_t j = 0; j < hermite.size(); ++j) hermite[j] += weighted * polynomials[j];
+  }
+  constexpr double kFactorials[] = {1.0, 6.0, 120.0, 5040.0};
+  double power = context.yaw_rate_correlation;
+  for (std::size_t j = 0; j < hermite.size(); ++j) {
+    mean_square -= power * hermite[j] * hermite[j] / kFactorials[j];
+    power *= context.yaw_rate_correlation * context.yaw_rate_correlation;
   }
   const double by_heading = gains.heading.lambda * k * context.heading_noise_rad;
-  mean_square += by_heading * by_heading;
+  mean_square += by_heading * by_heading * (1.0 - context.heading_correlation);
   const double share = context.mode == YawMode::kCombined ? 0.5 : 1.0;
   const double per_moment =
       share * (plant.rear_driven > 0.0 ? 2.0 : 1.0) / (plant.front_axle_m * tau_speed);

@@ -39,6 +39,8 @@ struct ConstraintContext {
   Interval wheel_force{-1.0, 1.0};             ///< F' of one wheel over F_max
   double heading_noise_rad = radians(1.0);     ///< standard deviation of a reading, >= 0
   double yaw_rate_noise_radps = radians(0.5);  ///< the same, >= 0
+  double heading_correlation = 0.0;            ///< of two readings T_s apart, [0, 1)
+  double yaw_rate_correlation = 0.0;           ///< the same
   double latency_s = 0.0;                      ///< of heading and yaw rate, >= 0
   double motor_time_constant_s = 0.0;          ///< >= 0
   std::vector<DrawnVehicle> draws = {};        ///< further ones that the gains have to suit

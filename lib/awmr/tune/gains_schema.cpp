@@ -101,6 +101,9 @@ void describe_robust(JsonObject json) {
   json.optional_number("activity_max");
   describe_numbers(json.object("noise"), {"heading_deg", "yaw_rate_degps", "speed_mps"});
   describe_numbers(json.object("latency"), {"heading_s", "yaw_rate_s", "speed_s"});
+  if (auto correlation = json.optional_object("noise_correlation")) {
+    describe_numbers(*correlation, {"heading_s", "yaw_rate_s", "speed_s"});
+  }
   describe_quantiles(json.object("quantiles"));
   if (auto by_scenario = json.optional_object("by_scenario")) {
     for (JsonObject& one : by_scenario->values()) describe_quantiles(one);

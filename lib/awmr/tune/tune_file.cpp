@@ -249,6 +249,12 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
                {"motor_time_constant_s", c.motor_time_constant_s},
                {"judged_draws", options.judged_draws},
                {"quantiles", quantiles_json(robust.judged)}};
+  if (c.heading_correlation_s > 0.0 || c.yaw_rate_correlation_s > 0.0 ||
+      c.speed_correlation_s > 0.0) {
+    json["noise_correlation"] = {{"heading_s", c.heading_correlation_s},
+                                 {"yaw_rate_s", c.yaw_rate_correlation_s},
+                                 {"speed_s", c.speed_correlation_s}};
+  }
   if (options.open.any()) json["open"] = open_json(options.open);
   if (options.activity_max) json["activity_max"] = *options.activity_max;
   // Last, where a merge of parts puts it.
