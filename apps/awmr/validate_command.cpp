@@ -190,7 +190,7 @@ void add_drive_options(CLI::App& sub, ValidateCommand& command) {
   auto* scenario = add_file(sub, "--scenario", command.scenario,
                             "The logs are drives of this scenario under the gains: compared with "
                             "the prediction by the model's uncertainty, noise and lags");
-  scenario->needs("--log")->needs("--gains");
+  scenario->needs("--log")->needs("--gains")->excludes("--tyres");
   add_choice(sub, "--mode", command.acceptance.mode, kYawModeNames,
              "How they turned (default combined)")
       ->needs(scenario);

@@ -51,15 +51,47 @@ Interval range_of(Eigen::Index parameter) {
   return {std::log(rule.min), std::log(rule.max)};
 }
 
+/// The servo's angle at each row, from its commands; empty where the angle itself was logged.
+std::vector<double> steering_angles(const DrivingLog& log, const Plant<double>& plant) {
+  constexpr double kLongestStep = 0.25;  // of the servo's time constant
+  std::vector<double> angles;
+  if (!log.steering_command_rad) return angles;
+  const std::vector<double>& commands = *log.steering_command_rad;
+  angles.push_back(commands.front());
+  for (std::size_t row = 0; row + 1 < log.rows(); ++row) {
+    const double span_s = log.t_s[row + 1] - log.t_s[row];
+    const int steps = steps_in(span_s, kLongestStep * plant.steering_time_constant_s);
+    State<double> servo{};
+    servo.steering_rad = angles.back();
+    for (int i = 0; i < steps; ++i) {
+      servo = rk4_step(servo, span_s / steps, [&](const State<double>& at) {
+        State<double> rates{};
+        rates.steering_rad = steering_rate(plant, at.steering_rad, commands[row]);
+        return rates;
+      });
+    }
+    angles.push_back(servo.steering_rad);
+  }
+  return angles;
+}
+
 /// What a replay needs of a log.
 struct ReplayedLog {
   LogSignals signals;
   std::optional<LaggedForces> lagged;
+  std::vector<double> angles;  ///< steering_angles()
 
-  ReplayedLog(const DrivingLog& log, double motor_lag_s) : signals(log) {
+  ReplayedLog(const DrivingLog& log, const Plant<double>& plant, double motor_lag_s)
+      : signals(log), angles(steering_angles(log, plant)) {
     if (motor_lag_s > 0.0) lagged.emplace(log, 0, log.rows(), motor_lag_s);
   }
   const LaggedForces* motors() const { return lagged ? &*lagged : nullptr; }
+  /// The measured state as the rows begin, with the servo as its commands have left it.
+  State<double> state_before(const LogWindow& rows) const {
+    State<double> state = measured_initial_state(rows);
+    if (!angles.empty()) state.steering_rad = angles[rows.begin];
+    return state;
+  }
 };
 
 struct ReplayedWindow {
@@ -116,9 +148,10 @@ struct Plants {
         four_wheel_step_s(replay_step_s(on_tyres(plant))),
         body(resolved_at_rest_on_tyres(on_tyres(plant), four_wheel_step_s)) {}
 
-  /// Without the sway resistance, which tyres replace, and its short steps.
+  /// Without the resistances that tyres replace, and their short steps.
   static Plant<double> on_tyres(Plant<double> plant) {
     plant.sway_alpha = 0.0;
+    plant.yaw = {.alpha = 1e-9, .beta = 1.0};
     return plant;
   }
   double model_step_s;
@@ -265,24 +298,27 @@ ceres::Problem problem_of(const Windows& windows, const Plants& plants, const We
   return problem;
 }
 
-/// The best of a coarse grid, by every third window. None: no window can be replayed.
-std::optional<LogTyres> start_of(const Windows& windows, const Plants& plants) {
-  constexpr std::array kFrictions{0.25, 0.5, 1.0};
+/// The best points of a coarse grid, by every third window, best first. Vehicles that slide spin one way or
+/// the other by little, so that the cost may have several minima.
+std::vector<LogTyres> starts_of(const Windows& windows, const Plants& plants) {
+  constexpr std::array kFrictions{0.25, 0.5, 0.75, 1.1};
   constexpr std::array kStiffnesses{3.0, 6.0, 12.0, 24.0};
+  constexpr std::size_t kMostStarts = 3;
   Windows some;
   for (std::size_t i = 0; i < windows.size(); i += 3) some.push_back(windows[i]);
-  std::optional<LogTyres> best;
-  double least = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, LogTyres>> points;
   for (const double friction : kFrictions) {
     for (const double stiffness : kStiffnesses) {
       const LogTyres at{std::log(friction), std::log(stiffness)};
-      const auto sums = sums_on_tyres(some, plants, at);
-      if (!sums || sums->cost() >= least) continue;
-      least = sums->cost();
-      best = at;
+      if (const auto sums = sums_on_tyres(some, plants, at)) points.emplace_back(sums->cost(), at);
     }
   }
-  return best;
+  std::ranges::sort(points, {}, [](const auto& point) { return point.first; });
+  std::vector<LogTyres> starts;
+  for (std::size_t i = 0; i < std::min(points.size(), kMostStarts); ++i) {
+    starts.push_back(points[i].second);
+  }
+  return starts;
 }
 
 /// The tyres with the least cost, searched from `from`; what is not free stays there. None: the windows
@@ -318,41 +354,55 @@ std::optional<Fit> fit(const Windows& windows, const Plants& plants, const IsFre
   return best;
 }
 
-/// Standard errors of the logarithms; none for what is held or does not matter.
-std::array<std::optional<double>, 2> log_errors(const Windows& windows, const Plants& plants,
-                                                const IsFree& is_free, Fit fit) {
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d scores = Eigen::Matrix2d::Zero();
-  for (const ReplayedWindow* window : windows) {
-    const TyreCost cost(*window, plants, fit.weights);
-    const auto count = rows_of(window->channels);
-    Eigen::VectorXd errors(count);
-    Eigen::MatrixXd by(count, 2);
-    const double* at[] = {&fit.at[kFriction], &fit.at[kCornering]};
-    double* columns[] = {by.col(kFriction).data(), by.col(kCornering).data()};
-    if (!cost.Evaluate(at, errors.data(), columns)) return {};
-    information += by.transpose() * by;
-    const Eigen::Vector2d score = by.transpose() * errors;
-    scores += score * score.transpose();
-  }
+/// What a window says of the tyres at the fit: J'J and J'e, of the free parameters.
+struct WindowInformation {
+  Eigen::Matrix2d information;
+  Eigen::Vector2d score;
+};
+
+std::optional<WindowInformation> information_of(const ReplayedWindow& window, const Plants& plants,
+                                                const IsFree& is_free, const Fit& fit) {
+  const TyreCost cost(window, plants, fit.weights);
+  const auto count = rows_of(window.channels);
+  Eigen::VectorXd errors(count);
+  Eigen::MatrixXd by(count, 2);
+  const double* at[] = {&fit.at[kFriction], &fit.at[kCornering]};
+  double* columns[] = {by.col(kFriction).data(), by.col(kCornering).data()};
+  if (!cost.Evaluate(at, errors.data(), columns)) return std::nullopt;
   for (const Eigen::Index p : {kFriction, kCornering}) {
-    if (is_free[at(p)]) continue;
-    information.row(p).setZero();
-    information.col(p).setZero();
-    information(p, p) = 1.0;
-    scores.row(p).setZero();
-    scores.col(p).setZero();
+    if (!is_free[awmr::at(p)]) by.col(p).setZero();
   }
-  const Eigen::LLT<Eigen::Matrix2d> factor(information);
-  if (factor.info() != Eigen::Success) return {};
+  return WindowInformation{by.transpose() * by, by.transpose() * errors};
+}
+
+/// Standard errors of the logarithms, by the jackknife over windows; none for what is held, and where all
+/// hangs on one window.
+std::array<std::optional<double>, 2> log_errors(const Windows& windows, const Plants& plants,
+                                                const IsFree& is_free, const Fit& fit) {
+  std::vector<WindowInformation> each;
+  Eigen::Matrix2d held = Eigen::Matrix2d::Zero();
+  for (const Eigen::Index p : {kFriction, kCornering}) {
+    if (!is_free[at(p)]) held(p, p) = 1.0;
+  }
+  Eigen::Matrix2d information = held;
+  for (const ReplayedWindow* window : windows) {
+    const auto one = information_of(*window, plants, is_free, fit);
+    if (!one) return {};
+    information += one->information;
+    each.push_back(*one);
+  }
+  Eigen::Vector2d variance = Eigen::Vector2d::Zero();
+  for (const WindowInformation& one : each) {
+    const Eigen::LLT<Eigen::Matrix2d> without(information - one.information);
+    if (without.info() != Eigen::Success) return {};
+    variance += without.solve(one.score).cwiseAbs2();
+  }
   const auto count = static_cast<double>(windows.size());
-  const Eigen::Matrix2d half = factor.solve(scores);
-  const Eigen::Matrix2d covariance = count / (count - 2.0) * factor.solve(half.transpose());
+  variance *= (count - 1.0) / count;
   std::array<std::optional<double>, 2> of;
   for (const Eigen::Index p : {kFriction, kCornering}) {
-    const double variance = covariance(p, p);
-    if (is_free[at(p)] && variance > 0.0 && std::isfinite(variance))
-      of[at(p)] = std::sqrt(variance);
+    const bool is_known = is_free[at(p)] && variance[p] > 0.0 && std::isfinite(variance[p]);
+    if (is_known) of[at(p)] = std::sqrt(variance[p]);
   }
   return of;
 }
@@ -433,8 +483,8 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
       log, Severity::kError, "tyres-need-turns",
       fmt::format(
           "tyres are fitted to at least {} windows of {:g} s, {} of them with each kind of turn; "
-          "these logs have {}, {} with turns by left and right wheel forces{}. Record a drive "
-          "that turns {}",
+          "these logs have {}, {} with turns by left and right wheel forces{}; a turn by both at "
+          "once counts for neither. Record a drive that turns {}",
           kFewestTyreWindows, kWindow_s, kFewestTurns, windows.size(), by_sides,
           steers ? fmt::format(" and {} with steered ones", by_steering) : "",
           steers ? "by the forces with straight wheels, then by steering with equal forces, "
@@ -544,7 +594,7 @@ std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
   std::vector<ReplayedWindow> windows;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     for (const LogWindow& rows : windows_of(logs[i], kWindow_s)) {
-      ReplayedWindow window{&replayed[i], rows, measured_initial_state(rows)};
+      ReplayedWindow window{&replayed[i], rows, replayed[i].state_before(rows)};
       for (std::size_t row = rows.begin; row < rows.end; ++row) {
         if (!counts(rows, row)) continue;
         each_measurement(rows, row, [&](LogChannel c, double) { window.channels.push_back(c); });
@@ -570,13 +620,22 @@ std::optional<Eigen::Index> least_shown(const ShownFit& shown) {
   return worst;
 }
 
+/// The best of the fits from these starts; none: the windows can be replayed from none of them.
+std::optional<Fit> best_fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
+                            const std::vector<LogTyres>& starts) {
+  std::optional<Fit> best;
+  for (const LogTyres& start : starts) {
+    auto found = fit(windows, plants, is_free, start);
+    if (found && (!best || found->cost < best->cost)) best = std::move(found);
+  }
+  return best;
+}
+
 std::optional<ShownFit> fit_what_is_shown(const Windows& windows, const Plants& plants) {
-  const auto start = start_of(windows, plants);
-  if (!start) return std::nullopt;
+  std::vector<LogTyres> starts = starts_of(windows, plants);
   ShownFit shown;
-  LogTyres from = *start;
   while (shown.is_free[kFriction] || shown.is_free[kCornering]) {
-    const auto found = fit(windows, plants, shown.is_free, from);
+    const auto found = best_fit(windows, plants, shown.is_free, starts);
     if (!found) return std::nullopt;
     shown.fit = *found;
     if (!found->converged) return shown;
@@ -584,8 +643,8 @@ std::optional<ShownFit> fit_what_is_shown(const Windows& windows, const Plants& 
     const auto worst = least_shown(shown);
     if (!worst) return shown;
     shown.is_free[at(*worst)] = false;
-    from = found->at;
-    from[*worst] = default_tyres()[*worst];
+    starts = {found->at};
+    starts.front()[*worst] = default_tyres()[*worst];
   }
   return shown;
 }
@@ -629,7 +688,7 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   const Plants plants(plant);
   std::vector<ReplayedLog> replayed;
   for (const DrivingLog& log : logs) {
-    replayed.emplace_back(log, model.vehicle.motor_time_constant_s.value_or(0.0));
+    replayed.emplace_back(log, plant, model.vehicle.motor_time_constant_s.value_or(0.0));
   }
   const std::vector<ReplayedWindow> all = windows_in(logs, replayed);
   if (auto missing = missing_turns(all, first, model.vehicle, plant)) {

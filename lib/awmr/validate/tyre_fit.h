@@ -7,9 +7,10 @@
 ///     minimise over log mu, log c_a:    sum over c of n_c log(sum e^2 / n_c)
 ///
 /// by least squares whose weights 1/(sum e^2 / n_c) follow the fit. Errors of one window go together,
-/// those of two windows do not: with J_w and e_w of a window, weighted, and W windows
+/// those of two windows do not: standard errors are those of the jackknife over the W windows. With J_w and
+/// e_w of a window, weighted, and H = sum J_w' J_w,
 ///
-///     H = sum J_w' J_w,    C = W/(W - 2) H^-1 (sum J_w' e_w e_w' J_w) H^-1
+///     C = (W - 1)/W sum d_w d_w',    d_w = (H - J_w' J_w)^-1 J_w' e_w
 ///
 /// Which plant predicts better is judged by cross-validation: the tyres are fitted to every other window
 /// and predict the rest, and the other way round. Of each held-out window

@@ -10,6 +10,7 @@
 namespace awmr {
 namespace {
 
+constexpr const char* kValidationSchema = "awmr.validation/1";
 constexpr long kMost = std::numeric_limits<int>::max();
 const std::string kVerdicts[] = {"reproduced", "not-reproduced"};
 
@@ -145,7 +146,7 @@ void describe_claims(JsonObject& json) {
 
 /// Reads the whole file, and what other commands use of it.
 std::optional<TyreFit> validation_from_json(JsonObject& json) {
-  json.schema("awmr.validation/1");
+  json.schema(kValidationSchema);
   read_provenance(json);
   json.boolean("passed");
   json.string("verdict");
@@ -171,6 +172,8 @@ Result<TyreFit> read_tyres(const std::filesystem::path& path) {
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
   std::vector<Fault> faults;
   JsonObject root(json, path.string(), "", faults);
+  if (json.is_object()) root.schema(kValidationSchema);
+  if (!faults.empty()) return input_errors(std::move(faults));
   std::optional<TyreFit> tyres = validation_from_json(root);
   if (faults.empty() && !tyres) {
     faults.push_back({path.string() + ":/tyres",
@@ -181,7 +184,7 @@ Result<TyreFit> read_tyres(const std::filesystem::path& path) {
 }
 
 std::string validation_schema() {
-  return json_schema_text("awmr.validation/1", "A model held against its trials, logs and claims",
+  return json_schema_text(kValidationSchema, "A model held against its trials, logs and claims",
                           describe_validation);
 }
 
