@@ -68,6 +68,19 @@ TEST(Refusal, TwoRowsGiveValuesWithoutAnError) {
   EXPECT_TRUE(has_finding(result->model, "no-degrees-of-freedom"));
 }
 
+/// Three surge rows leave b1 open from -1 to 2.8, and with it m' by sixteen orders of magnitude.
+TEST(Refusal, AMassThatIsOpenByOrdersOfMagnitudeIsNotShown) {
+  TrialData data = synthetic(kTruths[0], 0.0, 1);
+  data.surge->rows = {
+      {2, 0.2, 0.095663, {}, {}}, {3, 1.2, 1.0453, {}, {}}, {4, 1.6, 1.3539, {}, {}}};
+  data.coastdown->rows = {{2, 1.5307, 0.66077}, {3, 1.3973, 0.78886}, {4, 1.1912, 0.63442}};
+  const auto result = identify(vehicle(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_THAT(result->refused, ElementsAre(ParameterId::kMassNorm, ParameterId::kInertiaNorm));
+  EXPECT_TRUE(result->model[ParameterId::kSurgeAlpha].value);
+  EXPECT_TRUE(has_finding(result->model, "not-identifiable"));
+}
+
 TEST(Refusal, AnExponentOfOneOrMoreMakesAStopTimeWorthless) {
   TrialData data = synthetic({1.0, 1.3, 0.3, 0.8, 0.1}, 0.0, 1);
   data.coastdown->rows = {{2, 1.0, 0.5}};

@@ -9,6 +9,7 @@
 #include "awmr/core/index.h"
 #include "awmr/identify/assumed_sway.h"
 #include "awmr/model/ranges.h"
+#include "awmr/model/transform.h"
 
 namespace awmr {
 
@@ -35,6 +36,16 @@ std::string why_not(double value, const NumberRule& rule) {
   if (value >= rule.min && value <= rule.max) return {};
   return fmt::format("the fit gives {:.4g}, outside of what a model can hold, [{:g}, {:g}]", value,
                      rule.min, rule.max);
+}
+
+/// The reason why an estimate says nothing of a positive quantity; empty where it does. Vehicles drawn from
+/// such an interval could not be simulated: their time constants differ by as much.
+std::string why_open(ParameterId id, const Estimate& estimate) {
+  constexpr double kMostOpen = 1e4;  // between the ends of the interval
+  const auto& ci = estimate.ci95;
+  if (scale_of(id) != Scale::kLogarithmic || !ci || !(ci->lo > 0.0)) return {};
+  if (ci->hi <= kMostOpen * ci->lo) return {};
+  return fmt::format("these trials leave it open from {:.2g} to {:.2g} (95 %)", ci->lo, ci->hi);
 }
 
 /// What cannot be said without the parameters that went.
@@ -84,6 +95,7 @@ std::map<ParameterId, std::string> take_out_inadmissible(Model& model) {
     Estimate& estimate = model[parameter.id];
     if (!estimate.value || estimate.source == Source::kGiven) continue;
     std::string why = why_not(*estimate.value, rule_of(parameter.id));
+    if (why.empty()) why = why_open(parameter.id, estimate);
     if (!why.empty()) take_out(parameter.id, std::move(why), model, reasons);
     const bool error = !estimate.std_error || std::isfinite(*estimate.std_error);
     const bool interval =
