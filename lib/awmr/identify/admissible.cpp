@@ -9,7 +9,6 @@
 #include "awmr/core/index.h"
 #include "awmr/identify/assumed_sway.h"
 #include "awmr/model/ranges.h"
-#include "awmr/model/transform.h"
 
 namespace awmr {
 
@@ -38,12 +37,14 @@ std::string why_not(double value, const NumberRule& rule) {
                      rule.min, rule.max);
 }
 
-/// The reason why an estimate says nothing of a positive quantity; empty where it does. Vehicles drawn from
-/// such an interval could not be simulated: their time constants differ by as much.
+/// The reason why the tables say nothing of m'; empty where they do. Vehicles drawn from such an interval
+/// could not be simulated: their time constants differ by as much. Intervals of logs are wide where two
+/// logs disagree, which says something.
 std::string why_open(ParameterId id, const Estimate& estimate) {
   constexpr double kMostOpen = 1e4;  // between the ends of the interval
   const auto& ci = estimate.ci95;
-  if (scale_of(id) != Scale::kLogarithmic || !ci || !(ci->lo > 0.0)) return {};
+  const bool is_of_logs = estimate.method == name_in(kEstimatorNames, Estimator::kTrajectory);
+  if (id != ParameterId::kMassNorm || is_of_logs || !ci || !(ci->lo > 0.0)) return {};
   if (ci->hi <= kMostOpen * ci->lo) return {};
   return fmt::format("these trials leave it open from {:.2g} to {:.2g} (95 %)", ci->lo, ci->hi);
 }
