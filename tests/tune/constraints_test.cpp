@@ -209,7 +209,7 @@ TEST(SteeringRate, OfCorrelatedReadingsIsThatOfDrawnPairs) {
   const double per_moment = 2.0 / (context.plant.front_axle_m * context.plant.surge(1.0));
   const double drawn = degrees(per_moment * context.plant.inertia_norm *
                                std::sqrt(squares / kPairs) / context.sample_time_s);
-  // What the series leaves out counts as uncorrelated: a little too much, never too little.
+  // The series neglects higher terms: the rate is a little too large, never too small.
   EXPECT_GT(correlated, 0.99 * drawn);
   EXPECT_LT(correlated, 1.05 * drawn);
 }

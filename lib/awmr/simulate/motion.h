@@ -1,5 +1,5 @@
-/// What moves the vehicle over one sample: its motors and what pushes it. Templates on the scalar: a
-/// double, or a batch with a trajectory per lane (vehicle_steps.h). Private to this folder.
+/// Forces on the vehicle over one sample: of its motors, of disturbances and slopes. Templates on the
+/// scalar: a double, or a batch with a trajectory per lane (vehicle_steps.h). Private to this folder.
 #pragma once
 
 #include "awmr/model/resolved_steps.h"

@@ -49,9 +49,7 @@ Sensing::Sensor::Sensor(const Channel& its_channel, double sample_time_s, const 
                         const std::vector<double>* its_normals)
     : channel(its_channel),
       late(static_cast<std::size_t>(std::lround(its_channel.late_s / sample_time_s))),
-      correlation(its_channel.correlation_s > 0.0
-                      ? std::exp(-sample_time_s / its_channel.correlation_s)
-                      : 0.0),
+      correlation(noise_correlation(its_channel.correlation_s, sample_time_s)),
       random(its_random),
       normals(its_normals) {}
 

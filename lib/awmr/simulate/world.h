@@ -3,6 +3,7 @@
 /// comes from seeds.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -98,6 +99,11 @@ struct Channel {
   /// tau, s, >= 0: errors a time t apart have the correlation exp(-t/tau); 0: independent readings.
   double correlation_s = 0.0;
 };
+
+/// Correlation of two errors of a sensor `apart_s` > 0 apart, exp(-t/tau); 0 where tau is 0.
+inline double noise_correlation(double correlation_s, double apart_s) {
+  return correlation_s > 0.0 ? std::exp(-apart_s / correlation_s) : 0.0;
+}
 
 /// A receiver that gives a position at its own rate, late. Between fixes the position is carried on
 /// by the measured heading and speed (dead reckoning).

@@ -51,14 +51,6 @@ void run(const Predictor& model, std::size_t begin, std::size_t end, const State
                  model.lagged ? &*model.lagged : nullptr);
 }
 
-/// Calls visit(channel, value) for each measurement in a row.
-template <class Visit>
-void each_measurement(const DrivingLog& log, std::size_t row, Visit visit) {
-  for (const LogChannel channel : kChannels) {
-    if (is_measurement(log, channel, row)) visit(channel, log[channel]->value[row]);
-  }
-}
-
 /// Predicts the next row from the measurements in this row, with the rest of the state from the
 /// long-horizon run.
 void add_one_step(const Predictor& model, std::size_t row, State<double> state, ChannelSums& sums) {

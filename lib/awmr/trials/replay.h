@@ -114,7 +114,7 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
               });
 }
 
-/// replay_rows() of four wheels, which are those of resolved_at_rest(). False: the tyres are too stiff for
+/// replay_rows() of four wheels, which are those of resolved_at_rest_on_tyres(). False: the tyres are too stiff for
 /// any step, and the states after that have no meaning.
 template <class Visit>
 bool replay(const LogSignals& signals, std::size_t begin, std::size_t end,
@@ -200,6 +200,14 @@ const T& channel_of(const State<T>& s, LogChannel channel) {
 /// True if a row has a new value of a channel to compare with the model. A steering angle used as
 /// input, because no servo command was logged, is not a measurement.
 bool is_measurement(const DrivingLog& log, LogChannel channel, std::size_t row);
+
+/// Calls visit(channel, value) for each measurement in a row.
+template <class Visit>
+void each_measurement(const DrivingLog& log, std::size_t row, Visit visit) {
+  for (const LogChannel channel : kChannels) {
+    if (is_measurement(log, channel, row)) visit(channel, log[channel]->value[row]);
+  }
+}
 
 /// Initial state of a window from its measurements: the first value of each channel. Missing
 /// channels are derived from others (yaw rate from heading, heading and speed from position), else

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <span>
@@ -202,6 +201,49 @@ Interval examined_rates_radps(const ConstraintContext& context) {
           examined_rate_radps(kRateShares[kLast], context)};
 }
 
+namespace {
+
+/// E[f(z) g(z)], z standard normal, by the midpoint rule over +-6.
+template <class F, class G>
+double mean_of_product(const F& f, const G& g) {
+  constexpr int kIntervals = 240;
+  constexpr double kReach = 6.0;
+  constexpr double kWidth = 2.0 * kReach / kIntervals;
+  double mean = 0.0;
+  for (int i = 0; i < kIntervals; ++i) {
+    const double z = -kReach + (i + 0.5) * kWidth;
+    mean += kWidth * f(z) * g(z) * std::exp(-0.5 * z * z) / std::sqrt(2.0 * pi<double>());
+  }
+  return mean;
+}
+
+/// E[w(z) w(z')] of an odd w, z and z' standard normals with the correlation rho, from below: the terms up
+/// to k = 7 of Mehler's series, of which none is negative,
+///   sum over odd k of rho^k E[w He_k(z)]^2/k!
+template <class W>
+double mean_of_correlated(const W& w, double rho) {
+  if (!(rho > 0.0)) return 0.0;
+  struct Hermite {
+    double (*polynomial)(double z);
+    double factorial;
+  };
+  constexpr Hermite kOdd[] = {
+      {[](double z) { return z; }, 1.0},
+      {[](double z) { return z * (z * z - 3.0); }, 6.0},
+      {[](double z) { return z * ((z * z - 10.0) * z * z + 15.0); }, 120.0},
+      {[](double z) { return z * (((z * z - 21.0) * z * z + 105.0) * z * z - 105.0); }, 5040.0}};
+  double mean = 0.0;
+  double power = rho;
+  for (const Hermite& hermite : kOdd) {
+    const double coefficient = mean_of_product(w, hermite.polynomial);
+    mean += power * coefficient * coefficient / hermite.factorial;
+    power *= rho * rho;
+  }
+  return mean;
+}
+
+}  // namespace
+
 double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context) {
   const Plant<double>& plant = context.plant;
   const double tau_speed = plant.surge(context.speed_mps);
@@ -209,31 +251,11 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
   const double k = gains.heading.mu / gains.heading.epsilon;
   const double rate_gain = gains.heading.lambda + k + gains.observer.bandwidth_radps;
   const Resistance<double> g3 = feed_forward(plant.yaw);
-  // E[w^2] over the standard normal z = n/sigma_r, by the midpoint rule over +-6. Of two readings with the
-  // correlation rho, E[w w'] = sum over k of rho^k E[w He_k(z)]^2/k! (Mehler), here up to k = 7: w is odd, and
-  // what is left out counts as uncorrelated.
-  constexpr int kPoints = 240;
-  constexpr double kReach = 6.0;
-  constexpr double kWidth = 2.0 * kReach / kPoints;
-  double mean_square = 0.0;
-  std::array<double, 4> hermite{};  // E[w He_k(z)], k = 1, 3, 5, 7
-  for (int i = 0; i < kPoints; ++i) {
-    const double z = -kReach + (i + 0.5) * kWidth;
+  const auto w = [&](double z) {  // z = n/sigma_r
     const double n = z * context.yaw_rate_noise_radps;
-    const double w = fed_forward(g3, n, 0.0) / plant.inertia_norm - rate_gain * n;
-    mean_square += kWidth * w * w * std::exp(-0.5 * z * z) / std::sqrt(2.0 * pi<double>());
-    const double weighted = kWidth * w * std::exp(-0.5 * z * z) / std::sqrt(2.0 * pi<double>());
-    const double zz = z * z;
-    const double polynomials[] = {z, z * (zz - 3.0), z * ((zz - 10.0) * zz + 15.0),
-                                  z * (((zz - 21.0) * zz + 105.0) * zz - 105.0)};
-    for (std::size_t j = 0; j < hermite.size(); ++j) hermite[j] += weighted * polynomials[j];
-  }
-  constexpr double kFactorials[] = {1.0, 6.0, 120.0, 5040.0};
-  double power = context.yaw_rate_correlation;
-  for (std::size_t j = 0; j < hermite.size(); ++j) {
-    mean_square -= power * hermite[j] * hermite[j] / kFactorials[j];
-    power *= context.yaw_rate_correlation * context.yaw_rate_correlation;
-  }
+    return fed_forward(g3, n, 0.0) / plant.inertia_norm - rate_gain * n;
+  };
+  double mean_square = mean_of_product(w, w) - mean_of_correlated(w, context.yaw_rate_correlation);
   const double by_heading = gains.heading.lambda * k * context.heading_noise_rad;
   mean_square += by_heading * by_heading * (1.0 - context.heading_correlation);
   const double share = context.mode == YawMode::kCombined ? 0.5 : 1.0;

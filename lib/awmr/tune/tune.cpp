@@ -313,11 +313,8 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   context.draws.assign(setting.vehicles.begin() + 1, setting.vehicles.end());
   context.heading_noise_rad = radians(c.heading_noise_deg);
   context.yaw_rate_noise_radps = radians(c.yaw_rate_noise_degps);
-  const auto correlation = [&context](double time_constant_s) {
-    return time_constant_s > 0.0 ? std::exp(-context.sample_time_s / time_constant_s) : 0.0;
-  };
-  context.heading_correlation = correlation(c.heading_correlation_s);
-  context.yaw_rate_correlation = correlation(c.yaw_rate_correlation_s);
+  context.heading_correlation = noise_correlation(c.heading_correlation_s, context.sample_time_s);
+  context.yaw_rate_correlation = noise_correlation(c.yaw_rate_correlation_s, context.sample_time_s);
   context.latency_s = std::max(c.heading_late_s, c.yaw_rate_late_s);
   context.motor_time_constant_s = c.motor_time_constant_s;
   limit_steering_rate(model.vehicle, context);

@@ -1,8 +1,10 @@
 /// The tyres of the four-wheel plant (model/tyres.h), fitted to driving logs, and which plant predicts
-/// them better.///
+/// them better.
+///
 /// All else of the vehicle stays as identified. The logs are cut into windows of 5 s, each replayed from
 /// its measured state; the first second does not count, and errors of headings and positions are about
-/// their mean in the window. Of more than 60 windows 60 are used, evenly chosen. With e the errors of a channel c and n_c their number,
+/// their mean in the window. Of more than 60 windows 60 are used, evenly
+/// chosen. With e the errors of a channel c and n_c their number,
 ///
 ///     minimise over log mu, log c_a:    sum over c of n_c log(sum e^2 / n_c)
 ///

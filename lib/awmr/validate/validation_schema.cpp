@@ -184,7 +184,7 @@ Result<TyreFit> read_tyres(const std::filesystem::path& path) {
 }
 
 std::string validation_schema() {
-  return json_schema_text(kValidationSchema, "A model held against its trials, logs and claims",
+  return json_schema_text(kValidationSchema, "Validation of a model on its trials, logs and claims",
                           describe_validation);
 }
 

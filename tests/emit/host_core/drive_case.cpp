@@ -7,7 +7,7 @@
 
 namespace {
 
-/// What starts the drive.
+/// The command that starts the drive.
 const char* start_command = "S 1.0\n";
 
 /// What is commanded once a failure is injected, and how long it is then driven.

@@ -1,4 +1,4 @@
-// What a case sees of its sketch, HeadingHold or WaypointFollowing, which is compiled by itself:
+// The objects of the sketch that a case reads; HeadingHold or WaypointFollowing, compiled by itself:
 // `g++ -x c++ SKETCH.ino`. Programs are named after their sketch.
 #pragma once
 #include <Arduino.h>
