@@ -25,6 +25,7 @@ struct PlantChoice {
   std::optional<PlantKind> kind = {};  ///< overrides the scenarios'; empty: no override
   /// validation.json whose tyres override the scenarios' and the defaults.
   std::optional<std::filesystem::path> tyres_file = {};
+  bool checks_other = false;  ///< without a `kind`, the other plant runs as well
 };
 
 inline constexpr const char* kPlantOption = "--plant";
@@ -61,6 +62,7 @@ inline void add_plant(CLI::App& command, PlantChoice& choice) {
 inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
   std::vector<std::string> names = names_in(kPlantKindNames);
   names.emplace_back(kBothPlants);
+  choice.checks_other = true;
   add_plant_of(command, choice, std::move(names),
                "both: four-wheel where a scenario has tyres, else model, and who is first on the "
                "other one and with slower and faster gains");
@@ -83,7 +85,7 @@ inline Result<Tyres<double>> tyres_of(const PlantChoice& choice, std::vector<Fin
 }
 
 /// Applies the choice to every scenario. Errors (input): a scenario uses a feature that the
-/// four-wheel plant does not support.
+/// four-wheel plant does not support; no run has the tyres of the file.
 inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
                      std::span<Scenario> scenarios) {
   std::vector<Fault> faults;
@@ -99,6 +101,15 @@ inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
     }
   }
   if (!faults.empty()) return input_errors(std::move(faults));
+  const bool has_tyres =
+      std::ranges::any_of(scenarios, [](const Scenario& s) { return s.tyres.has_value(); });
+  const bool runs_other = choice.checks_other && !choice.kind;
+  if (choice.tyres_file && !has_tyres && !runs_other) {
+    return input_error(kTyresOption,
+                       fmt::format("nothing runs on the four-wheel plant: leave it out, or give "
+                                   "{} {}",
+                                   kPlantOption, name_in(kPlantKindNames, PlantKind::kFourWheel)));
+  }
   return {};
 }
 
