@@ -1,5 +1,5 @@
-/// Logs whose steering, motors or sensors are late in ways of their own, and drivers that brake at a
-/// command of 0.
+/// Logs with latency of steering, motors or sensors, and motor drivers that brake at a command of
+/// 0.
 #include <gtest/gtest.h>
 
 #include <algorithm>

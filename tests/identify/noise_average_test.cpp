@@ -1,4 +1,4 @@
-/// Intervals over what a table leaves open of where its errors lie.
+/// Intervals averaged over the unknown location of a table's errors.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -173,7 +173,7 @@ TEST(Scrub, OfTurnsWithOneForceOrAtOneRateDoesNotSeemToChange) {
             10 + 12);
 }
 
-/// A turn attempt under this moment in which the vehicle stood still.
+/// A turn attempt under this moment in which the vehicle did not turn.
 TurningRow standing(double moment_m, int line) {
   TurningRow row = by_sides(0.1, 0.0, 1.0, line);
   const double half = moment_m / (4.0 * steered().half_track_m);
@@ -296,10 +296,10 @@ TEST(Scrub, ThatWasMeasuredSaysWithWhatToTurnNext) {
     const double scrub_m = moment_of(turn.least) - resisted_m(model, turn.yaw_rate_degps);
     EXPECT_NEAR(scrub_m, std::max(0.0, model.yaw_scrub->ci95_m.lo), 1e-12);
   }
-  EXPECT_THAT(suggestion->about_scrub, ::testing::HasSubstr("4 turns have shown"));
+  EXPECT_THAT(suggestion->about_scrub, ::testing::HasSubstr("4 turns give"));
 }
 
-TEST(Scrub, OfAVehicleThatNeverSteeredIsInYawResistance) {
+TEST(Scrub, IsPartOfYawResistanceWithoutSteeredTurns) {
   TrialData data = synthetic(kTruth, 0.02, 1);
   for (TurningRow& row : data.turning->rows) {
     row = by_sides(row.yaw_rate_radps, 0.02, 1.0, row.line);
@@ -310,7 +310,7 @@ TEST(Scrub, OfAVehicleThatNeverSteeredIsInYawResistance) {
   const auto suggestion = suggest(model, {});
   ASSERT_TRUE(suggestion) << to_text(suggestion.error());
   EXPECT_THAT(suggestion->scrub_turns, IsEmpty());
-  EXPECT_THAT(suggestion->about_scrub, ::testing::HasSubstr("steered ones"));
+  EXPECT_THAT(suggestion->about_scrub, ::testing::HasSubstr("three steered turns"));
   const ScratchFile file("model.json", model_text(model));
   EXPECT_TRUE(read_model(file.path())->yaw_by_sides_alone);
 }

@@ -121,8 +121,8 @@ bool is_near(const Metrics& batch, const Metrics& scalar) {
   return true;
 }
 
-/// What a change of the mass or the inertia by 1e-12, up or down, changes. One such change is too
-/// few: whether it passes a limit a sample later is a matter of chance.
+/// Effect of a change of the mass or the inertia by 1e-12, up or down. One such change is too few:
+/// whether it passes a limit a sample later is a matter of chance.
 struct Amplification {
   double largest = 0.0;            ///< relative change of a metric
   std::set<std::size_t> is_there;  ///< metrics that exist or not by such a change
@@ -466,7 +466,8 @@ TEST(Instructions, AreRefusedByNameWhereThereAreNone) {
     const auto arithmetic = batch_arithmetic();
     ::unsetenv("AWMR_INSTRUCTIONS");
     ASSERT_FALSE(arithmetic) << name;
-    EXPECT_NE(arithmetic.error().faults.front().message.find("'" + name + "' is none"),
+    EXPECT_NE(arithmetic.error().faults.front().message.find("unsupported instruction set '" +
+                                                             name + "'"),
               std::string::npos);
   }
 }

@@ -183,7 +183,7 @@ TEST(Goal, IsRefusedWhereItMeansNothing) {
   };
   TuneOptions nominal = options_with(quick_and_calm());
   nominal.nominal = true;
-  EXPECT_THAT(why(nominal), HasSubstr("a nominal search draws nothing"));
+  EXPECT_THAT(why(nominal), HasSubstr("which nominal disables"));
   TuneOptions steering = options_with(quick_and_calm());
   steering.goals.front().mode = YawMode::kSteering;
   Model unsteered = uncertain_model();
@@ -195,7 +195,7 @@ TEST(Goal, IsRefusedWhereItMeansNothing) {
   EXPECT_THAT(why(options_with(quick_and_calm(1.0))), HasSubstr("a share of 1"));
   EXPECT_THAT(why(options_with({})), HasSubstr("without a limit"));
   EXPECT_THAT(why(options_with({.at_most = {{"speed", 1.0}}, .mode = {}})),
-              HasSubstr("is no figure"));
+              HasSubstr("unknown or given twice"));
   EXPECT_THAT(why(options_with({.at_most = {{"overshoot_deg", 0.0}}, .mode = {}})),
               HasSubstr("not above 0"));
 }

@@ -128,13 +128,13 @@ std::string refused(const TuneOptions& options) {
 TEST(Open, IsRefusedWhereTheDrawsDoNotTakeAllOfIt) {
   TuneOptions options = short_search();
   options.draws = 1;
-  EXPECT_THAT(refused(options), HasSubstr("draws: 1 do not take all of the 2 combinations"));
+  EXPECT_THAT(refused(options), HasSubstr("draws: 1 does not cover all 2 combinations"));
   options = short_search();
   options.judged_draws = 1;
   EXPECT_THAT(refused(options), HasSubstr("judged_draws: 1 do not take"));
   options = short_search();
   options.nominal = true;
-  EXPECT_THAT(refused(options), HasSubstr("a nominal search draws nothing"));
+  EXPECT_THAT(refused(options), HasSubstr("which nominal disables"));
 }
 
 TEST(Open, IsRefusedOutsideOfWhatAVehicleMayBe) {

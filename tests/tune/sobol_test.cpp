@@ -122,7 +122,8 @@ TEST(Sensitivity, IsRefusedWhereItMeansNothing) {
   EXPECT_THAT(to_text(tune(uncertain_model(), options).error()), HasSubstr("neither 0 nor"));
   options.sensitivity = 64;
   options.nominal = true;
-  EXPECT_THAT(to_text(tune(uncertain_model(), options).error()), HasSubstr("nominal search"));
+  EXPECT_THAT(to_text(tune(uncertain_model(), options).error()),
+              HasSubstr("which nominal disables"));
   options.nominal = false;
   options.sensitivity = kMostSamples;
   options.scenarios = {default_tuning_scenario(paper_model()).value()};
