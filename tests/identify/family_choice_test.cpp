@@ -217,7 +217,7 @@ TEST(Families, AreFittedWithoutATermThatTheFamilyBeforeThemHad) {
   }
 }
 
-TEST(Families, AFitWithBadLuckIsSearchedAgainFromTheRivalThatIsAhead) {
+TEST(Families, SearchesAgainFromABetterAlternative) {
   const std::vector<DrivingLog> logs{drive(kTruths[0], 9)};
   const LogFitOptions options = from_nothing(logs);
   const FamilyFit alternative = fit_family(logs, options, Family::kCoulombPower, Family::kPower);
@@ -231,7 +231,7 @@ TEST(Families, AFitWithBadLuckIsSearchedAgainFromTheRivalThatIsAhead) {
   EXPECT_EQ(kept.fit.coordinates, again.fit.coordinates) << "a rival without a fit is no rival";
 }
 
-TEST(Families, AreComparedAtTheirOwnOptimaWhateverTheFirstSearchFound) {
+TEST(Families, ComparesFamiliesAtTheirOwnOptima) {
   const std::vector<DrivingLog> logs{drive(kTruths[0], 10)};
   const LogFitOptions options = from_nothing(logs);
   FamilyFit unlucky{Family::kPower, Family::kPower, options, {}};

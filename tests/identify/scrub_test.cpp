@@ -63,7 +63,7 @@ Model identified(const TrialData& data) {
   return result->model;
 }
 
-TEST(Scrub, IsWhatTurnsByTheSidesMeetBesideYawResistance) {
+TEST(Scrub, EqualsTheExcessMomentOfDifferentialTurns) {
   const Model model = identified(turns(0.012, 1e-6, 1));
   ASSERT_TRUE(model.yaw_scrub);
   EXPECT_NEAR(model.yaw_scrub->moment_m, 0.012, 1e-6);
@@ -101,7 +101,7 @@ TEST(Scrub, NeedsThreeTurns) {
   EXPECT_THAT(codes(model), Contains("few-scrub-rows"));
 }
 
-TEST(Scrub, LessThanNothingIsRefused) {
+TEST(Scrub, RefusesANegativeScrub) {
   TrialData data = turns(0.0, 0.01, 1);
   for (TurningRow& row : data.turning->by_sides) row.yaw_rate_radps *= 57.29578;  // left in deg/s
   const Model model = identified(data);
@@ -109,7 +109,7 @@ TEST(Scrub, LessThanNothingIsRefused) {
   EXPECT_THAT(codes(model), Contains("negative-scrub"));
 }
 
-TEST(Scrub, ThatIsNoConstantIsToldWithAllThatItIs) {
+TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
   // 0.2 r m, from 0.05 to 0.3 rad/s.
   constexpr int kTables = 200;
   int told = 0, held = 0;
@@ -183,7 +183,7 @@ TurningRow standing(double moment_m, int line) {
   return row;
 }
 
-TEST(Scrub, OfTurnsThatStandStillIsAtLeastWhatTheyWereDrivenWith) {
+TEST(Scrub, IsAtLeastTheLargestMomentWithoutATurn) {
   TrialData data = synthetic(kTruth, 0.02, 1);
   data.turning->standing = {standing(0.05, 21), standing(0.09, 22), standing(0.07, 23)};
   const Model model = identified(data);
@@ -204,7 +204,7 @@ TEST(Scrub, OfTurnsThatStandStillIsAtLeastWhatTheyWereDrivenWith) {
   EXPECT_EQ(read_model(file.path())->yaw_held_m, model.yaw_held_m);
 }
 
-TEST(Scrub, OfTurnsThatHappenedIsThatOfMovingTyresBesideWhatTheyHold) {
+TEST(Scrub, KeepsTheScrubOfTurnsApartFromTheMomentWithoutATurn) {
   TrialData data = turns(0.01, 0.02, 1);
   data.turning->standing = {standing(0.05, 31)};
   const Model model = identified(data);
@@ -213,7 +213,7 @@ TEST(Scrub, OfTurnsThatHappenedIsThatOfMovingTyresBesideWhatTheyHold) {
   EXPECT_DOUBLE_EQ(model.yaw_held_m.value_or(0.0), 0.05);
 }
 
-TEST(Scrub, SaysWhereYawResistanceIsExtrapolated) {
+TEST(Scrub, WarnsIfYawResistanceIsExtrapolated) {
   TrialData data = turns(0.01, 0.01, 1);
   data.turning->by_sides.push_back(by_sides(0.6, 0.01, 1.0, 30));
   EXPECT_THAT(codes(identified(data)), Contains("scrub-beyond-trials"));
@@ -287,7 +287,7 @@ TEST(Scrub, IsSuggestedFromNoScrubToTyresThatSlide) {
   EXPECT_THAT(field_sheet(*suggestion, 3), ::testing::HasSubstr("choice between differential"));
 }
 
-TEST(Scrub, ThatWasMeasuredSaysWithWhatToTurnNext) {
+TEST(Scrub, SuggestsTheNextDifferentialTurns) {
   const Model model = identified(turns(0.01, 0.03, 1));
   const auto suggestion = suggest(model, {});
   ASSERT_TRUE(suggestion) << to_text(suggestion.error());

@@ -384,7 +384,7 @@ TEST_F(Batch, HasTheSameBitsOnAllInstructions) {
 }
 
 /// Resistance too stiff at the initial speed for any step: simulate() reports it.
-TEST_F(Batch, ARunThatFailsIsToldOfBySimulateAndTheOthersGoOn) {
+TEST_F(Batch, ReportsAFailedRunAndContinuesWithTheOthers) {
   std::vector<BatchRun> runs = drawn_runs(3, 0.2, YawMode::kDifferential);
   runs[1].plant.surge.beta = 20.0;
   Scenario scenario{"fast", 1.0, {}, 0.0, OpenLoop{1.0, 0.0}};

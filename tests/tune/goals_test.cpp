@@ -43,7 +43,7 @@ TEST(Goal, HoldsInARunThatKeepsEveryLimit) {
   EXPECT_TRUE(std::isinf(excess_of(goal, outcome_of(never, kScenario))));
 }
 
-TEST(Goal, IsJudgedByTheLeastValueThatItsShareOfRunsDoesNotExceed) {
+TEST(Goal, IsEvaluatedByTheQuantileOfItsShare) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> seconds(0.5, 6.0);
   for (const int runs : {1, 2, 5, 19, 20, 21, 400}) {
@@ -176,7 +176,7 @@ TEST(Goal, ThatNoGainsReachIsRefusedByItsName) {
   EXPECT_EQ(striven->robust->goals.front().verdict, GoalVerdict::kMissed);
 }
 
-TEST(Goal, IsRefusedWhereItMeansNothing) {
+TEST(Goal, RefusesGoalsWithoutMeaning) {
   const auto why = [](TuneOptions options) {
     const Result<Tuning> tuning = tune(uncertain_model(), options);
     return tuning ? std::string("accepted") : to_text(tuning.error());
