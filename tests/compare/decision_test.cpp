@@ -206,7 +206,7 @@ TEST(Decision, AnUndecidedLeadIsNotCalledBest) {
   EXPECT_THAT(verdict(), ::testing::StartsWith("differential is best"));
   comparison.changes = {on_tyres({kSteering})};
   EXPECT_EQ(judge(comparison, {}, 1).front().decision->kind(), DecisionKind::kUndecided);
-  EXPECT_THAT(verdict(), ::testing::StartsWith("differential is best here"));
+  EXPECT_THAT(verdict(), ::testing::StartsWith("differential is ahead here"));
   EXPECT_THAT(verdict(), ::testing::HasSubstr("undecided: steering first on the four-wheel plant"));
 }
 

@@ -88,7 +88,7 @@ std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided
   const RankedMode& best = ranking.front();
   std::vector<std::string> first{best.contender.label()};
   first.insert(first.end(), best.tied_with.begin(), best.tied_with.end());
-  if (first.size() == 1) return first.front() + (is_undecided ? " is best here" : " is best");
+  if (first.size() == 1) return first.front() + (is_undecided ? " is ahead here" : " is best");
   if (first.size() < ranking.size()) return joined(first) + " are tied for best";
   const bool equal = std::all_of(ranking.begin() + 1, ranking.end(), [](const RankedMode& mode) {
     return mode.towards_leader == Conclusion::kEquivalent;
