@@ -144,11 +144,9 @@ Status write_comparison(const CompareCommand& command, const Comparison& compari
 void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
   const std::string file = (command.output / "comparison.csv").string();
   const std::string text =
-      command.shard
-          ? "stopped: a part of a comparison has to be run again as a whole\n"
-          : fmt::format(
-                "stopped: {} finished runs are in {}; the same command with --resume goes on\n",
-                comparison.rows.size(), file);
+      command.shard ? "stopped: run the whole part of the comparison again\n"
+                    : fmt::format("stopped: {} finished runs are in {}; continue with --resume\n",
+                                  comparison.rows.size(), file);
   std::fputs(text.c_str(), stderr);
   std::signal(SIGINT, SIG_DFL);
   std::raise(SIGINT);
@@ -165,7 +163,7 @@ Status read_texts(const Texts& texts, CompareCommand& command) {
   AWMR_ASSIGN_OR_RETURN(command.shard, shard_of(texts.shard));
   command.compare.shard = command.shard.value_or(Shard{});
   if (command.shard && command.compare.break_even) {
-    return input_error("--break-even", "needs a whole comparison: leave out --shard");
+    return input_error("--break-even", "cannot be combined with --shard");
   }
   AWMR_ASSIGN_OR_RETURN(command.compare.preferences,
                         preferences_of(texts.weights, texts.relevance));
@@ -180,7 +178,7 @@ void add_preferences(CLI::App& command, Texts& texts) {
       "finish_time_s, speed_drop_mps, energy_mech and tyre_work, 0 for the others)");
   command
       .add_option("--relevance", texts.relevance,
-                  "Share of a metric, and of the score, below which a difference does not matter "
+                  "Relative difference of a metric or score below which modes are equivalent "
                   "(default 0.05)")
       ->check(within(0.0, 1.0));
 }
@@ -189,27 +187,27 @@ void add_preferences(CLI::App& command, Texts& texts) {
 std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
   if (rate != kMeasuredRate) return words_of_rate(rate);
   return fmt::format(
-      "headings are led at up to {:.3g} deg/s, as fast as yaw resistance was measured\n"
-      "(--heading-rate-limit {}: as the scenarios have them)\n",
+      "heading commands limited to {:.3g} deg/s, the highest yaw rate of the turning trials\n"
+      "(--heading-rate-limit {}: no limit but the scenarios' own)\n",
       *measured_yaw_rate_degps(model), kNoRate);
 }
 
-/// How much scrub the modes are compared with, or a warning where steering is charged with one that it does
-/// not have.
+/// Adds the finding on the simulated scrub, or a warning if yaw resistance includes scrub that
+/// steered turns do not have.
 void note_scrub(const Model& model, std::vector<Finding>& findings) {
   if (model.yaw_by_sides_alone) {
     findings.push_back(
         {model.file, 0, Severity::kWarning, "turned-by-sides",
-         "yaw resistance was measured in turns by the sides' forces and holds the scrub of their "
-         "tyres, with which steering and combined are charged here, too: they are shown worse than "
-         "they are. Add steered turns to the turning table (awmr suggest says which)"});
+         "yaw resistance was identified from differential turns and includes their tyre scrub, so "
+         "steering and combined appear worse than they are. Add steered turns to the turning table "
+         "(awmr suggest lists them)"});
   }
   if (!model.yaw_scrub || !(model.yaw_scrub->moment_m > 0.0)) return;
   findings.push_back(
       {model.file, 0, Severity::kNote, "scrub-simulated",
-       fmt::format("differential and combined turns on the model's plant meet the scrub that this "
-                   "vehicle's differential turns met, {:.3g} m (95 %: {:.3g} to {:.3g}), which the "
-                   "controller does not know; --break-even gives the scrub that ends each lead",
+       fmt::format("the simulated plant adds the measured tyre scrub, {:.3g} m (95 %: {:.3g} to "
+                   "{:.3g}), to differential and combined turns; the controller does not "
+                   "compensate it. --break-even gives the scrub that changes each ranking",
                    model.yaw_scrub->moment_m, model.yaw_scrub->ci95_m.lo,
                    model.yaw_scrub->ci95_m.hi)});
 }
@@ -229,8 +227,8 @@ Status add_findings(const CompareCommand& command, const Comparison& comparison,
   if (samples >= 2 && samples < kFewSamples) {
     findings.push_back(
         {"", 0, Severity::kWarning, "few-samples",
-         fmt::format("intervals of {} samples hold the truth in {:.0f} % of cases at "
-                     "the most, not in 95: give {} samples or more",
+         fmt::format("intervals of {} samples have a coverage of at most {:.0f} %, not 95; give {} "
+                     "samples or more",
                      samples, 100.0 * (1.0 - std::pow(0.5, samples - 1)), kFewSamples)});
   }
   if (auto finding = not_led(command.heading_rate_limit, model)) findings.push_back(*finding);
@@ -322,7 +320,7 @@ void add_compare(CLI::App& app, Session& session) {
       ->required();
   add_file(*sub, "--scenario", command->scenarios, "scenario.json, one or more")->required();
   sub->add_option("--samples", command->compare.samples,
-                  "Draws of the parameters from the model's covariance, and of noise and "
+                  "Random draws of parameters (from the model's covariance), noise and "
                   "disturbances (default 0: nominal only)")
       ->check(within(0, 1000000));
   sub->add_option("--seed", command->compare.seed, "Seed of the draws (default 1)")
@@ -330,17 +328,15 @@ void add_compare(CLI::App& app, Session& session) {
   sub->add_option("--threads", command->compare.threads, "0 (default): one per core")
       ->check(within(0, 1024));
   sub->add_flag("--resume", command->resume,
-                "Go on from what lies in the directory: after Ctrl-C, or with more samples; with "
-                "--shard, leave a part that is finished as it is");
+                "Continue from the results in the directory, after Ctrl-C or with more samples; "
+                "with --shard, skip a finished part");
   add_preferences(*sub, *texts);
   sub->add_flag(
       "--break-even", command->compare.break_even,
-      "Also how much more yaw resistance turns by the sides' forces could meet before a mode "
-      "that steers is better");
+      "Also compute the tyre scrub of differential turns at which a steering mode becomes better");
   add_shard(*sub, texts->shard);
   add_allocation(*sub, command->allocation);
-  add_heading_rate_limit(*sub, command->heading_rate_limit,
-                         "measured, where the model says how fast that was");
+  add_heading_rate_limit(*sub, command->heading_rate_limit, "measured, if the model has that rate");
   add_plant_or_both(*sub, command->plant);
   add_output_directory(*sub, command->output, "Directory for comparison.csv and comparison.json");
 }

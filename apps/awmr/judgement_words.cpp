@@ -61,12 +61,12 @@ std::vector<Finding> goal_findings(const std::vector<JudgedGoal>& all) {
     const bool is_missed = judged.verdict == GoalVerdict::kMissed;
     findings.push_back(
         {"", 0, Severity::kWarning, is_missed ? "goal-missed" : "goal-open",
-         fmt::format("{} of {} fresh draws in {} keep the goal's limits, {:.1f} to {:.1f} %, where "
-                     "{:g} % are required: {}",
+         fmt::format("{} of {} fresh draws in {} meet the goal ({:.1f} to {:.1f} %), {:g} % are "
+                     "required: {}",
                      judged.held, judged.runs, name_of(judged.mode), 100.0 * judged.ci95.lo,
                      100.0 * judged.ci95.hi, 100.0 * judged.goal.share,
                      is_missed ? "tune on more draws (--draws), raise the limits or accept less"
-                               : "judge on more (judged_draws)")});
+                               : "increase judged_draws")});
   }
   return findings;
 }
@@ -77,9 +77,10 @@ void note_unsettled(const std::string& scenario, YawMode mode, double completed_
   if (completed_share >= kMinShare) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "unsettled",
-       fmt::format("{}{}: {:.0f} % of the runs with the tuned gains settle after every step; "
-                   "figures of the others are of runs that do not get there. Give more time or a "
-                   "faster lead, or an observer (--observer) where something pushes all the time",
+       fmt::format("{}{}: only {:.0f} % of the runs with the tuned gains settle after every step; "
+                   "the metrics of the others are of unsettled runs. Give more time or a higher "
+                   "heading-rate limit, or add an observer (--observer) against constant "
+                   "disturbances",
                    scenario.empty() ? "" : scenario + ", ", name_of(mode),
                    100.0 * completed_share)});
 }
@@ -89,7 +90,7 @@ std::vector<Finding> extrapolation_findings(const Comparison& comparison,
   if (!comparison.measured_yaw_rate_degps || comparison.rows.empty()) return {};
   const auto fastest = std::ranges::max_element(
       comparison.rows, {}, [](const ComparisonRow& row) { return row.metrics.yaw_rate_max_degps; });
-  const bool is_led =
+  const bool is_rate_limited =
       std::ranges::find(provenance.options,
                         std::pair(std::string(kRateName), std::string(kMeasuredRate))) !=
       provenance.options.end();
@@ -97,7 +98,7 @@ std::vector<Finding> extrapolation_findings(const Comparison& comparison,
   auto finding = extrapolation_finding(
       model, *comparison.measured_yaw_rate_degps, fastest->metrics.yaw_rate_max_degps,
       fmt::format("{}, {}, sample {}", fastest->scenario, name_of(fastest->mode), fastest->sample),
-      is_led);
+      is_rate_limited);
   if (!finding) return {};
   return {*std::move(finding)};
 }

@@ -43,10 +43,10 @@ inline void add_plant_of(CLI::App& command, PlantChoice& choice, std::vector<std
   };
   command
       .add_option_function<std::string>(kPlantOption, set,
-                                        "What moves in every scenario: the model's 3-DOF "
-                                        "equations, or its body on four tyres with "
-                                        "a circle of friction, those of the scenario's tyres or "
-                                        "their defaults (default: " +
+                                        "Simulated plant in every scenario: the model's 3-DOF "
+                                        "equations, or the body on four tyres with a friction "
+                                        "circle, with the scenario's tyres or their defaults "
+                                        "(default: " +
                                             by_default + ")")
       ->check(one_of(std::move(names)));
   add_file(command, kTyresOption, choice.tyres_file,
@@ -58,14 +58,14 @@ inline void add_plant(CLI::App& command, PlantChoice& choice) {
                "four-wheel where a scenario has tyres, else model");
 }
 
-/// The same of `compare`, which without a choice checks its verdicts on the other plant.
+/// --plant of `compare`, whose default checks each verdict on the other plant.
 inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
   std::vector<std::string> names = names_in(kPlantKindNames);
   names.emplace_back(kBothPlants);
   choice.checks_other = true;
   add_plant_of(command, choice, std::move(names),
-               "both: four-wheel where a scenario has tyres, else model, and who is first on the "
-               "other one and with slower and faster gains");
+               "both: four-wheel where a scenario has tyres, else model, and the ranking on the "
+               "other plant and with slower and faster gains");
 }
 
 /// The tyres of the file; without one the defaults. Adds how well they predict (`tyres-simulated`).

@@ -46,7 +46,7 @@ std::string gains_table(const Tuning& tuning) {
                      tuning.baseline_objective);
   text += gains_line("tuned", tuning.gains, tuning.objective);
   if (const ObserverGains<double>& observer = tuning.gains.observer; observer.is_on()) {
-    text += fmt::format("  observer   {:.4g} rad/s, up to {:.4g} m and {:.4g} of F_max\n",
+    text += fmt::format("  observer       {:.4g} rad/s, at most {:.4g} m and {:.4g} of F_max\n",
                         observer.bandwidth_radps, observer.yaw_max_m, observer.surge_max);
   }
   return text;
@@ -57,7 +57,8 @@ std::string sensitivity_text(const RobustTuning& robust) {
   if (!robust.sensitivity) return {};
   constexpr std::size_t kMostInputs = 3;
   std::string text = fmt::format(
-      "  what moves the tuned loop: total Sobol indices (95 %), {} samples of what was assumed\n",
+      "  sensitivity of the tuned loop: total Sobol indices (95 % interval), {} samples of the "
+      "assumed values\n",
       robust.sensitivity->samples);
   for (const SensitiveFigure& figure : robust.sensitivity->figures) {
     std::vector<std::size_t> order(figure.by_input.size());
@@ -85,8 +86,8 @@ std::vector<Finding> observer_findings(const TuneOptions& options) {
   if (!options.observer || is_pushed) return {};
   return {
       {"", 0, Severity::kWarning, "observer-unpushed",
-       "no scenario has a disturbance, so that the observer was tuned where it only lets noise in: "
-       "give one that pushes the vehicle, or none at all for the default ones"}};
+       "no scenario has a disturbance, so the observer was tuned on noise alone. Give a scenario "
+       "with a disturbance, or no scenarios to use the default ones"}};
 }
 
 /// Returns a note if too few samples leave the most influential input of a metric undetermined.
@@ -102,11 +103,10 @@ std::vector<Finding> sensitivity_findings(const Tuning& tuning) {
     open += widest->total_ci95.hi - widest->total_ci95.lo > kWide ? 1 : 0;
   }
   if (open == 0) return {};
-  return {
-      {"", 0, Severity::kNote, "sensitivity-open",
-       fmt::format("{} samples leave open what moves {} of {} figures most, as few runs are far "
-                   "from the others: give more (--sensitivity)",
-                   tuning.robust->sensitivity->samples, open, figures.size())}};
+  return {{"", 0, Severity::kNote, "sensitivity-open",
+           fmt::format("{} samples do not show which input affects {} of {} metrics most; increase "
+                       "--sensitivity",
+                       tuning.robust->sensitivity->samples, open, figures.size())}};
 }
 
 /// Findings of the goals and of the runs, on fresh draws if there are any.
@@ -177,21 +177,21 @@ std::vector<Finding> findings_before_judging(const Model& model, const Tuning& t
 std::string standing_of(const Tuning& tuning) {
   std::string held;
   for (const ActiveConstraint& one : tuning.active) {
-    held += fmt::format("{}{} (a tenth wider gains {:.1f} %)", held.empty() ? "" : "; ", one.name,
-                        100.0 * one.wider_gains);
+    held += fmt::format("{}{} (limit 10 % wider: objective {:.1f} % lower)",
+                        held.empty() ? "" : "; ", one.name, 100.0 * one.wider_gains);
   }
   return fmt::format(
-      "  held by    {}\n"
-      "  as good    with the same mu/epsilon any mu from {:.4g} to {:.4g}, and mu_s from {:.4g} to "
-      "{:.4g}: the least are taken\n",
-      held.empty() ? "no constraint" : held, tuning.mu_as_good.lo, tuning.mu_as_good.hi,
+      "  active limits  {}\n"
+      "  equally good   mu {:.4g} to {:.4g} at the same mu/epsilon, mu_s {:.4g} to {:.4g} at the "
+      "same mu_s/eps_s (smallest used)\n",
+      held.empty() ? "none" : held, tuning.mu_as_good.lo, tuning.mu_as_good.hi,
       tuning.speed_mu_as_good.lo, tuning.speed_mu_as_good.hi);
 }
 
 /// Describes the unmodelled variation that the gains account for; empty without any.
 std::string open_text(const OpenVehicle& open) {
   if (!open.any()) return {};
-  std::string text = "  open      ";
+  std::string text = "  variation     ";
   if (!open.mass_factors.empty()) {
     text += fmt::format(" m' and I'z times {:g}", fmt::join(open.mass_factors, ", "));
   }
@@ -211,9 +211,9 @@ std::string certificate_text(const Certificate& certificate) {
                            one.damping.value, one.delay_margin_s.value);
   }
   return fmt::format(
-      "  certified  damping at least {:.3g}, delay margin {:.3g} s over {}, {:g} s late ({})\n",
+      "  worst case     damping {:.3g}, delay margin {:.3g} s over {}, with {:g} s latency ({})\n",
       certificate.damping_min(), certificate.delay_margin_s(),
-      certificate.parameters > 0 ? "95 % of the model's parameters" : "the model's own values",
+      certificate.parameters > 0 ? "the 95 % region of the parameters" : "the model's own values",
       certificate.latency_s, by_mode);
 }
 
@@ -323,8 +323,8 @@ Result<Outcome> execute(const TuneCommand& command) {
   if (command.mode) config.options.mode = command.mode;
   if (command.draws && config.options.nominal) {
     return input_error("--draws",
-                       "nominal gains are tuned on no draws, and the configuration asks for "
-                       "nominal: leave out one of them");
+                       "the configuration sets nominal, which uses no draws; remove --draws or "
+                       "nominal");
   }
   if (command.draws) config.options.draws = *command.draws;
   if (command.sensitivity) config.options.sensitivity = *command.sensitivity;
@@ -375,14 +375,14 @@ void add_tune(CLI::App& app, Session& session) {
            "tune.json: mode, form, margin, limits, baseline, weights, goals, open, observer, "
            "evaluations, seed, scenarios");
   auto* nominal = sub->add_flag("--nominal", command->nominal,
-                                "Tune on the model's own values alone: no draws from what is "
-                                "uncertain, no noise, no latency, no lag");
+                                "Tune for the nominal parameters only: no parameter draws, noise, "
+                                "latency or lag");
   sub->add_flag(
       "--observer", command->observer,
-      "Tune a disturbance observer with the gains, for pushes that do not go away: a slope, "
-      "a motor that pulls to one side");
+      "Also tune a disturbance observer, for constant disturbances such as a slope or unequal "
+      "motors");
   sub->add_option("--baseline", command->baseline,
-                  "Gains that the objective is normalised by: pole-placement (default), paper or a "
+                  "Baseline gains, with objective 1: pole-placement (default), paper or a "
                   "gains.json")
       ->type_name("NAME|FILE");
   sub->add_option_function<std::string>(
@@ -391,24 +391,21 @@ void add_tune(CLI::App& app, Session& session) {
          "Tune for this mode alone (default: one set of gains for all modes)")
       ->check(one_of(names_in(kYawModeNames)));
   sub->add_option("--draws", command->draws,
-                  "Plants drawn from the model's covariance that the gains are tuned for (default "
-                  "32)")
+                  "Number of vehicles drawn from the model's covariance to tune for (default 32)")
       ->check(within(0.0, 1000.0))
       ->excludes(nominal);
   sub->add_option("--sensitivity", command->sensitivity,
-                  "Samples that say which of what was assumed (the model's parameters, noise, "
-                  "latency, lag) moves the tuned loop, by Sobol's indices (default none; 256 take "
-                  "some seconds)")
+                  "Samples for a global sensitivity analysis (Sobol indices) of the tuned loop to "
+                  "parameters, noise, latency and lag (default none; 256 take some seconds)")
       ->check(within(kFewestSamples, kMostSamples))
       ->excludes(nominal);
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit,
-                         "none for scenarios of the user's; of the default ones one is led as "
-                         "measured, one is not");
+                         "none for --config scenarios; of the two default scenarios one is limited "
+                         "to the measured rate");
   add_output(*sub, command->output, "gains.json to write; with --shard, the directory of the part");
   auto* shard = add_shard(*sub, *shard_text)->excludes(nominal);
-  sub->add_flag("--resume", command->resume, "Leave a part that is finished as it is")
-      ->needs(shard);
+  sub->add_flag("--resume", command->resume, "Skip a part that is already finished")->needs(shard);
 }
 
 }  // namespace awmr::cli

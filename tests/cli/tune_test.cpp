@@ -1,4 +1,4 @@
-/// What tune writes of the gains that it compares with, and of the certificate.
+/// The baseline gains and the certificate in the output of tune.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ TEST_F(TunedGains, AreComparedWithTheFileThatIsGivenAsBaseline) {
     is_input = is_input || input.at("name") == "own.json";
   }
   EXPECT_TRUE(is_input) << json.at("inputs");
-  // The paper's gains are judged as well, as the baseline is another.
+  // The paper's gains are evaluated as well, as the baseline is another.
   EXPECT_TRUE(json.at("robust").at("quantiles").at("steering").contains("paper"));
 }
 

@@ -121,8 +121,8 @@ bool is_near(const Metrics& batch, const Metrics& scalar) {
   return true;
 }
 
-/// What a change of the mass or the inertia by 1e-12, up or down, changes. One such change is too
-/// few: whether it passes a limit a sample later is a matter of chance.
+/// Effect of a change of the mass or the inertia by 1e-12, up or down. One such change is too few:
+/// whether it passes a limit a sample later is a matter of chance.
 struct Amplification {
   double largest = 0.0;            ///< relative change of a metric
   std::set<std::size_t> is_there;  ///< metrics that exist or not by such a change
@@ -384,7 +384,7 @@ TEST_F(Batch, HasTheSameBitsOnAllInstructions) {
 }
 
 /// Resistance too stiff at the initial speed for any step: simulate() reports it.
-TEST_F(Batch, ARunThatFailsIsToldOfBySimulateAndTheOthersGoOn) {
+TEST_F(Batch, ReportsAFailedRunAndContinuesWithTheOthers) {
   std::vector<BatchRun> runs = drawn_runs(3, 0.2, YawMode::kDifferential);
   runs[1].plant.surge.beta = 20.0;
   Scenario scenario{"fast", 1.0, {}, 0.0, OpenLoop{1.0, 0.0}};
@@ -466,7 +466,8 @@ TEST(Instructions, AreRefusedByNameWhereThereAreNone) {
     const auto arithmetic = batch_arithmetic();
     ::unsetenv("AWMR_INSTRUCTIONS");
     ASSERT_FALSE(arithmetic) << name;
-    EXPECT_NE(arithmetic.error().faults.front().message.find("'" + name + "' is none"),
+    EXPECT_NE(arithmetic.error().faults.front().message.find("unsupported instruction set '" +
+                                                             name + "'"),
               std::string::npos);
   }
 }

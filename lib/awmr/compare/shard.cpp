@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view kShardSchema = "awmr.shard/1";
 constexpr const char* kTable = "comparison.csv";
-/// Samples of a comparison at the most.
+/// Maximum number of samples of a comparison.
 constexpr long kMostSamples = 1'000'000'000;
 
 /// One directory's part.

@@ -21,7 +21,7 @@ namespace awmr {
 namespace {
 
 constexpr const char* kGainsHash = "gains_json_sha256";
-/// Of a judging at the most: as in tune.json, and more than are ever given.
+/// Limits of an evaluation: as in tune.json, and more than are ever given.
 constexpr long kMostJudgedDraws = 100'000;
 
 /// One directory's part; its runs lie in the table.
@@ -125,7 +125,7 @@ Result<std::vector<JudgedRuns>> judged_from_text(const TunePart& part, std::stri
                                                  const std::string& file) {
   std::string_view rest = text;
   if (take_line(rest) != head_of_table()) {
-    return input_error(file + ":1:1", "these are not the columns of a judging");
+    return input_error(file + ":1:1", "these are not the columns of judged.csv");
   }
   int line = 1;
   std::vector<JudgedRuns> runs;
@@ -272,7 +272,7 @@ Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>&
   AWMR_ASSIGN_OR_RETURN(Json json, read_part_gains(parts.front()));
   if (!json.is_object() || !json.contains("robust") || !json["robust"].is_object()) {
     return input_error((directories.front() / kTuneShardGains).string(),
-                       "holds no robust gains: run the part again");
+                       "contains no robust gains; run the part again");
   }
   Judgement judgement = judgement_of(runs, parts.front().by);
   json["robust"]["quantiles"] = quantiles_json(judgement.gains);
@@ -298,7 +298,7 @@ Status check_tune_shard_text(std::string_view text, const std::string& file) {
 }
 
 std::string tune_shard_schema() {
-  return json_schema_text(kTuneShardSchema, "A part of the judging of gains",
+  return json_schema_text(kTuneShardSchema, "A part of the evaluation of gains on fresh draws",
                           [](JsonObject& json) { tune_part_from_json(json); });
 }
 

@@ -14,7 +14,7 @@
 #include "awmr/simulate/simulate.h"
 #include "awmr/trials/replay.h"
 #include "awmr/validate/drive_series.h"
-#include "awmr/validate/suspects.h"
+#include "awmr/validate/fault_hypotheses.h"
 
 namespace awmr {
 namespace {
@@ -130,18 +130,18 @@ ForetoldSeries foretold_of(const DriveChannel& channel, const std::vector<Window
 }
 
 /// Distances of a series from the prediction, by window; 0 without a measurement.
-std::vector<double> distances(const WindowMeans& windows, const ForetoldSeries& foretold) {
+std::vector<double> distances(const WindowMeans& windows, const ForetoldSeries& predicted) {
   std::vector<double> all(windows.mean.size());
   for (std::size_t w = 0; w < all.size(); ++w) {
     if (windows.rows[w] > 0) {
-      all[w] = std::abs(windows.mean[w] - foretold.mean[w]) / foretold.spread[w];
+      all[w] = std::abs(windows.mean[w] - predicted.mean[w]) / predicted.spread[w];
     }
   }
   return all;
 }
 
-double largest_distance(const WindowMeans& windows, const ForetoldSeries& foretold) {
-  const std::vector<double> all = distances(windows, foretold);
+double largest_distance(const WindowMeans& windows, const ForetoldSeries& predicted) {
+  const std::vector<double> all = distances(windows, predicted);
   return *std::max_element(all.begin(), all.end());
 }
 
@@ -153,21 +153,24 @@ int samples_in(const WindowMeans& windows) {
 struct Compared {
   DriveChannel channel;
   WindowMeans measured;
-  ForetoldSeries foretold;
+  ForetoldSeries predicted;
   std::vector<double> largest;  ///< by draw
   double usual = 0.0;           ///< not exceeded by 95 % of the draws in this channel
 };
 
 Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> draws,
                          double duration_s) {
-  Compared one{
-      .channel = channel, .measured = means_of(channel, duration_s), .foretold = {}, .largest = {}};
+  Compared one{.channel = channel,
+               .measured = means_of(channel, duration_s),
+               .predicted = {},
+               .largest = {}};
   for (WindowMeans& draw : draws) {
     draw.mean.resize(one.measured.mean.size());
     draw.rows.resize(one.measured.rows.size());
   }
-  one.foretold = foretold_of(channel, draws);
-  for (const WindowMeans& draw : draws) one.largest.push_back(largest_distance(draw, one.foretold));
+  one.predicted = foretold_of(channel, draws);
+  for (const WindowMeans& draw : draws)
+    one.largest.push_back(largest_distance(draw, one.predicted));
   one.usual = quantile_of(one.largest, kLevel);
   return one;
 }
@@ -191,11 +194,11 @@ ChannelAcceptance judged(const Compared& one, double factor) {
       .noise = one.channel.noise,
       .noise_from_log = one.channel.noise_from_log,
       .allowed = factor * one.usual};
-  const std::vector<double> all = distances(one.measured, one.foretold);
+  const std::vector<double> all = distances(one.measured, one.predicted);
   const auto farthest = std::max_element(all.begin(), all.end());
   const auto w = static_cast<std::size_t>(farthest - all.begin());
   result.distance = *farthest;
-  result.difference = one.measured.mean[w] - one.foretold.mean[w];
+  result.difference = one.measured.mean[w] - one.predicted.mean[w];
   result.inside = result.distance <= result.allowed;
   for (std::size_t k = 0; k < all.size() && !result.outside_since_s; ++k) {
     if (all[k] > result.allowed) result.outside_since_s = kWindow_s * static_cast<double>(k);
@@ -239,10 +242,10 @@ void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
   result.inside = result.p_value > 1.0 - kLevel;
 }
 
-std::vector<SuspectChannel> evidence_of(const std::vector<Compared>& channels) {
-  std::vector<SuspectChannel> evidence;
+std::vector<EvidenceChannel> evidence_of(const std::vector<Compared>& channels) {
+  std::vector<EvidenceChannel> evidence;
   for (const Compared& one : channels) {
-    evidence.push_back({&one.channel, &one.measured, &one.foretold});
+    evidence.push_back({&one.channel, &one.measured, &one.predicted});
   }
   return evidence;
 }
@@ -269,7 +272,7 @@ Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
   const DriveStart start = start_of(log, first, drive, scenario);
   scenario.initial = start.state;
   AWMR_ASSIGN_OR_RETURN(
-      const std::vector<Foretold> foretold,
+      const std::vector<Foretold> predicted,
       foretold_drives(model, controller, as_given, conditions, start, drive, most_s, options));
   Acceptance result{.file = log.file,
                     .scenario = scenario.name,
@@ -277,27 +280,26 @@ Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
                     .from_s = log.t_s[first],
                     .duration_s = most_s,
                     .draws = options.draws};
-  for (const Foretold& one : foretold) result.duration_s = std::min(result.duration_s, one.end_s);
+  for (const Foretold& one : predicted) result.duration_s = std::min(result.duration_s, one.end_s);
   if (result.duration_s < kShortest_s) {
-    return input_error(
-        log.file, fmt::format("only {:.3g} s of it can be held against scenario '{}': at least "
-                              "{:g} s are needed",
-                              result.duration_s, scenario.name, kShortest_s));
+    return input_error(log.file,
+                       fmt::format("only {:.3g} s of it overlap scenario '{}'; at least {:g} s are "
+                                   "needed",
+                                   result.duration_s, scenario.name, kShortest_s));
   }
-  const std::vector<Compared> channels = compare(drive, foretold, result.duration_s);
+  const std::vector<Compared> channels = compare(drive, predicted, result.duration_s);
   take_verdict(channels, result);
   if (!result.inside) {
-    result.suspects =
-        suspects_of(model, controller, scenario, options, result.duration_s, evidence_of(channels));
+    result.hypotheses = fault_hypotheses(model, controller, scenario, options, result.duration_s,
+                                         evidence_of(channels));
   }
   return result;
 }
 
 std::string acceptance_table(const Acceptance& acceptance) {
   std::string text = fmt::format(
-      "{} against scenario '{}', {}, {:.4g} s from {:g} s on: {} what the model foretells (p "
-      "{:.3g} "
-      "of {} draws)\n",
+      "{} against scenario '{}', {}, {:.4g} s from {:g} s on: {} the prediction (p {:.3g}, {} "
+      "draws)\n",
       acceptance.file, acceptance.scenario, name_of(acceptance.mode), acceptance.duration_s,
       acceptance.from_s, acceptance.inside ? "within" : "outside of", acceptance.p_value,
       acceptance.draws);
@@ -314,11 +316,11 @@ std::string acceptance_table(const Acceptance& acceptance) {
   }
   text += "  * estimated from the log\n";
   if (acceptance.inside) return text;
-  text += acceptance.suspects.empty() ? "  no single change of the model explains it\n"
-                                      : "  what would explain it best, one at a time:\n";
-  for (const Suspect& suspect : acceptance.suspects) {
-    text += fmt::format("    {:<28} {:>9.3g} {:<6} explains {:.0f} %\n", suspect.what,
-                        suspect.value, suspect.unit, 100.0 * suspect.explained);
+  text += acceptance.hypotheses.empty() ? "  no single model change explains the difference\n"
+                                        : "  most likely single causes:\n";
+  for (const FaultHypothesis& hypothesis : acceptance.hypotheses) {
+    text += fmt::format("    {:<28} {:>9.3g} {:<6} explains {:.0f} %\n", hypothesis.what,
+                        hypothesis.value, hypothesis.unit, 100.0 * hypothesis.explained);
   }
   return text;
 }

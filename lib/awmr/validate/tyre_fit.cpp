@@ -13,7 +13,7 @@
 namespace awmr::tyre_fit {
 namespace {
 
-/// Of each kind of turn.
+/// Minimum number of windows with each kind of turn.
 constexpr std::size_t kFewestTurns = 3;
 
 /// Half of the 95 % interval, in standard errors.

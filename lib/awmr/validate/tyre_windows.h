@@ -50,7 +50,7 @@ std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
 /// All windows, or 60 over the whole of the logs: more make the fit long and little better.
 Windows evenly_chosen(const std::vector<ReplayedWindow>& all);
 
-/// Whether a window has a turn by the sides' forces, or by steering.
+/// Whether a window has a differential turn, or a steered one.
 struct Turns {
   bool by_sides = false;
   bool by_steering = false;
