@@ -69,6 +69,19 @@ TEST(TyreFit, AVehicleWithoutTyresIsPredictedByTheModel) {
   }
 }
 
+/// A controller at 100 Hz whose commands alternate, and its log with every other row.
+TEST(TyreFit, CommandsLostBetweenRowsWidenTheIntervals) {
+  LogDrive drive{.friction = 0.5, .stiffness = 7.0};
+  drive.row_s = 0.01;
+  drive.alternating = 0.3;
+  DrivingLog log = every_other_row(driven(drive));
+  std::vector<Finding> findings;
+  const auto fit = fitted(log, findings);
+  ASSERT_TRUE(fit && fit->friction && fit->cornering_per_rad);
+  EXPECT_TRUE(fit->friction->ci95->contains(0.5)) << *fit->friction->value;
+  EXPECT_TRUE(fit->cornering_per_rad->ci95->contains(7.0)) << *fit->cornering_per_rad->value;
+}
+
 TEST(TyreFit, NeedsBothKindsOfTurns) {
   for (const bool by_sides : {true, false}) {
     std::vector<Finding> findings;
