@@ -12,9 +12,6 @@
 
 namespace awmr::cli {
 
-/// Key of the choice among the options recorded in an output.
-inline constexpr const char* kRateName = "heading_rate_limit";
-
 /// `by_default`: text that describes the behaviour without the option.
 inline void add_heading_rate_limit(CLI::App& command, HeadingRateChoice& choice,
                                    const char* by_default) {

@@ -55,23 +55,24 @@ Result<fs::path> record_of(const LiveCommand& command) {
       command.record.value_or(fs::path(command.identify.output).replace_extension("csv"));
   std::error_code error;
   if (!command.record && fs::exists(record, error)) {
-    return input_error(record.string(),
+    return input_error(log.file, record.string(),
                        "there is a recording already; name another with --record FILE");
   }
   if (fs::exists(record, error) && !fs::is_regular_file(record, error)) {
-    return input_error("--record", record.string() +
-                                       " is no ordinary file, from which the recording could be "
-                                       "read back; name another");
+    return input_error(log.file, "--record",
+                       record.string() +
+                           " is no ordinary file, from which the recording could be "
+                           "read back; name another");
   }
   if (record.lexically_normal() == command.identify.output.lexically_normal()) {
-    return input_error("--record", "it is the model's file; give another name");
+    return input_error(log.file, "--record", "it is the model's file; give another name");
   }
   return record;
 }
 
 Status check(const LiveCommand& command) {
   if (command.source.port.has_value() == command.source.log.has_value()) {
-    return input_error("",
+    return input_error(log.file, "",
                        "give one of --port PORT, --log FILE, --log -: where the log comes from");
   }
   return check_output(command.identify.output, inputs_of(command));
@@ -168,6 +169,35 @@ Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
   return outcome;
 }
 
+void add_source(CLI::App& sub, LiveCommand& live) {
+  add_file(sub, "--port", live.source.port, "Serial port of the recorder, such as /dev/ttyUSB0");
+  sub.add_option("--baud", live.source.baud, "Of --port (default 115200)")
+      ->check(within(300U, 4000000U));
+  add_file(sub, "--log", live.source.log,
+           "CSV of the driving log as it is written; - for standard input");
+  add_file(sub, "--record", live.record,
+           "CSV to write: all that came (default: the model's name with .csv, where there is none "
+           "yet)");
+}
+
+void add_updates_and_end(CLI::App& sub, LiveCommand& live) {
+  sub.add_option("--every", live.every_s,
+                 "Seconds between two updates (default 5; 1 in the first 20 s)")
+      ->check(within(0.05, 3600.0));
+  sub.add_option("--budget", live.budget_s, "Time limit of a fit during the drive, s (default 5)")
+      ->check(within(0.1, 3600.0));
+  sub.add_option("--enough", live.enough,
+                 "Sufficient relative half width of the 95 % interval of every requested "
+                 "parameter (absolute for exponents; default 0.1)")
+      ->check(within(1e-6, 1.0));
+  sub.add_flag("--until-enough", live.until_enough,
+               "End when --enough is reached; exit code 1 if it is not reached");
+  sub.add_option("--duration", live.duration_s, "End after this time, s (default: never)")
+      ->check(within(0.1, 1e6));
+  sub.add_option("--idle", live.idle_s, "End after this time without input, s (default: never)")
+      ->check(within(0.1, 1e6));
+}
+
 }  // namespace
 
 Result<Outcome> execute(const LiveCommand& asked) {
@@ -190,7 +220,7 @@ Result<Outcome> execute(const LiveCommand& asked) {
       follow(command, fit, std::move(source), Recording(options.columns), screen);
   if (followed.recording.text().empty()) {
     return input_error(
-        command.source.port.value_or(command.source.log.value_or("")).string(),
+        log.file, command.source.port.value_or(command.source.log.value_or("")).string(),
         fmt::format("{} before anything came", name_in(kLiveEndWords, followed.end)));
   }
   screen.say(fmt::format("{}: {} rows are in {}; fitting all of it",
@@ -214,31 +244,9 @@ void add_live(CLI::App& app, Session& session) {
                     AWMR_ASSIGN_OR_RETURN(command.identify, command_of(words->identify));
                     return execute(command);
                   });
-  LiveCommand& live = words->live;
   add_table_files(*sub, words->identify.command);
-  add_file(*sub, "--port", live.source.port, "Serial port of the recorder, such as /dev/ttyUSB0");
-  sub->add_option("--baud", live.source.baud, "Of --port (default 115200)")
-      ->check(within(300U, 4000000U));
-  add_file(*sub, "--log", live.source.log,
-           "CSV of the driving log as it is written; - for standard input");
-  add_file(*sub, "--record", live.record,
-           "CSV to write: all that came (default: the model's name with .csv, where there is none "
-           "yet)");
-  sub->add_option("--every", live.every_s,
-                  "Seconds between two updates (default 5; 1 in the first 20 s)")
-      ->check(within(0.05, 3600.0));
-  sub->add_option("--budget", live.budget_s, "Time limit of a fit during the drive, s (default 5)")
-      ->check(within(0.1, 3600.0));
-  sub->add_option("--enough", live.enough,
-                  "Sufficient relative half width of the 95 % interval of every requested "
-                  "parameter (absolute for exponents; default 0.1)")
-      ->check(within(1e-6, 1.0));
-  sub->add_flag("--until-enough", live.until_enough,
-                "End when --enough is reached; exit code 1 if it is not reached");
-  sub->add_option("--duration", live.duration_s, "End after this time, s (default: never)")
-      ->check(within(0.1, 1e6));
-  sub->add_option("--idle", live.idle_s, "End after this time without input, s (default: never)")
-      ->check(within(0.1, 1e6));
+  add_source(*sub, words->live);
+  add_updates_and_end(*sub, words->live);
   add_fit_options(*sub, words->identify);
   add_log_options(*sub, words->identify.command);
   add_reading_options(*sub, words->identify);

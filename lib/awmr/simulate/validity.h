@@ -42,6 +42,8 @@ using HeadingRateChoice = std::string;
 inline constexpr Interval kLeadRates_degps{0.1, 3600.0};
 inline constexpr const char* kMeasuredRate = "measured";
 inline constexpr const char* kNoRate = "none";
+/// Key of the choice among the options recorded in an output.
+inline constexpr const char* kRateName = "heading_rate_limit";
 
 /// Error text of a choice; empty if it is valid.
 std::string fault_of_rate(const HeadingRateChoice& choice);

@@ -255,7 +255,7 @@ std::vector<int> judged_draws_of(const TuneOptions& options) {
 
 /// The tuned gains, the baseline, the paper's gains, and the tuned ones without their observer.
 std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
-  std::vector<NamedCandidate> candidates{{"robust", tuning.gains},
+  std::vector<NamedCandidate> candidates{{kRobustGains, tuning.gains},
                                          {"baseline", tuning.baseline.gains}};
   if (tuning.baseline.source != kPaperSource) candidates.push_back({"paper", kPaperGains});
   if (tuning.gains.observer.is_on()) {

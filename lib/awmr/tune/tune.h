@@ -254,9 +254,12 @@ struct JudgedFigure {
   double tail_mean = 0.0;  ///< over the worst tail_share of the draws (CVaR)
 };
 
+/// JudgedGains::gains of the tuned gains.
+inline constexpr const char* kRobustGains = "robust";
+
 /// One set of gains in one mode, over the evaluation draws.
 struct JudgedGains {
-  /// "robust", "baseline", "paper" (where the baseline is another), "unobserved" (without their
+  /// kRobustGains, "baseline", "paper" (where the baseline is another), "unobserved" (without their
   /// observer)
   std::string gains;
   YawMode mode{};

@@ -15,6 +15,7 @@
 #include "awmr/core/shard_file.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/tune/robust.h"
+#include "awmr/tune/tune_findings.h"
 #include "awmr/tune/tune_json.h"
 
 namespace awmr {
@@ -280,8 +281,11 @@ Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>&
     json["robust"]["by_scenario"] = by_scenario_json(judgement.by_scenario);
   }
   if (!judgement.goals.empty()) json["goals"] = goals_json(judgement.goals);
+  std::vector<Finding> findings =
+      evaluation_findings(judgement.gains, judgement.by_scenario, judgement.goals);
+  findings.insert(findings.end(), parts.front().findings.begin(), parts.front().findings.end());
   return MergedTuning{to_text(json), std::move(judgement.gains), std::move(judgement.by_scenario),
-                      std::move(judgement.goals), parts.front().findings};
+                      std::move(judgement.goals), std::move(findings)};
 }
 
 Status check_judged_csv(std::string_view text, const std::string& file,

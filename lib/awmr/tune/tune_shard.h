@@ -46,8 +46,7 @@ struct MergedTuning {
   std::string gains_text;                               ///< the bytes of gains.json
   std::vector<JudgedGains> judged, judged_by_scenario;  ///< as in RobustTuning
   std::vector<JudgedGoal> goals;
-  std::vector<Finding>
-      findings;  ///< of the parts: those that do not depend on the evaluation draws
+  std::vector<Finding> findings;  ///< those of the evaluation draws, then those of the parts
 };
 
 /// Puts the parts in the directories together, in any order. Errors (input): a directory without

@@ -26,7 +26,7 @@ constexpr std::uint64_t kReadingsStream = std::uint64_t{1} << 40;
 
 Status check_options(const AcceptanceOptions& options) {
   if (options.draws >= 39 && options.draws <= 10000) return {};
-  return input_error("draws", fmt::format("expected 39 to 10000, got {}", options.draws));
+  return input_error(log.file, "draws", fmt::format("expected 39 to 10000, got {}", options.draws));
 }
 
 /// The smallest value that at least a fraction `share` of the values do not exceed.
@@ -57,6 +57,16 @@ LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
   return c;
 }
 
+/// The logged drive, and what its prediction starts from.
+struct LoggedDrive {
+  double from_s = 0.0;      ///< time of its first row, on the log's clock
+  double duration_s = 0.0;  ///< up to the end of the log or of the scenario
+  LoopConditions conditions;
+  std::vector<DriveChannel> channels;
+  DriveStart start;
+  Scenario scenario;  ///< under the log's conditions, from its start
+};
+
 /// The compared part of a predicted drive.
 struct Foretold {
   double end_s = 0.0;                ///< of the run; later windows are invalid
@@ -75,11 +85,8 @@ Foretold foretold_from(const Run& run, const std::vector<DriveChannel>& channels
 /// Simulates the predicted drives.
 Result<std::vector<Foretold>> foretold_drives(const Model& model,
                                               const Controller<double>& controller,
-                                              const Scenario& scenario,
-                                              const LoopConditions& conditions,
-                                              const DriveStart& start,
-                                              const std::vector<DriveChannel>& channels,
-                                              double duration_s, const AcceptanceOptions& options) {
+                                              const Scenario& as_given, const LoggedDrive& logged,
+                                              const AcceptanceOptions& options) {
   std::optional<PlantSampler> sampler;
   if (!model.covariance.parameters.empty()) {
     AWMR_ASSIGN_OR_RETURN(sampler, PlantSampler::make(model));
@@ -95,15 +102,17 @@ Result<std::vector<Foretold>> foretold_drives(const Model& model,
       return;
     }
     Random random(options.seed, kReadingsStream + i);
-    Scenario world = under(drawn(conditions, model.vehicle, random), scenario);
-    world.initial = moved_by(start.state, start.error, random);
+    Scenario world = under(drawn(logged.conditions, model.vehicle, random), as_given);
+    world.initial = moved_by(logged.start.state, logged.start.error, random);
     const Run run = simulate(*plant, controller, world, options.mode,
                              {.sample_time_s = sample_s,
                               .substeps = {},
                               .seed = options.seed,
                               .sample = static_cast<std::uint64_t>(sample)});
     ended[i] = failure_of(run, world);
-    if (ended[i]) drives[i] = foretold_from(run, channels, sample_s, duration_s, random);
+    if (ended[i]) {
+      drives[i] = foretold_from(run, logged.channels, sample_s, logged.duration_s, random);
+    }
   });
   for (Status& status : ended) AWMR_RETURN_IF_ERROR(std::move(status));
   return drives;
@@ -250,6 +259,26 @@ std::vector<EvidenceChannel> evidence_of(const std::vector<Compared>& channels) 
   return evidence;
 }
 
+Result<LoggedDrive> logged_drive(const DrivingLog& log, const Model& model,
+                                 const Scenario& as_given, const std::optional<double>& from_s) {
+  AWMR_ASSIGN_OR_RETURN(const std::size_t first, first_row_of(log, from_s));
+  LoggedDrive drive{.from_s = log.t_s[first],
+                    .conditions = conditions_in(log, first, model.vehicle),
+                    .channels = {},
+                    .start = {},
+                    .scenario = {}};
+  drive.scenario = under(drive.conditions, as_given);
+  drive.duration_s = std::min(drive.scenario.duration_s, log.t_s.back() - drive.from_s);
+  drive.channels = channels_of(log, first, drive.duration_s, drive.scenario);
+  for (DriveChannel& channel : drive.channels) {
+    channel.noise_from_log |=
+        channel.noise_in_run && !as_given.sensors && !is_given(channel.name, model.vehicle.sensors);
+  }
+  drive.start = start_of(log, first, drive.channels, drive.scenario);
+  drive.scenario.initial = drive.start.state;
+  return drive;
+}
+
 }  // namespace
 
 Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
@@ -260,38 +289,28 @@ Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_RETURN_IF_ERROR(check_work(plant, model.file, as_given, model.vehicle.sample_time_s));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
-  AWMR_ASSIGN_OR_RETURN(const std::size_t first, first_row_of(log, options.from_s));
-  const LoopConditions conditions = conditions_in(log, first, model.vehicle);
-  Scenario scenario = under(conditions, as_given);
-  const double most_s = std::min(scenario.duration_s, log.t_s.back() - log.t_s[first]);
-  std::vector<DriveChannel> drive = channels_of(log, first, most_s, scenario);
-  for (DriveChannel& channel : drive) {
-    channel.noise_from_log |=
-        channel.noise_in_run && !as_given.sensors && !is_given(channel.name, model.vehicle.sensors);
-  }
-  const DriveStart start = start_of(log, first, drive, scenario);
-  scenario.initial = start.state;
-  AWMR_ASSIGN_OR_RETURN(
-      const std::vector<Foretold> predicted,
-      foretold_drives(model, controller, as_given, conditions, start, drive, most_s, options));
+  AWMR_ASSIGN_OR_RETURN(const LoggedDrive drive,
+                        logged_drive(log, model, as_given, options.from_s));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<Foretold> predicted,
+                        foretold_drives(model, controller, as_given, drive, options));
   Acceptance result{.file = log.file,
-                    .scenario = scenario.name,
+                    .scenario = drive.scenario.name,
                     .mode = options.mode,
-                    .from_s = log.t_s[first],
-                    .duration_s = most_s,
+                    .from_s = drive.from_s,
+                    .duration_s = drive.duration_s,
                     .draws = options.draws};
   for (const Foretold& one : predicted) result.duration_s = std::min(result.duration_s, one.end_s);
   if (result.duration_s < kShortest_s) {
     return input_error(log.file,
                        fmt::format("only {:.3g} s of it overlap scenario '{}'; at least {:g} s are "
                                    "needed",
-                                   result.duration_s, scenario.name, kShortest_s));
+                                   result.duration_s, drive.scenario.name, kShortest_s));
   }
-  const std::vector<Compared> channels = compare(drive, predicted, result.duration_s);
+  const std::vector<Compared> channels = compare(drive.channels, predicted, result.duration_s);
   take_verdict(channels, result);
   if (!result.inside) {
-    result.hypotheses = fault_hypotheses(model, controller, scenario, options, result.duration_s,
-                                         evidence_of(channels));
+    result.hypotheses = fault_hypotheses(model, controller, drive.scenario, options,
+                                         result.duration_s, evidence_of(channels));
   }
   return result;
 }
