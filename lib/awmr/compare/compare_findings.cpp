@@ -21,8 +21,8 @@ void note_samples(const CompareOptions& options, const Comparison& comparison,
                    samples, 100.0 * (1.0 - std::pow(0.5, samples - 1)), kFewSamples)});
 }
 
-/// The scrub that the modes are compared with, or a warning if steering and combined turns are
-/// charged with a scrub that they do not have.
+/// Adds the finding on the simulated scrub, or a warning if yaw resistance includes scrub that
+/// steered turns do not have.
 void note_scrub(const Model& model, std::vector<Finding>& findings) {
   if (model.yaw_by_sides_alone) {
     findings.push_back(

@@ -84,7 +84,7 @@ void note_observer(const TuneOptions& options, std::vector<Finding>& findings) {
   findings.push_back(
       {"", 0, Severity::kWarning, "observer-unpushed",
        "no scenario has a disturbance, so the observer was tuned on noise alone. Give a scenario "
-       "give one that pushes the vehicle, or none at all for the default ones"});
+       "with a disturbance, or no scenarios to use the default ones"});
 }
 
 /// Requests that the vehicle cannot meet, in the scenarios and in the conditions of the draws.

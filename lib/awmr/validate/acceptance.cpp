@@ -26,7 +26,7 @@ constexpr std::uint64_t kReadingsStream = std::uint64_t{1} << 40;
 
 Status check_options(const AcceptanceOptions& options) {
   if (options.draws >= 39 && options.draws <= 10000) return {};
-  return input_error(log.file, "draws", fmt::format("expected 39 to 10000, got {}", options.draws));
+  return input_error("draws", fmt::format("expected 39 to 10000, got {}", options.draws));
 }
 
 /// The smallest value that at least a fraction `share` of the values do not exceed.
