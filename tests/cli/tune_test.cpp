@@ -104,7 +104,7 @@ TEST_F(TunedGains, OfOneModeAreExaminedThereAndWarnElsewhere) {
 TEST_F(TunedGains, CarryTheirCertificateIntoTheHeader) {
   const ProcessResult run = tune("");
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("certified"));
+  EXPECT_THAT(run.out, HasSubstr("worst case"));
   const Json certificate = gains().at("certificate");
   EXPECT_EQ(certificate.at("set"), "95 %");
   double damping = 1.0;

@@ -83,7 +83,8 @@ TEST(BreakEven, DoesNotDependOnThreadsAndStandsInTheFileOnlyWhenAskedFor) {
   const std::string text = comparison_text(*first, one, provenance);
   EXPECT_EQ(text, comparison_text(*second, one, provenance));
   EXPECT_THAT(text, HasSubstr("\"break_even\""));
-  EXPECT_THAT(comparison_table(*first), HasSubstr("differential ahead of steering in 1: "));
+  EXPECT_THAT(comparison_table(*first),
+              HasSubstr("differential ahead of steering in 1 scenario: "));
   Comparison without = *first;
   without.break_even.reset();
   EXPECT_THAT(comparison_text(without, one, provenance), Not(HasSubstr("break_even")));

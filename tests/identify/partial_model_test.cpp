@@ -52,7 +52,7 @@ TEST(PartialModel, SuggestsMissingParametersFirstAndRanksStraightTrials) {
     EXPECT_LE(trial.std_error_after, trial.std_error_before * (1.0 + 1e-9));
   }
   const std::string sheet = field_sheet(*suggestion, 3);
-  EXPECT_THAT(sheet, HasSubstr("for yaw.alpha, yaw.beta, of no value yet"));
+  EXPECT_THAT(sheet, HasSubstr("for yaw.alpha, yaw.beta, not identified yet"));
   EXPECT_THAT(suggestion_text(*suggestion, {}), HasSubstr("\"missing\""));
 }
 

@@ -131,7 +131,7 @@ TEST(Open, IsRefusedWhereTheDrawsDoNotTakeAllOfIt) {
   EXPECT_THAT(refused(options), HasSubstr("draws: 1 does not cover all 2 combinations"));
   options = short_search();
   options.judged_draws = 1;
-  EXPECT_THAT(refused(options), HasSubstr("judged_draws: 1 do not take"));
+  EXPECT_THAT(refused(options), HasSubstr("judged_draws: 1 does not cover"));
   options = short_search();
   options.nominal = true;
   EXPECT_THAT(refused(options), HasSubstr("which nominal disables"));

@@ -69,17 +69,25 @@ TEST(TyreFit, AVehicleWithoutTyresIsPredictedByTheModel) {
   }
 }
 
-/// A controller at 100 Hz whose commands alternate, and its log with every other row.
+/// The same log at 50 Hz with commands that alternate, of a controller at 50 Hz and of one at 100 Hz.
 TEST(TyreFit, CommandsLostBetweenRowsWidenTheIntervals) {
-  LogDrive drive{.friction = 0.5, .stiffness = 7.0};
-  drive.row_s = 0.01;
-  drive.alternating = 0.3;
-  DrivingLog log = every_other_row(driven(drive));
+  DrivingLog log = driven({.friction = 0.5, .stiffness = 7.0});
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    log.force_left[row] *= row % 2 == 0 ? 1.05 : 0.95;
+    log.force_right[row] *= row % 2 == 0 ? 1.05 : 0.95;
+  }
   std::vector<Finding> findings;
-  const auto fit = fitted(log, findings);
-  ASSERT_TRUE(fit && fit->friction && fit->cornering_per_rad);
-  EXPECT_TRUE(fit->friction->ci95->contains(0.5)) << *fit->friction->value;
-  EXPECT_TRUE(fit->cornering_per_rad->ci95->contains(7.0)) << *fit->cornering_per_rad->value;
+  Model model = identified();
+  model.vehicle.sample_time_s = 0.02;
+  const auto whole = fit_tyres({log}, model, findings).value();
+  model.vehicle.sample_time_s = 0.01;
+  const auto half = fit_tyres({log}, model, findings).value();
+  ASSERT_TRUE(whole && whole->friction && whole->cornering_per_rad);
+  ASSERT_TRUE(half && half->friction && half->cornering_per_rad);
+  EXPECT_EQ(*half->friction->value, *whole->friction->value);
+  EXPECT_EQ(*half->cornering_per_rad->value, *whole->cornering_per_rad->value);
+  EXPECT_GT(*half->friction->std_error, *whole->friction->std_error);
+  EXPECT_GT(*half->cornering_per_rad->std_error, *whole->cornering_per_rad->std_error);
 }
 
 TEST(TyreFit, NeedsBothKindsOfTurns) {

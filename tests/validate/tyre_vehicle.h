@@ -90,8 +90,6 @@ struct LogDrive {
   double apart = 0.5;          ///< the largest left/right force difference
   double steering_deg = 20.0;  ///< the largest
   unsigned seed = 1;
-  double row_s = 0.02;       ///< from row to row
-  double alternating = 0.0;  ///< of the forces: more in three rows, less in the next three
 };
 
 /// Parts of 4 s: a differential turn, a steered turn, or a steered turn that coasts for its first
@@ -116,11 +114,11 @@ inline Measured measured(std::size_t rows) {
   return {std::vector<double>(rows), std::vector<bool>(rows, true), static_cast<int>(rows), false};
 }
 
-/// By default 50 Hz, with noise of 2 cm/s, 0.5 deg/s and 1 deg.
+/// 50 Hz, with noise of 2 cm/s, 0.5 deg/s and 1 deg.
 inline DrivingLog driven(const LogDrive& drive) {
-  constexpr double kStep_s = 0.0005;
-  const auto steps_of_row = static_cast<int>(std::lround(drive.row_s / kStep_s));
-  const auto rows = static_cast<std::size_t>(std::lround(drive.duration_s / drive.row_s));
+  constexpr int kStepsOfRow = 40;
+  constexpr double kStep_s = 0.02 / kStepsOfRow;
+  const auto rows = static_cast<std::size_t>(drive.duration_s * 50.0);
   DrivingLog log;
   log.file = "drive.csv";
   log.steering_command_rad.emplace();
@@ -131,11 +129,8 @@ inline DrivingLog driven(const LogDrive& drive) {
   std::normal_distribution<double> normal;
   Numbers s{};
   for (std::size_t row = 0; row < rows; ++row) {
-    const double t_s = drive.row_s * static_cast<double>(row);
-    Commands c = commands(drive, t_s);
-    const double factor = 1.0 + drive.alternating * ((row / 3) % 2 == 0 ? 1.0 : -1.0);
-    c.left *= factor;
-    c.right *= factor;
+    const double t_s = 0.02 * static_cast<double>(row);
+    const Commands c = commands(drive, t_s);
     log.line.push_back(static_cast<int>(row) + 2);
     log.t_s.push_back(t_s);
     log.force_left.push_back(c.left);
@@ -144,7 +139,7 @@ inline DrivingLog driven(const LogDrive& drive) {
     log[LogChannel::kSpeed]->value[row] = s[3] + 0.02 * normal(random);
     log[LogChannel::kYawRate]->value[row] = s[5] + radians(0.5) * normal(random);
     log[LogChannel::kHeading]->value[row] = s[2] + radians(1.0) * normal(random);
-    for (int i = 0; i < steps_of_row; ++i) {
+    for (int i = 0; i < kStepsOfRow; ++i) {
       const auto at = [&](const Numbers& state) {
         return rates(state, c, drive.friction, drive.stiffness);
       };
@@ -156,26 +151,6 @@ inline DrivingLog driven(const LogDrive& drive) {
         s[j] += kStep_s / 6.0 * (k1[j] + 2.0 * k2[j] + 2.0 * k3[j] + k4[j]);
       }
     }
-  }
-  return log;
-}
-
-/// The log without rows 1, 3, ...
-inline DrivingLog every_other_row(DrivingLog log) {
-  const auto thin = [](auto& values) {
-    for (std::size_t i = 0; 2 * i < values.size(); ++i) values[i] = values[2 * i];
-    values.resize((values.size() + 1) / 2);
-  };
-  thin(log.line);
-  thin(log.t_s);
-  thin(log.force_left);
-  thin(log.force_right);
-  thin(*log.steering_command_rad);
-  for (const LogChannel channel :
-       {LogChannel::kSpeed, LogChannel::kYawRate, LogChannel::kHeading}) {
-    thin(log[channel]->value);
-    thin(log[channel]->fresh);
-    log[channel]->fresh_count = static_cast<int>(log[channel]->value.size());
   }
   return log;
 }
