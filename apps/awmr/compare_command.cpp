@@ -277,7 +277,7 @@ Result<Outcome> execute(const CompareCommand& command) {
   AWMR_RETURN_IF_ERROR(
       check_outputs(command.output, {"comparison.csv", json_of(command)}, inputs_of(command)));
   CompareOptions options = command.compare;
-  options.other_settings = !command.plant.kind;
+  options.other_settings = command.plant.runs_other();
   options.tyres = inputs.tyres;
   if (command.resume && command.shard) {
     if (is_finished_shard(command.output, options, provenance)) {

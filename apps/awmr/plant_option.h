@@ -25,7 +25,8 @@ struct PlantChoice {
   std::optional<PlantKind> kind = {};  ///< overrides the scenarios'; empty: no override
   /// validation.json whose tyres override the scenarios' and the defaults.
   std::optional<std::filesystem::path> tyres_file = {};
-  bool checks_other = false;  ///< without a `kind`, the other plant runs as well
+  bool checks_other = false;  ///< of `compare`: without a `kind`, the other plant runs as well
+  bool runs_other() const { return checks_other && !kind; }
 };
 
 inline constexpr const char* kPlantOption = "--plant";
@@ -62,7 +63,6 @@ inline void add_plant(CLI::App& command, PlantChoice& choice) {
 inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
   std::vector<std::string> names = names_in(kPlantKindNames);
   names.emplace_back(kBothPlants);
-  choice.checks_other = true;
   add_plant_of(command, choice, std::move(names),
                "both: four-wheel where a scenario has tyres, else model, and the ranking on the "
                "other plant and with slower and faster gains");
@@ -103,8 +103,7 @@ inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
   if (!faults.empty()) return input_errors(std::move(faults));
   const bool has_tyres =
       std::ranges::any_of(scenarios, [](const Scenario& s) { return s.tyres.has_value(); });
-  const bool runs_other = choice.checks_other && !choice.kind;
-  if (choice.tyres_file && !has_tyres && !runs_other) {
+  if (choice.tyres_file && !has_tyres && !choice.runs_other()) {
     return input_error(kTyresOption,
                        fmt::format("nothing runs on the four-wheel plant: leave it out, or give "
                                    "{} {}",

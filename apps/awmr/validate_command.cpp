@@ -194,7 +194,7 @@ void add_drive_options(CLI::App& sub, ValidateCommand& command) {
   add_choice(sub, "--mode", command.acceptance.mode, kYawModeNames,
              "Yaw-control mode of the drives (default combined)")
       ->needs(scenario);
-  sub.add_option("--draws", command.acceptance.draws, "Foretold drives (default 200)")
+  sub.add_option("--draws", command.acceptance.draws, "Predicted drives (default 200)")
       ->check(within(39, 10000))
       ->needs(scenario);
   sub.add_option("--seed", command.acceptance.seed, "Of the draws (default 1)")

@@ -79,7 +79,7 @@ const FaultHypothesis* hypothesis(const Acceptance& acceptance, std::string_view
   return nullptr;
 }
 
-TEST(Acceptance, TakesTheVehicleThatWasForetoldAtTheStatedRate) {
+TEST(Acceptance, AcceptsTheVehicleOfThePredictionAtTheStatedRate) {
   // 40 vehicles from the model's uncertainty: on average 2 are rejected by chance, more than 6 in 1
   // % of all series (binomial).
   const auto sampler = PlantSampler::make(uncertain_model());

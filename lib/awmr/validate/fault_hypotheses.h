@@ -10,7 +10,7 @@
 namespace awmr {
 
 /// Mean and standard deviation of the predictions of a channel, by window.
-struct ForetoldSeries {
+struct PredictedBand {
   std::vector<double> mean;
   std::vector<double> spread;
 };
@@ -19,7 +19,7 @@ struct ForetoldSeries {
 struct EvidenceChannel {
   const DriveChannel* channel;
   const WindowMeans* measured;
-  const ForetoldSeries* predicted;
+  const PredictedBand* predicted;
 };
 
 /// Fault hypotheses: each parameter, the motors, the sensors' biases and latencies, constant

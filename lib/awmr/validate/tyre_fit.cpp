@@ -162,10 +162,8 @@ std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, 
 /// True if a log has fewer rows than the controller has samples, so that commands between rows are lost.
 bool lose_commands(const std::vector<DrivingLog>& logs, double sample_time_s) {
   constexpr double kLonger = 1.2;  // than the sample time: beyond jitter
-  return std::ranges::any_of(logs, [&](const DrivingLog& log) {
-    const double mean_s = (log.t_s.back() - log.t_s.front()) / static_cast<double>(log.rows() - 1);
-    return mean_s > kLonger * sample_time_s;
-  });
+  return std::ranges::any_of(
+      logs, [&](const DrivingLog& log) { return log.median_step_s() > kLonger * sample_time_s; });
 }
 
 /// The logs with every other command, held over two rows.
@@ -186,8 +184,7 @@ std::vector<DrivingLog> with_half_of_the_commands(std::vector<DrivingLog> logs) 
 bool add_error_of_lost_commands(const std::vector<DrivingLog>& logs, const Plant<double>& plant,
                                 double motor_lag_s, const Plants& plants, ShownFit& shown) {
   const std::vector<DrivingLog> halved = with_half_of_the_commands(logs);
-  std::vector<ReplayedLog> replayed;
-  for (const DrivingLog& log : halved) replayed.emplace_back(log, plant, motor_lag_s);
+  const std::vector<ReplayedLog> replayed = replayed_logs(halved, plant, motor_lag_s);
   const std::vector<ReplayedWindow> all = windows_in(halved, replayed);
   const auto again = fit(evenly_chosen(all), plants, shown.is_free, shown.fit.at);
   if (!again || !again->converged) return false;
@@ -225,8 +222,7 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   };
   const Plants plants(plant);
   const double motor_lag_s = model.vehicle.motor_time_constant_s.value_or(0.0);
-  std::vector<ReplayedLog> replayed;
-  for (const DrivingLog& log : logs) replayed.emplace_back(log, plant, motor_lag_s);
+  const std::vector<ReplayedLog> replayed = replayed_logs(logs, plant, motor_lag_s);
   const std::vector<ReplayedWindow> all = windows_in(logs, replayed);
   if (auto missing = missing_turns(all, first, model.vehicle, plant)) {
     findings.push_back(*std::move(missing));
@@ -250,8 +246,7 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
       !add_error_of_lost_commands(logs, plant, motor_lag_s, plants, *shown)) {
     return refuse("tyres-not-converged",
                   "the tyres cannot be fitted with half of the logged commands, so that the error "
-                  "by commands between "
-                  "rows is not known: log every command of the controller");
+                  "from commands between rows is unknown: log every command of the controller");
   }
   const auto sums = held_out(windows, plants, *shown);
   if (!sums)

@@ -34,6 +34,10 @@ struct ReplayedLog {
   State<double> state_before(const LogWindow& rows) const;
 };
 
+/// In the order of the logs, which have to outlive them.
+std::vector<ReplayedLog> replayed_logs(const std::vector<DrivingLog>& logs,
+                                       const Plant<double>& plant, double motor_lag_s);
+
 struct ReplayedWindow {
   const ReplayedLog* log = nullptr;
   LogWindow rows;
