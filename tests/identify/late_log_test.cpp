@@ -1,11 +1,12 @@
-/// Logs with latency of steering, motors or sensors, and motor drivers that brake at a command of
-/// 0.
+/// Logs with latency of steering, motors or sensors, with a steering trim, or with unequal motors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "awmr/identify/logs/log_fit.h"
@@ -88,9 +89,13 @@ TEST(LateLog, AllowsForASpeedThatAFilterSmooths) {
 
 TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
   LogFit fit;
-  fit.quantities = {steering_delay(), motor_lag(), sensor_delay_of(LogChannel::kX),
-                    sensor_lag_of(LogChannel::kSpeed)};
-  fit.coordinates = {0.1, 0.2, 0.3, 0.4};
+  fit.quantities = {steering_delay(),
+                    motor_lag(),
+                    sensor_delay_of(LogChannel::kX),
+                    sensor_lag_of(LogChannel::kSpeed),
+                    steering_trim(),
+                    force_imbalance()};
+  fit.coordinates = {0.1, 0.2, 0.3, 0.4, 0.05, -0.1};
   LogFitOptions before;
   before.sensor_lags = {{LogChannel::kYawRate, 0.5}};
   const LogFitOptions options = with_delays_of(fit, before);
@@ -103,6 +108,42 @@ TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
   ASSERT_EQ(options.sensor_lags.size(), 1U);
   EXPECT_EQ(options.sensor_lags[0].channel, LogChannel::kSpeed);
   EXPECT_EQ(options.sensor_lags[0].delay_s, 0.4);
+  EXPECT_EQ(options.steering_trim_rad, 0.05);
+  EXPECT_EQ(options.force_imbalance, -0.1);
+}
+
+/// A fit of a log whose motors and steering have an error finds it, with its finding, and the truth.
+void expect_found(DrivingLog log, const Truth& truth, const std::string& name, double value,
+                  const std::string& code) {
+  TrialData data;
+  data.logs = {std::move(log)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto found = estimated(*result, name);
+  ASSERT_TRUE(found && found->std_error);
+  EXPECT_NEAR(found->value, value, 4.5 * *found->std_error);
+  EXPECT_TRUE(has_finding(*result, code));
+  EXPECT_FALSE(has_finding(*result, "model-inadequate"));
+  expect_recovered(*result, ParameterId::kMassNorm, truth.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kSurgeAlpha, truth.a1, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * truth.mass_norm, 4.5);
+}
+
+TEST(LateLog, FindsTheTrimOfASteeringThatIsOffCentre) {
+  for (const double trim_rad : {0.07, -0.03}) {
+    DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+    for (double& command : *log.steering_command_rad) command -= trim_rad;
+    expect_found(std::move(log), kTruths[1], "steering.trim_rad", trim_rad, "steering-trim");
+  }
+}
+
+TEST(LateLog, FindsMotorsThatPushMoreOnOneSide) {
+  for (const double imbalance : {0.05, -0.1}) {
+    DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+    for (double& force : log.force_left) force /= 1.0 - imbalance;
+    for (double& force : log.force_right) force /= 1.0 + imbalance;
+    expect_found(std::move(log), kTruths[1], "motor.imbalance", imbalance, "force-imbalance");
+  }
 }
 
 TEST(LateLog, GivesTheSameBytesOnALoadedMachine) {

@@ -233,6 +233,52 @@ TEST(LinearReplay, OfALateSensorChangesByTheMotionsRate) {
   EXPECT_LT(apart, here.size() * kStateSize / 20);
 }
 
+/// The motion with a steering trim, rad, and an imbalance of the forces as the only columns.
+std::vector<LinearMotion> with_errors(const DrivingLog& log, double trim_rad, double imbalance) {
+  constexpr double kStep_s = 0.004;
+  const LogSignals signals(log);
+  const CommandPath path{.steering_trim = OffsetColumn{trim_rad, 0},
+                         .imbalance = OffsetColumn{imbalance, 1}};
+  const Plant<double> plant = plant_by_hand(log.steering_command_rad.has_value(), kStep_s,
+                                            Drive::kFourWheel, Friction::kNone);
+  LinearStepper stepper(plant, 2, {}, columns_of(path));
+  std::vector<LinearMotion> motions;
+  const LinearMotion first{first_state<double>([](std::size_t, double x) { return x; }),
+                           std::vector<double>(kStateSize * 2, 0.0)};
+  replay_linear(signals, 0, log.rows(), path, stepper, kStep_s, first,
+                [&](std::size_t, const LinearMotion& motion) { motions.push_back(motion); });
+  return motions;
+}
+
+TEST(LinearReplay, OfErrorsOfTheCommandsHasTheDerivativesOfCentralDifferences) {
+  constexpr double kApart = 1e-6;
+  const double trim_rad = 0.03;
+  const double imbalance = -0.08;
+  for (const bool servo : {true, false}) {
+    const DrivingLog log = commands(servo);
+    const std::vector<LinearMotion> here = with_errors(log, trim_rad, imbalance);
+    const std::vector<LinearMotion> more[] = {with_errors(log, trim_rad + kApart, imbalance),
+                                              with_errors(log, trim_rad, imbalance + kApart)};
+    const std::vector<LinearMotion> less[] = {with_errors(log, trim_rad - kApart, imbalance),
+                                              with_errors(log, trim_rad, imbalance - kApart)};
+    for (std::size_t column = 0; column < 2; ++column) {
+      for (const LogChannel channel : kChannels) {
+        double largest = 1e-9;
+        for (const LinearMotion& motion : here) {
+          largest = std::max(largest, std::abs(motion.row(channel, 2)[column]));
+        }
+        for (std::size_t row = 1; row < here.size(); ++row) {
+          const double slope = (channel_of(more[column][row].state, channel) -
+                                channel_of(less[column][row].state, channel)) /
+                               (2.0 * kApart);
+          ASSERT_NEAR(here[row].row(channel, 2)[column], slope, 1e-4 * largest)
+              << info(channel).name << " by column " << column << " at row " << row;
+        }
+      }
+    }
+  }
+}
+
 TEST(ProductSums, EqualTheSumsOfAllRowsAndOfTheTriangle) {
   std::mt19937 chance(3);
   std::normal_distribution<double> normal;

@@ -477,7 +477,7 @@ TEST_F(Pil, BadInputIsTwo) {
 }
 
 TEST_F(Pil, OverTheUartItIsTheSameRun) {
-  const Json& uart = result_of(kC3, "--link uart");
+  const Json uart = result_of(kC3, "--link uart");
   EXPECT_EQ(uart["difference"], result_of(kC3)["difference"]);
   EXPECT_EQ(uart["difference_double"], result_of(kC3)["difference_double"]);
 }

@@ -30,7 +30,8 @@ constexpr double kSymmetryTolerance = 1e-9;
 /// True for the name of a parameter, or of another quantity that a fit estimates.
 bool is_estimated_name(std::string_view name) {
   return parameter_by_name(name) || name == kInputDelayName || name == kSteeringDelayName ||
-         name == kMotorLagName || name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
+         name == kSteeringTrimName || name == kForceImbalanceName || name == kMotorLagName ||
+         name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
          name == kQuadraticOverSurgeName || name.starts_with(kBiasPrefix) ||
          name.starts_with(kSensorDelayPrefix) || name.starts_with(kSensorLagPrefix);
 }

@@ -5,6 +5,9 @@
 
 namespace awmr {
 
+inline constexpr std::string_view kSteeringTrimName = "steering.trim_rad";
+inline constexpr std::string_view kForceImbalanceName = "motor.imbalance";
+
 inline constexpr std::string_view kSensorDelayPrefix = "delay.";  ///< + the channel's column
 inline constexpr std::string_view kSensorLagPrefix = "lag.";      ///< + the channel's column
 

@@ -176,6 +176,20 @@ double DrivingLog::median_step_s() const {
   return steps.back();
 }
 
+bool has_force_difference(const DrivingLog& log) {
+  constexpr double kMuch = 0.01;  // of the largest force
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    if (std::abs(log.force_right[i] - log.force_left[i]) > kMuch) return true;
+  }
+  return false;
+}
+
+bool has_steering_changes(const DrivingLog& log) {
+  constexpr double kLittle_rad = 1e-3;
+  const auto [least, most] = std::ranges::minmax(log.driving_steering_rad());
+  return most - least > kLittle_rad;
+}
+
 const std::vector<double>& DrivingLog::driving_steering_rad() const {
   return steering_command_rad ? *steering_command_rad : (*this)[LogChannel::kSteering]->value;
 }

@@ -70,6 +70,12 @@ struct DrivingLog {
   }
 };
 
+/// Whether the commanded left and right forces differ by more than 1 % of F_max in any row.
+bool has_force_difference(const DrivingLog& log);
+
+/// Whether the steering input, command or angle, changes by more than 1 mrad.
+bool has_steering_changes(const DrivingLog& log);
+
 /// Rows further apart than this many median steps are a gap, in which the commands are unknown.
 inline constexpr double kGapSteps = 10.0;
 

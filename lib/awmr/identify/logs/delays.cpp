@@ -21,7 +21,9 @@ bool has_delay(const std::vector<FreeQuantity>& quantities, LogChannel channel) 
   });
 }
 
-bool is_of_steering(const FreeQuantity& q) { return q.kind == FreeQuantity::Kind::kSteeringDelay; }
+bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind) {
+  return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.kind == kind; });
+}
 
 bool is_of_commands(const FreeQuantity& q) {
   return q.kind == FreeQuantity::Kind::kDelay || q.kind == FreeQuantity::Kind::kMotorLag;
@@ -33,8 +35,14 @@ bool frees_servo(const std::vector<FreeQuantity>& quantities) {
       quantities, [](const FreeQuantity& q) { return q.is(ParameterId::kSteeringTimeConstant); });
 }
 
+bool any_log(const LogProblem& problem, bool (*has)(const DrivingLog&)) {
+  return std::ranges::any_of(problem.windows,
+                             [&](const FitWindow& window) { return has(*window.rows.log); });
+}
+
 /// A delay of the commands and of every measured channel, one for both coordinates of the position,
-/// where they have none yet; none where all but one have. And one of the steering alone.
+/// where they have none yet; none where all but one have. One of the steering alone. The steering's
+/// trim and the imbalance of the forces, where the commands separate them from a constant moment.
 std::vector<FreeQuantity> candidates(const LogProblem& problem) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   std::vector<FreeQuantity> found;
@@ -45,16 +53,23 @@ std::vector<FreeQuantity> candidates(const LogProblem& problem) {
     found.push_back(sensor_delay_of(channel));
   }
   if (found.size() == 1) found.clear();
-  if (frees_servo(quantities) && std::ranges::none_of(quantities, is_of_steering)) {
+  using Kind = FreeQuantity::Kind;
+  if (frees_servo(quantities) && !has_kind(quantities, Kind::kSteeringDelay)) {
     found.push_back(steering_delay());
+  }
+  if (!has_kind(quantities, Kind::kSteeringTrim) && any_log(problem, has_steering_changes)) {
+    found.push_back(steering_trim());
+  }
+  if (!has_kind(quantities, Kind::kForceImbalance) && any_log(problem, has_force_difference)) {
+    found.push_back(force_imbalance());
   }
   return found;
 }
 
-/// A delay worth a try, with where one step would put it.
+/// A candidate worth a fit, with where one step would put it.
 struct CandidateTerm {
-  FreeQuantity delay;
-  double value_s;
+  FreeQuantity quantity;
+  double value;
   double significance;  ///< |value| over standard error, by the noise alone
 };
 
@@ -65,10 +80,10 @@ std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   const std::vector<ScoreTest> tests = score_test(settled.problem, settled.point, channels);
   std::vector<CandidateTerm> found;
   for (std::size_t i = 0; i < channels.size(); ++i) {
-    const double value_s = tests[i].value;
-    if (channels[i].may_be_zero() && !(value_s > 0.0)) continue;
-    const double significance = std::abs(value_s) / tests[i].noise_error;
-    if (significance > kWorthATry) found.push_back({channels[i], value_s, significance});
+    const double value = tests[i].value;
+    if (channels[i].may_be_zero() && !(value > 0.0)) continue;
+    const double significance = std::abs(value) / tests[i].noise_error;
+    if (significance > kWorthATry) found.push_back({channels[i], value, significance});
   }
   std::ranges::stable_sort(found, std::greater{}, &CandidateTerm::significance);
   return found;
@@ -78,12 +93,12 @@ double akaike_of(const NoiseIteration& fit) {
   return akaike(fit.problem.model.noise, rows_of(fit.problem.model.quantities));
 }
 
-/// One round of the fit with one more quantity free, from `begin_s`.
-NoiseIteration tried(const NoiseIteration& settled, const FreeQuantity& more, double begin_s,
+/// One round of the fit with one more quantity free, from `begin`.
+NoiseIteration tried(const NoiseIteration& settled, const FreeQuantity& more, double begin,
                      Loss loss) {
-  constexpr double kLongestFirstStep_s = 0.3;
-  begin_s = std::clamp(begin_s, -kLongestFirstStep_s, kLongestFirstStep_s);
-  Extended from = extended(with_white_noise(settled.problem), settled.point, {more}, {begin_s});
+  constexpr double kLargestFirstStep = 0.3;
+  begin = std::clamp(begin, -kLargestFirstStep, kLargestFirstStep);
+  Extended from = extended(with_white_noise(settled.problem), settled.point, {more}, {begin});
   return settle_noise(std::move(from.problem), std::move(from.point), loss, 1);
 }
 
@@ -92,8 +107,8 @@ bool may_be_smoothed(LogChannel channel) {
   return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate;
 }
 
-/// The likeliest fit with one more delay or lag free, of the commands, of the steering alone or of
-/// one sensor, after one round; none if no candidate term improves the fit.
+/// The likeliest fit with one more delay, lag or error free, of the commands, of the steering alone or
+/// of one sensor, after one round; none if no candidate term improves the fit.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
   // A filter of the speed looks like a lag of the motors, which more vehicles have, where no other
   // channel separates them; both give the same mass then. Else it has to be likelier by this much
@@ -113,18 +128,17 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   bool has_sensor = false;
   std::vector<std::pair<LogChannel, double>> filters;
   for (const CandidateTerm& candidate_term : candidate_terms(settled)) {
-    const FreeQuantity& delay = candidate_term.delay;
-    const bool is_sensor = delay.kind == FreeQuantity::Kind::kSensorDelay;
+    const FreeQuantity& more = candidate_term.quantity;
+    const bool is_sensor = more.kind == FreeQuantity::Kind::kSensorDelay;
     if (is_sensor && has_sensor) continue;
-    NoiseIteration delayed_fit = tried(settled, delay, candidate_term.value_s, loss);
-    const double found_s = delayed_fit.point.coordinates.back();
-    has_sensor |= consider(std::move(delayed_fit)) && is_sensor;
+    NoiseIteration fit = tried(settled, more, candidate_term.value, loss);
+    const double found_s = fit.point.coordinates.back();
+    has_sensor |= consider(std::move(fit)) && is_sensor;
     if (!(found_s > 0.0)) continue;
     // Also where a sensor's delay does as well as one of the commands: a lag may do better than both.
-    if (is_of_commands(delay) && !is_lag_given)
-      consider(tried(settled, motor_lag(), found_s, loss));
-    if (is_sensor && tells_filters && may_be_smoothed(delay.channel)) {
-      filters.emplace_back(delay.channel, found_s);
+    if (is_of_commands(more) && !is_lag_given) consider(tried(settled, motor_lag(), found_s, loss));
+    if (is_sensor && tells_filters && may_be_smoothed(more.channel)) {
+      filters.emplace_back(more.channel, found_s);
     }
   }
   for (const auto& [channel, found_s] : filters) {
@@ -133,7 +147,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   return best;
 }
 
-/// The fit with one more delay free, where that lowers AIC enough.
+/// The fit with one more of them free, where that lowers AIC enough.
 std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss loss) {
   constexpr double kPlainly = 10.0;  // of AIC
   std::optional<NoiseIteration> more = likeliest_with_one_more(settled, loss);
@@ -145,7 +159,7 @@ std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss 
 
 }  // namespace
 
-NoiseIteration allow_for_delays(NoiseIteration settled, Loss loss) {
+NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss) {
   while (auto more = with_one_more(settled, loss))
     settled = std::move(*more);  // ends: all have one
   return settled;

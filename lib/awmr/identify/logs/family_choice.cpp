@@ -258,6 +258,8 @@ FamilyFit with_delays_of_its_own(const std::vector<DrivingLog>& logs,
   options.input_delay_s = power_law.input_delay_s;
   options.steering_delay_s = power_law.steering_delay_s;
   options.motor_lag_s = power_law.motor_lag_s;
+  options.steering_trim_rad = power_law.steering_trim_rad;
+  options.force_imbalance = power_law.force_imbalance;
   options.sensor_delays = power_law.sensor_delays;
   options.sensor_lags = power_law.sensor_lags;
   options.candidate_terms = power_law.candidate_terms;

@@ -45,7 +45,7 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
   const Estimate* mass = estimate_of(ParameterId::kMassNorm);
   if (mass == nullptr) {
     return stage.reasons.contains(ParameterId::kMassNorm) &&
-                   std::ranges::none_of(logs, pushes_apart)
+                   std::ranges::none_of(logs, has_force_difference)
                ? "m' is not determined and only the steering turned the vehicle, so I'z is not "
                  "determined either"
                : "";

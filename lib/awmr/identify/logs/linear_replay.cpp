@@ -84,10 +84,11 @@ std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double
 }  // namespace
 
 LateColumns columns_of(const CommandPath& path) {
-  const auto column = [](const std::optional<DelayColumn>& delay) {
-    return delay ? std::optional(delay->column) : std::nullopt;
+  const auto column = [](const auto& term) {
+    return term ? std::optional(term->column) : std::nullopt;
   };
-  return {column(path.delay), column(path.steering_delay), path.lag_column};
+  return {column(path.delay), column(path.steering_delay), path.lag_column,
+          column(path.steering_trim), column(path.imbalance)};
 }
 
 const double* LinearMotion::row(LogChannel channel, std::size_t columns) const {
@@ -127,6 +128,8 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
   if (late_.lag) note_late({command.by_lag, 0.0}, *late_.lag, driven);
   if (late_.steering_delay)
     note_late({{}, command.steering_by_delay}, *late_.steering_delay, driven);
+  if (late_.steering_trim) note_late({{}, command.steering_by_trim}, *late_.steering_trim, driven);
+  if (late_.imbalance) note_late({command.by_imbalance, 0.0}, *late_.imbalance, driven);
 }
 
 void LinearStepper::note_late(const HeldCommand& by, std::size_t column, double* driven) const {
@@ -244,8 +247,11 @@ void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
 
 }  // namespace
 
-DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s, double h_s,
-                          const CommandPath& path) {
+namespace {
+
+/// The commands at the wheels, delayed and lagged, without the constant errors.
+DelayedCommand intended_command(const LogSignals& signals, std::size_t row, double t_s, double h_s,
+                                const CommandPath& path) {
   const DrivingLog& log = *signals.log;
   const std::vector<double>& steering = log.driving_steering_rad();
   DelayedCommand at{{{log.force_left[row], log.force_right[row]}, steering[row]}};
@@ -272,17 +278,42 @@ DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s
   return at;
 }
 
+}  // namespace
+
+DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s, double h_s,
+                          const CommandPath& path) {
+  DelayedCommand at = intended_command(signals, row, t_s, h_s, path);
+  if (path.steering_trim) {
+    at.command.steering_rad += path.steering_trim->value;
+    at.steering_by_trim = 1.0;
+  }
+  if (path.imbalance) {
+    at.by_imbalance = {-at.command.force.left, at.command.force.right};
+    for (SideForces<double>* const force : {&at.command.force, &at.by_delay.force, &at.by_lag}) {
+      force->left *= 1.0 - path.imbalance->value;
+      force->right *= 1.0 + path.imbalance->value;
+    }
+  }
+  return at;
+}
+
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
-                            const DelayColumn& delay, double longest_step_s) {
+                            const DelayColumn& delay, double longest_step_s,
+                            const CommandPath& errors) {
   const DrivingLog& log = *signals.log;
   const double now_s = log.t_s[begin + motions.size() - 1];
   const double then_s = now_s - delay.delay_s;
   std::size_t row = begin + motions.size() - 1;
   while (row > begin && log.t_s[row] > then_s) --row;
   LinearMotion motion = motions[row - begin];
-  DelayedCommand command = command_at(signals, row, log.t_s[row], 1.0, {});
-  if (!log.steering_command_rad) command.command.steering_rad = motion.state.steering_rad;
+  DelayedCommand command =
+      command_at(signals, row, log.t_s[row], 1.0,
+                 {.steering_trim = errors.steering_trim, .imbalance = errors.imbalance});
+  if (!log.steering_command_rad) {
+    command.command.steering_rad = motion.state.steering_rad;
+    command.steering_by_trim = 0.0;
+  }
   const double span_s = now_s - log.t_s[row] - delay.delay_s;
   State<double> rates{};
   if (span_s == 0.0) {

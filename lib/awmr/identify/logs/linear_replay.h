@@ -36,12 +36,21 @@ struct DelayColumn {
   std::size_t column;
 };
 
-/// Path of the logged commands to the wheels: direct, delayed, or through motor lag.
+/// A constant error of the commands and the column that its derivatives fill.
+struct OffsetColumn {
+  double value;
+  std::size_t column;
+};
+
+/// Path of the logged commands to the wheels: direct, delayed, through motor lag, or with a constant
+/// error.
 struct CommandPath {
   std::optional<DelayColumn> delay = {};  ///< of all commands; negative: their time stamps are late
   std::optional<DelayColumn> steering_delay = {};  ///< of the steering, on top of that
   std::optional<LaggedForces> lag = {};
-  std::optional<std::size_t> lag_column = {};  ///< where the lag is free
+  std::optional<std::size_t> lag_column = {};      ///< where the lag is free
+  std::optional<OffsetColumn> steering_trim = {};  ///< rad, added to command or logged angle
+  std::optional<OffsetColumn> imbalance = {};  ///< e: left forces times 1 - e, right times 1 + e
   /// A motor is off as soon as its command is 0, whatever its lag, like motors with back-EMF.
   bool switches_off = false;
 };
@@ -51,6 +60,8 @@ struct LateColumns {
   std::optional<std::size_t> delay = {};
   std::optional<std::size_t> steering_delay = {};
   std::optional<std::size_t> lag = {};
+  std::optional<std::size_t> steering_trim = {};
+  std::optional<std::size_t> imbalance = {};
 };
 LateColumns columns_of(const CommandPath& path);
 
@@ -60,6 +71,8 @@ struct DelayedCommand {
   HeldCommand by_delay{};
   double steering_by_delay = 0.0;  ///< by a delay of the steering alone
   SideForces<double> by_lag{};
+  SideForces<double> by_imbalance{};
+  double steering_by_trim = 0.0;  ///< 1, or 0 where the angle itself was logged
 };
 
 /// Moves the state and its derivatives on.
@@ -123,13 +136,15 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
   const DrivingLog& log = *signals.log;
   const bool servo = log.steering_command_rad.has_value();
   const std::size_t columns = stepper.columns();
-  // A logged angle does not depend on the parameters.
+  // A logged angle depends on its trim alone.
   const auto steer = [&](std::size_t row, double share) {
     const std::vector<double>& angle = log[LogChannel::kSteering]->value;
     motion.state.steering_rad =
         angle[row] + share * (angle[std::min(row + 1, log.rows() - 1)] - angle[row]);
+    if (path.steering_trim) motion.state.steering_rad += path.steering_trim->value;
     double* const by_column = motion.row(LogChannel::kSteering, columns);
     std::fill(by_column, by_column + columns, 0.0);
+    if (path.steering_trim && columns > 0) by_column[path.steering_trim->column] = 1.0;
   };
   for (std::size_t row = begin; row < end; ++row) {
     if (!servo) steer(row, 0.0);
@@ -143,7 +158,7 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
       if (!servo) {
         steer(row, (i + 0.5) / steps);
         command.command.steering_rad = motion.state.steering_rad;
-        command.by_delay.steering_rad = command.steering_by_delay = 0.0;
+        command.by_delay.steering_rad = command.steering_by_delay = command.steering_by_trim = 0.0;
       }
       stepper.step(command, h, motion);
     }
@@ -152,8 +167,10 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
 
 /// The motion delay.delay_s >= 0 before the last of `motions`, the motions at the rows from `begin`
 /// on: so many Runge-Kutta steps from the row before. Before the first row the rates there hold.
+/// `errors`: its constant errors apply to the commands, not its delays.
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
-                            const DelayColumn& delay, double longest_step_s);
+                            const DelayColumn& delay, double longest_step_s,
+                            const CommandPath& errors = {});
 
 }  // namespace awmr

@@ -81,7 +81,7 @@ std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double
   problem.model.longest_step_s = step_s_at(problem.model, coordinates);
   NoiseIteration settled =
       settle_noise(std::move(problem), from_measured(guess, coordinates), options.loss);
-  if (options.finds_delays) settled = allow_for_delays(std::move(settled), options.loss);
+  if (options.finds_delays) settled = find_delays_and_errors(std::move(settled), options.loss);
   const Solved solved = solve(settled.problem, settled.point, kFine);
   const std::vector<WindowSums> sums =
       sums_at(settled.problem, solved.point, block_length_s(settled.problem.model.noise));
@@ -127,15 +127,17 @@ LogFitOptions with_delays_of(const LogFit& fit, LogFitOptions options) {
   options.sensor_lags.clear();
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
-    const double found_s = fit.coordinates[i];
-    if (q.kind == FreeQuantity::Kind::kDelay) options.input_delay_s = found_s;
-    if (q.kind == FreeQuantity::Kind::kSteeringDelay) options.steering_delay_s = found_s;
-    if (q.kind == FreeQuantity::Kind::kMotorLag) options.motor_lag_s = found_s;
+    const double found = fit.coordinates[i];
+    if (q.kind == FreeQuantity::Kind::kDelay) options.input_delay_s = found;
+    if (q.kind == FreeQuantity::Kind::kSteeringDelay) options.steering_delay_s = found;
+    if (q.kind == FreeQuantity::Kind::kMotorLag) options.motor_lag_s = found;
+    if (q.kind == FreeQuantity::Kind::kSteeringTrim) options.steering_trim_rad = found;
+    if (q.kind == FreeQuantity::Kind::kForceImbalance) options.force_imbalance = found;
     if (q.kind == FreeQuantity::Kind::kSensorDelay) {
-      options.sensor_delays.push_back({q.channel, found_s});
+      options.sensor_delays.push_back({q.channel, found});
     }
     if (q.kind == FreeQuantity::Kind::kSensorLag) {
-      options.sensor_lags.push_back({q.channel, found_s});
+      options.sensor_lags.push_back({q.channel, found});
     }
   }
   return options;

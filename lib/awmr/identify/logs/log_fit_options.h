@@ -53,7 +53,10 @@ struct LogFitOptions {
   /// The time constant of the motors is free, with where the search begins; never where the vehicle file
   /// gives it: it is held there then.
   std::optional<double> motor_lag_s;
-  std::vector<LogChannel> biases;  ///< channels whose constant offset is free
+  std::optional<double>
+      steering_trim_rad;                  ///< steering_trim() is free, with where the search begins
+  std::optional<double> force_imbalance;  ///< force_imbalance() is free, in the same way
+  std::vector<LogChannel> biases;         ///< channels whose constant offset is free
   /// Sensor delays that are free, with where the search begins.
   std::vector<SensorDelay> sensor_delays;
   /// Time constants of filters that smooth a channel, in the same way.

@@ -16,6 +16,7 @@
 #include "awmr/identify/logs/agreement.h"
 #include "awmr/identify/logs/back_emf.h"
 #include "awmr/identify/logs/between_logs.h"
+#include "awmr/identify/logs/command_findings.h"
 #include "awmr/identify/logs/cross_validation.h"
 #include "awmr/identify/logs/inertia_check.h"
 #include "awmr/identify/logs/initial_guess.h"
@@ -43,14 +44,6 @@ bool any_has(const std::vector<DrivingLog>& logs, std::initializer_list<LogChann
   });
 }
 
-/// Whether the steering command ever changes.
-bool moves_steering(const DrivingLog& log) {
-  constexpr double kLittle_rad = 1e-3;
-  if (!log.steering_command_rad) return false;
-  const auto [least, most] = std::ranges::minmax(*log.steering_command_rad);
-  return most - least > kLittle_rad;
-}
-
 /// Why no channel or command of the logs could show a parameter, before any search; empty: one
 /// might. What is merely coupled to a channel, as yaw is to speed, is not shown by it.
 std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
@@ -59,7 +52,8 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
       const bool any_servo = std::ranges::any_of(
           logs, [](const DrivingLog& log) { return log.steering_command_rad.has_value(); });
       if (!any_servo) return "the logs contain the measured steering angle, not its command";
-      return std::ranges::any_of(logs, moves_steering) ? "" : "the steering command never changes";
+      return std::ranges::any_of(logs, has_steering_changes) ? ""
+                                                             : "the steering command never changes";
     }
     case ParameterId::kSurgeAlpha:
     case ParameterId::kSurgeBeta:
@@ -89,9 +83,9 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
 bool turns(const std::vector<DrivingLog>& logs) {
   constexpr double kMuch_rad = 0.01;
   return std::ranges::any_of(logs, [](const DrivingLog& log) {
-    return pushes_apart(log) || std::ranges::any_of(log.driving_steering_rad(), [](double angle) {
-             return std::abs(angle) > kMuch_rad;
-           });
+    return has_force_difference(log) ||
+           std::ranges::any_of(log.driving_steering_rad(),
+                               [](double angle) { return std::abs(angle) > kMuch_rad; });
   });
 }
 
@@ -305,107 +299,6 @@ void refuse_all(const FamilyFit& chosen, const std::string& file, LogStage& stag
   }
 }
 
-/// A delay that the fit found, and its standard error.
-struct FoundDelay {
-  FreeQuantity quantity;
-  double value_s;
-  double error_s;
-};
-
-/// The delays, of sensors or of the commands, that are more than chance and a millisecond.
-std::vector<FoundDelay> found_delays(const LogFit& fit, FreeQuantity::Kind kind) {
-  constexpr double kShortest_s = 1e-3;
-  std::vector<FoundDelay> found;
-  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    if (fit.quantities[i].kind != kind || !fit.why_not[i].empty()) continue;
-    const double error_s = std::sqrt(fit.covariance(eigen_index(i), eigen_index(i)));
-    if (std::abs(fit.coordinates[i]) < std::max(kShortest_s, 2.0 * error_s)) continue;
-    found.push_back({fit.quantities[i], fit.coordinates[i], error_s});
-  }
-  return found;
-}
-
-/// Reports latency of the commands (dead time or motor lag) or of their time stamps, or equal
-/// latency of two or more motion channels, which has a common cause.
-std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
-  constexpr std::string_view kWhy =
-      "actuator lag, command latency or a slew-rate limit. m', I'z and the sway resistance may be "
-      "biased. Log the commands that reach the motors, or record slower steps";
-  for (const FoundDelay& lag : found_delays(fit, FreeQuantity::Kind::kMotorLag)) {
-    return {
-        {file, 0, Severity::kWarning, "actuator-lag",
-         fmt::format("the motors have a lag with a time constant of {:.3f} +- {:.3f} s; the fit "
-                     "compensates. Set motor.time_constant_s in the vehicle file",
-                     lag.value_s, lag.error_s)}};
-  }
-  for (const FoundDelay& input : found_delays(fit, FreeQuantity::Kind::kDelay)) {
-    if (input.value_s < 0.0) {
-      return {{file, 0, Severity::kWarning, "late-commands",
-               fmt::format("the vehicle responds {:.3f} +- {:.3f} s before its commands: the "
-                           "commands' time stamps are late, or all sensors' are early; the fit "
-                           "compensates",
-                           -input.value_s, input.error_s)}};
-    }
-    return {
-        {file, 0, Severity::kWarning, "actuator-lag",
-         fmt::format("the vehicle responds {:.3f} +- {:.3f} s after its commands, more likely by a "
-                     "dead time than by motor lag; the fit compensates, a controller has to allow "
-                     "for it",
-                     input.value_s, input.error_s)}};
-  }
-  const std::vector<FoundDelay> latency = found_delays(fit, FreeQuantity::Kind::kSensorDelay);
-  std::set<LogChannel> channels;
-  for (const auto& [channel, noise] : fit.noise) {
-    channels.insert(channel == LogChannel::kY ? LogChannel::kX : channel);
-  }
-  if (channels.size() < 2 || latency.size() < channels.size()) return {};
-  const auto [least, most] = std::ranges::minmax(latency, {}, &FoundDelay::value_s);
-  return {{file, 0, Severity::kWarning, "actuator-lag",
-           fmt::format("all sensors appear delayed by {:.3f} to {:.3f} s, which indicates a common "
-                       "cause: {}",
-                       least.value_s, most.value_s, kWhy)}};
-}
-
-/// `sensor-delay` for every sensor with an estimated latency.
-std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) {
-  std::vector<Finding> findings;
-  for (const auto& [quantity, value_s, error_s] :
-       found_delays(fit, FreeQuantity::Kind::kSensorDelay)) {
-    const LogChannel channel = quantity.channel;
-    findings.push_back(
-        {file, 0, Severity::kWarning, "sensor-delay",
-         fmt::format(
-             "{} {} delayed by {:.3f} +- {:.3f} s relative to the commands; the fit compensates, a "
-             "controller that uses it has to allow for it",
-             channel == LogChannel::kX ? "the position" : info(channel).name,
-             channel == LogChannel::kX ? "comes" : "is read", value_s, error_s)});
-  }
-  for (const auto& [quantity, value_s, error_s] :
-       found_delays(fit, FreeQuantity::Kind::kSensorLag)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "sensor-lag",
-         fmt::format("{} is low-pass filtered with a time constant of {:.3f} +- {:.3f} s; the fit "
-                     "compensates. Log the unfiltered reading, or make the filter faster",
-                     info(quantity.channel).name, value_s, error_s)});
-  }
-  return findings;
-}
-
-/// `steering-delay`: the steering acts later than the forces, by more than the servo's lag.
-std::vector<Finding> steering_findings(const LogFit& fit, const std::string& file) {
-  std::vector<Finding> findings;
-  for (const FoundDelay& latency : found_delays(fit, FreeQuantity::Kind::kSteeringDelay)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "steering-delay",
-         fmt::format(
-             "the steering begins to move {:.3f} +- {:.3f} s after its command, in addition to the "
-             "servo's time constant; the fit compensates. Shorten the servo's frame or bus cycle, "
-             "or add that latency in tuning",
-             latency.value_s, latency.error_s)});
-  }
-  return findings;
-}
-
 /// `logs-disagree` for everything that is not the same in every log.
 std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements) {
   std::vector<Finding> findings;
@@ -440,9 +333,7 @@ Finding in_words(const HeldOut& missed, const std::string& file) {
 void take(const LogFit& fit, const Model& model, bool overrule, const std::string& file,
           LogStage& stage) {
   stage.block = fit.covariance;
-  append(stage.findings, delay_findings(fit, file));
-  append(stage.findings, steering_findings(fit, file));
-  append(stage.findings, actuator_findings(fit, file));
+  append(stage.findings, command_and_sensor_findings(fit, file));
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
     const bool parameter = q.kind == FreeQuantity::Kind::kParameter;
@@ -486,7 +377,7 @@ std::vector<Finding> speed_findings(const Vehicle& vehicle, const std::vector<Dr
   const double surge = value(ParameterId::kSurgeAlpha);
   const double ratio =
       value(ParameterId::kYawAlpha) / (surge * vehicle.half_track_m * vehicle.half_track_m);
-  if (!(surge > 0.0) || std::ranges::none_of(logs, pushes_apart) ||
+  if (!(surge > 0.0) || std::ranges::none_of(logs, has_force_difference) ||
       !is_linear(stage.surge_family, ParameterId::kSurgeBeta) ||
       !is_linear(stage.yaw_family, ParameterId::kYawBeta) || !(std::abs(ratio - 1.0) < kOfRatio)) {
     return {};
@@ -501,14 +392,6 @@ std::vector<Finding> speed_findings(const Vehicle& vehicle, const std::vector<Dr
 }
 
 }  // namespace
-
-bool pushes_apart(const DrivingLog& log) {
-  constexpr double kMuch = 0.01;  // of the largest force
-  for (std::size_t i = 0; i < log.rows(); ++i) {
-    if (std::abs(log.force_right[i] - log.force_left[i]) > kMuch) return true;
-  }
-  return false;
-}
 
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                                const IdentifyOptions& options,

@@ -33,9 +33,6 @@ struct LogStage {
   bool withdraws_intervals = false;  ///< the values are shown without standard errors and intervals
 };
 
-/// Whether the commanded forces of the two sides differ anywhere.
-bool pushes_apart(const DrivingLog& log);
-
 /// Fits the logs from the model's values so far. All of `asked` are free; others are held at their
 /// value, or free as well where they have none. `overrule`: the logs also fill what other trials
 /// did.

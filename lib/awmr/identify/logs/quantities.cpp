@@ -13,7 +13,15 @@ namespace {
 
 Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& vehicle) {
   constexpr double kLongest_s = 1.0;
+  constexpr double kLargestTrim_rad = 0.35;
+  constexpr double kLargestImbalance = 0.5;
   if (quantity.kind == FreeQuantity::Kind::kDelay) return {-kLongest_s, kLongest_s};
+  if (quantity.kind == FreeQuantity::Kind::kSteeringTrim) {
+    return {-kLargestTrim_rad, kLargestTrim_rad};
+  }
+  if (quantity.kind == FreeQuantity::Kind::kForceImbalance) {
+    return {-kLargestImbalance, kLargestImbalance};
+  }
   if (quantity.may_be_zero()) return {0.0, kLongest_s};
   if (quantity.kind == FreeQuantity::Kind::kBias) return {-1e6, 1e6};
   if (quantity.id == ParameterId::kSurgeBeta) {
@@ -43,6 +51,10 @@ std::string FreeQuantity::name() const {
       return std::string(kSteeringDelayName);
     case Kind::kMotorLag:
       return std::string(kMotorLagName);
+    case Kind::kSteeringTrim:
+      return std::string(kSteeringTrimName);
+    case Kind::kForceImbalance:
+      return std::string(kForceImbalanceName);
     case Kind::kSensorDelay:
       return fmt::format("{}{}", kSensorDelayPrefix, info(channel).name);
     case Kind::kSensorLag:
@@ -72,6 +84,14 @@ FreeQuantity steering_delay() {
 
 FreeQuantity motor_lag() { return {.kind = FreeQuantity::Kind::kMotorLag, .large_change = 0.1}; }
 
+FreeQuantity steering_trim() {
+  return {.kind = FreeQuantity::Kind::kSteeringTrim, .large_change = 0.1};
+}
+
+FreeQuantity force_imbalance() {
+  return {.kind = FreeQuantity::Kind::kForceImbalance, .large_change = 0.1};
+}
+
 FreeQuantity sensor_delay_of(LogChannel channel) {
   return {.kind = FreeQuantity::Kind::kSensorDelay, .channel = channel, .large_change = 0.1};
 }
@@ -86,6 +106,8 @@ std::vector<FreeQuantity> free_quantities(const LogFitOptions& options) {
   if (options.input_delay_s) quantities.push_back(input_delay());
   if (options.steering_delay_s) quantities.push_back(steering_delay());
   if (options.motor_lag_s) quantities.push_back(motor_lag());
+  if (options.steering_trim_rad) quantities.push_back(steering_trim());
+  if (options.force_imbalance) quantities.push_back(force_imbalance());
   for (const LogChannel channel : options.biases) {
     quantities.push_back({.kind = FreeQuantity::Kind::kBias, .channel = channel});
   }
@@ -114,6 +136,12 @@ std::vector<double> initial_coordinates(const std::vector<FreeQuantity>& quantit
         break;
       case FreeQuantity::Kind::kMotorLag:
         coordinates.push_back(*options.motor_lag_s);
+        break;
+      case FreeQuantity::Kind::kSteeringTrim:
+        coordinates.push_back(*options.steering_trim_rad);
+        break;
+      case FreeQuantity::Kind::kForceImbalance:
+        coordinates.push_back(*options.force_imbalance);
         break;
       case FreeQuantity::Kind::kBias:
         coordinates.push_back(0.0);

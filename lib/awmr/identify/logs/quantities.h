@@ -1,4 +1,5 @@
-/// The free numbers of a fit of logs: parameters, the input delay, biases. Private to identify/.
+/// The free numbers of a fit of logs: parameters, delays, errors of the commands, biases. Private to
+/// identify/.
 #pragma once
 
 #include <string>
@@ -13,12 +14,15 @@ namespace awmr {
 /// One free number. The search moves its coordinate, which is the value or its logarithm.
 struct FreeQuantity {
   /// kDelay: of all commands; kSteeringDelay: of the steering alone, on top of that; kMotorLag: the time
-  /// constant of the motors; kSensorLag: that of a filter which smooths a channel.
+  /// constant of the motors; kSensorLag: that of a filter which smooths a channel; kSteeringTrim: the
+  /// steering angle at a command of 0; kForceImbalance: half the relative difference of right and left.
   enum class Kind {
     kParameter,
     kDelay,
     kSteeringDelay,
     kMotorLag,
+    kSteeringTrim,
+    kForceImbalance,
     kSensorDelay,
     kSensorLag,
     kBias
@@ -54,14 +58,20 @@ FreeQuantity steering_delay();
 /// The time constant of the motors, s.
 FreeQuantity motor_lag();
 
+/// The steering angle at a command of 0, rad; positive: to the left.
+FreeQuantity steering_trim();
+
+/// e of motors that push with (1 - e) times the command on the left and (1 + e) times on the right.
+FreeQuantity force_imbalance();
+
 /// The time constant of a first-order filter that smooths a channel, s.
 FreeQuantity sensor_lag_of(LogChannel channel);
 
 /// Latency of a channel, s.
 FreeQuantity sensor_delay_of(LogChannel channel);
 
-/// Free quantities of a fit, in this order: the parameters, the delays and the lag of the commands,
-/// the biases, the sensors' delays, their lags.
+/// Free quantities of a fit, in this order: the parameters, the delays, the lag and the errors of the
+/// commands, the biases, the sensors' delays, their lags.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);
 
 /// By quantity: the coordinate at the initial guess; a bias begins at zero.

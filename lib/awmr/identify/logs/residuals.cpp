@@ -64,6 +64,12 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
         u.path.lag.emplace(*window.rows.log, window.rows.begin, window.rows.end, number);
         u.path.lag_column = i;
         break;
+      case FreeQuantity::Kind::kSteeringTrim:
+        u.path.steering_trim = {number, i};
+        break;
+      case FreeQuantity::Kind::kForceImbalance:
+        u.path.imbalance = {number, i};
+        break;
       case FreeQuantity::Kind::kSensorLag:
         u.sensor_lag[at(quantity.channel)] = {number, i};
         break;
@@ -90,14 +96,18 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
   for (std::size_t i = 0; i < model.initial.size(); ++i) {
     channel_of(u.initial, model.initial[i].channel) = initial_state[i];
   }
+  if (u.path.steering_trim) u.initial.steering_rad += u.path.steering_trim->value;
   return u;
 }
 
-/// Initial derivatives by the initial state: 1 for the component itself.
+/// Initial derivatives: 1 by the component itself, and of the steering angle by its trim.
 LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t columns) {
   LinearMotion motion{u.initial, std::vector<double>(kStateSize * columns, 0.0)};
   for (std::size_t i = 0; columns > 0 && i < model.initial.size(); ++i) {
     motion.row(model.initial[i].channel, columns)[model.quantities.size() + i] = 1.0;
+  }
+  if (u.path.steering_trim && columns > 0) {
+    motion.row(LogChannel::kSteering, columns)[u.path.steering_trim->column] = 1.0;
   }
   return motion;
 }
@@ -151,21 +161,21 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
     }
     visit(next, error, row);
   };
-  replay_linear(
-      *window.signals, window.rows.begin, window.rows.end, u.path, stepper, h,
-      first_motion(model, u, columns), [&](std::size_t at_row, const LinearMotion& now) {
-        if (any_late) motions.push_back(now);
-        follow(at_row, now);
-        for (; next < samples.size() && samples[next].row == at_row; ++next) {
-          const auto& latency = u.sensor_delay[at(samples[next].channel)];
-          if (!latency) {
-            compare(now, samples[next]);
-            continue;
-          }
-          compare(earlier_motion(*window.signals, window.rows.begin, motions, back, *latency, h),
-                  samples[next]);
-        }
-      });
+  replay_linear(*window.signals, window.rows.begin, window.rows.end, u.path, stepper, h,
+                first_motion(model, u, columns), [&](std::size_t at_row, const LinearMotion& now) {
+                  if (any_late) motions.push_back(now);
+                  follow(at_row, now);
+                  for (; next < samples.size() && samples[next].row == at_row; ++next) {
+                    const auto& latency = u.sensor_delay[at(samples[next].channel)];
+                    if (!latency) {
+                      compare(now, samples[next]);
+                      continue;
+                    }
+                    compare(earlier_motion(*window.signals, window.rows.begin, motions, back,
+                                           *latency, h, u.path),
+                            samples[next]);
+                  }
+                });
 }
 
 /// The weak pull of a component of the initial state to what was measured.

@@ -1,0 +1,143 @@
+#include "awmr/identify/logs/command_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "awmr/core/index.h"
+#include "awmr/core/units.h"
+
+namespace awmr {
+namespace {
+
+/// An identified delay, lag or command error, and its standard error.
+struct FoundTerm {
+  FreeQuantity quantity;
+  double value;
+  double error;
+};
+
+/// Those of one kind beyond two standard errors and 1 ms, 1 mrad or 0.1 %.
+std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
+  constexpr double kSmallest = 1e-3;
+  std::vector<FoundTerm> found;
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    if (fit.quantities[i].kind != kind || !fit.why_not[i].empty()) continue;
+    const double error = std::sqrt(fit.covariance(eigen_index(i), eigen_index(i)));
+    if (std::abs(fit.coordinates[i]) < std::max(kSmallest, 2.0 * error)) continue;
+    found.push_back({fit.quantities[i], fit.coordinates[i], error});
+  }
+  return found;
+}
+
+/// Reports latency of the commands (dead time or motor lag) or of their time stamps, or equal
+/// latency of two or more motion channels, which has a common cause.
+std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
+  constexpr std::string_view kWhy =
+      "actuator lag, command latency or a slew-rate limit. m', I'z and the sway resistance may be "
+      "biased. Log the commands that reach the motors, or record slower steps";
+  for (const FoundTerm& lag : found_terms(fit, FreeQuantity::Kind::kMotorLag)) {
+    return {
+        {file, 0, Severity::kWarning, "actuator-lag",
+         fmt::format("the motors have a lag with a time constant of {:.3f} +- {:.3f} s; the fit "
+                     "compensates. Set motor.time_constant_s in the vehicle file",
+                     lag.value, lag.error)}};
+  }
+  for (const FoundTerm& input : found_terms(fit, FreeQuantity::Kind::kDelay)) {
+    if (input.value < 0.0) {
+      return {{file, 0, Severity::kWarning, "late-commands",
+               fmt::format("the vehicle responds {:.3f} +- {:.3f} s before its commands: the "
+                           "commands' time stamps are late, or all sensors' are early; the fit "
+                           "compensates",
+                           -input.value, input.error)}};
+    }
+    return {
+        {file, 0, Severity::kWarning, "actuator-lag",
+         fmt::format("the vehicle responds {:.3f} +- {:.3f} s after its commands, more likely by a "
+                     "dead time than by motor lag; the fit compensates, a controller has to allow "
+                     "for it",
+                     input.value, input.error)}};
+  }
+  const std::vector<FoundTerm> latency = found_terms(fit, FreeQuantity::Kind::kSensorDelay);
+  std::set<LogChannel> channels;
+  for (const auto& [channel, noise] : fit.noise) {
+    channels.insert(channel == LogChannel::kY ? LogChannel::kX : channel);
+  }
+  if (channels.size() < 2 || latency.size() < channels.size()) return {};
+  const auto [least, most] = std::ranges::minmax(latency, {}, &FoundTerm::value);
+  return {{file, 0, Severity::kWarning, "actuator-lag",
+           fmt::format("all sensors appear delayed by {:.3f} to {:.3f} s, which indicates a common "
+                       "cause: {}",
+                       least.value, most.value, kWhy)}};
+}
+
+/// `sensor-delay` for every sensor with an estimated latency.
+std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
+  for (const auto& [quantity, value_s, error_s] :
+       found_terms(fit, FreeQuantity::Kind::kSensorDelay)) {
+    const LogChannel channel = quantity.channel;
+    findings.push_back(
+        {file, 0, Severity::kWarning, "sensor-delay",
+         fmt::format(
+             "{} {} delayed by {:.3f} +- {:.3f} s relative to the commands; the fit compensates, a "
+             "controller that uses it has to allow for it",
+             channel == LogChannel::kX ? "the position" : info(channel).name,
+             channel == LogChannel::kX ? "comes" : "is read", value_s, error_s)});
+  }
+  for (const auto& [quantity, value_s, error_s] :
+       found_terms(fit, FreeQuantity::Kind::kSensorLag)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "sensor-lag",
+         fmt::format("{} is low-pass filtered with a time constant of {:.3f} +- {:.3f} s; the fit "
+                     "compensates. Log the unfiltered reading, or make the filter faster",
+                     info(quantity.channel).name, value_s, error_s)});
+  }
+  return findings;
+}
+
+/// `steering-delay`: the steering acts later than the forces, by more than the servo's lag.
+/// `steering-trim`, `force-imbalance`: constant errors of the commands.
+std::vector<Finding> steering_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
+  for (const FoundTerm& latency : found_terms(fit, FreeQuantity::Kind::kSteeringDelay)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "steering-delay",
+         fmt::format(
+             "the steering begins to move {:.3f} +- {:.3f} s after its command, in addition to the "
+             "servo's time constant; the fit compensates. Shorten the servo's frame or bus cycle, "
+             "or add that latency in tuning",
+             latency.value, latency.error)});
+  }
+  for (const FoundTerm& trim : found_terms(fit, FreeQuantity::Kind::kSteeringTrim)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "steering-trim",
+         fmt::format("the front wheels point {:.2f} +- {:.2f} deg to the {} at a steering angle of "
+                     "0; the fit compensates. Centre the linkage, or correct the servo's centre",
+                     degrees(std::abs(trim.value)), degrees(trim.error),
+                     trim.value > 0.0 ? "left" : "right")});
+  }
+  for (const FoundTerm& imbalance : found_terms(fit, FreeQuantity::Kind::kForceImbalance)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "force-imbalance",
+         fmt::format("at equal commands the {} wheels push {:.1f} +- {:.1f} % more than the mean of "
+                     "both sides; the fit compensates. Calibrate the motors of each side",
+                     imbalance.value > 0.0 ? "right" : "left", 100.0 * std::abs(imbalance.value),
+                     100.0 * imbalance.error)});
+  }
+  return findings;
+}
+
+}  // namespace
+
+std::vector<Finding> command_and_sensor_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings = delay_findings(fit, file);
+  for (const auto& more : {steering_findings(fit, file), actuator_findings(fit, file)}) {
+    findings.insert(findings.end(), more.begin(), more.end());
+  }
+  return findings;
+}
+
+}  // namespace awmr
