@@ -137,6 +137,33 @@ TEST(LateLog, FindsTheTrimOfASteeringThatIsOffCentre) {
   }
 }
 
+TEST(LateLog, TakesASteeringCommandThatIsTheMeasuredAngleForIt) {
+  const Truth& t = kTruths[1];
+  Plant<double> slow = plant(t);
+  slow.steering_time_constant_s = 0.1;
+  Random random(8, 5);
+  DrivingLog log = simulate_log(slow, robot(), {.duration_s = 40.0, .drive = 8}, {}, random);
+  std::vector<double> angle(log.rows());
+  replay<double>(LogSignals(log), 0, log.rows(), slow, nullptr, 0.002, {},
+                 [&](std::size_t row, const State<double>& s) { angle[row] = s.steering_rad; });
+  log[LogChannel::kSteering].reset();
+  TrialData as_logged;
+  as_logged.logs = {log};
+  const auto command = identify(robot(), as_logged, {}, {});
+  ASSERT_TRUE(command);
+  EXPECT_FALSE(has_finding(*command, "steering-measured"));
+  expect_recovered(*command, ParameterId::kSteeringTimeConstant, 0.1, 4.5);
+
+  as_logged.logs[0].steering_command_rad = angle;
+  const auto result = identify(robot(), as_logged, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "steering-measured"));
+  EXPECT_FALSE(result->model[ParameterId::kSteeringTimeConstant].source == Source::kFitted);
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kYawAlpha, t.a3, 4.5);
+}
+
 TEST(LateLog, FindsMotorsThatPushMoreOnOneSide) {
   for (const double imbalance : {0.05, -0.1}) {
     DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});

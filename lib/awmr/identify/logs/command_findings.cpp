@@ -122,10 +122,11 @@ std::vector<Finding> steering_findings(const LogFit& fit, const std::string& fil
   for (const FoundTerm& imbalance : found_terms(fit, FreeQuantity::Kind::kForceImbalance)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "force-imbalance",
-         fmt::format("at equal commands the {} wheels push {:.1f} +- {:.1f} % more than the mean of "
-                     "both sides; the fit compensates. Calibrate the motors of each side",
-                     imbalance.value > 0.0 ? "right" : "left", 100.0 * std::abs(imbalance.value),
-                     100.0 * imbalance.error)});
+         fmt::format(
+             "at equal commands the {} wheels push {:.1f} +- {:.1f} % more than the mean of "
+             "both sides; the fit compensates. Calibrate the motors of each side",
+             imbalance.value > 0.0 ? "right" : "left", 100.0 * std::abs(imbalance.value),
+             100.0 * imbalance.error)});
   }
   return findings;
 }

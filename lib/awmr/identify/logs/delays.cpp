@@ -114,6 +114,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   // channel separates them; both give the same mass then. Else it has to be likelier by this much
   // of AIC.
   constexpr double kLikelierFilter = 10.0;
+  constexpr double kComparable = 0.2;  // of the strongest candidate's significance
   const bool tells_filters = settled.problem.model.noise.size() > 1;
   std::optional<NoiseIteration> best;
   double least = akaike_of(settled);
@@ -127,7 +128,10 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   const bool is_lag_given = settled.problem.model.vehicle.motor_time_constant_s.has_value();
   bool has_sensor = false;
   std::vector<std::pair<LogChannel, double>> filters;
-  for (const CandidateTerm& candidate_term : candidate_terms(settled)) {
+  const std::vector<CandidateTerm> terms = candidate_terms(settled);
+  for (const CandidateTerm& candidate_term : terms) {
+    // The next round tests the weaker ones again, without the model error of the strongest.
+    if (best && candidate_term.significance < kComparable * terms.front().significance) break;
     const FreeQuantity& more = candidate_term.quantity;
     const bool is_sensor = more.kind == FreeQuantity::Kind::kSensorDelay;
     if (is_sensor && has_sensor) continue;

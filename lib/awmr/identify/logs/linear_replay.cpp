@@ -310,10 +310,7 @@ LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
   DelayedCommand command =
       command_at(signals, row, log.t_s[row], 1.0,
                  {.steering_trim = errors.steering_trim, .imbalance = errors.imbalance});
-  if (!log.steering_command_rad) {
-    command.command.steering_rad = motion.state.steering_rad;
-    command.steering_by_trim = 0.0;
-  }
+  if (!log.steering_command_rad) command.command.steering_rad = motion.state.steering_rad;
   const double span_s = now_s - log.t_s[row] - delay.delay_s;
   State<double> rates{};
   if (span_s == 0.0) {

@@ -72,7 +72,7 @@ struct DelayedCommand {
   double steering_by_delay = 0.0;  ///< by a delay of the steering alone
   SideForces<double> by_lag{};
   SideForces<double> by_imbalance{};
-  double steering_by_trim = 0.0;  ///< 1, or 0 where the angle itself was logged
+  double steering_by_trim = 0.0;  ///< 1 with a trim, of a logged angle too
 };
 
 /// Moves the state and its derivatives on.
@@ -158,7 +158,7 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
       if (!servo) {
         steer(row, (i + 0.5) / steps);
         command.command.steering_rad = motion.state.steering_rad;
-        command.by_delay.steering_rad = command.steering_by_delay = command.steering_by_trim = 0.0;
+        command.by_delay.steering_rad = command.steering_by_delay = 0.0;
       }
       stepper.step(command, h, motion);
     }

@@ -20,15 +20,19 @@ double shortest_spacing_s(const std::vector<DrivingLog>& logs) {
 }  // namespace
 
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates) {
-  constexpr double kStepsOfRow = 4.0;
+  constexpr double kSwayStepsOfRow = 4.0;
+  constexpr double kServoStepsOfRow = 8.0;
   Plant<double> plant =
       plant_of(model.vehicle, parameters_at(model.held, model.quantities, coordinates));
   const double sway_s = 0.25 * plant.mass_norm / plant.sway_alpha;
+  const double servo_s = 0.25 * plant.steering_time_constant_s;
   plant.sway_alpha = 0.0;
+  plant.steering_time_constant_s = std::numeric_limits<double>::infinity();
   // A guess may be faster than any vehicle.
   return std::max(
       kShortestReplayStep_s,
-      std::min(replay_step_s(plant), std::max(sway_s, model.row_spacing_s / kStepsOfRow)));
+      std::min({replay_step_s(plant), std::max(sway_s, model.row_spacing_s / kSwayStepsOfRow),
+                std::max(servo_s, model.row_spacing_s / kServoStepsOfRow)}));
 }
 
 LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {

@@ -42,7 +42,8 @@ struct SearchPoint {
 };
 
 /// The longest step that follows the motion at these coordinates, s: as replay_step_s(), but sway need
-/// not be followed between the rows of a log (LinearPlant::sway_pace).
+/// not be followed between the rows of a log (LinearPlant::sway_pace), and no log shows a servo that is
+/// faster than a sixteenth of its rows.
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates);
 
 /// The problem at the initial guess: sensor noise, no outlier weighed down. The logs must outlive

@@ -18,6 +18,7 @@
 #include "awmr/identify/logs/between_logs.h"
 #include "awmr/identify/logs/command_findings.h"
 #include "awmr/identify/logs/cross_validation.h"
+#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/inertia_check.h"
 #include "awmr/identify/logs/initial_guess.h"
 #include "awmr/identify/logs/log_report.h"
@@ -206,18 +207,23 @@ double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOpt
   return kEvaluations * kStepsOfRow * rows * (1.0 + derivatives);
 }
 
+/// The fit of the requested families, a power law where none is.
+FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                           const IdentifyOptions& options) {
+  report(options, "fitting the logs");
+  announce(options, numbers_of_first_fit(logs, power_law), "fitting logs of this length");
+  return fit_family(logs, power_law, options.surge_family.family.value_or(Family::kPower),
+                    options.yaw_family.family.value_or(Family::kPower));
+}
+
+/// `first`: of fit_first_family().
 Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                       const IdentifyOptions& options) {
+                       const IdentifyOptions& options, FamilyFit first) {
   const FamilyChoice& surge = options.surge_family;
   const FamilyChoice& yaw = options.yaw_family;
   const bool surge_open = is_open(surge);
   const bool yaw_open = is_open(yaw) && contains(power_law.free, ParameterId::kYawAlpha);
-  report(options, "fitting the logs");
-  announce(options, numbers_of_first_fit(logs, power_law), "fitting logs of this length");
-  Chosen chosen{{.best = fit_family(logs, power_law, surge.family.value_or(Family::kPower),
-                                    yaw.family.value_or(Family::kPower)),
-                 .others = {},
-                 .findings = {}}};
+  Chosen chosen{{.best = std::move(first), .others = {}, .findings = {}}};
   chosen.may_have_back_emf = suspects_back_emf(chosen.found.best.fit, power_law.candidate_terms);
   if (!surge_open && !yaw_open) return chosen;
   // Without a request, another family has to be significantly better than the paper's.
@@ -235,6 +241,46 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
            "comparing other families of resistance, as the first one fits poorly,");
   chosen.found = best_family(logs, power_law, std::move(chosen.found.best), contest);
   return chosen;
+}
+
+/// The logs with their steering command as the measured steering angle.
+std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs) {
+  for (DrivingLog& log : logs) {
+    log[LogChannel::kSteering] = Measured{.value = *std::move(log.steering_command_rad),
+                                          .fresh = std::vector<bool>(log.rows(), true)};
+    log.steering_command_rad.reset();
+  }
+  return logs;
+}
+
+/// Whether the steering command of every log is the measured angle: `first` has a servo without lag,
+/// and the vehicle follows the column itself, interpolated between the rows, significantly better.
+bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
+                          const FamilyFit& first, const IdentifyOptions& options) {
+  constexpr double kOfRow = 0.5;
+  const auto is_command = [](const DrivingLog& log) {
+    return log.steering_command_rad && !log[LogChannel::kSteering];
+  };
+  if (!std::ranges::all_of(logs, is_command)) return false;
+  const auto place = std::ranges::find_if(first.fit.quantities, [](const FreeQuantity& q) {
+    return q.is(ParameterId::kSteeringTimeConstant);
+  });
+  if (place == first.fit.quantities.end()) return false;
+  const auto i = at(place - first.fit.quantities.begin());
+  if (place->value(first.fit.coordinates[i]) > kOfRow * logs.front().median_step_s()) return false;
+  LogFitOptions from = from_optimum(std::move(power_law), first);
+  std::erase(from.free, ParameterId::kSteeringTimeConstant);
+  from.steering_delay_s.reset();
+  const FamilyFit follows = fit_first_family(with_measured_steering(logs), from, options);
+  return follows.fit.usable && aic_lead(follows.fit, first.fit) > kFamilyAicThreshold;
+}
+
+Finding measured_steering_finding(const std::string& file) {
+  return {file, 0, Severity::kWarning, "steering-measured",
+          fmt::format("the vehicle turns with steering_cmd_deg without the lag of a servo: the "
+                      "column is the measured angle and is used as such. Map it by {}, or log the "
+                      "command, which shows the servo's lag",
+                      option_text(R"(column 'steering_deg="steering_cmd_deg"')"))};
 }
 
 /// Refits the best families of `ideal` with back-EMF and keeps the result if it is significantly
@@ -257,7 +303,8 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
     ideal.others.push_back(same);
     return ideal;
   }
-  BestFamily braked = choose_families(logs, freed, options).found;
+  BestFamily braked =
+      choose_families(logs, freed, options, fit_first_family(logs, freed, options)).found;
   if (!shows_back_emf(braked.best, ideal.best)) braked.best = same;
   braked.findings.push_back(back_emf_finding(logs.front().file, braked.best, ideal.best));
   braked.others.push_back(std::move(ideal.best));
@@ -268,9 +315,9 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
 /// Fits the requested or the best families, with back-EMF if the logs show it. Also fits the
 /// alternatives for the report.
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
-                       const IdentifyOptions& options, LogStage& stage) {
+                       const IdentifyOptions& options, FamilyFit first, LogStage& stage) {
   const FamilyChoice& surge = options.surge_family;
-  auto [found, may_have_back_emf] = choose_families(logs, power_law, options);
+  auto [found, may_have_back_emf] = choose_families(logs, power_law, options, std::move(first));
   if (may_have_back_emf && !found.is_out_of_time)
     found = or_with_back_emf(logs, power_law, options, std::move(found));
   append(stage.reports, reports_of(found.others, found.best));
@@ -405,7 +452,14 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   if (looks_for_back_emf(vehicle, logs, options, model)) {
     power_law.candidate_terms.push_back(ParameterId::kBackEmf);
   }
-  FamilyFit chosen = fit_families(logs, power_law, options, stage);
+  FamilyFit first = fit_first_family(logs, power_law, options);
+  if (is_steering_measured(logs, power_law, first, options)) {
+    Result<LogStage> measured =
+        run_log_stage(vehicle, with_measured_steering(logs), options, asked, model, overrule);
+    if (measured) measured->findings.push_back(measured_steering_finding(logs.front().file));
+    return measured;
+  }
+  FamilyFit chosen = fit_families(logs, power_law, options, std::move(first), stage);
   report(options, "comparing the logs with each other");
   const LogComparison compared = compare_logs(logs, chosen);
   append(stage.findings, in_words(compared.disagreements));
