@@ -21,8 +21,8 @@ void note_samples(const CompareOptions& options, const Comparison& comparison,
                    samples, 100.0 * (1.0 - std::pow(0.5, samples - 1)), kFewSamples)});
 }
 
-/// Adds the finding on the simulated scrub, or a warning if yaw resistance includes scrub that
-/// steered turns do not have.
+/// Adds a warning if yaw resistance includes scrub that steered turns do not have, and a note if
+/// measured scrub is simulated.
 void note_scrub(const Model& model, std::vector<Finding>& findings) {
   if (model.yaw_by_sides_alone) {
     findings.push_back(

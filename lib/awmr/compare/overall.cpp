@@ -8,7 +8,8 @@
 namespace awmr {
 namespace {
 
-/// Whether `other` is significantly better than `own` in the metric, by more than its margin.
+/// Whether `other` is significantly better than `own` in the metric by more than its margin, or has
+/// a value where `own` has none.
 bool beats(const JudgedScenario& scenario, const MetricColumn& metric, const ModeRows& other,
            const ModeRows& own) {
   const auto theirs = summarise(other, metric).mean;

@@ -45,8 +45,8 @@ std::vector<std::size_t> first_with_same_runs(const std::vector<JudgedScenario>&
 /// difference is a relevant one. A contender without a value is beaten by any that has one.
 std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios);
 
-/// Number of decided scenarios, and of those that survive each kind of change with all of its
-/// settings. Scenarios with the same runs count once.
+/// Number of scenarios with each kind of decision, and of those whose first place survives each
+/// kind of change in all of its settings. Scenarios with the same runs count once.
 struct DecisionTally {
   std::map<DecisionKind, int> scenarios;
   struct Share {

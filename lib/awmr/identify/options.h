@@ -33,7 +33,7 @@ enum class ErrorModel {
   kTime,      ///< a known distance or angle was timed
   kLogForce,  ///< a factor on the force: the log-linear method's assumption
 };
-/// Parameters that can be requested.
+/// Error models that can be requested.
 inline constexpr NameTable<ErrorModel, 3> kErrorModelNames{
     {{"force", ErrorModel::kForce}, {"speed", ErrorModel::kSpeed}, {"time", ErrorModel::kTime}}};
 /// As in /estimates.
@@ -68,7 +68,8 @@ struct FamilyChoice {
   bool asked = false;
 };
 
-/// Whether a fit can be requested it by name: a term comes with its family, back-EMF is in none.
+/// Whether a parameter can be requested by name. A term is requested by its family; only back-EMF
+/// belongs to none.
 inline bool can_be_asked(const ParameterInfo& parameter) {
   return !parameter.term || parameter.id == ParameterId::kBackEmf;
 }

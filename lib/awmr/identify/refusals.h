@@ -20,7 +20,7 @@ struct Reasons {
   std::string surge;         ///< why no fit of the surge rows will do, although they show a law
   std::string turning;       ///< the same of the turning rows
   std::string mass;          ///< why the coast-downs give no m'
-  bool curve_alone = false;  ///< curves without a surge law: `mass` includes a1
+  bool curve_alone = false;  ///< curves without a surge law: `mass` is why a1 is missing, too
   /// Fitted, but not finite or outside of what a model can hold.
   std::map<ParameterId, std::string> inadmissible;
   std::map<ParameterId, std::string> logs;  ///< free in the fit of the logs, but not identifiable
@@ -28,8 +28,8 @@ struct Reasons {
 
 /// Marks parameters without a value as not identified, with the reason; for requested ones the
 /// finding is an error (`not-identifiable`). Parameters that the vehicle does not have get no
-/// finding. A given value is kept; if a log should have identified it and did not, that is
-/// reported. Returns what was requested and refused.
+/// finding. A given or assumed value is kept; if a log should have identified it and did not, that
+/// is reported. Returns what was requested and refused.
 std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Reasons& reasons,
                                                 const std::vector<ParameterId>& asked,
                                                 Model& model);

@@ -11,7 +11,7 @@
 namespace awmr {
 namespace {
 
-/// A metric of the gains; larger is worse.
+/// A metric of one run; larger is worse.
 struct RunFigure {
   const char* name;
   double (*value)(const Metrics& metrics, const Scenario& scenario);

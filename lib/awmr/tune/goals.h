@@ -17,7 +17,7 @@
 namespace awmr {
 
 RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario);
-/// Takes scores by draw, then mode, then scenario.
+/// `scores` are by draw, then mode, then scenario.
 std::vector<RunOutcome> outcomes_of(std::span<const ModeScore> scores,
                                     std::span<const Scenario> scenarios);
 

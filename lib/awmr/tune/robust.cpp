@@ -56,8 +56,8 @@ JudgedRuns in_scenario(const JudgedRuns& runs, std::size_t scenario, std::size_t
   return of_one;
 }
 
-/// The vehicle with its unmodelled variation; the draws take the combinations in turn, masses
-/// first, then forces.
+/// Applies the unmodelled variation of draw `number`, from 1. The draws take the combinations in
+/// turn; the mass factor changes with every draw, the force range after all mass factors.
 void open_up(const OpenVehicle& open, int number, DrawnVehicle& vehicle) {
   const std::size_t turn = at(number - 1) % open.combinations();
   const std::size_t masses = std::max<std::size_t>(1, open.mass_factors.size());

@@ -44,8 +44,8 @@ struct JudgedBy {
   double tail_share = 1.0;
   std::vector<TuningGoal> goals;
 };
-/// Statistics over all draws, for each set of gains. A run that does not settle counts as the whole
-/// duration.
+/// Statistics over all draws, for each set of gains. The settling time of a run that does not
+/// settle is the scenario's duration.
 Judgement judgement_of(const std::vector<JudgedRuns>& runs, const JudgedBy& by);
 
 }  // namespace awmr

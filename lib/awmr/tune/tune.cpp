@@ -154,7 +154,7 @@ Status check_baseline(const Objective& objective, const Baseline& baseline) {
                      "give another baseline, or slower scenarios");
 }
 
-/// Additional start of the search: slower poles, which suit a vehicle with large noise.
+/// Factors on the poles of further starts: slower ones suit a vehicle with large noise.
 constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 
 /// Starts of the search: pole placement with wide layers, the same slowed, pole placement and the
@@ -242,7 +242,7 @@ Status check_latency(const ConstraintContext& context, const std::string& model_
                   option_text("nominal")));
 }
 
-/// Gains are evaluated on other draws than those that they were tuned on.
+/// XORed with the seed, so that gains are evaluated on other draws than they were tuned on.
 constexpr std::uint64_t kJudgedSeeds = 0x6a75646765ULL;
 
 /// The numbers of the fresh draws, from 1: those of the part, or all.
@@ -266,7 +266,7 @@ std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   return candidates;
 }
 
-/// Runs the candidates on fresh draws, and evaluates them if these are all draws.
+/// Runs the candidates on fresh draws. A shard keeps its runs; otherwise adds their statistics.
 Status judge(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
              const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
   if (options.judged_draws == 0) return {};

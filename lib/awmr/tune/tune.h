@@ -136,7 +136,7 @@ inline constexpr std::size_t kMostGoals = 20;
 /// Default number of draws that goals are evaluated on.
 inline constexpr int kGoalDraws = 500;
 inline constexpr int kFewestSamples = 16, kMostSamples = 100'000;
-inline constexpr std::size_t kRunFigures = 6;  ///< of a run
+inline constexpr std::size_t kRunFigures = 6;  ///< names in run_figure_names()
 bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 
@@ -170,7 +170,8 @@ struct TuneOptions {
   int global_evaluations = 80;  ///< >= 1
   /// >= 0, of the local searches together; 0: the best of the global search is the answer.
   int local_evaluations = 80;
-  /// Seed of the global search. Other seeds show how flat the objective is.
+  /// Seed of the draws, their noise, the global search and the sensitivity samples. The gains of
+  /// other seeds show how much they depend on chance.
   std::uint64_t seed = 1;
   /// Each has to hold headings, under a name of its own; empty: default_tuning_scenarios().
   std::vector<Scenario> scenarios;
@@ -229,15 +230,16 @@ struct SearchHistory {
   int global_evaluations = 0;  ///< those of the global search; behind them the local one's
   int evaluations = 0;
 };
-/// Longer histories are thinned to the steps at even positions; the first and the last are kept.
+/// A longer history is thinned to evenly spaced steps, including the first and the last.
 inline constexpr std::size_t kMostHistorySteps = 200;
 
-/// Metrics of a run in the objective.
+/// Metrics of a run for goals and evaluation. The objective has others (objective.h).
 struct RunOutcome {
   YawMode mode{};
   bool completed = false;  ///< settled after every step
   bool broke_off = false;  ///< its figures are those of what came before
-  /// In the order of run_figure_names(). A run that never settles has taken the whole scenario to.
+  /// In the order of run_figure_names(). The settling time of a run that does not settle is the
+  /// scenario's duration.
   std::array<double, kRunFigures> figures{};
 };
 /// The runs of one set of gains, by draw, then mode, then scenario.

@@ -41,7 +41,7 @@ void note_unsettled(const std::string& scenario, YawMode mode, double completed_
                    100.0 * completed_share)});
 }
 
-/// A note if too few samples leave the most influential input of a metric undetermined.
+/// A note if the total index of some input of a metric has a 95 % interval wider than kWide.
 void note_sensitivity(const Tuning& tuning, std::vector<Finding>& findings) {
   if (!tuning.robust || !tuning.robust->sensitivity) return;
   constexpr double kWide = 0.5;  // an index with a 95 % interval of 0.2 to 0.7 is uninformative

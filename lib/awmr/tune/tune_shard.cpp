@@ -22,7 +22,7 @@ namespace awmr {
 namespace {
 
 constexpr const char* kGainsHash = "gains_json_sha256";
-/// Limits of an evaluation: as in tune.json, and more than are ever given.
+/// Largest number of fresh draws, as in tune.json.
 constexpr long kMostJudgedDraws = 100'000;
 
 /// One directory's part; its runs lie in the table.

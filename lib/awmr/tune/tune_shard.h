@@ -25,8 +25,8 @@ inline constexpr const char* kJudgedTable = "judged.csv";
 /// Precondition: robust gains, tuned with options.shard.
 std::string judged_csv(const Tuning& tuning, const TuneOptions& options);
 
-/// The bytes of shard.json: origin and number of the part, the metrics of its runs, and the hashes
-/// of the two files next to it.
+/// The bytes of shard.json: origin and number of the part, gains, modes, scenarios, tail share and
+/// goals of the evaluation, and the hashes of the two files next to it.
 std::string tune_shard_text(const Tuning& tuning, const TuneOptions& options,
                             const Provenance& provenance);
 
@@ -41,12 +41,12 @@ Status check_tune_shard_text(std::string_view text, const std::string& file);
 bool is_finished_tune_shard(const std::filesystem::path& directory, const Shard& shard,
                             const Provenance& provenance);
 
-/// Result of a single run.
+/// The result that a single run without parts has.
 struct MergedTuning {
   std::string gains_text;                               ///< the bytes of gains.json
   std::vector<JudgedGains> judged, judged_by_scenario;  ///< as in RobustTuning
   std::vector<JudgedGoal> goals;
-  std::vector<Finding> findings;  ///< those of the evaluation draws, then those of the parts
+  std::vector<Finding> findings;  ///< of the evaluation draws, then of the first part
 };
 
 /// Puts the parts in the directories together, in any order. Errors (input): a directory without

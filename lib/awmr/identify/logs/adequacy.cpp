@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// Adds what the other families of surge resistance make of the logs; returns the advice, if any.
+/// Adds the fits of the other families of surge resistance; returns advice if another one is best.
 std::optional<std::string> try_rivals(BestFamily alternatives, const FamilyFit& chosen,
                                       Adequacy& adequacy) {
   for (EstimatorReport& report : reports_of(alternatives.others, chosen)) {

@@ -42,7 +42,7 @@ struct CommandPath {
   std::optional<DelayColumn> steering_delay = {};  ///< of the steering, on top of that
   std::optional<LaggedForces> lag = {};
   std::optional<std::size_t> lag_column = {};  ///< where the lag is free
-  /// A motor is off as soon as its command is 0, whatever its lag, like motors with back-EMF.
+  /// A motor is off as soon as its command is 0, whatever its lag: true for motors with back-EMF.
   bool switches_off = false;
 };
 
@@ -65,7 +65,8 @@ struct DelayedCommand {
 /// Moves the state and its derivatives on.
 class LinearStepper {
  public:
-  /// `columns`: 0 for the state alone. `latency`: of the command path. `longest_step_s`: of LinearPlant.
+  /// `columns`: 0 for the state alone. `latency`: columns_of() the command path. `longest_step_s`:
+  /// as for LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
                 const std::vector<ParameterColumn>& parameters, const LateColumns& latency,
                 double longest_step_s = 0.0);

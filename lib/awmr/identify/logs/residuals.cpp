@@ -93,7 +93,7 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
   return u;
 }
 
-/// Initial derivatives by the initial state: 1 for the component itself.
+/// The initial motion; the derivative of a free component of the state by itself is 1.
 LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t columns) {
   LinearMotion motion{u.initial, std::vector<double>(kStateSize * columns, 0.0)};
   for (std::size_t i = 0; columns > 0 && i < model.initial.size(); ++i) {
@@ -102,7 +102,7 @@ LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t 
   return motion;
 }
 
-/// Readings of a window, by channel.
+/// Simulated sensor filters of a window; none for channels without a filter.
 using SmoothedChannels = std::array<std::optional<SmoothedChannel>, kChannelCount>;
 
 SmoothedChannels smoothed_channels(const FitWindow& window, const Unpacked& u,

@@ -35,8 +35,8 @@ double scatter(const Model& model, FitSubject subject, ErrorModel error) {
   return 0.0;
 }
 
-/// Left and right wheel forces for this yaw moment, m, without steering: on the spot, or with as
-/// little rearward force as possible.
+/// Left and right wheel forces for this yaw moment, m, without steering: opposite ones, or with the
+/// left wheels at their rearward limit (0 if they cannot push back) if that is less.
 ///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
 SideForces<double> sides_for(const Vehicle& vehicle, double tau_turn_m) {
   const double difference = tau_turn_m / (2.0 * vehicle.half_track_m);
@@ -175,9 +175,9 @@ std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOp
   const int count = shard.share_of(options.runs);
   std::vector<OneRun> runs(at(count));
   std::atomic<int> done = 0;
-  int described = 0;
+  int reported = 0;
   LoopControl control;
-  if (progress) control.progress = [&] { progress(described = done); };
+  if (progress) control.progress = [&] { progress(reported = done); };
   parallel_for(
       runs.size(), options.threads,
       [&](std::size_t i) {
@@ -189,7 +189,7 @@ std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOp
         ++done;
       },
       control);
-  if (progress && described < count) progress(count);
+  if (progress && reported < count) progress(count);
   return runs;
 }
 

@@ -60,8 +60,8 @@ struct RecoverPart {
 Result<RecoverPart> recover_part(const Model& model, const RecoverOptions& options,
                                  const Shard& shard, const std::function<void(int)>& progress);
 
-/// Computes the statistics of the runs. Precondition: `whole` has all of them. Errors: those of the
-/// runs, if all have one; (refused) no run gives a requested parameter, or any.
+/// Computes the statistics of the runs. Precondition: `whole` has all of them. Errors: that of the
+/// first run, if all have one; (refused) no run gives one of the requested parameters, or any.
 Result<Recovery> recovery_of(const RecoverPart& whole);
 
 }  // namespace awmr

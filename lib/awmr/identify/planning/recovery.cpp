@@ -36,8 +36,8 @@ RecoveredParameter recovered_parameter(const RecoverTruth& truth, std::size_t pl
   return p;
 }
 
-/// Errors: that of the runs, where all have one; (refused) no run gave anything, or nothing that was
-/// requested.
+/// Errors: that of the first run, if all have one; (refused) no run gave any parameter, or one of
+/// the requested ones.
 Status check_recovered(const Recovery& recovery, const RecoverPart& whole) {
   if (whole.error) return tl::unexpected(*whole.error);
   std::vector<std::string_view> missing;
