@@ -45,6 +45,7 @@ double quantile_of_excess(const GoalInMode& one, std::span<const RunOutcome> out
                           std::size_t scenarios);
 
 /// In how many draws the goal holds in the mode, with the verdict on it.
-JudgedGoal judged_goal(const GoalInMode& one, const JudgedRuns& runs, std::size_t scenarios);
+EvaluatedGoal evaluate_goal(const GoalInMode& one, const EvaluatedRuns& runs,
+                            std::size_t scenarios);
 
 }  // namespace awmr

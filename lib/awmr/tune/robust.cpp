@@ -18,7 +18,7 @@ namespace awmr {
 namespace {
 
 /// Median, 95 % quantile (the least value that as many do not exceed) and mean of the worst.
-JudgedFigure figure_of(const std::string& name, std::vector<double> values, double tail_share) {
+EvaluatedFigure figure_of(const std::string& name, std::vector<double> values, double tail_share) {
   std::sort(values.begin(), values.end());
   const auto n = static_cast<double>(values.size());
   const auto quantile = [&](double p) {
@@ -30,8 +30,8 @@ JudgedFigure figure_of(const std::string& name, std::vector<double> values, doub
 }
 
 /// Statistics of one set of gains in one mode over all draws.
-JudgedGains judged(const JudgedRuns& runs, YawMode mode, double tail_share) {
-  JudgedGains result{.gains = runs.gains, .mode = mode, .figures = {}, .scenario = {}};
+EvaluatedGains evaluate(const EvaluatedRuns& runs, YawMode mode, double tail_share) {
+  EvaluatedGains result{.gains = runs.gains, .mode = mode, .figures = {}, .scenario = {}};
   std::array<std::vector<double>, kRunFigures> values;
   int completed = 0;
   for (const RunOutcome& outcome : runs.outcomes) {
@@ -48,8 +48,8 @@ JudgedGains judged(const JudgedRuns& runs, YawMode mode, double tail_share) {
 }
 
 /// The runs in one of `count` scenarios.
-JudgedRuns in_scenario(const JudgedRuns& runs, std::size_t scenario, std::size_t count) {
-  JudgedRuns of_one{runs.gains, {}};
+EvaluatedRuns in_scenario(const EvaluatedRuns& runs, std::size_t scenario, std::size_t count) {
+  EvaluatedRuns of_one{runs.gains, {}};
   for (std::size_t i = scenario; i < runs.outcomes.size(); i += count) {
     of_one.outcomes.push_back(runs.outcomes[i]);
   }
@@ -126,11 +126,11 @@ Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std
   return vehicles_with(model, numbers, plants, open);
 }
 
-std::vector<JudgedRuns> run_candidates(const ObjectiveSetting& setting,
-                                       const std::vector<NamedCandidate>& candidates) {
+std::vector<EvaluatedRuns> run_candidates(const ObjectiveSetting& setting,
+                                          const std::vector<NamedCandidate>& candidates) {
   const std::size_t of_own = setting.modes().size() * setting.scenarios.size();
   const RunNoise noise = draw_noise(setting);
-  std::vector<JudgedRuns> runs;
+  std::vector<EvaluatedRuns> runs;
   for (const NamedCandidate& candidate : candidates) {
     const auto scores = run_all(setting, noise, std::span(&candidate.gains, 1)).front();
     runs.push_back(
@@ -139,27 +139,27 @@ std::vector<JudgedRuns> run_candidates(const ObjectiveSetting& setting,
   return runs;
 }
 
-Judgement judgement_of(const std::vector<JudgedRuns>& runs, const JudgedBy& by) {
-  Judgement judgement;
-  for (const JudgedRuns& of_gains : runs) {
+EvaluationResult evaluation_of(const std::vector<EvaluatedRuns>& runs, const EvaluationSetup& by) {
+  EvaluationResult evaluation;
+  for (const EvaluatedRuns& of_gains : runs) {
     for (const YawMode mode : by.modes) {
-      judgement.gains.push_back(judged(of_gains, mode, by.tail_share));
+      evaluation.gains.push_back(evaluate(of_gains, mode, by.tail_share));
     }
     for (const GoalInMode& one : by_mode(by.goals, by.modes)) {
-      judgement.goals.push_back(judged_goal(one, of_gains, by.scenarios.size()));
+      evaluation.goals.push_back(evaluate_goal(one, of_gains, by.scenarios.size()));
     }
   }
   const std::size_t count = by.scenarios.size();
   for (std::size_t scenario = 0; count > 1 && scenario < count; ++scenario) {
-    for (const JudgedRuns& of_gains : runs) {
-      const JudgedRuns here = in_scenario(of_gains, scenario, count);
+    for (const EvaluatedRuns& of_gains : runs) {
+      const EvaluatedRuns here = in_scenario(of_gains, scenario, count);
       for (const YawMode mode : by.modes) {
-        judgement.by_scenario.push_back(judged(here, mode, by.tail_share));
-        judgement.by_scenario.back().scenario = by.scenarios[scenario];
+        evaluation.by_scenario.push_back(evaluate(here, mode, by.tail_share));
+        evaluation.by_scenario.back().scenario = by.scenarios[scenario];
       }
     }
   }
-  return judgement;
+  return evaluation;
 }
 
 }  // namespace awmr

@@ -28,17 +28,17 @@ struct NamedCandidate {
 };
 
 /// Every set of gains in every mode over all vehicles of the setting but the first, the model's own.
-std::vector<JudgedRuns> run_candidates(const ObjectiveSetting& setting,
-                                       const std::vector<NamedCandidate>& candidates);
+std::vector<EvaluatedRuns> run_candidates(const ObjectiveSetting& setting,
+                                          const std::vector<NamedCandidate>& candidates);
 
-struct Judgement {
-  std::vector<JudgedGains> gains;  ///< by gains, then mode
-  std::vector<JudgedGains>
-      by_scenario;                ///< by scenario, then gains, then mode; empty where there is one
-  std::vector<JudgedGoal> goals;  ///< by gains, then goal, then mode
+struct EvaluationResult {
+  std::vector<EvaluatedGains> gains;  ///< by gains, then mode
+  std::vector<EvaluatedGains>
+      by_scenario;  ///< by scenario, then gains, then mode; empty where there is one
+  std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode
 };
 /// Criteria of the runs.
-struct JudgedBy {
+struct EvaluationSetup {
   std::vector<YawMode> modes;
   std::vector<std::string> scenarios;  ///< by name, in the runs' order
   double tail_share = 1.0;
@@ -46,6 +46,6 @@ struct JudgedBy {
 };
 /// Statistics over all draws, for each set of gains. The settling time of a run that does not
 /// settle is the scenario's duration.
-Judgement judgement_of(const std::vector<JudgedRuns>& runs, const JudgedBy& by);
+EvaluationResult evaluation_of(const std::vector<EvaluatedRuns>& runs, const EvaluationSetup& by);
 
 }  // namespace awmr

@@ -145,9 +145,9 @@ struct TuneOptions {
   /// alone would have it. Else robust: `draws` plants from the model's covariance in addition to its
   /// own, under LoopConditions. Every constraint holds for all of them.
   bool nominal = false;
-  int draws = 32;         ///< 0 ... 1000
-  int judged_draws = 50;  ///< fresh draws for the evaluation of the gains, 0 ... 100000
-  OpenVehicle open = {};  ///< of a robust search
+  int draws = 32;             ///< 0 ... 1000
+  int evaluation_draws = 50;  ///< fresh draws for the evaluation of the gains, 0 ... 100000
+  OpenVehicle open = {};      ///< of a robust search
   /// A part of the evaluation, for several machines: the whole search, and the fresh draws of the
   /// part (tune_shard.h).
   std::optional<Shard> shard = {};
@@ -243,30 +243,30 @@ struct RunOutcome {
   std::array<double, kRunFigures> figures{};
 };
 /// The runs of one set of gains, by draw, then mode, then scenario.
-struct JudgedRuns {
-  std::string gains;  ///< as in JudgedGains
+struct EvaluatedRuns {
+  std::string gains;  ///< as in EvaluatedGains
   std::vector<RunOutcome> outcomes;
 };
 
 /// A metric of the runs of one set of gains in one mode, over the evaluation draws.
-struct JudgedFigure {
+struct EvaluatedFigure {
   std::string name;  ///< "heading_iae_degs"
   double median = 0.0;
   double q95 = 0.0;
   double tail_mean = 0.0;  ///< over the worst tail_share of the draws (CVaR)
 };
 
-/// JudgedGains::gains of the tuned gains.
+/// EvaluatedGains::gains of the tuned gains.
 inline constexpr const char* kRobustGains = "robust";
 
 /// One set of gains in one mode, over the evaluation draws.
-struct JudgedGains {
+struct EvaluatedGains {
   /// kRobustGains, "baseline", "paper" (where the baseline is another), "unobserved" (without their
   /// observer)
   std::string gains;
   YawMode mode{};
   double completed_share = 0.0;  ///< settled after every step
-  std::vector<JudgedFigure> figures;
+  std::vector<EvaluatedFigure> figures;
   std::string scenario = {};  ///< empty: over all of them
 };
 
@@ -300,10 +300,10 @@ inline constexpr NameTable<GoalVerdict, 3> kGoalVerdictNames{
     {{"met", GoalVerdict::kMet}, {"missed", GoalVerdict::kMissed}, {"open", GoalVerdict::kOpen}}};
 
 /// A goal in one mode with one set of gains, over the evaluation draws.
-struct JudgedGoal {
+struct EvaluatedGoal {
   TuningGoal goal;
   YawMode mode{};
-  std::string gains;  ///< as in JudgedGains
+  std::string gains;  ///< as in EvaluatedGains
   int held = 0;       ///< draws in which every limit is kept
   int runs = 0;       ///< draws
   Interval ci95;      ///< of the share, by Clopper and Pearson
@@ -313,12 +313,12 @@ struct JudgedGoal {
 /// Conditions of a robust search, and results of its gains.
 struct RobustTuning {
   LoopConditions conditions;
-  bool from_covariance = false;     ///< false: the model has none, so that only noise was drawn
-  std::vector<JudgedGains> judged;  ///< by gains, then mode; empty of a part
+  bool from_covariance = false;  ///< false: the model has none, so that only noise was drawn
+  std::vector<EvaluatedGains> evaluated;  ///< by gains, then mode; empty of a part
   /// The same by scenario first; empty where there is one.
-  std::vector<JudgedGains> judged_by_scenario;
-  std::vector<JudgedGoal> goals;  ///< by gains, then goal, then mode; empty of a part
-  std::vector<JudgedRuns> runs;   ///< of a part: those of its draws, by gains
+  std::vector<EvaluatedGains> evaluated_by_scenario;
+  std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode; empty of a part
+  std::vector<EvaluatedRuns> runs;   ///< of a part: those of its draws, by gains
   std::optional<GlobalSensitivity> sensitivity;  ///< absent if not requested
 };
 
