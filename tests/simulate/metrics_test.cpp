@@ -268,21 +268,22 @@ using Codes = std::vector<std::string>;
 
 TEST(Validity, WarnsOfScenarioPartsWithoutEffect) {
   const Model model = fitted_paper_model();
-  EXPECT_EQ(codes_of(asked_in_vain(kSteps, model)), Codes{});
+  EXPECT_EQ(codes_of(unattainable_requests(kSteps, model)), Codes{});
 
   Scenario late = kSteps;
   late.sensors.emplace();
   late.sensors->heading.late_s = 0.02;  // two samples
-  EXPECT_EQ(codes_of(asked_in_vain(late, model)), Codes{});
+  EXPECT_EQ(codes_of(unattainable_requests(late, model)), Codes{});
   late.sensors->heading.late_s = 0.004;
   late.sensors->speed.late_s = 0.025;
-  EXPECT_EQ(codes_of(asked_in_vain(late, model)), (Codes{"rounded-latency", "rounded-latency"}));
+  EXPECT_EQ(codes_of(unattainable_requests(late, model)),
+            (Codes{"rounded-latency", "rounded-latency"}));
 
   Scenario after = kSteps;
   after.guidance = HeadingSteps{{{0.0, 0.1}, {3.9, 0.2}}};
-  EXPECT_EQ(codes_of(asked_in_vain(after, model)), Codes{});
+  EXPECT_EQ(codes_of(unattainable_requests(after, model)), Codes{});
   after.guidance = HeadingSteps{{{0.0, 0.1}, {4.0, 0.2}}};
-  EXPECT_EQ(codes_of(asked_in_vain(after, model)), Codes{"late-step"});
+  EXPECT_EQ(codes_of(unattainable_requests(after, model)), Codes{"late-step"});
 
   Scenario blocked = kSteps;
   WaypointCourse course;
@@ -290,16 +291,16 @@ TEST(Validity, WarnsOfScenarioPartsWithoutEffect) {
   course.acceptance_m = 0.5;
   blocked.guidance = course;
   blocked.obstacles = {{{10.0, 0.9}, 1.0}, {{5.0, 1.1}, 1.0}};
-  const auto findings = asked_in_vain(blocked, model);
+  const auto findings = unattainable_requests(blocked, model);
   ASSERT_EQ(codes_of(findings), Codes{"blocked-waypoint"});
   EXPECT_NE(findings[0].message.find("waypoint 2"), std::string::npos);
 
   // Four wheels at F_max hold 4 = 1.33 u^0.88: 3.5 m/s.
   Scenario fast = kSteps;
   fast.speed_mps = 3.3;
-  EXPECT_EQ(codes_of(asked_in_vain(fast, model)), Codes{});
+  EXPECT_EQ(codes_of(unattainable_requests(fast, model)), Codes{});
   fast.speed_mps = 3.7;
-  EXPECT_EQ(codes_of(asked_in_vain(fast, model)), Codes{"unreachable-speed"});
+  EXPECT_EQ(codes_of(unattainable_requests(fast, model)), Codes{"unreachable-speed"});
 }
 
 TEST(Validity, WarnsOfTyresThatContradictTheTurningTrials) {

@@ -48,7 +48,7 @@ std::vector<Finding> compare_findings(const Model& model, const std::vector<Scen
                                       const HeadingRateChoice& rate) {
   std::vector<Finding> findings;
   for (const Scenario& scenario : scenarios) {
-    std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
+    std::ranges::move(unattainable_requests(scenario, model), std::back_inserter(findings));
     if (auto finding = tyres_differ(scenario, model)) findings.push_back(*std::move(finding));
   }
   note_samples(options, comparison, findings);

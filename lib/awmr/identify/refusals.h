@@ -12,8 +12,8 @@
 namespace awmr {
 
 /// The parameters requested: those named, else those that the given trials exist for.
-std::vector<ParameterId> asked_for(const Vehicle& vehicle, const TrialData& data,
-                                   const IdentifyOptions& options);
+std::vector<ParameterId> requested_parameters(const Vehicle& vehicle, const TrialData& data,
+                                              const IdentifyOptions& options);
 
 /// Why a parameter has no value, beyond what the presence of trials says.
 struct Reasons {
@@ -31,7 +31,7 @@ struct Reasons {
 /// finding. A given or assumed value is kept; if a log should have identified it and did not, that
 /// is reported. Returns what was requested and refused.
 std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Reasons& reasons,
-                                                const std::vector<ParameterId>& asked,
+                                                const std::vector<ParameterId>& requested,
                                                 Model& model);
 
 }  // namespace awmr

@@ -105,7 +105,7 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
                   scenario.name, plain_degps, on_tyres_degps)};
 }
 
-std::vector<Finding> asked_in_vain(const Scenario& scenario, const Model& model) {
+std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model) {
   std::vector<Finding> findings;
   if (scenario.sensors) {
     const double sample_time_s = model.vehicle.sample_time_s;

@@ -21,7 +21,7 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
 /// Warnings about parts of a scenario without effect on this vehicle: a latency of a fraction of a
 /// sample (`rounded-latency`), a step behind the end (`late-step`), a waypoint within an obstacle
 /// (`blocked-waypoint`), a speed beyond the motors (`unreachable-speed`).
-std::vector<Finding> asked_in_vain(const Scenario& scenario, const Model& model);
+std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model);
 
 /// A warning (`unsigned-speed-runs-away`) where the speed law, fed with the size of the speed alone, as
 /// a GPS gives it, pushes a vehicle that rolls backward further back: m' mu_s/eps_s > g1(u)/u at a

@@ -78,20 +78,20 @@ class OneGeneration : public NloptCallbacks {
   std::vector<Point> next;
 
   double objective(const Point& point) override {
-    if (asked_ < known_.size()) return known_[asked_++].value();
+    if (requested_ < known_.size()) return known_[requested_++].value();
     next.push_back(point);
     if (next.size() == kPopulation) nlopt_force_stop(search_);
     return 0.0;
   }
   void residuals(const Point&, std::span<double> result) override {
     std::ranges::fill(result, 0.0);
-    if (next.empty()) std::ranges::copy(known_[asked_ - 1].residuals, result.begin());
+    if (next.empty()) std::ranges::copy(known_[requested_ - 1].residuals, result.begin());
   }
 
  private:
   const std::vector<Looked>& known_;
   nlopt_opt search_;
-  std::size_t asked_ = 0;
+  std::size_t requested_ = 0;
 };
 
 Point point_at(unsigned dimension, const double* x) {

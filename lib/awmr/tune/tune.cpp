@@ -332,8 +332,8 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
 
 }  // namespace
 
-Result<Tuning> tune(const Model& model, const TuneOptions& asked) {
-  TuneOptions options = asked;
+Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
+  TuneOptions options = requested;
   AWMR_RETURN_IF_ERROR(check_options(options, model.vehicle));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());

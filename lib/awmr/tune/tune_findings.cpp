@@ -97,7 +97,7 @@ void note_scenarios(const Model& model, const TuneOptions& options, const Tuning
         under(tuning.robust->conditions, {.name = "the vehicle", .guidance = OpenLoop{}}));
   }
   for (const Scenario& scenario : scenarios) {
-    std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
+    std::ranges::move(unattainable_requests(scenario, model), std::back_inserter(findings));
   }
 }
 

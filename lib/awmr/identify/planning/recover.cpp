@@ -194,12 +194,12 @@ std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOp
 }
 
 /// The parameters to evaluate: those requested, or all, where the model has a value.
-std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<ParameterId>& asked) {
+std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<ParameterId>& requested) {
   std::vector<RecoverTruth> truths;
   for (const ParameterInfo& parameter : parameter_table()) {
-    const bool is_asked = std::ranges::find(asked, parameter.id) != asked.end();
+    const bool is_requested = std::ranges::find(requested, parameter.id) != requested.end();
     const std::optional<double>& value = model[parameter.id].value;
-    if (value && (asked.empty() || is_asked)) truths.push_back({parameter.id, *value});
+    if (value && (requested.empty() || is_requested)) truths.push_back({parameter.id, *value});
   }
   return truths;
 }
@@ -244,20 +244,20 @@ Status check_drive(const DrivePlan& drive) {
 /// Back-EMF that was fitted is requested again.
 RecoverOptions options_for(const Model& model, RecoverOptions options) {
   const bool log = options.plan == RecoverPlan::kLog;
-  if (log && options.identify.asked.empty() && !is_absent_term(model, ParameterId::kBackEmf) &&
+  if (log && options.identify.requested.empty() && !is_absent_term(model, ParameterId::kBackEmf) &&
       model[ParameterId::kBackEmf].source != Source::kGiven) {
     for (const ParameterInfo& parameter : parameter_table()) {
-      if (!can_be_asked(parameter) || !has(model.vehicle, parameter.id)) continue;
+      if (!can_be_requested(parameter) || !has(model.vehicle, parameter.id)) continue;
       if (model[parameter.id].source != Source::kGiven) {
-        options.identify.asked.push_back(parameter.id);
+        options.identify.requested.push_back(parameter.id);
       }
     }
   }
   if (model.simulated_motion() == Motion::kPlanar) return options;
   options.drive.straight = true;
-  if (options.plan == RecoverPlan::kLog && options.identify.asked.empty()) {
-    options.identify.asked = {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta,
-                              ParameterId::kMassNorm};
+  if (options.plan == RecoverPlan::kLog && options.identify.requested.empty()) {
+    options.identify.requested = {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta,
+                                  ParameterId::kMassNorm};
   }
   return options;
 }
@@ -297,8 +297,8 @@ Result<RecoverPart> recover_part(const Model& model, const RecoverOptions& given
                               .coast_from_mps = top_speed_mps(model)};
   RecoverPart part{.all_runs = options.runs,
                    .noise_text = noise_in_words(experiment.noise, options),
-                   .asked = given.identify.asked,
-                   .truths = truths_of(model, given.identify.asked),
+                   .requested = given.identify.requested,
+                   .truths = truths_of(model, given.identify.requested),
                    .runs = {},
                    .refusal = {},
                    .error = {}};

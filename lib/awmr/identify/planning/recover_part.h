@@ -45,11 +45,11 @@ struct RecoverRefusal {
 
 /// Some of the runs of a recovery, or all of them.
 struct RecoverPart {
-  int all_runs = 0;                  ///< of all parts
-  std::string noise_text;            ///< as simulated
-  std::vector<ParameterId> asked;    ///< empty: all that the trials identify
-  std::vector<RecoverTruth> truths;  ///< of the evaluated parameters
-  std::vector<RecoverRun> runs;      ///< by index
+  int all_runs = 0;                    ///< of all parts
+  std::string noise_text;              ///< as simulated
+  std::vector<ParameterId> requested;  ///< empty: all that the trials identify
+  std::vector<RecoverTruth> truths;    ///< of the evaluated parameters
+  std::vector<RecoverRun> runs;        ///< by index
   std::optional<RecoverRefusal> refusal;
   std::optional<Error> error;  ///< why no run gave a model at all: that of the first
 };
