@@ -61,7 +61,7 @@ std::string active_text(const Tuning& tuning) {
 }
 
 /// Describes the unmodelled variation that the gains account for; empty without any.
-std::string open_text(const OpenVehicle& open) {
+std::string open_text(const UnmodelledVariation& open) {
   if (!open.any()) return {};
   std::string text = "  variation     ";
   if (!open.mass_factors.empty()) {

@@ -20,7 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-OpenVehicle paper_grid() {
+UnmodelledVariation paper_grid() {
   return {.mass_factors = {1.0, 3.1}, .wheel_forces = {{-1.0, 1.0}, {0.0, 1.0}, {0.0, 0.5}}};
 }
 

@@ -27,7 +27,7 @@ namespace awmr {
 /// (tests/tune/certificate_test.cpp).
 /// Errors (input): as PlantSampler::make.
 Result<Certificate> certify(const Model& model, const ConstraintContext& context,
-                            const OpenVehicle& open, const Gains<double>& gains);
+                            const UnmodelledVariation& open, const Gains<double>& gains);
 
 /// Accepted error of the search: relative for a delay margin, absolute for a damping ratio.
 inline constexpr double kCertificateTolerance = 2e-3;

@@ -116,7 +116,7 @@ void check_limits(const TuningLimits& limits, std::vector<Fault>& faults) {
 }
 
 void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
-  const OpenVehicle& open = options.open;
+  const UnmodelledVariation& open = options.open;
   if (!open.any()) return;
   if (options.nominal) {
     faults.push_back(

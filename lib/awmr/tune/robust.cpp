@@ -58,7 +58,7 @@ EvaluatedRuns in_scenario(const EvaluatedRuns& runs, std::size_t scenario, std::
 
 /// Applies the unmodelled variation of draw `number`, from 1. The draws take the combinations in
 /// turn; the mass factor changes with every draw, the force range after all mass factors.
-void open_up(const OpenVehicle& open, int number, DrawnVehicle& vehicle) {
+void open_up(const UnmodelledVariation& open, int number, DrawnVehicle& vehicle) {
   const std::size_t turn = at(number - 1) % open.combinations();
   const std::size_t masses = std::max<std::size_t>(1, open.mass_factors.size());
   if (!open.mass_factors.empty()) {
@@ -70,7 +70,7 @@ void open_up(const OpenVehicle& open, int number, DrawnVehicle& vehicle) {
 
 }  // namespace
 
-std::size_t OpenVehicle::combinations() const {
+std::size_t UnmodelledVariation::combinations() const {
   return std::max<std::size_t>(1, mass_factors.size()) *
          std::max<std::size_t>(1, wheel_forces.size());
 }
@@ -89,7 +89,7 @@ Result<PlantSampler> sampler_of(Model model) {
 /// without plants the nominal one again.
 Result<std::vector<DrawnVehicle>> vehicles_with(const Model& model, std::span<const int> numbers,
                                                 const std::vector<Plant<double>>& plants,
-                                                const OpenVehicle& open) {
+                                                const UnmodelledVariation& open) {
   AWMR_ASSIGN_OR_RETURN(const Plant<double> own, model.plant());
   std::vector<DrawnVehicle> vehicles(numbers.size() + 1, {own, model.vehicle.wheel_force});
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -102,7 +102,7 @@ Result<std::vector<DrawnVehicle>> vehicles_with(const Model& model, std::span<co
 }  // namespace
 
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
-                                              std::uint64_t seed, const OpenVehicle& open) {
+                                              std::uint64_t seed, const UnmodelledVariation& open) {
   std::vector<Plant<double>> plants;
   if (!model.covariance.parameters.empty()) {
     AWMR_ASSIGN_OR_RETURN(const PlantSampler sampler, sampler_of(model));
@@ -115,7 +115,7 @@ Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<cons
 }
 
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
-                                              const OpenVehicle& open) {
+                                              const UnmodelledVariation& open) {
   std::vector<int> numbers(at(draws));
   std::iota(numbers.begin(), numbers.end(), 1);
   std::vector<Plant<double>> plants;

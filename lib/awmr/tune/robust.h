@@ -16,10 +16,10 @@ namespace awmr {
 /// The model's own vehicle, then those of the numbers (from 1) from its covariance, or its own
 /// again where it has none; each with its unmodelled variation. Errors (input): as PlantSampler's.
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
-                                              std::uint64_t seed, const OpenVehicle& open);
+                                              std::uint64_t seed, const UnmodelledVariation& open);
 /// Draws 1 to `draws`, spread evenly (PlantSampler::draw_evenly).
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
-                                              const OpenVehicle& open);
+                                              const UnmodelledVariation& open);
 
 /// Gains with the name that they are evaluated under.
 struct NamedCandidate {

@@ -106,7 +106,7 @@ inline constexpr double kWider = 0.1;
 
 /// Unmodelled variation that neither trials nor data sheets determine: payload, battery voltage,
 /// values missing in a paper. The draws take the combinations in turn; the nominal plant has none.
-struct OpenVehicle {
+struct UnmodelledVariation {
   std::vector<double> mass_factors = {};    ///< of m' and I'z alike; empty: 1
   std::vector<Interval> wheel_forces = {};  ///< F' of one wheel over F_max; empty: the vehicle's
 
@@ -145,9 +145,9 @@ struct TuneOptions {
   /// alone would have it. Else robust: `draws` plants from the model's covariance in addition to its
   /// own, under LoopConditions. Every constraint holds for all of them.
   bool nominal = false;
-  int draws = 32;             ///< 0 ... 1000
-  int evaluation_draws = 50;  ///< fresh draws for the evaluation of the gains, 0 ... 100000
-  OpenVehicle open = {};      ///< of a robust search
+  int draws = 32;                 ///< 0 ... 1000
+  int evaluation_draws = 50;      ///< fresh draws for the evaluation of the gains, 0 ... 100000
+  UnmodelledVariation open = {};  ///< of a robust search
   /// A part of the evaluation, for several machines: the whole search, and the fresh draws of the
   /// part (tune_shard.h).
   std::optional<Shard> shard = {};

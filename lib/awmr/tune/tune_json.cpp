@@ -76,8 +76,8 @@ Json goal_json(const TuningGoal& goal) {
   return json;
 }
 
-OpenVehicle read_open(JsonObject json) {
-  OpenVehicle open;
+UnmodelledVariation read_open(JsonObject json) {
+  UnmodelledVariation open;
   if (json.has("mass_factors")) {
     open.mass_factors =
         json.numbers("mass_factors", {.min = kLeastMassFactor, .max = kMostMassFactor});
@@ -98,7 +98,7 @@ OpenVehicle read_open(JsonObject json) {
   return open;
 }
 
-Json open_json(const OpenVehicle& open) {
+Json open_json(const UnmodelledVariation& open) {
   Json json = Json::object();
   if (!open.mass_factors.empty()) json["mass_factors"] = open.mass_factors;
   for (const Interval& force : open.wheel_forces) {

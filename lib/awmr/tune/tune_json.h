@@ -30,8 +30,8 @@ TuningGoal read_goal(JsonObject json);
 Json goal_json(const TuningGoal& goal);
 
 /// Reads and writes the unmodelled variation, as in tune.json.
-OpenVehicle read_open(JsonObject json);
-Json open_json(const OpenVehicle& open);
+UnmodelledVariation read_open(JsonObject json);
+Json open_json(const UnmodelledVariation& open);
 
 /// `/robust/quantiles`: by mode, then gains.
 Json quantiles_json(const std::vector<EvaluatedGains>& evaluated);
