@@ -221,12 +221,12 @@ TEST(Validity, DoesNotAdviseALimitThatIsSet) {
 
 TEST(Validity, WarnsIfHeadingsAreNotRateLimited) {
   Model model = fitted_paper_model();
-  const auto finding = not_led("", model);
+  const auto finding = heading_rate_not_limited("", model);
   ASSERT_TRUE(finding);
   EXPECT_EQ(finding->code, "not-led");
-  EXPECT_FALSE(not_led(kNoRate, model));  // a limit was given
+  EXPECT_FALSE(heading_rate_not_limited(kNoRate, model));  // a limit was given
   model.vehicle.yaw_rate_max_degps = 15.0;
-  EXPECT_FALSE(not_led("", model));
+  EXPECT_FALSE(heading_rate_not_limited("", model));
 }
 
 TEST(Validity, WarnsOfATurnFasterThanTheTrials) {

@@ -52,7 +52,7 @@ std::vector<Finding> compare_findings(const Model& model, const std::vector<Scen
     if (auto finding = tyres_differ(scenario, model)) findings.push_back(*std::move(finding));
   }
   note_samples(options, comparison, findings);
-  if (auto finding = not_led(rate, model)) findings.push_back(*std::move(finding));
+  if (auto finding = heading_rate_not_limited(rate, model)) findings.push_back(*std::move(finding));
   note_scrub(model, findings);
   return findings;
 }

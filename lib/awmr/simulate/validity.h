@@ -59,7 +59,7 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
 
 /// A warning (`not-led`) if the option is not given and the model has no highest measured yaw rate,
 /// so that the heading rate is not limited.
-std::optional<Finding> not_led(const HeadingRateChoice& said, const Model& model);
+std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& said, const Model& model);
 
 /// A warning (`beyond-trials`) where a turn of `fastest_degps`, >= 0, is clearly faster than yaw
 /// resistance was measured, `measured_degps` > 0. `file` is the model's.
