@@ -87,8 +87,8 @@ struct IdentifyOptions {
   /// too, where it is believed as much as the rows.
   bool joint = false;
   std::vector<ParameterId> requested = {};  ///< empty: those the given trials exist for
-  bool requested_all =
-      false;  ///< `requested` contains all parameters; those that the vehicle does not have are left out
+  /// `requested` contains all parameters; those that the vehicle does not have are left out.
+  bool requested_all = false;
   bool fit_input_delay = false;         ///< logs: one delay of all commands, s, where it is unknown
   std::vector<LogChannel> biases = {};  ///< logs: channels with an unknown constant offset
   std::uint64_t seed = 1;               ///< of the multistart and of the bootstrap
