@@ -18,7 +18,7 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
   const std::size_t equals = text.find('=');
   const std::string_view subject = equals == std::string_view::npos ? "" : text.substr(0, equals);
   const std::string_view name = equals == std::string_view::npos ? text : text.substr(equals + 1);
-  FamilyChoice choice{.family = std::nullopt, .asked = true};
+  FamilyChoice choice{.family = std::nullopt, .requested = true};
   if (name != "auto") {
     choice.family = value_in(kFamilyNames, name);
     if (!choice.family) {
@@ -26,8 +26,8 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
                                                  name, fmt::join(names_in(kFamilyNames), ", ")));
     }
   }
-  const bool again = (subject != "yaw" && options.surge_family.asked) ||
-                     (subject != "surge" && options.yaw_family.asked);
+  const bool again = (subject != "yaw" && options.surge_family.requested) ||
+                     (subject != "surge" && options.yaw_family.requested);
   if (again) {
     return input_error("--family", fmt::format("'{}' gives a family a second time; give each of "
                                                "surge and yaw one",
@@ -50,11 +50,11 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
   return {};
 }
 
-Status add_asked(std::string_view name, IdentifyOptions& options) {
+Status add_requested(std::string_view name, IdentifyOptions& options) {
   if (name == "all") {
-    options.asked_all = true;
+    options.requested_all = true;
     for (const ParameterInfo& parameter : parameter_table()) {
-      if (!parameter.term) options.asked.push_back(parameter.id);
+      if (!parameter.term) options.requested.push_back(parameter.id);
     }
     return {};
   }
@@ -64,7 +64,7 @@ Status add_asked(std::string_view name, IdentifyOptions& options) {
   }
   std::vector<std::string> names;
   for (const ParameterInfo& p : parameter_table()) {
-    if (can_be_asked(p)) names.emplace_back(p.name);
+    if (can_be_requested(p)) names.emplace_back(p.name);
   }
   names.emplace_back("all");
   names.emplace_back(kInputDelayName);
@@ -77,11 +77,11 @@ Status add_asked(std::string_view name, IdentifyOptions& options) {
     names.push_back(bias);
   }
   const auto id = parameter_by_name(name);
-  if (!id || !can_be_asked(info(*id))) {
+  if (!id || !can_be_requested(info(*id))) {
     return input_error("--fit", fmt::format("no parameter is called '{}'; the names are {}", name,
                                             fmt::join(names, ", ")));
   }
-  options.asked.push_back(*id);
+  options.requested.push_back(*id);
   return {};
 }
 
@@ -95,7 +95,7 @@ std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions
        fmt::format("surge={} yaw={}", text_of(options.surge_family), text_of(options.yaw_family))},
       {"loss", std::string(name_in(kLossNames, options.loss))}};
   if (options.joint) words.emplace_back("joint", "true");
-  for (const ParameterId id : options.asked) words.emplace_back("fit", info(id).name);
+  for (const ParameterId id : options.requested) words.emplace_back("fit", info(id).name);
   if (options.fit_input_delay) words.emplace_back("fit", kInputDelayName);
   for (const LogChannel channel : options.biases) {
     words.emplace_back("fit", fmt::format("{}{}", kBiasPrefix, info(channel).name));

@@ -17,7 +17,7 @@ Status add_family(std::string_view text, IdentifyOptions& options);
 
 /// Adds a parameter to fit: its name, `all`, `input_delay_s` or `bias.CHANNEL`
 /// (`bias.yaw_rate_radps`, ...).
-Status add_asked(std::string_view name, IdentifyOptions& options);
+Status add_requested(std::string_view name, IdentifyOptions& options);
 
 /// Returns the options as text for the model's provenance.
 std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options);

@@ -12,8 +12,8 @@ namespace awmr::cli {
 Result<IdentifyCommand> command_of(const IdentifyWords& words) {
   IdentifyCommand command = words.command;
   AWMR_ASSIGN_OR_RETURN(command.trials.columns, column_mappings(words.columns));
-  for (const std::string& name : words.asked) {
-    AWMR_RETURN_IF_ERROR(add_asked(name, command.identify));
+  for (const std::string& name : words.requested) {
+    AWMR_RETURN_IF_ERROR(add_requested(name, command.identify));
   }
   for (const std::string& name : words.families) {
     AWMR_RETURN_IF_ERROR(add_family(name, command.identify));
@@ -56,7 +56,7 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
       ->check(one_of(names_in(kLossNames)));
   sub.add_flag("--joint", words.command.identify.joint,
                "Fit a1, b1 and m' together from the surge runs and the coast-down curves");
-  sub.add_option("--fit", words.asked,
+  sub.add_option("--fit", words.requested,
                  "Parameters to fit, e.g. surge.alpha,mass_norm; for logs also all, "
                  "input_delay_s, bias.yaw_rate_radps, ...")
       ->delimiter(',');

@@ -14,7 +14,7 @@ namespace awmr::cli {
 struct IdentifyWords {
   IdentifyCommand command;
   ColumnWords columns;
-  std::vector<std::string> asked;
+  std::vector<std::string> requested;
   std::vector<std::string> families;
   std::string method;
   std::string noise;

@@ -148,7 +148,7 @@ Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
   AWMR_ASSIGN_OR_RETURN(Outcome outcome, execute(command.identify));
   outcome.summary += fmt::format("{}: {} rows recorded\n", name_in(kLiveEndWords, followed.end),
                                  followed.recording.rows());
-  LiveUpdate last{.enough = command.enough, .asked = command.identify.identify.asked};
+  LiveUpdate last{.enough = command.enough, .requested = command.identify.identify.requested};
   if (auto model = read_model(command.identify.output)) last.model = std::move(*model);
   if (last.model) {
     last.next = next_manoeuvre(*last.model);
@@ -199,9 +199,9 @@ void add_updates_and_end(CLI::App& sub, LiveCommand& live) {
 
 }  // namespace
 
-Result<Outcome> execute(const LiveCommand& asked) {
-  AWMR_RETURN_IF_ERROR(check(asked));
-  LiveCommand command = asked;
+Result<Outcome> execute(const LiveCommand& requested) {
+  AWMR_RETURN_IF_ERROR(check(requested));
+  LiveCommand command = requested;
   AWMR_ASSIGN_OR_RETURN(const fs::path record, record_of(command));
   AWMR_RETURN_IF_ERROR(check_output(record, inputs_of(command)));
   command.identify.logs = {record};

@@ -29,7 +29,7 @@ std::string next_manoeuvre(const Model& model) {
 
 bool has_enough(const LiveUpdate& update) {
   return update.model && update.faults.empty() &&
-         is_enough(precision_of(*update.model, update.asked), update.enough);
+         is_enough(precision_of(*update.model, update.requested), update.enough);
 }
 
 LiveFit::LiveFit(const LiveCommand& command, Vehicle vehicle)
@@ -53,7 +53,7 @@ LiveUpdate LiveFit::update(const Recording& recording) const {
   LiveUpdate update{.rows = recording.rows(),
                     .set_aside = recording.set_aside(),
                     .enough = enough_,
-                    .asked = options_.asked};
+                    .requested = options_.requested};
   if (const Status written = write_file(files_.logs.front(), recording.text()); !written) {
     update.faults = written.error().faults;
     return update;

@@ -74,7 +74,7 @@ void print_to_stderr(const std::string& text) {
 std::string widths_text(const LiveUpdate& update) {
   if (!update.model) return "nothing is known yet";
   std::string text;
-  for (const Precision& precision : precision_of(*update.model, update.asked)) {
+  for (const Precision& precision : precision_of(*update.model, update.requested)) {
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", info(precision.id).name,
                         half_width_text(precision));
   }
@@ -83,7 +83,7 @@ std::string widths_text(const LiveUpdate& update) {
 
 std::string verdict_text(const LiveUpdate& update) {
   if (!update.model) return "drive: nothing is known yet";
-  if (is_enough(precision_of(*update.model, update.asked), update.enough)) {
+  if (is_enough(precision_of(*update.model, update.requested), update.enough)) {
     return fmt::format("enough: every half interval is within {:g} %", 100.0 * update.enough);
   }
   const char* const delay_note =
@@ -112,7 +112,7 @@ void LiveScreen::draw(const LiveUpdate& update) {
     add_wrapped(text_of(fault), columns, lines);
   }
   if (update.model) {
-    for (const Precision& precision : precision_of(*update.model, update.asked)) {
+    for (const Precision& precision : precision_of(*update.model, update.requested)) {
       const std::string line = parameter_line(*update.model, precision, update.enough);
       lines.emplace_back(first_characters(line, columns - 1));
     }

@@ -22,7 +22,7 @@ struct LiveUpdate {
   bool out_of_time = false;         ///< the fit exceeded its budget: `model` is the previous one
   std::string next = {};            ///< the manoeuvre that would help most
   double enough = 0.1;              ///< half width that is enough
-  std::vector<ParameterId> asked = {};
+  std::vector<ParameterId> requested = {};
 };
 
 /// "surge.alpha +-0.12 %, yaw.beta -", the widest last. Exponents have no relative width: their

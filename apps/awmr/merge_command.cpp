@@ -67,14 +67,14 @@ Result<Outcome> merge_recovery(const MergeCommand& command) {
 
 Result<Outcome> merge_tuning(const MergeCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const MergedTuning merged, merge_tune_shards(command.parts));
-  std::vector<fs::path> parts = files_of(command, kJudgedTable);
+  std::vector<fs::path> parts = files_of(command, kEvaluationTable);
   for (const fs::path& part : command.parts) parts.push_back(part / kTuneShardGains);
   AWMR_RETURN_IF_ERROR(check_outputs(command.output, {"gains.json"}, parts));
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
-  Outcome outcome{
-      .summary = judged_table(merged.judged, merged.judged_by_scenario) + goals_text(merged.goals),
-      .findings = merged.findings,
-      .document = merged.gains_text};
+  Outcome outcome{.summary = evaluation_table(merged.evaluated, merged.evaluated_by_scenario) +
+                             goals_text(merged.goals),
+                  .findings = merged.findings,
+                  .document = merged.gains_text};
   AWMR_RETURN_IF_ERROR(write_document(command.output / "gains.json", outcome, check_gains_text));
   return outcome;
 }

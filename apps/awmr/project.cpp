@@ -99,7 +99,7 @@ void read_identify(JsonObject json, Project& project) {
     }
   };
   each("family", [&](const std::string& text) { return add_family(text, options); });
-  each("fit", [&](const std::string& text) { return add_asked(text, options); });
+  each("fit", [&](const std::string& text) { return add_requested(text, options); });
   options.joint = json.optional_boolean("joint").value_or(false);
   options.seed =
       static_cast<std::uint64_t>(json.optional_integer("seed", 0, 1000000000L).value_or(1));

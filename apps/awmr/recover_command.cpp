@@ -92,7 +92,7 @@ struct RecoverWords {
   std::string noise;
   std::string error;
   std::optional<std::string> shard;
-  std::vector<std::string> asked;
+  std::vector<std::string> requested;
 };
 
 /// Errors (input): an unknown parameter or an invalid shard.
@@ -103,8 +103,8 @@ Result<RecoverCommand> command_of(const RecoverWords& words) {
   if (!words.method.empty()) options.identify.method = value_in(kMethodNames, words.method);
   if (!words.noise.empty()) options.identify.noise = value_in(kErrorModelNames, words.noise);
   if (!words.error.empty()) options.error = value_in(kErrors, words.error);
-  for (const std::string& name : words.asked) {
-    AWMR_RETURN_IF_ERROR(add_asked(name, options.identify));
+  for (const std::string& name : words.requested) {
+    AWMR_RETURN_IF_ERROR(add_requested(name, options.identify));
   }
   AWMR_ASSIGN_OR_RETURN(command.shard, shard_of(words.shard));
   return command;
@@ -134,7 +134,7 @@ void add_estimator(CLI::App& sub, RecoverWords& words) {
                  "Quantity with the simulated error of table rows: log-force, force, speed or time "
                  "(default: as the estimator assumes)")
       ->check(one_of(names_in(kErrors)));
-  sub.add_option("--fit", words.asked, "Parameters to fit, as in identify")->delimiter(',');
+  sub.add_option("--fit", words.requested, "Parameters to fit, as in identify")->delimiter(',');
   sub.add_flag("--joint", words.command.recover.identify.joint, "As in identify");
 }
 

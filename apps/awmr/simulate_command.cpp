@@ -145,7 +145,7 @@ Result<Outcome> execute(const SimulateCommand& command) {
   if (command.gains) {
     AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings, command.mode));
   }
-  std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
+  std::ranges::move(unattainable_requests(scenario, model), std::back_inserter(findings));
   if (auto finding = tyres_differ(scenario, model)) findings.push_back(*finding);
   note_extrapolation(model, metrics.yaw_rate_max_degps,
                      fmt::format("{}, {}", scenario.name, name_of(command.mode)), findings);

@@ -88,9 +88,9 @@ Result<Provenance> provenance_of(const TuneCommand& command, const std::vector<f
 
 /// Errors (input), before the work begins: an output that cannot be written, or is an input.
 Status check_output_of(const TuneCommand& command, const std::vector<fs::path>& inputs) {
-  return command.shard
-             ? check_outputs(command.output, {kTuneShardGains, kJudgedTable, kShardFile}, inputs)
-             : check_output(command.output, inputs);
+  return command.shard ? check_outputs(command.output,
+                                       {kTuneShardGains, kEvaluationTable, kShardFile}, inputs)
+                       : check_output(command.output, inputs);
 }
 
 Result<Outcome> part_outcome(const TuneCommand& command, const Tuning& tuning,
@@ -102,19 +102,19 @@ Result<Outcome> part_outcome(const TuneCommand& command, const Tuning& tuning,
       with_findings(tune_shard_text(tuning, options, provenance), findings);
   const OutputFile files[] = {
       {command.output / kTuneShardGains, gains_text(tuning, options, provenance), check_gains_text},
-      {command.output / kJudgedTable, judged_csv(tuning, options),
+      {command.output / kEvaluationTable, evaluation_csv(tuning, options),
        [&](std::string_view text, const std::string& file) {
-         return check_judged_csv(text, file, shard_json);
+         return check_evaluation_csv(text, file, shard_json);
        }},
       {command.output / kShardFile, shard_json, check_tune_shard_text}};
   AWMR_RETURN_IF_ERROR(write_files(files));
   const Shard& shard = *options.shard;
   return Outcome{
-      .summary =
-          gains_table(tuning) +
-          fmt::format("part {} of {}: {} of {} fresh draws\nwrote {}, {} and {}\n", shard.index,
-                      shard.count, shard.share_of(options.judged_draws), options.judged_draws,
-                      files[2].path.string(), kJudgedTable, kTuneShardGains),
+      .summary = gains_table(tuning) +
+                 fmt::format("part {} of {}: {} of {} fresh draws\nwrote {}, {} and {}\n",
+                             shard.index, shard.count, shard.share_of(options.evaluation_draws),
+                             options.evaluation_draws, files[2].path.string(), kEvaluationTable,
+                             kTuneShardGains),
       .findings = std::move(findings),
       .document = files[2].bytes,
       .written = {files[2].path, files[1].path, files[0].path}};

@@ -61,7 +61,7 @@ std::string active_text(const Tuning& tuning) {
 }
 
 /// Describes the unmodelled variation that the gains account for; empty without any.
-std::string open_text(const OpenVehicle& open) {
+std::string open_text(const UnmodelledVariation& open) {
   if (!open.any()) return {};
   std::string text = "  variation     ";
   if (!open.mass_factors.empty()) {
@@ -107,45 +107,46 @@ std::string gains_table(const Tuning& tuning) {
   return text;
 }
 
-std::string judged_table(const std::vector<JudgedGains>& all,
-                         const std::vector<JudgedGains>& by_scenario) {
+std::string evaluation_table(const std::vector<EvaluatedGains>& all,
+                             const std::vector<EvaluatedGains>& by_scenario) {
   if (all.empty()) return {};
-  const std::vector<JudgedGains>& rows = by_scenario.empty() ? all : by_scenario;
+  const std::vector<EvaluatedGains>& rows = by_scenario.empty() ? all : by_scenario;
   std::string text =
       fmt::format("  {:<13} {:<9} {:>8} {:>10} {:>10} {:>10} {:>11}\n", "fresh draws", "gains",
                   "settled", "settling s", "overs. deg", "IAE deg s", "steer deg/s");
   text += fmt::format("  {:<13} {:<9} {:>8} {:>10} {:>10} {:>10} {:>11}\n", "", "", "%", "95 %",
                       "95 %", "95 %", "RMS, 95 %");
   std::string_view scenario;
-  for (const JudgedGains& judged : rows) {
-    if (judged.scenario != scenario) text += fmt::format("  {}\n", judged.scenario);
-    scenario = judged.scenario;
+  for (const EvaluatedGains& evaluated : rows) {
+    if (evaluated.scenario != scenario) text += fmt::format("  {}\n", evaluated.scenario);
+    scenario = evaluated.scenario;
     const auto q95 = [&](std::string_view name) {
-      const auto figure = std::find_if(judged.figures.begin(), judged.figures.end(),
-                                       [&](const JudgedFigure& f) { return f.name == name; });
+      const auto figure = std::find_if(evaluated.figures.begin(), evaluated.figures.end(),
+                                       [&](const EvaluatedFigure& f) { return f.name == name; });
       return figure->q95;
     };
     text += fmt::format("  {:<13} {:<9} {:>8.0f} {:>10.2f} {:>10.2f} {:>10.1f} {:>11.1f}\n",
-                        name_of(judged.mode), judged.gains, 100.0 * judged.completed_share,
+                        name_of(evaluated.mode), evaluated.gains, 100.0 * evaluated.completed_share,
                         q95("settling_time_s"), q95("overshoot_deg"), q95("heading_iae_degs"),
                         q95("steering_rate_rms_degps"));
   }
   return text;
 }
 
-std::string goals_text(const std::vector<JudgedGoal>& all) {
+std::string goals_text(const std::vector<EvaluatedGoal>& all) {
   std::string text;
-  for (const JudgedGoal& judged : all) {
-    if (judged.gains != kRobustGains) continue;
+  for (const EvaluatedGoal& evaluated : all) {
+    if (evaluated.gains != kRobustGains) continue;
     std::string limits;
-    for (const GoalLimit& limit : judged.goal.at_most) {
+    for (const GoalLimit& limit : evaluated.goal.at_most) {
       limits += fmt::format("{}{} <= {:g}", limits.empty() ? "" : ", ", limit.figure, limit.most);
     }
-    text += fmt::format(
-        "  {:<6} {}, {}{}: {:.1f} % of {} draws ({:.1f} to {:.1f}), required {:g} %\n",
-        name_in(kGoalVerdictNames, judged.verdict), limits, name_of(judged.mode),
-        judged.goal.is_soft ? ", soft" : "", 100.0 * judged.held / judged.runs, judged.runs,
-        100.0 * judged.ci95.lo, 100.0 * judged.ci95.hi, 100.0 * judged.goal.share);
+    text +=
+        fmt::format("  {:<6} {}, {}{}: {:.1f} % of {} draws ({:.1f} to {:.1f}), required {:g} %\n",
+                    name_in(kGoalVerdictNames, evaluated.verdict), limits, name_of(evaluated.mode),
+                    evaluated.goal.is_soft ? ", soft" : "", 100.0 * evaluated.held / evaluated.runs,
+                    evaluated.runs, 100.0 * evaluated.ci95.lo, 100.0 * evaluated.ci95.hi,
+                    100.0 * evaluated.goal.share);
   }
   return text.empty() ? text : "  goals, on fresh draws\n" + text;
 }
@@ -154,7 +155,7 @@ std::string tuning_summary(const Tuning& tuning, const TuneOptions& options) {
   std::string text = gains_table(tuning) + active_text(tuning) +
                      certificate_text(*tuning.certificate) + open_text(options.open);
   if (tuning.robust) {
-    text += judged_table(tuning.robust->judged, tuning.robust->judged_by_scenario) +
+    text += evaluation_table(tuning.robust->evaluated, tuning.robust->evaluated_by_scenario) +
             goals_text(tuning.robust->goals) + sensitivity_text(*tuning.robust);
   }
   return text;

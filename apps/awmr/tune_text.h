@@ -13,11 +13,11 @@ std::string gains_table(const Tuning& tuning);
 
 /// Metrics of the gains on draws not used for tuning, per scenario if there are several; empty
 /// without fresh draws.
-std::string judged_table(const std::vector<JudgedGains>& all,
-                         const std::vector<JudgedGains>& by_scenario);
+std::string evaluation_table(const std::vector<EvaluatedGains>& all,
+                             const std::vector<EvaluatedGains>& by_scenario);
 
 /// Results of the goals with the tuned gains on fresh draws; empty without goals.
-std::string goals_text(const std::vector<JudgedGoal>& all);
+std::string goals_text(const std::vector<EvaluatedGoal>& all);
 
 /// All tables of a tuning.
 std::string tuning_summary(const Tuning& tuning, const TuneOptions& options);

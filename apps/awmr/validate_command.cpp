@@ -73,9 +73,9 @@ auto evaluate_logs(const ValidateCommand& command, const Vehicle& vehicle, const
 }
 
 /// Validates the logs against the model alone or, with a scenario, as drives under the controller.
-Status add_judged_logs(const ValidateCommand& command, const Model& model,
-                       const std::optional<Gains<double>>& gains, Validation& validation,
-                       std::vector<Finding>& findings) {
+Status add_evaluated_logs(const ValidateCommand& command, const Model& model,
+                          const std::optional<Gains<double>>& gains, Validation& validation,
+                          std::vector<Finding>& findings) {
   if (!command.scenario) {
     std::vector<DrivingLog> read;
     const auto by_model = [&](const DrivingLog& log) {
@@ -228,7 +228,7 @@ Result<Outcome> execute(const ValidateCommand& command) {
       Validation validation,
       validate_with_progress(model, command.scenario ? std::nullopt : gains, command.validate));
   std::vector<Finding> findings;
-  AWMR_RETURN_IF_ERROR(add_judged_logs(command, model, gains, validation, findings));
+  AWMR_RETURN_IF_ERROR(add_evaluated_logs(command, model, gains, validation, findings));
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
   if (command.gains) {
     AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings));

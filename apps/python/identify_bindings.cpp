@@ -21,14 +21,14 @@ void check_within(const char* name, double value, double least, double most) {
 
 Identification fit(const TrialsOfFiles& trials, const std::optional<std::string>& method,
                    const std::optional<std::string>& noise, const Words& family,
-                   const std::string& loss, bool joint, const Words& asked, std::uint64_t seed,
+                   const std::string& loss, bool joint, const Words& requested, std::uint64_t seed,
                    int starts, int bootstrap, double time_limit_s, bool cross_validate,
                    int threads) {
   IdentifyOptions options;
   if (method) options.method = value_of(kMethodNames, *method, "method");
   if (noise) options.noise = value_of(kErrorModelNames, *noise, "noise");
   for (const std::string& name : family) value_or_raise(cli::add_family(name, options));
-  for (const std::string& name : asked) value_or_raise(cli::add_asked(name, options));
+  for (const std::string& name : requested) value_or_raise(cli::add_requested(name, options));
   options.loss = value_of(kLossNames, loss, "loss");
   options.joint = joint;
   options.seed = seed;

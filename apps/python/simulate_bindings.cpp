@@ -13,33 +13,33 @@ constexpr NameTable<RunEnd, 4> kRunEnds{{{"duration", RunEnd::kDuration},
                                          {"failed", RunEnd::kFailed}}};
 
 /// A run with the inputs needed to compute its metrics.
-struct JudgedRun {
+struct EvaluatedRun {
   Run run;
   Scenario scenario;
   Metrics metrics;
 };
 
-JudgedRun simulated(const Model& model, const Gains<double>& gains, const Scenario& scenario,
-                    const std::string& mode_name) {
+EvaluatedRun simulated(const Model& model, const Gains<double>& gains, const Scenario& scenario,
+                       const std::string& mode_name) {
   const YawMode mode = value_of(kYawModeNames, mode_name, "mode");
   const py::gil_scoped_release released;
-  JudgedRun judged{.run = value_or_raise(simulate(model, gains, scenario, mode)),
-                   .scenario = scenario,
-                   .metrics = {}};
+  EvaluatedRun evaluated{.run = value_or_raise(simulate(model, gains, scenario, mode)),
+                         .scenario = scenario,
+                         .metrics = {}};
   const Controller<double> controller = value_or_raise(controller_for(model, gains));
-  judged.metrics = metrics_of(judged.run, scenario, controller);
-  judged.metrics.electric_work_j =
-      electric_work_j(judged.metrics, model.vehicle, controller.mass_norm);
-  return judged;
+  evaluated.metrics = metrics_of(evaluated.run, scenario, controller);
+  evaluated.metrics.electric_work_j =
+      electric_work_j(evaluated.metrics, model.vehicle, controller.mass_norm);
+  return evaluated;
 }
 
 /// Columns of run.csv.
-py::dict run_columns(const JudgedRun& judged) {
-  const std::vector<RunRow>& rows = judged.run.rows;
+py::dict run_columns(const EvaluatedRun& evaluated) {
+  const std::vector<RunRow>& rows = evaluated.run.rows;
   std::vector<std::string_view> names;
   std::vector<std::vector<double>> columns;
   for (const RunRow& row : rows) {
-    const auto values = named_values(row, judged.scenario);
+    const auto values = named_values(row, evaluated.scenario);
     if (names.empty()) {
       for (const auto& [name, value] : values) names.push_back(name);
       columns.resize(names.size());
@@ -71,7 +71,7 @@ void bind_simulate(py::module_& module) {
   bind_read(
       module, "read_scenario", [](const auto& path) { return read_scenario(path); },
       "scenario.json. Raises InputError.");
-  py::class_<JudgedRun>(module, "Run", "One simulated run.")
+  py::class_<EvaluatedRun>(module, "Run", "One simulated run.")
       .def_property_readonly(
           "columns", run_columns,
           "run.csv as a dict of NumPy arrays, units in the names: t_s, x_m, y_m, "
@@ -79,14 +79,15 @@ void bind_simulate(py::module_& module) {
           "(over F_max), steering_rad, ...; the row at t has the command that "
           "holds until the next")
       .def_property_readonly(
-          "metrics", [](const JudgedRun& judged) { return metrics_dict(judged.metrics); },
+          "metrics", [](const EvaluatedRun& evaluated) { return metrics_dict(evaluated.metrics); },
           "as in comparison.csv, units in the names; None where one has no meaning")
-      .def_property_readonly("completed",
-                             [](const JudgedRun& judged) { return judged.metrics.completed; })
       .def_property_readonly(
-          "end", [](const JudgedRun& judged) { return name_in(kRunEnds, judged.run.end); })
+          "completed", [](const EvaluatedRun& evaluated) { return evaluated.metrics.completed; })
+      .def_property_readonly(
+          "end", [](const EvaluatedRun& evaluated) { return name_in(kRunEnds, evaluated.run.end); })
       .def(
-          "csv", [](const JudgedRun& judged) { return run_csv(judged.run, judged.scenario); },
+          "csv",
+          [](const EvaluatedRun& evaluated) { return run_csv(evaluated.run, evaluated.scenario); },
           "the bytes of run.csv");
   module.def("simulate", simulated, py::arg("model"), py::arg("gains"), py::arg("scenario"),
              py::kw_only(), py::arg("mode") = "combined",

@@ -51,15 +51,15 @@ py::list scores_of(const Tuning& tuning) {
 }
 
 /// Empty for nominal gains.
-py::list judged_of(const Tuning& tuning) {
+py::list evaluated_gains_of(const Tuning& tuning) {
   py::list all;
   if (!tuning.robust) return all;
-  for (const JudgedGains& judged : tuning.robust->judged) {
+  for (const EvaluatedGains& evaluated : tuning.robust->evaluated) {
     py::dict one;
-    one["gains"] = judged.gains;
-    one["mode"] = name_of(judged.mode);
-    one["completed_share"] = judged.completed_share;
-    for (const JudgedFigure& figure : judged.figures) {
+    one["gains"] = evaluated.gains;
+    one["mode"] = name_of(evaluated.mode);
+    one["completed_share"] = evaluated.completed_share;
+    for (const EvaluatedFigure& figure : evaluated.figures) {
       py::dict values;
       values["median"] = figure.median;
       values["q95"] = figure.q95;
@@ -75,18 +75,19 @@ py::list judged_of(const Tuning& tuning) {
 py::list goals_of(const Tuning& tuning) {
   py::list all;
   if (!tuning.robust) return all;
-  for (const JudgedGoal& judged : tuning.robust->goals) {
+  for (const EvaluatedGoal& evaluated : tuning.robust->goals) {
     py::dict limits;
-    for (const GoalLimit& limit : judged.goal.at_most) limits[py::str(limit.figure)] = limit.most;
+    for (const GoalLimit& limit : evaluated.goal.at_most)
+      limits[py::str(limit.figure)] = limit.most;
     py::dict one;
-    one["gains"] = judged.gains;
-    one["mode"] = name_of(judged.mode);
+    one["gains"] = evaluated.gains;
+    one["mode"] = name_of(evaluated.mode);
     one["at_most"] = limits;
-    one["share"] = judged.goal.share;
-    one["held"] = judged.held;
-    one["runs"] = judged.runs;
-    one["ci95"] = py::make_tuple(judged.ci95.lo, judged.ci95.hi);
-    one["verdict"] = name_in(kGoalVerdictNames, judged.verdict);
+    one["share"] = evaluated.goal.share;
+    one["held"] = evaluated.held;
+    one["runs"] = evaluated.runs;
+    one["ci95"] = py::make_tuple(evaluated.ci95.lo, evaluated.ci95.hi);
+    one["verdict"] = name_in(kGoalVerdictNames, evaluated.verdict);
     all.append(one);
   }
   return all;
@@ -108,7 +109,7 @@ void bind_tune(py::module_& module) {
                              "list of dicts by scenario and mode: objective and the metrics of "
                              "comparison.csv")
       .def_property_readonly(
-          "judged", judged_of,
+          "judged", evaluated_gains_of,
           "list of dicts by gains (\"robust\", \"baseline\", ...) and mode: each "
           "figure's median, q95 and tail_mean over fresh draws; empty for "
           "nominal gains")

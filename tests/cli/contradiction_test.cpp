@@ -72,8 +72,8 @@ TEST_F(Contradiction, RecoverSaidNothingOfARunThatGaveNothing) {
   expect_refused(awmr(recover + " --joint"), "--joint: needs");
   expect_refused(awmr(recover + " --fit steering.time_constant_s"),
                  "none gave steering.time_constant_s", 1);
-  const ProcessResult asked = awmr(recover + " --fit surge.alpha -o " + path("recover.json"));
-  ASSERT_EQ(asked.exit_code, 0) << asked.err;
+  const ProcessResult requested = awmr(recover + " --fit surge.alpha -o " + path("recover.json"));
+  ASSERT_EQ(requested.exit_code, 0) << requested.err;
   EXPECT_EQ(Json::parse(read_all(path("recover.json")))["parameters"].size(), 1U);
 }
 

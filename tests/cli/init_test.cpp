@@ -62,7 +62,7 @@ TEST_F(Init, ExplainsEveryKeyThatItLeavesOpen) {
   }
 }
 
-TEST_F(Init, ARobotWithoutSteeringIsAskedForNone) {
+TEST_F(Init, ARobotWithoutSteeringIsRequestedNone) {
   ASSERT_EQ(init(" --drive differential").exit_code, 0);
   EXPECT_EQ(json("vehicle.json")["drive"], "differential");
   EXPECT_EQ(json("vehicle.json").count("steering"), 0U);
@@ -70,7 +70,7 @@ TEST_F(Init, ARobotWithoutSteeringIsAskedForNone) {
   EXPECT_THAT(read_all(path("README.md")), Not(HasSubstr("steering.max_deg")));
 }
 
-TEST_F(Init, ARobotOfFrontWheelDriveIsAskedForItsSteering) {
+TEST_F(Init, ARobotOfFrontWheelDriveIsRequestedItsSteering) {
   ASSERT_EQ(init(" --drive front_wheel").exit_code, 0);
   EXPECT_EQ(json("vehicle.json")["drive"], "front_wheel");
   EXPECT_EQ(json("vehicle.json").count("steering"), 1U);

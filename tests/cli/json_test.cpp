@@ -79,7 +79,7 @@ TEST_F(JsonOutput, HoldsTheDocumentThatIsInTheFile) {
   EXPECT_EQ(recovered.at("result"), Json::parse(read_all(path("recover.json"))));
 }
 
-TEST_F(JsonOutput, HoldsWhatWouldBeInTheFileWhereNoneIsAskedFor) {
+TEST_F(JsonOutput, HoldsWhatWouldBeInTheFileWhereNoneIsRequested) {
   const std::string model = " --json --model " + path("model.json");
   const Json suggested = result_of(awmr("suggest" + model), "suggest");
   EXPECT_EQ(suggested.at("result").at("schema"), "awmr.suggest/1");

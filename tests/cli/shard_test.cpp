@@ -137,11 +137,11 @@ TEST_F(ShardsOfCommands, AFinishedPartIsLeftAsItIsAndNoOtherIs) {
 }
 
 TEST_F(ShardsOfCommands, WhatNoRunGivesIsRefusedByTheMerge) {
-  const std::string asked = "--fit steering.time_constant_s ";
-  const ProcessResult whole = awmr(recover(asked));
+  const std::string requested = "--fit steering.time_constant_s ";
+  const ProcessResult whole = awmr(recover(requested));
   EXPECT_EQ(whole.exit_code, 1);
   const std::string parts =
-      parts_of("asked", recover(asked + "--shard 1/2"), recover(asked + "--shard 2/2"));
+      parts_of("asked", recover(requested + "--shard 1/2"), recover(requested + "--shard 2/2"));
   const ProcessResult merged = awmr(fmt::format("merge {} -o {}", parts, path("merged")));
   EXPECT_EQ(merged.exit_code, 1);
   EXPECT_EQ(merged.err, whole.err);

@@ -72,7 +72,7 @@ TEST(BreakEven, IsWhereTheLeadEnds) {
   EXPECT_TRUE(some_ends);
 }
 
-TEST(BreakEven, DoesNotDependOnThreadsAndStandsInTheFileOnlyWhenAskedFor) {
+TEST(BreakEven, DoesNotDependOnThreadsAndStandsInTheFileOnlyWhenRequested) {
   const Provenance provenance{"compare", {}, {{"model.json", "abc"}}};
   const CompareOptions one{.samples = 2, .seed = 3, .threads = 1};
   const auto first = compared(turn(60.0), one);

@@ -49,7 +49,7 @@ TEST(Resume, AStoppedComparisonIsASmallerOne) {
   EXPECT_EQ(json["scenarios"][0]["modes"]["steering"]["completed"]["of"], 15);
 }
 
-TEST(Resume, StoppedBeforeTheFirstSampleNothingIsJudged) {
+TEST(Resume, StoppedBeforeTheFirstSampleNothingIsEvaluated) {
   const Comparison c = stopped_after(2);
   EXPECT_EQ(c.whole_samples, 0);
   EXPECT_TRUE(Json::parse(comparison_text(c, kWhole, kProvenance))["scenarios"].empty());

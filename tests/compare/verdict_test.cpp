@@ -32,18 +32,18 @@ Comparison twenty(double behind_s, double spread_s, int failures = 0) {
   return c;
 }
 
-struct Judged {
+struct Evaluated {
   Comparison comparison;  // the other object refers to its rows
-  JudgedScenario scenario;
+  EvaluatedScenario scenario;
 };
 
-Judged judged(const Comparison& c) {
-  Judged j{c, {}};
+Evaluated evaluate(const Comparison& c) {
+  Evaluated j{c, {}};
   j.scenario = judge(j.comparison, {}, 1).front();
   return j;
 }
 
-std::string verdict(const Comparison& c) { return judged(c).scenario.verdict; }
+std::string verdict(const Comparison& c) { return evaluate(c).scenario.verdict; }
 
 TEST(Verdict, NamesTheBestAndWhatTheOtherIsBehindIn) {
   const std::string text = verdict(twenty(3.0, 0.1));
@@ -114,7 +114,7 @@ TEST(Verdict, OfAFewSamplesNoneIsLedByWhatNeverCompletes) {
 }
 
 TEST(Verdict, SharesTheFirstPlaceAmongWhatIsTheSame) {
-  const Judged same = judged(twenty(0.0, 0.0));
+  const Evaluated same = evaluate(twenty(0.0, 0.0));
   for (const RankedMode& mode : same.scenario.ranking) {
     EXPECT_EQ(mode.rank, 1);
     EXPECT_DOUBLE_EQ(mode.first_by_weights, 0.5);
@@ -143,8 +143,8 @@ TEST(Verdict, ReportsNoUncertaintyForASingleSample) {
 }
 
 TEST(Tally, CountsTheBestAndWhatIsNotToldApart) {
-  const Judged clear = judged(twenty(3.0, 0.1));
-  const Judged alike = judged(twenty(0.1, 2.0));
+  const Evaluated clear = evaluate(twenty(3.0, 0.1));
+  const Evaluated alike = evaluate(twenty(0.1, 2.0));
   const auto tallies = tally({clear.scenario, alike.scenario});
   // Those, and seven that every run has: sideslip, control variation, energy and wear, all 0.
   ASSERT_EQ(tallies.size(), 9U);
@@ -159,7 +159,7 @@ TEST(Tally, AModeWithoutTheMetricIsBeatenByOneThatHasIt) {
   for (ComparisonRow& row : c.rows) {
     if (row.mode == YawMode::kSteering) row.metrics.settling_time_s.reset();
   }
-  const Judged one = judged(c);
+  const Evaluated one = evaluate(c);
   const auto tallies = tally({one.scenario});
   EXPECT_EQ(tallies[0].metric, MetricId::kSettlingTime);
   EXPECT_THAT(tallies[0].best_or_tied, ElementsAre(1, 0));
@@ -167,10 +167,10 @@ TEST(Tally, AModeWithoutTheMetricIsBeatenByOneThatHasIt) {
 }
 
 TEST(Tally, CountsScenariosWithTheSameRunsOnce) {
-  const Judged clear = judged(twenty(3.0, 0.1));
-  const Judged again = judged(twenty(3.0, 0.1));
-  const Judged other = judged(twenty(0.1, 2.0));
-  const std::vector<JudgedScenario> scenarios{clear.scenario, other.scenario, again.scenario};
+  const Evaluated clear = evaluate(twenty(3.0, 0.1));
+  const Evaluated again = evaluate(twenty(3.0, 0.1));
+  const Evaluated other = evaluate(twenty(0.1, 2.0));
+  const std::vector<EvaluatedScenario> scenarios{clear.scenario, other.scenario, again.scenario};
   EXPECT_THAT(first_with_same_runs(scenarios), ElementsAre(0, 1, 0));
   for (const MetricTally& one : tally(scenarios)) EXPECT_EQ(one.scenarios, 2);
 }

@@ -34,7 +34,7 @@ double moment(const Allocation<double>& a) {
   return tau.tau_steering_m + tau.tau_diff_m;
 }
 
-TEST(Allocation, DeliversExactlyWhatIsAskedForInsideTheLimits) {
+TEST(Allocation, DeliversExactlyWhatIsRequestedInsideTheLimits) {
   EXPECT_TRUE(rc::check([] {
     const double tau_speed = drawn(0.1, 2.0);
     // |d_r| < 20 deg needs |tau_turn| < l_f tau_speed tan(10 deg); the forces are then within
@@ -150,7 +150,7 @@ TEST(Allocation, EachModeUsesItsOwnPath) {
   EXPECT_NEAR(delivered(combined).tau_diff_m, 0.025, 1e-15);
 }
 
-TEST(Allocation, StaysInsideTheLimitsAndFiniteWhateverIsAskedFor) {
+TEST(Allocation, StaysInsideTheLimitsAndFiniteWhateverIsRequested) {
   const double extremes[] = {0.0, 1e-300, -1e-300, 1e-7, -1e-7, 1.0,   -1.0,
                              4.0, -4.0,   1e6,     -1e6, 1e300, -1e300};
   for (const YawMode mode : kModes) {
@@ -325,7 +325,7 @@ TEST(AllocationForSmallAngles, GivesWhatALimitTakesFromOnePathToTheOther) {
   EXPECT_NEAR(left.tau_steering_m + left.tau_diff_m, 0.2, 1e-12);
 }
 
-TEST(AllocationForSmallAngles, StaysInsideTheLimitsWhateverIsAskedFor) {
+TEST(AllocationForSmallAngles, StaysInsideTheLimitsWhateverIsRequested) {
   for (const YawMode mode : kModes) {
     for (const double tau_speed : {0.0, 1e-300, -1e-7, 1.0, -4.0, 1e6, 1e300}) {
       for (const double tau_turn_m : {0.0, -1e-300, 1e-7, -1.0, 4.0, -1e6, 1e300}) {
@@ -404,7 +404,7 @@ GeneralisedForces<double> by_front_wheels(const Allocation<double>& a) {
   return front_wheel_forces(l.front_axle_m, l.half_track_m, a.force, a.steering_rad);
 }
 
-TEST(FrontWheelAllocation, DeliversExactlyWhatIsAskedForInsideTheLimits) {
+TEST(FrontWheelAllocation, DeliversExactlyWhatIsRequestedInsideTheLimits) {
   EXPECT_TRUE(rc::check([] {
     const double tau_speed = drawn(0.1, 1.5);
     // |d_r| < 20 deg needs |tau_turn| < l_f tau_speed tan(20 deg) = 0.13 tau_speed. The forces, at

@@ -364,7 +364,7 @@ TEST_F(AutopilotLeads, ByNothingOnceItIsStartedAgain) {
   expect_plain();
 }
 
-TEST_F(AutopilotLeads, ByWhatWasAskedForLast) {
+TEST_F(AutopilotLeads, ByWhatWasRequestedLast) {
   const Position<float> corners[] = {{0.0F, 0.0F}, {0.0F, 5.0F}};
   const auto heading = [this] { return step_at({0.0F, 0.0F}).psi_ref_rad; };
   EXPECT_EQ(heading(), 0.3F);

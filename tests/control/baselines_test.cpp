@@ -30,7 +30,7 @@ TEST(PurePursuit, GoesToTheFartherPointOfTheLineThatIsTheLookaheadAway) {
   EXPECT_NEAR(guide(line, P{-9.0, 4.0}, 0.0, progress).psi_rad, std::atan2(-4.0, 9.0), 1e-15);
 }
 
-TEST(PurePursuit, TakesSideslipOffOnlyWhereAskedFor) {
+TEST(PurePursuit, TakesSideslipOffOnlyWhereRequested) {
   const P points[] = {{0.0, 0.0}, {100.0, 0.0}};
   auto progress = start_polyline(0.0);
   EXPECT_NEAR(

@@ -82,7 +82,7 @@ TEST(Line, FarFromItTheLaneIsApproachedAtDelta) {
   EXPECT_NEAR(line_heading_rad(law, 0.2, 1.0, 0.0), 0.2 - kPi / 6.0, 1e-15);
 }
 
-TEST(Line, SideslipIsTakenOffOnlyWhereAskedFor) {
+TEST(Line, SideslipIsTakenOffOnlyWhereRequested) {
   EXPECT_NEAR(line_heading_rad(LineLaw<double>{1.0, 2.0, true}, 0.0, 0.0, 0.1), -0.1, 1e-15);
   EXPECT_NEAR(line_heading_rad(LineLaw<double>{1.0, 2.0, false}, 0.0, 0.0, 0.1), 0.0, 1e-15);
   EXPECT_EQ(sideslip_rad(0.0, 0.01), 0.0);  // at rest the course is undefined

@@ -53,21 +53,21 @@ RC_GTEST_PROP(Csv, ATableThatIsWrittenReadsBackTheSame, ()) {
   const auto values = *rc::gen::container<std::vector<double>>(columns * rows, any_finite());
   const bool is_quoted = *rc::gen::arbitrary<bool>();
   const std::string quote = is_quoted ? "\"" : "";
-  std::vector<CsvColumn> asked;
+  std::vector<CsvColumn> requested;
   std::string text;
   for (std::size_t c = 0; c < columns; ++c) {
-    asked.push_back({"column " + std::to_string(c)});
-    text += (c == 0 ? "" : std::string(1, delimiter)) + quote + asked.back().name + quote;
+    requested.push_back({"column " + std::to_string(c)});
+    text += (c == 0 ? "" : std::string(1, delimiter)) + quote + requested.back().name + quote;
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     text += (i % columns == 0 ? end : std::string(1, delimiter)) + quote +
             format_number(values[i]) + quote;
   }
-  const auto table = read_text(text, asked);
+  const auto table = read_text(text, requested);
   RC_ASSERT(table.has_value());
   RC_ASSERT(table->rows() == rows);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    RC_ASSERT(table->column(asked[i % columns].name)[i / columns] == values[i]);
+    RC_ASSERT(table->column(requested[i % columns].name)[i / columns] == values[i]);
   }
 }
 

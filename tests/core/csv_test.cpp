@@ -55,7 +55,7 @@ TEST(Csv, ReadsTabs) {
   expect_two_rows(read_text("tau_speed\tspeed_mps\n0.5\t0.25\n2\t1.66\n", kSurge));
 }
 
-TEST(Csv, DetectsTheDelimiterThatFindsTheColumnsAskedFor) {
+TEST(Csv, DetectsTheDelimiterThatFindsTheColumnsRequested) {
   // Four commas against two semicolons in the header.
   expect_two_rows(
       read_text("note, a, b, c, d;tau_speed;speed_mps\nx;0.5;0.25\ny;2;1.66\n", kSurge));

@@ -32,7 +32,7 @@ TEST(Printable, BytesThatAreNoUtf8AreEscaped) {
   EXPECT_EQ(printable("\xF4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");
 }
 
-TEST(Printable, LinesStayLinesWhereAskedFor) {
+TEST(Printable, LinesStayLinesWhereRequested) {
   EXPECT_EQ(printable_lines("a\n\x1Bz\n"), "a\n\\x1bz\n");
 }
 

@@ -90,7 +90,7 @@ TEST(Export, ArduPilotsSpeedLoopClosesWithTheTimeConstantOfTheSpeedLaw) {
   EXPECT_NEAR(values.at("ATC_SPEED_I") / values.at("ATC_SPEED_P"), slope / plant.mass_norm, 1e-3);
 }
 
-TEST(Export, ArduPilotsSteeringFeedForwardTurnsSteeredWheelsAtTheRateAskedFor) {
+TEST(Export, ArduPilotsSteeringFeedForwardTurnsSteeredWheelsAtTheRateRequested) {
   const Model model = paper_robot();
   const auto values = parameters_of(text_of(model, ExportFormat::kArduPilot));
   const Plant<double> plant = *model.plant();
@@ -102,7 +102,7 @@ TEST(Export, ArduPilotsSteeringFeedForwardTurnsSteeredWheelsAtTheRateAskedFor) {
   EXPECT_NEAR(plant.yaw.at(r), moment, 1e-4 * moment);
 }
 
-TEST(Export, Px4sFeedForwardTurnsSkidSteeringAtTheRateAskedFor) {
+TEST(Export, Px4sFeedForwardTurnsSkidSteeringAtTheRateRequested) {
   const Model model = differential_model();
   const auto values = parameters_of(text_of(model, ExportFormat::kPx4));
   const Plant<double> plant = *model.plant();

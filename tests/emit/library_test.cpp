@@ -219,12 +219,12 @@ TEST(ResistanceTables, AreTheBestThereIsWhereNoBoundIsGiven) {
   EXPECT_GT(reached, kTableError);
   EXPECT_EQ(best->table_error, reached);
   EXPECT_LE(best->yaw.worst_share(), kTableError) << "the other one is no worse for it";
-  const auto asked = [&](double bound) {
+  const auto requested = [&](double bound) {
     return autopilot_parameters(steep_robot(), kPaperGains, paper_inputs(), {.table_error = bound});
   };
-  EXPECT_FALSE(asked(kTableError));
-  EXPECT_FALSE(asked(0.99 * reached)) << "there is a better one";
-  EXPECT_TRUE(asked(reached));
+  EXPECT_FALSE(requested(kTableError));
+  EXPECT_FALSE(requested(0.99 * reached)) << "there is a better one";
+  EXPECT_TRUE(requested(reached));
 }
 
 }  // namespace

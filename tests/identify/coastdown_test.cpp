@@ -186,7 +186,7 @@ const EstimatorParameter* found(const Model& model, const std::string& family,
 TEST(CoastDown, AloneGivesTheRatiosOfTheRequestedFamily) {
   const TrialData data = curves_alone({.alpha = 0.8, .beta = 1.0, .coulomb = 0.4});
   IdentifyOptions options;
-  options.surge_family = {.family = Family::kCoulombLinear, .asked = true};
+  options.surge_family = {.family = Family::kCoulombLinear, .requested = true};
   const auto result = identify(vehicle(), data, options, {});
   ASSERT_TRUE(result);
   const auto* mass = found(result->model, "coulomb-linear", "mass_norm/surge.alpha");
@@ -215,7 +215,7 @@ TEST(CoastDown, AloneReportsAnInadequatePowerLaw) {
   EXPECT_NEAR(mass->value, 0.5 / 1.3, 4.0 * *mass->std_error);
   // `auto` selects the better one, whose numbers come first.
   IdentifyOptions options;
-  options.surge_family = {.family = std::nullopt, .asked = true};
+  options.surge_family = {.family = std::nullopt, .requested = true};
   const auto chosen = identify(vehicle(), coulomb, options, {});
   EXPECT_TRUE(chosen->model.record.reports.front().family.starts_with("coulomb"));
 }

@@ -409,9 +409,9 @@ TEST(BackEmf, OfIdealMotorsIsNotFoundAndRefusedNoBetterThanZero) {
   ASSERT_TRUE(by_itself);
   EXPECT_FALSE(has_finding(*by_itself, "back-emf", ""));
   EXPECT_EQ(by_itself->model[ParameterId::kBackEmf].value, 0.0);
-  const auto asked = identify(robot(), data, {.asked = {ParameterId::kBackEmf}}, {});
-  ASSERT_TRUE(asked);
-  const Estimate& estimate = asked->model[ParameterId::kBackEmf];
+  const auto requested = identify(robot(), data, {.requested = {ParameterId::kBackEmf}}, {});
+  ASSERT_TRUE(requested);
+  const Estimate& estimate = requested->model[ParameterId::kBackEmf];
   ASSERT_TRUE(estimate.value && estimate.std_error);
   EXPECT_NEAR(*estimate.value, 0.0, 4.5 * *estimate.std_error);
 }
@@ -423,11 +423,11 @@ TEST(BackEmf, WithoutCoastingIsRefusedWithTheTrialThatShowsIt) {
   for (std::size_t row = 0; row < log.rows(); ++row) {
     if (log.force_left[row] == 0.0) log.force_left[row] = log.force_right[row] = 1e-3;
   }
-  const auto asked = identify(robot(), data, {.asked = {ParameterId::kBackEmf}}, {});
-  ASSERT_TRUE(asked);
-  EXPECT_TRUE(refused(*asked, ParameterId::kBackEmf));
-  EXPECT_EQ(asked->model[ParameterId::kBackEmf].value, 0.0);
-  EXPECT_TRUE(has_finding(*asked, "not-identifiable", "coasting with the motors off"));
+  const auto requested = identify(robot(), data, {.requested = {ParameterId::kBackEmf}}, {});
+  ASSERT_TRUE(requested);
+  EXPECT_TRUE(refused(*requested, ParameterId::kBackEmf));
+  EXPECT_EQ(requested->model[ParameterId::kBackEmf].value, 0.0);
+  EXPECT_TRUE(has_finding(*requested, "not-identifiable", "coasting with the motors off"));
 }
 
 TEST(BackEmf, OfTheDataSheetIsFixedAndExcludesTables) {

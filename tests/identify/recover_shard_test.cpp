@@ -104,7 +104,7 @@ TEST_F(RecoverShards, OfLogsMergeToTheBytesOfASingleRun) {
 TEST_F(RecoverShards, RefusesInPartsWhatItRefusesAsAWhole) {
   // The model's tables do not identify the servo: no run gives its time constant.
   RecoverOptions options = seven_runs();
-  options.identify.asked = {ParameterId::kSteeringTimeConstant};
+  options.identify.requested = {ParameterId::kSteeringTimeConstant};
   const auto whole = recover(model(), options, {});
   ASSERT_FALSE(whole);
   std::vector<fs::path> parts;

@@ -273,7 +273,7 @@ TEST(Tables, FourRowsGiveThePowerLawForEveryRequestedFamily) {
   for (const bool by_aicc : {false, true}) {
     IdentifyOptions options;
     options.method = Method::kNonlinear;
-    if (by_aicc) options.surge_family = {.family = std::nullopt, .asked = true};
+    if (by_aicc) options.surge_family = {.family = std::nullopt, .requested = true};
     const auto result = identify(vehicle(), data, options, {});
     ASSERT_TRUE(result);
     EXPECT_TRUE(result->refused.empty());

@@ -84,7 +84,7 @@ std::vector<std::optional<double>> numbers_of(const Metrics& m) {
           m.steering_rate_rms_degps};
 }
 
-Metrics judged(const BatchRun& run, const Scenario& scenario) {
+Metrics evaluate(const BatchRun& run, const Scenario& scenario) {
   return metrics_of(
       simulate(
           run.plant, run.controller, scenario, run.mode,
@@ -99,7 +99,7 @@ struct Reference {
   Metrics metrics;
 };
 Reference reference_of(const BatchRun& run, const Scenario& scenario) {
-  return {run, scenario, judged(run, scenario)};
+  return {run, scenario, evaluate(run, scenario)};
 }
 std::vector<Reference> references_of(const std::vector<BatchRun>& runs, const Scenario& scenario) {
   std::vector<Reference> references;
@@ -135,7 +135,7 @@ Amplification amplification_of(const Reference& reference) {
     for (const double change : {-1e-12, 1e-12}) {
       BatchRun moved = reference.run;
       moved.plant.*parameter *= 1.0 + change;
-      const auto other = numbers_of(judged(moved, reference.scenario));
+      const auto other = numbers_of(evaluate(moved, reference.scenario));
       for (std::size_t i = 0; i < other.size(); ++i) {
         if (scalar[i].has_value() != other[i].has_value()) amplified.is_there.insert(i);
         if (!scalar[i] || !other[i]) continue;
@@ -228,7 +228,7 @@ TEST_F(Batch, IsTheRunOfSimulateOnFourTyresAfterAMinute) {
       const auto batch = simulate_batch(runs, scenario, kSampleTime_s, batch_arithmetic().value());
       for (std::size_t i = 0; i < runs.size(); ++i) {
         const auto a = numbers_of(batch[i].value());
-        const auto b = numbers_of(judged(runs[i], scenario));
+        const auto b = numbers_of(evaluate(runs[i], scenario));
         for (std::size_t n = 0; n < a.size(); ++n) {
           ASSERT_EQ(a[n].has_value(), b[n].has_value());
           if (!a[n]) continue;
@@ -278,7 +278,7 @@ TEST_F(Batch, EventsHappenAtTheSampleOfSimulate) {
   const std::vector<BatchRun> runs = drawn_runs(1, 0.0);
   for (const Scenario& scenario : shipped_scenarios()) {
     if (scenario.duration_s > 200.0) continue;
-    const Metrics scalar = judged(runs[0], scenario);
+    const Metrics scalar = evaluate(runs[0], scenario);
     for (const BatchArithmetic& arithmetic : all_arithmetics()) {
       const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
       EXPECT_EQ(batch[0]->settling_time_s, scalar.settling_time_s) << scenario.name;
@@ -477,7 +477,7 @@ TEST(Instructions, NamedScalarAreSimulateItself) {
   const Scenario scenario = heading_steps({30.0, -30.0});
   const auto metrics = simulate_batch(runs, scenario, kSampleTime_s, {"scalar", "scalar"});
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    expect_same(*metrics[i], judged(runs[i], scenario), "scalar");
+    expect_same(*metrics[i], evaluate(runs[i], scenario), "scalar");
   }
 }
 

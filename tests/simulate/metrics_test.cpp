@@ -30,13 +30,13 @@ awmr::Run by_hand(const double (&psi_deg)[5]) {
   return run;
 }
 
-Metrics judged(const awmr::Run& run) {
+Metrics evaluate(const awmr::Run& run) {
   return metrics_of(run, kSteps, make_controller(paper_plant(), paper_vehicle(), {}));
 }
 
 TEST(Metrics, HeadingStepIsSettledFromTheFirstRowThatStaysInTheBand) {
   // The band is 0.5 deg; 10.4 at 2 s and 9.9 after it are inside, 11 at 1 s is not.
-  const Metrics m = judged(by_hand({0.0, 11.0, 10.4, 9.9, 10.0}));
+  const Metrics m = evaluate(by_hand({0.0, 11.0, 10.4, 9.9, 10.0}));
   EXPECT_TRUE(m.completed);
   EXPECT_EQ(m.settling_time_s, 2.0);
   EXPECT_NEAR(*m.overshoot_deg, 1.0, 1e-12);
@@ -47,7 +47,7 @@ TEST(Metrics, HeadingStepIsSettledFromTheFirstRowThatStaysInTheBand) {
 }
 
 TEST(Metrics, AStepThatNeverSettlesIsNotCompletedAndHasNoSettlingTime) {
-  const Metrics m = judged(by_hand({0.0, 2.0, 4.0, 6.0, 8.0}));
+  const Metrics m = evaluate(by_hand({0.0, 2.0, 4.0, 6.0, 8.0}));
   EXPECT_FALSE(m.completed);
   EXPECT_FALSE(m.settling_time_s);
   EXPECT_EQ(m.overshoot_deg, 0.0);
@@ -57,9 +57,9 @@ TEST(Metrics, SpeedDropCountsFromWhereTheSpeedWasReached) {
   awmr::Run run = by_hand({0.0, 10.0, 10.0, 10.0, 10.0});
   const double speeds[] = {0.0, 0.9, 1.0, 0.93, 1.0};
   for (int i = 0; i < 5; ++i) run.rows[static_cast<std::size_t>(i)].state.u_mps = speeds[i];
-  EXPECT_NEAR(*judged(run).speed_drop_mps, 0.07, 1e-12);
+  EXPECT_NEAR(*evaluate(run).speed_drop_mps, 0.07, 1e-12);
   for (RunRow& row : run.rows) row.state.u_mps = 0.5;
-  EXPECT_FALSE(judged(run).speed_drop_mps);
+  EXPECT_FALSE(evaluate(run).speed_drop_mps);
 }
 
 TEST(Metrics, ACourseThatSlowsDownAtItsEndHasNoSpeedDrop) {
@@ -103,7 +103,7 @@ TEST(Metrics, ControlVariationIsPerSecondAndOverTheLimits) {
   run.rows[1].steering_command_rad =
       radians(20.0);             // there and back: twice the full range of one side
   run.rows[2].force.left = 0.5;  // there and back at F'max = 1
-  EXPECT_NEAR(judged(run).control_variation, (2.0 + 1.0) / 4.0, 1e-12);
+  EXPECT_NEAR(evaluate(run).control_variation, (2.0 + 1.0) / 4.0, 1e-12);
   Controller<double> weak = make_controller(paper_plant(), paper_vehicle(), {});
   weak.limits.force_max = 0.5;
   EXPECT_NEAR(metrics_of(run, kSteps, weak).control_variation, (2.0 + 2.0) / 4.0, 1e-12);
@@ -118,7 +118,7 @@ TEST(Metrics, WorkIsForceTimesTheWheelsSpeedAndNothingComesBack) {
   }
   // d = 0.36 m: the left wheels run at 0.8 - 0.18 m/s and brake, the right ones at 0.98 m/s: 2 x
   // 0.6 x 0.98 over 4 s.
-  const Metrics m = judged(run);
+  const Metrics m = evaluate(run);
   EXPECT_NEAR(m.energy_mech, 4.0 * 2.0 * 0.6 * 0.98, 1e-12);
   EXPECT_NEAR(m.energy_electric, 4.0 * 2.0 * (0.04 + 0.36), 1e-12);
   EXPECT_NEAR(m.tyre_work, 4.0 * 0.3028 * std::pow(0.5, 0.825) * 0.5, 1e-12);
@@ -148,7 +148,7 @@ TEST(Metrics, FrontWheelsRollAlongTheirAngle) {
   // Front: 0.8 cos 20 deg + (0.1 + 0.35 x 0.5) sin 20 deg, the d r of left and right cancel; rear:
   // 0.8.
   const double front_mps = 0.8 * std::cos(radians(20.0)) + 0.275 * std::sin(radians(20.0));
-  EXPECT_NEAR(judged(run).energy_mech, 4.0 * 2.0 * 0.5 * (front_mps + 0.8), 1e-12);
+  EXPECT_NEAR(evaluate(run).energy_mech, 4.0 * 2.0 * 0.5 * (front_mps + 0.8), 1e-12);
 }
 
 TEST(Metrics, TravelAndSaturationAreCountedOverTheRun) {
@@ -159,7 +159,7 @@ TEST(Metrics, TravelAndSaturationAreCountedOverTheRun) {
   run.rows[2].force.right = -1.0;
   run.rows[3].steering_command_rad = radians(-20.0);
   run.rows[4].force.left = 1.0;  // not held for any sample
-  const Metrics m = judged(run);
+  const Metrics m = evaluate(run);
   EXPECT_NEAR(m.steering_travel_deg, 20.0, 1e-12);
   EXPECT_EQ(m.saturation_s, 3.0);
 }
@@ -186,7 +186,7 @@ TEST(ElectricWork, IsThatOfTheCopperAndOfTheWheels) {
 }
 
 TEST(Validity, ReportsTheFastestOfSeveralRuns) {
-  struct Judged {
+  struct Evaluated {
     Metrics metrics;
     std::string name;
   };
@@ -195,8 +195,8 @@ TEST(Validity, ReportsTheFastestOfSeveralRuns) {
   turn.kind = TrialKind::kTurning;
   turn.measured = radians(15.0);
   model.record.trials = {turn};
-  std::vector<Judged> runs(3);
-  const auto where = [](const Judged& run) { return run.name; };
+  std::vector<Evaluated> runs(3);
+  const auto where = [](const Evaluated& run) { return run.name; };
   EXPECT_TRUE(extrapolation_in(model, runs, where).empty());
   runs[1].metrics.yaw_rate_max_degps = 90.0;
   runs[1].name = "the fastest";
@@ -204,7 +204,7 @@ TEST(Validity, ReportsTheFastestOfSeveralRuns) {
   const std::vector<Finding> findings = extrapolation_in(model, runs, where);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_NE(findings[0].message.find("the fastest"), std::string::npos);
-  EXPECT_TRUE(extrapolation_in(model, std::vector<Judged>{}, where).empty());
+  EXPECT_TRUE(extrapolation_in(model, std::vector<Evaluated>{}, where).empty());
 }
 
 TEST(Validity, DoesNotAdviseALimitThatIsSet) {
@@ -221,12 +221,12 @@ TEST(Validity, DoesNotAdviseALimitThatIsSet) {
 
 TEST(Validity, WarnsIfHeadingsAreNotRateLimited) {
   Model model = fitted_paper_model();
-  const auto finding = not_led("", model);
+  const auto finding = heading_rate_not_limited("", model);
   ASSERT_TRUE(finding);
   EXPECT_EQ(finding->code, "not-led");
-  EXPECT_FALSE(not_led(kNoRate, model));  // a limit was given
+  EXPECT_FALSE(heading_rate_not_limited(kNoRate, model));  // a limit was given
   model.vehicle.yaw_rate_max_degps = 15.0;
-  EXPECT_FALSE(not_led("", model));
+  EXPECT_FALSE(heading_rate_not_limited("", model));
 }
 
 TEST(Validity, WarnsOfATurnFasterThanTheTrials) {
@@ -268,21 +268,22 @@ using Codes = std::vector<std::string>;
 
 TEST(Validity, WarnsOfScenarioPartsWithoutEffect) {
   const Model model = fitted_paper_model();
-  EXPECT_EQ(codes_of(asked_in_vain(kSteps, model)), Codes{});
+  EXPECT_EQ(codes_of(unattainable_requests(kSteps, model)), Codes{});
 
   Scenario late = kSteps;
   late.sensors.emplace();
   late.sensors->heading.late_s = 0.02;  // two samples
-  EXPECT_EQ(codes_of(asked_in_vain(late, model)), Codes{});
+  EXPECT_EQ(codes_of(unattainable_requests(late, model)), Codes{});
   late.sensors->heading.late_s = 0.004;
   late.sensors->speed.late_s = 0.025;
-  EXPECT_EQ(codes_of(asked_in_vain(late, model)), (Codes{"rounded-latency", "rounded-latency"}));
+  EXPECT_EQ(codes_of(unattainable_requests(late, model)),
+            (Codes{"rounded-latency", "rounded-latency"}));
 
   Scenario after = kSteps;
   after.guidance = HeadingSteps{{{0.0, 0.1}, {3.9, 0.2}}};
-  EXPECT_EQ(codes_of(asked_in_vain(after, model)), Codes{});
+  EXPECT_EQ(codes_of(unattainable_requests(after, model)), Codes{});
   after.guidance = HeadingSteps{{{0.0, 0.1}, {4.0, 0.2}}};
-  EXPECT_EQ(codes_of(asked_in_vain(after, model)), Codes{"late-step"});
+  EXPECT_EQ(codes_of(unattainable_requests(after, model)), Codes{"late-step"});
 
   Scenario blocked = kSteps;
   WaypointCourse course;
@@ -290,16 +291,16 @@ TEST(Validity, WarnsOfScenarioPartsWithoutEffect) {
   course.acceptance_m = 0.5;
   blocked.guidance = course;
   blocked.obstacles = {{{10.0, 0.9}, 1.0}, {{5.0, 1.1}, 1.0}};
-  const auto findings = asked_in_vain(blocked, model);
+  const auto findings = unattainable_requests(blocked, model);
   ASSERT_EQ(codes_of(findings), Codes{"blocked-waypoint"});
   EXPECT_NE(findings[0].message.find("waypoint 2"), std::string::npos);
 
   // Four wheels at F_max hold 4 = 1.33 u^0.88: 3.5 m/s.
   Scenario fast = kSteps;
   fast.speed_mps = 3.3;
-  EXPECT_EQ(codes_of(asked_in_vain(fast, model)), Codes{});
+  EXPECT_EQ(codes_of(unattainable_requests(fast, model)), Codes{});
   fast.speed_mps = 3.7;
-  EXPECT_EQ(codes_of(asked_in_vain(fast, model)), Codes{"unreachable-speed"});
+  EXPECT_EQ(codes_of(unattainable_requests(fast, model)), Codes{"unreachable-speed"});
 }
 
 TEST(Validity, WarnsOfTyresThatContradictTheTurningTrials) {

@@ -42,7 +42,7 @@ Drive drive(std::uint64_t seed, double noise) {
   return d;
 }
 
-ChannelQuality judged(const Drive& d) { return channel_quality(times(), d.speed, d.command); }
+ChannelQuality evaluate(const Drive& d) { return channel_quality(times(), d.speed, d.command); }
 
 std::size_t fresh_rows(const ChannelQuality& q) {
   return static_cast<std::size_t>(std::count(q.fresh.begin(), q.fresh.end(), true));
@@ -50,7 +50,7 @@ std::size_t fresh_rows(const ChannelQuality& q) {
 
 TEST(ChannelQuality, ASoundSensorCountsInEveryRow) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const ChannelQuality q = judged(drive(seed, 0.02));
+    const ChannelQuality q = evaluate(drive(seed, 0.02));
     EXPECT_EQ(q.repeats, Repeats::kNone);
     EXPECT_EQ(fresh_rows(q), kRows);
     EXPECT_TRUE(q.spikes.empty() && q.stuck.empty());
@@ -62,7 +62,7 @@ TEST(ChannelQuality, ACoarseEncoderCountsInEveryRow) {
   for (const double quantum : {0.02, 0.05, 0.2}) {
     Drive d = drive(3, 0.01);
     for (double& u : d.speed) u = quantum * std::round(u / quantum);
-    const ChannelQuality q = judged(d);
+    const ChannelQuality q = evaluate(d);
     EXPECT_EQ(q.repeats, Repeats::kCoarse) << quantum;
     EXPECT_NEAR(q.quantum, quantum, 1e-9);
     EXPECT_EQ(fresh_rows(q), kRows) << quantum;
@@ -73,7 +73,7 @@ TEST(ChannelQuality, ASlowSensorCountsAtItsOwnRate) {
   for (const std::size_t every : {4U, 5U, 10U}) {
     Drive d = drive(4, 0.02);
     for (std::size_t i = 0; i < kRows; ++i) d.speed[i] = d.speed[i / every * every];
-    const ChannelQuality q = judged(d);
+    const ChannelQuality q = evaluate(d);
     EXPECT_EQ(q.repeats, Repeats::kSlow) << every;
     EXPECT_NEAR(static_cast<double>(fresh_rows(q)), kRows / static_cast<double>(every), 2.0);
   }
@@ -84,7 +84,7 @@ TEST(ChannelQuality, ASlowAndCoarseSensorCountsWhereItRepeatsToo) {
   for (std::size_t i = 0; i < kRows; ++i) {
     d.speed[i] = 0.02 * std::round(d.speed[i / 5 * 5] / 0.02);
   }
-  const ChannelQuality q = judged(d);
+  const ChannelQuality q = evaluate(d);
   EXPECT_EQ(q.repeats, Repeats::kSlow);
   // A reading every 5 rows, except next to long repeats.
   EXPECT_NEAR(static_cast<double>(fresh_rows(q)), kRows / 5.0, kRows / 50.0);
@@ -94,7 +94,7 @@ TEST(ChannelQuality, SpikesAreFoundAndNothingElseIs) {
   Drive d = drive(6, 0.02);
   const std::vector<std::size_t> wild = {100, 333, 334, 1500};
   for (const std::size_t i : wild) d.speed[i] += 3.0;
-  const ChannelQuality q = judged(d);
+  const ChannelQuality q = evaluate(d);
   EXPECT_EQ(q.spikes, wild);
   EXPECT_EQ(fresh_rows(q), kRows - wild.size());
 }
@@ -125,7 +125,7 @@ TEST(ChannelQuality, SharpTurnsOfAMotionAreNoSpikes) {
     for (std::size_t k = 0; k < 5; ++k)
       d.speed[i + k] += 2.0 * (2.0 - std::abs(static_cast<double>(k) - 2.0));
   }
-  EXPECT_TRUE(judged(d).spikes.empty());
+  EXPECT_TRUE(evaluate(d).spikes.empty());
   std::vector<double> t_s, position, command;
   for (std::size_t i = 0; i < 400; ++i) {
     position.push_back(std::cos(static_cast<double>(std::min<std::size_t>(i % 100, 30))));
@@ -138,13 +138,13 @@ TEST(ChannelQuality, SharpTurnsOfAMotionAreNoSpikes) {
 TEST(ChannelQuality, AnEdgeOfTheSignalIsNoSpike) {
   Drive d = drive(7, 0.001);
   for (std::size_t i = 1000; i < kRows; ++i) d.speed[i] += 5.0;
-  EXPECT_TRUE(judged(d).spikes.empty());
+  EXPECT_TRUE(evaluate(d).spikes.empty());
 }
 
 TEST(ChannelQuality, AStuckSensorIsSetAsideAfterItsFirstReading) {
   Drive d = drive(8, 0.02);
   for (std::size_t i = 701; i < 1000; ++i) d.speed[i] = d.speed[700];
-  const ChannelQuality q = judged(d);
+  const ChannelQuality q = evaluate(d);
   ASSERT_EQ(q.stuck.size(), 1U);
   EXPECT_EQ(q.stuck[0].begin, 700U);
   EXPECT_EQ(q.stuck[0].end, 1000U);
@@ -154,14 +154,14 @@ TEST(ChannelQuality, AStuckSensorIsSetAsideAfterItsFirstReading) {
 TEST(ChannelQuality, RestIsNotStuck) {
   Drive d = drive(9, 0.02);
   for (std::size_t i = 700; i < 1000; ++i) d.speed[i] = 0.0;
-  EXPECT_TRUE(judged(d).stuck.empty());
+  EXPECT_TRUE(evaluate(d).stuck.empty());
 }
 
 TEST(ChannelQuality, RestIsNotStuckWhateverTinyNumberStandsForIt) {
   for (const double rest : {3.9e-312, -1e-15, 1e-9}) {
     Drive d = drive(9, 0.02);
     for (std::size_t i = 700; i < 1000; ++i) d.speed[i] = rest;
-    EXPECT_TRUE(judged(d).stuck.empty()) << rest;
+    EXPECT_TRUE(evaluate(d).stuck.empty()) << rest;
   }
 }
 
@@ -175,13 +175,13 @@ TEST(ChannelQuality, ASteadySpeedThatIsKeptIsNotStuck) {
       d.speed[i] = 0.5;
       d.command[i] = d.command[700] + 0.4 * random.normal();
     }
-    EXPECT_TRUE(judged(d).stuck.empty()) << seed;
+    EXPECT_TRUE(evaluate(d).stuck.empty()) << seed;
   }
   Drive twice = drive(4, 0.02);
   for (const std::size_t begin : {300U, 1200U}) {
     for (std::size_t i = begin; i < begin + 200; ++i) twice.speed[i] = 0.5;
   }
-  EXPECT_TRUE(judged(twice).stuck.empty());
+  EXPECT_TRUE(evaluate(twice).stuck.empty());
 }
 
 TEST(ChannelQuality, RestingRowsAreNotSaturated) {
@@ -194,7 +194,7 @@ TEST(ChannelQuality, RestingRowsAreNotSaturated) {
         d.speed[i] = rest;
       }
     }
-    EXPECT_EQ(judged(d).saturated, 0U) << rest;
+    EXPECT_EQ(evaluate(d).saturated, 0U) << rest;
   }
 }
 
@@ -202,7 +202,7 @@ TEST(ChannelQuality, TheEndOfASensorsRangeIsSetAside) {
   Drive d = drive(10, 0.02);
   const double top = 0.8 * *std::max_element(d.speed.begin(), d.speed.end());
   for (double& u : d.speed) u = std::min(u, top);
-  const ChannelQuality q = judged(d);
+  const ChannelQuality q = evaluate(d);
   EXPECT_GT(q.saturated, 20U);
   EXPECT_EQ(q.saturated_at, top);
 }

@@ -30,7 +30,7 @@ std::vector<std::string> guesses_of(const std::string& text, TrialKind kind = Tr
   return all;
 }
 
-TEST(GuessColumns, TakesTheNamesThatAreAskedFor) {
+TEST(GuessColumns, TakesTheNamesThatAreRequested) {
   EXPECT_THAT(
       guesses_of("t_s,force_left,speed_mps\n0,0.1,1\n"),
       ElementsAre("sure t_s=t_s", "sure force_left=force_left", "sure speed_mps=speed_mps"));

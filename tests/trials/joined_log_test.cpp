@@ -166,7 +166,7 @@ TEST(RunsOfALog, EachHasToBeLongEnough) {
                           HasSubstr("the run from line 11 has 9 rows")));
 }
 
-TEST(RunsOfALog, WhereOneWasAskedForAreRefused) {
+TEST(RunsOfALog, WhereOneWasRequestedAreRefused) {
   const ScratchFile file("log.csv", two_runs(12, true));
   std::vector<Finding> findings;
   const auto log = read_log(file.path(), {}, findings);

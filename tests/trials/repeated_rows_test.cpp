@@ -92,7 +92,7 @@ TEST(RepeatedRows, ASingleCopyIsNamedWhereItIsLessLikelyThanOneInAHundred) {
               HasSubstr("3 of 6 rows"));
 }
 
-TEST(RepeatedRows, TurnsAndStopsAreJudgedAsWell) {
+TEST(RepeatedRows, TurnsAndStopsAreEvaluatedAsWell) {
   const std::string turns =
       "steering_deg,wheel_force,turns,elapsed_s\n10,0.35,2,142.613\n"
       "15,0.35,2,83.081\n20,0.35,2,58.741\n";

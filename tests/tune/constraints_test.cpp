@@ -50,7 +50,7 @@ TEST(Constraints, GiveBothFormsOfT2BelowT1ForThePapersGains) {
   EXPECT_FALSE(paper.required);
 }
 
-TEST(Constraints, RequireOnlyTheFormAskedFor) {
+TEST(Constraints, RequireOnlyTheFormRequested) {
   // margin 0.5: 0.12 <= 0.1667 holds, 0.24 <= 0.1667 does not.
   const auto paper = constraints_of(kPaperGains, paper_context(ReachingForm::kPaper, 0.5));
   const auto strict = constraints_of(kPaperGains, paper_context(ReachingForm::kStrict, 0.5));

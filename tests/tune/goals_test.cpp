@@ -71,16 +71,16 @@ TEST(Goal, IsEvaluatedByTheQuantileOfItsShare) {
 TEST(Goal, IsMetMissedOrOpenByTheExactIntervalOfItsShare) {
   const TuningGoal goal = quick_and_calm(0.9);
   const GoalInMode one{&goal, YawMode::kCombined};
-  const auto judged = [&](int held, int runs) {
+  const auto evaluated = [&](int held, int runs) {
     std::vector<ModeScore> scores;
     for (int i = 0; i < runs; ++i) scores.push_back(run_with(i < held ? 1.0 : 3.0, 0.0));
-    return judged_goal(one, {"robust", outcomes_of(scores, {&kScenario, 1})}, 1);
+    return evaluate_goal(one, {"robust", outcomes_of(scores, {&kScenario, 1})}, 1);
   };
-  EXPECT_EQ(judged(400, 400).verdict, GoalVerdict::kMet);
-  EXPECT_EQ(judged(300, 400).verdict, GoalVerdict::kMissed);
-  EXPECT_EQ(judged(362, 400).verdict, GoalVerdict::kOpen);
-  EXPECT_EQ(judged(5, 5).verdict, GoalVerdict::kOpen);  // five runs cannot show 90 %
-  const JudgedGoal some = judged(362, 400);
+  EXPECT_EQ(evaluate(400, 400).verdict, GoalVerdict::kMet);
+  EXPECT_EQ(evaluate(300, 400).verdict, GoalVerdict::kMissed);
+  EXPECT_EQ(evaluate(362, 400).verdict, GoalVerdict::kOpen);
+  EXPECT_EQ(evaluate(5, 5).verdict, GoalVerdict::kOpen);  // five runs cannot show 90 %
+  const EvaluatedGoal some = evaluate(362, 400);
   EXPECT_EQ(some.held, 362);
   EXPECT_EQ(some.runs, 400);
   EXPECT_EQ(some.ci95.lo, clopper_pearson(362, 400).lo);
@@ -93,9 +93,9 @@ TEST(Goal, OfADrawHoldsWhereAllItsScenariosKeepIt) {
   // Two draws; the first fails in its second scenario.
   const std::vector<ModeScore> scores{run_with(1.0, 0.0), run_with(3.0, 0.0), run_with(1.0, 0.0),
                                       run_with(1.6, 0.0)};
-  const JudgedGoal judged = judged_goal(one, {"robust", outcomes_of(scores, scenarios)}, 2);
-  EXPECT_EQ(judged.runs, 2);
-  EXPECT_EQ(judged.held, 1);
+  const EvaluatedGoal evaluated = evaluate_goal(one, {"robust", outcomes_of(scores, scenarios)}, 2);
+  EXPECT_EQ(evaluated.runs, 2);
+  EXPECT_EQ(evaluated.held, 1);
   EXPECT_DOUBLE_EQ(quantile_of_excess(one, outcomes_of(scores, scenarios), 2), 0.8);
 }
 
@@ -119,16 +119,16 @@ TuneOptions options_with(const TuningGoal& goal) {
   options.global_evaluations = 150;
   options.local_evaluations = 60;
   options.draws = 3;
-  options.judged_draws = 100;
+  options.evaluation_draws = 100;
   options.goals = {goal};
   return options;
 }
 
 /// Quantile of the settling time of the fresh draws in differential mode, at the goal's share.
 double settled_s(const Tuning& tuning) {
-  for (const JudgedGains& judged : tuning.robust->judged) {
-    if (judged.gains != "robust" || judged.mode != YawMode::kDifferential) continue;
-    for (const JudgedFigure& figure : judged.figures) {
+  for (const EvaluatedGains& evaluated : tuning.robust->evaluated) {
+    if (evaluated.gains != "robust" || evaluated.mode != YawMode::kDifferential) continue;
+    for (const EvaluatedFigure& figure : evaluated.figures) {
       if (figure.name == "settling_time_s") return figure.q95;
     }
   }
@@ -189,9 +189,9 @@ TEST(Goal, RefusesGoalsWithoutMeaning) {
   Model unsteered = uncertain_model();
   unsteered.vehicle.drive = Drive::kDifferential;
   EXPECT_THAT(to_text(tune(unsteered, steering).error()), HasSubstr("has no mode steering"));
-  TuneOptions unjudged = options_with(quick_and_calm());
-  unjudged.judged_draws = 0;
-  EXPECT_THAT(why(unjudged), HasSubstr("judged_draws has to be above 0"));
+  TuneOptions unevaluated = options_with(quick_and_calm());
+  unevaluated.evaluation_draws = 0;
+  EXPECT_THAT(why(unevaluated), HasSubstr("judged_draws has to be above 0"));
   EXPECT_THAT(why(options_with(quick_and_calm(1.0))), HasSubstr("a share of 1"));
   EXPECT_THAT(why(options_with({})), HasSubstr("without a limit"));
   EXPECT_THAT(why(options_with({.at_most = {{"speed", 1.0}}, .mode = {}})),

@@ -137,16 +137,16 @@ TEST(Objective, OfSetsOfGainsTogetherIsThatOfEachAlone) {
   EXPECT_EQ(together[0].objective, objective.baseline().objective);
 }
 
-TEST(Judged, AreTheOrderStatisticsOfAllPlantsButTheFirst) {
+TEST(Evaluated, AreTheOrderStatisticsOfAllPlantsButTheFirst) {
   const ObjectiveSetting setting = setting_of(6, 0.4);
   const auto runs = run_candidates(setting, {{"paper", kPaperGains}});
-  const auto judged = judgement_of(runs, {.modes = {std::begin(kYawModes), std::end(kYawModes)},
-                                          .scenarios = {"turn"},
-                                          .tail_share = setting.tail_share,
-                                          .goals = {}})
-                          .gains;
-  ASSERT_EQ(judged.size(), std::size(kYawModes));
-  for (const JudgedGains& one : judged) {
+  const auto evaluated = evaluation_of(runs, {.modes = {std::begin(kYawModes), std::end(kYawModes)},
+                                              .scenarios = {"turn"},
+                                              .tail_share = setting.tail_share,
+                                              .goals = {}})
+                             .gains;
+  ASSERT_EQ(evaluated.size(), std::size(kYawModes));
+  for (const EvaluatedGains& one : evaluated) {
     std::vector<double> iae, variation;
     int completed = 0;
     for (std::size_t plant = 1; plant < 6; ++plant) {
@@ -156,7 +156,7 @@ TEST(Judged, AreTheOrderStatisticsOfAllPlantsButTheFirst) {
       completed += score.metrics.completed ? 1 : 0;
     }
     EXPECT_EQ(one.completed_share, completed / 5.0);
-    for (const JudgedFigure& figure : one.figures) {
+    for (const EvaluatedFigure& figure : one.figures) {
       if (figure.name != "heading_iae_degs" && figure.name != "control_variation") continue;
       std::vector<double>& values = figure.name == "heading_iae_degs" ? iae : variation;
       std::sort(values.begin(), values.end());

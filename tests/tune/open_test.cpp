@@ -20,7 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-OpenVehicle paper_grid() {
+UnmodelledVariation paper_grid() {
   return {.mass_factors = {1.0, 3.1}, .wheel_forces = {{-1.0, 1.0}, {0.0, 1.0}, {0.0, 0.5}}};
 }
 
@@ -98,7 +98,7 @@ TuneOptions short_search() {
   TuneOptions options;
   options.global_evaluations = 60;
   options.local_evaluations = 20;
-  options.judged_draws = 0;
+  options.evaluation_draws = 0;
   options.draws = 2;
   options.open.mass_factors = {1.0, 3.1};
   return options;
@@ -130,7 +130,7 @@ TEST(Open, IsRefusedWhereTheDrawsDoNotTakeAllOfIt) {
   options.draws = 1;
   EXPECT_THAT(refused(options), HasSubstr("draws: 1 does not cover all 2 combinations"));
   options = short_search();
-  options.judged_draws = 1;
+  options.evaluation_draws = 1;
   EXPECT_THAT(refused(options), HasSubstr("judged_draws: 1 does not cover"));
   options = short_search();
   options.nominal = true;

@@ -463,26 +463,26 @@ TEST(Robust, BeatsThePapersGainsOnFreshDraws) {
   TuneOptions options = short_options();
   options.nominal = false;
   options.draws = 3;
-  options.judged_draws = 40;
+  options.evaluation_draws = 40;
   options.local_evaluations = 120;  // the constraints of four vehicles leave less room
   const Model model = uncertain_model();
   const Result<Tuning> tuning = tune(model, options);
   ASSERT_TRUE(tuning) << to_text(tuning.error());
   ASSERT_TRUE(tuning->robust);
   EXPECT_TRUE(tuning->robust->from_covariance);
-  ASSERT_EQ(tuning->robust->judged.size(), 3U * std::size(kYawModes));
+  ASSERT_EQ(tuning->robust->evaluated.size(), 3U * std::size(kYawModes));
   const auto figure = [&](const std::string& gains, YawMode mode, const std::string& name) {
-    for (const JudgedGains& judged : tuning->robust->judged) {
-      if (judged.gains != gains || judged.mode != mode) continue;
-      for (const JudgedFigure& f : judged.figures) {
+    for (const EvaluatedGains& evaluated : tuning->robust->evaluated) {
+      if (evaluated.gains != gains || evaluated.mode != mode) continue;
+      for (const EvaluatedFigure& f : evaluated.figures) {
         if (f.name == name) return f;
       }
     }
     ADD_FAILURE() << gains << " " << name;
-    return JudgedFigure{};
+    return EvaluatedFigure{};
   };
   for (const YawMode mode : kYawModes) {
-    const JudgedFigure iae = figure("robust", mode, "heading_iae_degs");
+    const EvaluatedFigure iae = figure("robust", mode, "heading_iae_degs");
     EXPECT_LT(iae.q95, figure("paper", mode, "heading_iae_degs").q95) << name_of(mode);
     EXPECT_LE(iae.median, iae.q95);
     // The limit is the servo's rate limit minus a tenth while a heading is held; steps add to it.
@@ -540,15 +540,16 @@ TEST(Observed, AnObserverCompensatesAConstantDisturbance) {
 TEST(Observed, IsEvaluatedNextToTheSameGainsWithoutObserver) {
   TuneOptions options;
   options.draws = 1;
-  options.judged_draws = 10;
+  options.evaluation_draws = 10;
   options.global_evaluations = 60;
   options.local_evaluations = 20;
   options.observer.emplace();
   const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_TRUE(tuning) << to_text(tuning.error());
   std::map<std::string, double> settled;
-  for (const JudgedGains& judged : tuning->robust->judged) {
-    if (judged.mode == YawMode::kDifferential) settled[judged.gains] = judged.completed_share;
+  for (const EvaluatedGains& evaluated : tuning->robust->evaluated) {
+    if (evaluated.mode == YawMode::kDifferential)
+      settled[evaluated.gains] = evaluated.completed_share;
   }
   EXPECT_EQ(settled.at("robust"), 1.0);
   EXPECT_LE(settled.at("unobserved"), 0.5);  // never with a disturbance
@@ -573,7 +574,7 @@ TEST(Observed, NamesOptionsThatContradictAnObserver) {
 TEST(Robust, ALatencyOfManySamplesIsRefusedBeforeItTakesForEver) {
   TuneOptions options = short_options();
   options.nominal = false;
-  options.judged_draws = 0;
+  options.evaluation_draws = 0;
   Model model = paper_model();
   model.vehicle.sensors.heading_late_s = 1.0;
   const Result<Tuning> tuning = tune(model, options);
@@ -586,13 +587,13 @@ TEST(Robust, WithoutDrawsAndWithoutACovarianceNoiseAloneIsDrawn) {
   TuneOptions options = short_options();
   options.nominal = false;
   options.draws = 2;
-  options.judged_draws = 0;
+  options.evaluation_draws = 0;
   options.global_evaluations = 40;
   options.local_evaluations = 10;
   const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_TRUE(tuning) << to_text(tuning.error());
   EXPECT_FALSE(tuning->robust->from_covariance);
-  EXPECT_TRUE(tuning->robust->judged.empty());
+  EXPECT_TRUE(tuning->robust->evaluated.empty());
   const std::string text =
       gains_text(*tuning, options, {.command = "tune", .options = {}, .inputs = {}});
   EXPECT_EQ(text, text_of(options));

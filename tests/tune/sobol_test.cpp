@@ -91,7 +91,7 @@ TEST(Sensitivity, OfTheTunedLoopNamesWhatWasAssumed) {
   TuneOptions options;
   options.global_evaluations = 80;
   options.local_evaluations = 20;
-  options.judged_draws = 0;
+  options.evaluation_draws = 0;
   options.draws = 1;
   options.sensitivity = 64;
   const Result<Tuning> tuning = tune(uncertain_model(), options);

@@ -69,9 +69,9 @@ TEST_F(TuneFile, ReadsGoals) {
   EXPECT_EQ(options.goals[1].at_most[0].most, 3.0);
   EXPECT_EQ(options.goals[1].mode, YawMode::kSteering);
   EXPECT_TRUE(options.goals[1].is_soft);
-  EXPECT_EQ(options.judged_draws, kGoalDraws);
+  EXPECT_EQ(options.evaluation_draws, kGoalDraws);
   EXPECT_EQ(read(R"({"goals": [{"at_most": {"overshoot_deg": 1}}], "judged_draws": 60})")
-                ->options.judged_draws,
+                ->options.evaluation_draws,
             60);
 }
 
@@ -111,7 +111,7 @@ TEST_F(TuneFile, TakesEveryDocumentedKey) {
   EXPECT_EQ(config->options.seed, 13U);
   EXPECT_TRUE(config->options.nominal);
   EXPECT_EQ(config->options.draws, 14);
-  EXPECT_EQ(config->options.judged_draws, 15);
+  EXPECT_EQ(config->options.evaluation_draws, 15);
   EXPECT_EQ(config->options.tail_share, 0.3);
   EXPECT_EQ(config->options.activity_max, 1.7);
   ASSERT_EQ(config->options.scenarios.size(), 1U);

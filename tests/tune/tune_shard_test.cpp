@@ -23,7 +23,7 @@ const Provenance kProvenance{"tune", {{"draws", "1"}}, {{"model.json", std::stri
 TuneOptions options_of(std::optional<Shard> shard) {
   TuneOptions options;
   options.draws = 1;
-  options.judged_draws = 7;
+  options.evaluation_draws = 7;
   options.global_evaluations = 45;
   options.local_evaluations = 5;
   options.observer.emplace();
@@ -50,7 +50,7 @@ class TuneShard : public ::testing::Test {
     const auto path = directory_.path() / fmt::format("{}_{}", shard.index, shard.count);
     std::filesystem::create_directory(path);
     write_all(path / kTuneShardGains, gains_text(*tuning, options, kProvenance));
-    write_all(path / kJudgedTable, judged_csv(*tuning, options));
+    write_all(path / kEvaluationTable, evaluation_csv(*tuning, options));
     write_all(path / kShardFile, tune_shard_text(*tuning, options, kProvenance));
     return path;
   }
@@ -89,11 +89,11 @@ TEST_F(TuneShard, NamesFilesThatAreNotOfThePart) {
   const auto first = write({1, 2}), second = write({2, 2});
   EXPECT_TRUE(is_finished_tune_shard(first, {1, 2}, kProvenance));
   EXPECT_FALSE(is_finished_tune_shard(first, {2, 2}, kProvenance));
-  const std::string table = read_all(first / kJudgedTable);
-  edit(first / kJudgedTable, "robust,1,", "robust,2,");
+  const std::string table = read_all(first / kEvaluationTable);
+  edit(first / kEvaluationTable, "robust,1,", "robust,2,");
   EXPECT_THAT(fault({first, second}), HasSubstr("judged.csv"));
   EXPECT_FALSE(is_finished_tune_shard(first, {1, 2}, kProvenance));
-  write_all(first / kJudgedTable, table);
+  write_all(first / kEvaluationTable, table);
   edit(first / kTuneShardGains, "\"lambda\"", "\"lambda_\"");
   EXPECT_THAT(fault({first, second}), HasSubstr("gains.json"));
   EXPECT_FALSE(is_finished_tune_shard(first, {1, 2}, kProvenance));
@@ -109,10 +109,10 @@ TEST_F(TuneShard, NamesFilesThatAreNotOfThePart) {
 /// Rows that are lost, duplicated or moved, with a matching hash.
 TEST_F(TuneShard, NamesTheFirstWrongLineOfATable) {
   const auto only = write({1, 1});
-  const std::string table = read_all(only / kJudgedTable);
+  const std::string table = read_all(only / kEvaluationTable);
   const std::string shard = read_all(only / kShardFile);
   const auto fault_of = [&](const std::string& text) {
-    write_all(only / kJudgedTable, text);
+    write_all(only / kEvaluationTable, text);
     write_all(only / kShardFile, shard);
     edit(only / kShardFile, sha256_hex(table), sha256_hex(text));
     return fault({only});

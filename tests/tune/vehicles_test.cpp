@@ -31,11 +31,11 @@ std::string row_of(const TestVehicle& vehicle, const Scenario& scenario, const T
   for (const char* name : {"settling_time_s", "overshoot_deg", "steering_rate_rms_degps"}) {
     double tuned = 0.0;
     double baseline = 0.0;
-    for (const JudgedGains& judged : tuning.robust->judged) {
-      for (const JudgedFigure& figure : judged.figures) {
+    for (const EvaluatedGains& evaluated : tuning.robust->evaluated) {
+      for (const EvaluatedFigure& figure : evaluated.figures) {
         if (figure.name != name) continue;
-        if (judged.gains == "robust") tuned = std::max(tuned, figure.q95);
-        if (judged.gains == "baseline") baseline = std::max(baseline, figure.q95);
+        if (evaluated.gains == "robust") tuned = std::max(tuned, figure.q95);
+        if (evaluated.gains == "baseline") baseline = std::max(baseline, figure.q95);
       }
     }
     row += fmt::format(" {:.3g} / {:.3g} |", tuned, baseline);

@@ -65,7 +65,7 @@ DrivingLog recorded(const Plant<double>& vehicle, const Scenario& world, std::ui
   return log;
 }
 
-Acceptance judged(const DrivingLog& log, AcceptanceOptions options = {.draws = 99}) {
+Acceptance evaluate(const DrivingLog& log, AcceptanceOptions options = {.draws = 99}) {
   auto acceptance = accept_drive(log, uncertain_model(), kPaperGains,
                                  heading_steps({30.0, -30.0}, {.hold_s = 4.0}), options);
   EXPECT_TRUE(acceptance) << to_text(acceptance.error());
@@ -89,13 +89,13 @@ TEST(Acceptance, AcceptsTheVehicleOfThePredictionAtTheStatedRate) {
     const auto plant = sampler->draw(77, i);
     ASSERT_TRUE(plant);
     const auto seed = static_cast<std::uint64_t>(1000 + i);
-    rejected += judged(recorded(*plant, drive_scenario(), seed)).inside ? 0 : 1;
+    rejected += evaluate(recorded(*plant, drive_scenario(), seed)).inside ? 0 : 1;
   }
   EXPECT_LE(rejected, 6);
 }
 
 TEST(Acceptance, BeginsWhereTheLogFirstCommandsAnything) {
-  const Acceptance acceptance = judged(recorded(paper_plant(), drive_scenario(), 3));
+  const Acceptance acceptance = evaluate(recorded(paper_plant(), drive_scenario(), 3));
   EXPECT_DOUBLE_EQ(acceptance.from_s, 2.0);
   EXPECT_NEAR(acceptance.duration_s, 8.0, 1e-9);
   EXPECT_EQ(acceptance.channels.size(), 6u);
@@ -115,7 +115,7 @@ TEST(Acceptance, BeginsWhereTheLogFirstCommandsAnything) {
 TEST(Acceptance, NamesAHeavierVehicle) {
   Plant<double> heavier = paper_plant();
   heavier.mass_norm *= 3.0;
-  const Acceptance acceptance = judged(recorded(heavier, drive_scenario(), 3));
+  const Acceptance acceptance = evaluate(recorded(heavier, drive_scenario(), 3));
   EXPECT_FALSE(acceptance.inside);
   const FaultHypothesis* mass = hypothesis(acceptance, "mass_norm");
   ASSERT_NE(mass, nullptr) << acceptance_table(acceptance);
@@ -125,7 +125,7 @@ TEST(Acceptance, NamesAHeavierVehicle) {
 TEST(Acceptance, NamesMotorsOfOneSideThatAreWeak) {
   Scenario world = drive_scenario();
   world.faults.push_back({{Wheel::kFrontLeft, Wheel::kRearLeft}, {}, 0.7});
-  const Acceptance acceptance = judged(recorded(paper_plant(), world, 3));
+  const Acceptance acceptance = evaluate(recorded(paper_plant(), world, 3));
   EXPECT_FALSE(acceptance.inside);
   const FaultHypothesis* motors = hypothesis(acceptance, "force of the left motors");
   ASSERT_NE(motors, nullptr) << acceptance_table(acceptance);
@@ -136,7 +136,7 @@ TEST(Acceptance, NamesMotorsOfOneSideThatAreWeak) {
 TEST(Acceptance, NamesABiasOfTheGyro) {
   Scenario world = drive_scenario();
   world.sensors->yaw_rate.bias = radians(6.0);
-  const Acceptance acceptance = judged(recorded(paper_plant(), world, 3));
+  const Acceptance acceptance = evaluate(recorded(paper_plant(), world, 3));
   EXPECT_FALSE(acceptance.inside);
   const FaultHypothesis* bias = hypothesis(acceptance, "bias of the yaw rate");
   ASSERT_NE(bias, nullptr) << acceptance_table(acceptance);
@@ -146,7 +146,7 @@ TEST(Acceptance, NamesABiasOfTheGyro) {
 TEST(Acceptance, TellsSinceWhenADriveIsOutside) {
   Scenario world = drive_scenario();
   world.faults.push_back({{Wheel::kFrontLeft, Wheel::kRearLeft}, {.from_s = 4.5}, 0.5});
-  const Acceptance acceptance = judged(recorded(paper_plant(), world, 3));
+  const Acceptance acceptance = evaluate(recorded(paper_plant(), world, 3));
   ASSERT_FALSE(acceptance.inside);
   std::optional<double> first;
   for (const ChannelAcceptance& one : acceptance.channels) {
@@ -166,7 +166,7 @@ TEST(Acceptance, ABandWithoutGivenNoiseTakesTheLogsOwn) {
     log[LogChannel::kX]->value.push_back(0.05 * random.normal());
     log[LogChannel::kX]->fresh.push_back(true);
   }
-  const Acceptance acceptance = judged(log);
+  const Acceptance acceptance = evaluate(log);
   const auto x = std::find_if(acceptance.channels.begin(), acceptance.channels.end(),
                               [](const ChannelAcceptance& one) { return one.channel == "x_m"; });
   ASSERT_NE(x, acceptance.channels.end());
@@ -195,8 +195,8 @@ TEST(Acceptance, RefusesWhatCannotBeHeldAgainstTheScenario) {
 
 TEST(Acceptance, IsTheSameForAnyNumberOfThreads) {
   const DrivingLog log = recorded(paper_plant(), drive_scenario(), 3);
-  const Acceptance one = judged(log, {.draws = 40, .threads = 1});
-  const Acceptance three = judged(log, {.draws = 40, .threads = 3});
+  const Acceptance one = evaluate(log, {.draws = 40, .threads = 1});
+  const Acceptance three = evaluate(log, {.draws = 40, .threads = 3});
   EXPECT_EQ(one.p_value, three.p_value);
   EXPECT_EQ(acceptance_table(one), acceptance_table(three));
 }

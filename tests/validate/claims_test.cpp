@@ -231,7 +231,7 @@ TEST(OpenCases, AreAllCombinationsWithTheMassThatTyresCarry) {
   EXPECT_EQ(open_cases(model).size(), 12U);
 }
 
-TEST(OpenCases, ClaimsAreJudgedInEachAsTheModelThereWouldBe) {
+TEST(OpenCases, ClaimsAreEvaluatedInEachAsTheModelThereWouldBe) {
   const Model model = identified_paper_model();
   std::vector<Claim> claims = check_claims(model, kPaperGains, batch_arithmetic().value());
   add_open_cases(model, kPaperGains, batch_arithmetic().value(), claims);

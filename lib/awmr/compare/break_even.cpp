@@ -215,7 +215,7 @@ void add_measured(const Model& model, BreakEven& entry) {
   if (turns <= kMostTurns) entry.turns_to_decide = static_cast<int>(turns);
 }
 
-/// Describes which leads survive the measured scrub; `all` belong to one pair of modes.
+/// Lines of the table: how many leads the measured scrub ends. `all` belong to one pair of modes.
 std::string decided(const std::vector<const BreakEven*>& all) {
   std::map<Lead, int> count;
   int at_other_rates = 0;

@@ -80,7 +80,7 @@ struct CompareOptions {
   /// Rows that are there already, from a comparison of the same inputs and seed: to go on with one
   /// that was stopped.
   std::vector<ComparisonRow> finished = {};
-  /// Told of the runs done and of all, from the thread that called compare(): for a progress bar.
+  /// Called with the numbers of finished and of all runs, on the thread that called compare().
   std::function<void(std::size_t done, std::size_t total)> progress = {};
   /// Once true, no further run is begun: for an interrupt. Null: never.
   const std::atomic<bool>* stop = nullptr;
@@ -102,16 +102,17 @@ struct BreakEven {
   double fastest_degps =
       0.0;  ///< yaw rate of the mode's run on the model's own values, deg/s, >= 0
   /// Measured scrub of the vehicle's differential turns, m: the 95 % interval, widened if it
-  /// changes with the rate; from the largest moment without a turn if none turned. Absent without
-  /// such trials.
+  /// changes with the rate and up to the largest moment at which the vehicle did not turn. From
+  /// that moment to most_m if the model has no scrub; absent if it has neither.
   std::optional<Interval> measured_m = {};
-  std::optional<Interval> measured_degps = {};  ///< yaw rates of those turns; absent if none turned
-  /// Total number of such turns needed for a decision at the same scatter; absent if the lead is
-  /// decided or more turns would not decide it.
+  std::optional<Interval> measured_degps =
+      {};  ///< yaw rates of those turns; absent if the model has no scrub
+  /// Total number of such turns needed for a decision at the same scatter, at most 1000; absent if
+  /// the lead is decided or more turns would not decide it.
   std::optional<int> turns_to_decide = {};
 };
 
-/// Fate of a lead under the measured scrub.
+/// Effect of the measured scrub on a lead.
 enum class Lead {
   kKept,  ///< no measured scrub ends it
   kLost,  ///< every one does

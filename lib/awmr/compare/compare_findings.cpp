@@ -21,8 +21,8 @@ void note_samples(const CompareOptions& options, const Comparison& comparison,
                    samples, 100.0 * (1.0 - std::pow(0.5, samples - 1)), kFewSamples)});
 }
 
-/// Adds the finding on the simulated scrub, or a warning if yaw resistance includes scrub that
-/// steered turns do not have.
+/// Adds a warning if yaw resistance includes scrub that steered turns do not have, and a note if
+/// measured scrub is simulated.
 void note_scrub(const Model& model, std::vector<Finding>& findings) {
   if (model.yaw_by_sides_alone) {
     findings.push_back(
@@ -48,11 +48,11 @@ std::vector<Finding> compare_findings(const Model& model, const std::vector<Scen
                                       const HeadingRateChoice& rate) {
   std::vector<Finding> findings;
   for (const Scenario& scenario : scenarios) {
-    std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
+    std::ranges::move(unattainable_requests(scenario, model), std::back_inserter(findings));
     if (auto finding = tyres_differ(scenario, model)) findings.push_back(*std::move(finding));
   }
   note_samples(options, comparison, findings);
-  if (auto finding = not_led(rate, model)) findings.push_back(*std::move(finding));
+  if (auto finding = heading_rate_not_limited(rate, model)) findings.push_back(*std::move(finding));
   note_scrub(model, findings);
   return findings;
 }

@@ -10,9 +10,9 @@
 
 namespace awmr {
 
-/// Findings that a part of a comparison has as the whole has them: requests that the vehicle cannot
-/// meet, tyres that differ from those of the trials, too few samples (`few-samples`), heading
-/// commands that are not rate-limited, and the scrub that the modes are compared with
+/// Findings that are the same for a part and for the whole comparison: requests that the vehicle
+/// cannot meet, tyres that differ from those of the trials, too few samples (`few-samples`),
+/// heading commands that are not rate-limited, and the scrub that the modes are compared with
 /// (`scrub-simulated`, `turned-by-sides`). `rate` is the requested limit of the heading rate.
 std::vector<Finding> compare_findings(const Model& model, const std::vector<Scenario>& scenarios,
                                       const CompareOptions& options, const Comparison& comparison,

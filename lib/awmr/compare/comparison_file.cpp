@@ -116,7 +116,7 @@ Json decision_json(const std::string& scenario, const Decision& decision,
   return json;
 }
 
-Json scenario_json(const JudgedScenario& scenario, const std::vector<Change>& changes) {
+Json scenario_json(const EvaluatedScenario& scenario, const std::vector<Change>& changes) {
   Json json;
   json["name"] = scenario.rows.scenario;
   json["modes"] = Json::object();
@@ -139,7 +139,7 @@ Json scenario_json(const JudgedScenario& scenario, const std::vector<Change>& ch
 }
 
 /// The scenarios represented by another one with the same runs.
-Json counted_once_json(const std::vector<JudgedScenario>& ranked) {
+Json counted_once_json(const std::vector<EvaluatedScenario>& ranked) {
   const std::vector<std::size_t> first = first_with_same_runs(ranked);
   Json json = Json::array();
   for (std::size_t i = 0; i < ranked.size(); ++i) {
@@ -151,7 +151,7 @@ Json counted_once_json(const std::vector<JudgedScenario>& ranked) {
 }
 
 /// By metric and contender: in how many of the ranked scenarios it was best, or tied with the best.
-Json overall_json(const std::vector<JudgedScenario>& ranked) {
+Json overall_json(const std::vector<EvaluatedScenario>& ranked) {
   Json json = Json::array();
   for (const MetricTally& one : tally(ranked)) {
     Json counts = Json::object();
@@ -165,7 +165,7 @@ Json overall_json(const std::vector<JudgedScenario>& ranked) {
   return json;
 }
 
-Json decisions_json(const std::vector<JudgedScenario>& ranked) {
+Json decisions_json(const std::vector<EvaluatedScenario>& ranked) {
   DecisionTally tally = tally_decisions(ranked);
   Json json;
   for (const auto& [name, kind] : kDecisionKindNames) {
@@ -290,8 +290,9 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
   Json json = output_document("awmr.comparison/1", provenance);
   json["arithmetic"] = comparison.arithmetic;
   json["csv_sha256"] = sha256_hex(comparison_csv(comparison));  // says which rows belong to it
-  const Comparison judged = judged_part(comparison);
-  const int samples = comparison.stopped ? std::max(0, judged.whole_samples - 1) : options.samples;
+  const Comparison evaluated = evaluated_part(comparison);
+  const int samples =
+      comparison.stopped ? std::max(0, evaluated.whole_samples - 1) : options.samples;
   json["samples"] = options.samples;
   if (comparison.stopped) {
     json["stopped"] = {{"finished_runs", comparison.rows.size()}, {"judged_samples", samples}};
@@ -299,15 +300,16 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
   json["seed"] = options.seed;
   json["statistics"] = statistics_json(samples);
   json["ranking"] = ranking_json(options.preferences);
-  const std::vector<JudgedScenario> scenarios = judge(judged, options.preferences, options.seed);
-  const std::vector<JudgedScenario> ranked = ranked_of(scenarios);
+  const std::vector<EvaluatedScenario> scenarios =
+      judge(evaluated, options.preferences, options.seed);
+  const std::vector<EvaluatedScenario> ranked = ranked_of(scenarios);
   json["overall"] = overall_json(ranked);
   json["counted_once"] = counted_once_json(ranked);
   json["decisions"] = decisions_json(ranked);
   if (comparison.break_even) json["break_even"] = break_even_json(*comparison.break_even);
   json["scenarios"] = Json::array();
-  for (const JudgedScenario& scenario : scenarios)
-    json["scenarios"].push_back(scenario_json(scenario, judged.changes));
+  for (const EvaluatedScenario& scenario : scenarios)
+    json["scenarios"].push_back(scenario_json(scenario, evaluated.changes));
   return to_text(json);
 }
 

@@ -77,7 +77,7 @@ std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>
 }
 
 /// "decisions: 3 decided, 1 level, 2 undecided; survive plant 3 of 6, weights 5 of 6, gains 6 of 6"
-std::string decisions_of(const std::vector<JudgedScenario>& scenarios) {
+std::string decisions_of(const std::vector<EvaluatedScenario>& scenarios) {
   DecisionTally tally = tally_decisions(scenarios);
   std::string text;
   for (const auto& [name, kind] : kDecisionKindNames) {
@@ -95,7 +95,7 @@ std::string decisions_of(const std::vector<JudgedScenario>& scenarios) {
 }
 
 /// "best or tied, of 12 scenarios" by metric, where there are several to count.
-std::string overall_of(const std::vector<JudgedScenario>& scenarios) {
+std::string overall_of(const std::vector<EvaluatedScenario>& scenarios) {
   if (scenarios.size() < 2) return "";
   std::string text =
       fmt::format("best or tied with the best, by metric\n  {:<20} {:>9}", "", "scenarios");
@@ -127,9 +127,9 @@ std::string overall_of(const std::vector<JudgedScenario>& scenarios) {
 
 std::string comparison_table(const Comparison& comparison, const CompareOptions& options) {
   std::string text;
-  const Comparison part = judged_part(comparison);
-  const std::vector<JudgedScenario> scenarios = judge(part, options.preferences, options.seed);
-  for (const JudgedScenario& scenario : scenarios) {
+  const Comparison part = evaluated_part(comparison);
+  const std::vector<EvaluatedScenario> scenarios = judge(part, options.preferences, options.seed);
+  for (const EvaluatedScenario& scenario : scenarios) {
     const std::size_t samples = scenario.rows.modes.front().rows.size() - 1;
     text += fmt::format(
         "{}: {}\n", scenario.rows.scenario,

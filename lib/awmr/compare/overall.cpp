@@ -8,8 +8,9 @@
 namespace awmr {
 namespace {
 
-/// Whether `other` is significantly better than `own` in the metric, by more than its margin.
-bool beats(const JudgedScenario& scenario, const MetricColumn& metric, const ModeRows& other,
+/// Whether `other` is significantly better than `own` in the metric by more than its margin, or has
+/// a value where `own` has none.
+bool beats(const EvaluatedScenario& scenario, const MetricColumn& metric, const ModeRows& other,
            const ModeRows& own) {
   const auto theirs = summarise(other, metric).mean;
   const auto mine = summarise(own, metric).mean;
@@ -37,9 +38,9 @@ bool same_runs(const ModeRows& a, const ModeRows& b) {
 
 }  // namespace
 
-std::vector<JudgedScenario> judge(const Comparison& comparison, const Preferences& preferences,
-                                  std::uint64_t seed) {
-  std::vector<JudgedScenario> all;
+std::vector<EvaluatedScenario> judge(const Comparison& comparison, const Preferences& preferences,
+                                     std::uint64_t seed) {
+  std::vector<EvaluatedScenario> all;
   for (ScenarioRows& scenario : group(comparison)) {
     auto differences = paired_differences(scenario, preferences, seed);
     auto ranking = rank(scenario, differences, preferences, seed);
@@ -54,14 +55,14 @@ std::vector<JudgedScenario> judge(const Comparison& comparison, const Preference
   return all;
 }
 
-std::vector<JudgedScenario> ranked_of(const std::vector<JudgedScenario>& scenarios) {
-  std::vector<JudgedScenario> ranked;
+std::vector<EvaluatedScenario> ranked_of(const std::vector<EvaluatedScenario>& scenarios) {
+  std::vector<EvaluatedScenario> ranked;
   std::copy_if(scenarios.begin(), scenarios.end(), std::back_inserter(ranked),
-               [](const JudgedScenario& scenario) { return !scenario.ranking.empty(); });
+               [](const EvaluatedScenario& scenario) { return !scenario.ranking.empty(); });
   return ranked;
 }
 
-std::vector<std::size_t> first_with_same_runs(const std::vector<JudgedScenario>& scenarios) {
+std::vector<std::size_t> first_with_same_runs(const std::vector<EvaluatedScenario>& scenarios) {
   std::vector<std::size_t> first;
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     const std::vector<ModeRows>& modes = scenarios[i].rows.modes;
@@ -75,7 +76,7 @@ std::vector<std::size_t> first_with_same_runs(const std::vector<JudgedScenario>&
   return first;
 }
 
-std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios) {
+std::vector<MetricTally> tally(const std::vector<EvaluatedScenario>& scenarios) {
   std::vector<MetricTally> tallies;
   if (scenarios.empty()) return tallies;
   const std::size_t contenders = scenarios.front().rows.modes.size();
@@ -84,7 +85,7 @@ std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios) {
     if (!metric.can_rank()) continue;
     MetricTally one{metric.id, 0, std::vector<int>(contenders, 0)};
     for (std::size_t s = 0; s < scenarios.size(); ++s) {
-      const JudgedScenario& scenario = scenarios[s];
+      const EvaluatedScenario& scenario = scenarios[s];
       if (first[s] != s || !any_has(scenario.rows, metric)) continue;
       ++one.scenarios;
       const std::vector<ModeRows>& modes = scenario.rows.modes;
@@ -100,7 +101,7 @@ std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios) {
   return tallies;
 }
 
-DecisionTally tally_decisions(const std::vector<JudgedScenario>& scenarios) {
+DecisionTally tally_decisions(const std::vector<EvaluatedScenario>& scenarios) {
   DecisionTally tally;
   const std::vector<std::size_t> first = first_with_same_runs(scenarios);
   for (std::size_t i = 0; i < scenarios.size(); ++i) {

@@ -22,7 +22,7 @@ struct MetricTally {
 };
 
 /// One scenario with what was found out about it.
-struct JudgedScenario {
+struct EvaluatedScenario {
   ScenarioRows rows;
   std::vector<PairedDifference> differences;
   std::vector<RankedMode> ranking;
@@ -30,23 +30,23 @@ struct JudgedScenario {
   std::string verdict;
 };
 
-/// `comparison` is a judged_part(), and outlives the result, which looks at its rows.
-std::vector<JudgedScenario> judge(const Comparison& comparison, const Preferences& preferences,
-                                  std::uint64_t seed);
+/// `comparison` is an evaluated_part(), and outlives the result, which looks at its rows.
+std::vector<EvaluatedScenario> judge(const Comparison& comparison, const Preferences& preferences,
+                                     std::uint64_t seed);
 /// Ranked scenarios.
-std::vector<JudgedScenario> ranked_of(const std::vector<JudgedScenario>& scenarios);
+std::vector<EvaluatedScenario> ranked_of(const std::vector<EvaluatedScenario>& scenarios);
 
 /// By position: the first scenario of the list with the same runs, every figure of every mode and
 /// sample equal; itself where there is none before it. Two files of one course are one course.
-std::vector<std::size_t> first_with_same_runs(const std::vector<JudgedScenario>& scenarios);
+std::vector<std::size_t> first_with_same_runs(const std::vector<EvaluatedScenario>& scenarios);
 
 /// By metric that can rank, over the scenarios given: those that are ranked, of several with the
 /// same runs the first. A contender is beaten in a metric by one whose mean is lower where the
 /// difference is a relevant one. A contender without a value is beaten by any that has one.
-std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios);
+std::vector<MetricTally> tally(const std::vector<EvaluatedScenario>& scenarios);
 
-/// Number of decided scenarios, and of those that survive each kind of change with all of its
-/// settings. Scenarios with the same runs count once.
+/// Number of scenarios with each kind of decision, and of those whose first place survives each
+/// kind of change in all of its settings. Scenarios with the same runs count once.
 struct DecisionTally {
   std::map<DecisionKind, int> scenarios;
   struct Share {
@@ -55,6 +55,6 @@ struct DecisionTally {
   };
   std::map<ChangeKind, Share> survived;
 };
-DecisionTally tally_decisions(const std::vector<JudgedScenario>& scenarios);
+DecisionTally tally_decisions(const std::vector<EvaluatedScenario>& scenarios);
 
 }  // namespace awmr

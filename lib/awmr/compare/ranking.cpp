@@ -107,7 +107,7 @@ std::vector<double> resampled_differences(const Entry& own, const Entry& leader,
   return means;
 }
 
-/// Ratio of one mode's score to another's.
+/// Interval of the ratio of a mode's score to the leader's, and the conclusion from it.
 struct Behind {
   std::optional<Interval> ratio_ci95;  ///< absent below 2 samples
   Conclusion conclusion{};

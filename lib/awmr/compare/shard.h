@@ -32,8 +32,7 @@ struct Merged {
   Comparison comparison;
   CompareOptions options;  ///< samples and seed
   Provenance provenance;
-  std::vector<Finding>
-      findings;  ///< those of the fastest turn of all runs, then those of the parts
+  std::vector<Finding> findings;  ///< of the fastest turn of all runs, then of the first part
 };
 
 /// Puts the parts in the directories together, in any order. Errors (input): a directory without

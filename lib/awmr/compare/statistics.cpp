@@ -184,7 +184,7 @@ std::string Contender::label() const {
   return gains.empty() ? name : name + " with " + gains;
 }
 
-Comparison judged_part(const Comparison& comparison) {
+Comparison evaluated_part(const Comparison& comparison) {
   Comparison part{.rows = {},
                   .whole_samples = comparison.whole_samples,
                   .stopped = comparison.stopped,

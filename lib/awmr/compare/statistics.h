@@ -36,10 +36,10 @@ struct ScenarioRows {
   std::vector<ModeRows> modes;
 };
 
-/// All finished rows, which are to be whole: see judged_part().
+/// All finished rows, which are to be whole: see evaluated_part().
 std::vector<ScenarioRows> group(const Comparison& comparison);
 /// The comparison without the samples that not all contenders have finished.
-Comparison judged_part(const Comparison& comparison);
+Comparison evaluated_part(const Comparison& comparison);
 
 struct Summary {
   std::optional<double> nominal;

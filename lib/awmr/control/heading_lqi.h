@@ -116,17 +116,17 @@ constexpr T same_moment_share() {
 /// Advances z by one sample:
 ///   z_dot = e
 ///   z_dot = 0 while a limit reduces the moment and e requires more of it
-/// The second line is conditional integration, without which z would wind up at a limit. `asked_m`
-/// is the moment requested from the allocation `a`, `made` the moment it makes.
+/// The second line is conditional integration, without which z would wind up at a limit.
+/// `requested_m` is the moment requested from the allocation `a`, `made` the moment it makes.
 template <class T>
-void integrate_error(const T& asked_m, const Allocation<T>& a, const GeneralisedForces<T>& made,
+void integrate_error(const T& requested_m, const Allocation<T>& a, const GeneralisedForces<T>& made,
                      const T& sample_time_s, LqiState<T>& state) {
   using math::abs;
   using math::select;
-  const T missing_m = asked_m - (made.tau_steering_m + made.tau_diff_m);
+  const T missing_m = requested_m - (made.tau_steering_m + made.tau_diff_m);
   const Mask<T> limited = a.force_limited || a.steering_limited || a.steering_powerless;
   const Mask<T> asks_for_more =
-      missing_m * state.error_rad > same_moment_share<T>() * abs(T(asked_m * state.error_rad));
+      missing_m * state.error_rad > same_moment_share<T>() * abs(T(requested_m * state.error_rad));
   state.integral_rad_s +=
       select(limited && asks_for_more, T(0.0), T(sample_time_s * state.error_rad));
 }

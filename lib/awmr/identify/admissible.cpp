@@ -49,7 +49,7 @@ std::string why_open(ParameterId id, const Estimate& estimate) {
   return fmt::format("these trials determine it only to {:.2g} ... {:.2g} (95 %)", ci->lo, ci->hi);
 }
 
-/// Also removes the parameters that depend on removed ones, with the reasons.
+/// Removes the parameters that depend on removed ones, with the reasons.
 void take_out_what_hangs_on_it(Model& model, std::map<ParameterId, std::string>& reasons) {
   const auto follow = [&](ParameterId first, ParameterId second) {
     if (!reasons.contains(first)) return;

@@ -27,24 +27,25 @@ bool asks_for_other_family(const IdentifyOptions& options) {
 /// Steady runs of motors with back-EMF hold its loss and the resistance in one.
 Status check_back_emf(const Vehicle& vehicle, const TrialData& data,
                       const IdentifyOptions& options) {
-  const bool is_asked =
-      std::ranges::find(options.asked, ParameterId::kBackEmf) != options.asked.end();
-  if (!is_asked && !(vehicle.back_emf_s_per_m.value_or(0.0) > 0.0)) return {};
+  const bool is_requested =
+      std::ranges::find(options.requested, ParameterId::kBackEmf) != options.requested.end();
+  if (!is_requested && !(vehicle.back_emf_s_per_m.value_or(0.0) > 0.0)) return {};
   if (!data.surge && !data.turning) return {};
   return input_error(
       data.surge ? data.surge->file : data.turning->file,
-      fmt::format("steady runs cannot separate back-EMF ({}) from resistance; identify this "
-                  "vehicle from logs ({}) that drive and coast",
-                  is_asked ? option_text(fmt::format("fit {}", info(ParameterId::kBackEmf).name))
-                           : fmt::format("back_emf_s_per_m {:g} in the vehicle file",
-                                         *vehicle.back_emf_s_per_m),
-                  option_text("log")));
+      fmt::format(
+          "steady runs cannot separate back-EMF ({}) from resistance; identify this "
+          "vehicle from logs ({}) that drive and coast",
+          is_requested
+              ? option_text(fmt::format("fit {}", info(ParameterId::kBackEmf).name))
+              : fmt::format("back_emf_s_per_m {:g} in the vehicle file", *vehicle.back_emf_s_per_m),
+          option_text("log")));
 }
 
 Status check_options(const Vehicle& vehicle, const TrialData& data,
                      const IdentifyOptions& options) {
-  for (const ParameterId id : options.asked) {
-    if (has(vehicle, id) || options.asked_all) continue;
+  for (const ParameterId id : options.requested) {
+    if (has(vehicle, id) || options.requested_all) continue;
     return input_error(option_text("fit"),
                        fmt::format("a vehicle of drive \"{}\" has no steering, and with it no {}",
                                    name_in(kDriveNames, vehicle.drive), info(id).name));
@@ -161,11 +162,11 @@ void identify_mass(const Vehicle& vehicle, const TrialData& data, const Identify
 /// Fits the driving logs, if there are any.
 Result<void> identify_from_logs(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options,
-                                const std::vector<ParameterId>& asked, MainValues& values,
+                                const std::vector<ParameterId>& requested, MainValues& values,
                                 Reasons& reasons) {
   if (data.logs.empty()) return {};
   AWMR_ASSIGN_OR_RETURN(LogStage logs,
-                        run_log_stage(vehicle, data.logs, options, asked, values.model,
+                        run_log_stage(vehicle, data.logs, options, requested, values.model,
                                       method_of(data, options) == Method::kTrajectory));
   record(logs, values.model);
   set_logs(logs, values);
@@ -207,7 +208,7 @@ std::optional<double> fastest_logged_turn_radps(const std::vector<DrivingLog>& l
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings) {
   AWMR_RETURN_IF_ERROR(check_options(vehicle, data, options));
-  const std::vector<ParameterId> asked = asked_for(vehicle, data, options);
+  const std::vector<ParameterId> requested = requested_parameters(vehicle, data, options);
   Identification result;
   Model& model = result.model;
   model.vehicle = vehicle;
@@ -221,7 +222,7 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
 
   const SubjectFit surge = identify_laws(vehicle, data, options, values, reasons);
   identify_mass(vehicle, data, options, surge, values, reasons);
-  AWMR_RETURN_IF_ERROR(identify_from_logs(vehicle, data, options, asked, values, reasons));
+  AWMR_RETURN_IF_ERROR(identify_from_logs(vehicle, data, options, requested, values, reasons));
   assume_sway(data, values);
 
   model.covariance = values.covariance.covariance();
@@ -232,7 +233,7 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
   }
   reasons.inadmissible = take_out_inadmissible(model);
   model.record.trials = trials_as_used(data, model);
-  result.refused = refuse_what_is_missing(data, reasons, asked, model);
+  result.refused = refuse_what_is_missing(data, reasons, requested, model);
   return result;
 }
 

@@ -33,7 +33,7 @@ enum class ErrorModel {
   kTime,      ///< a known distance or angle was timed
   kLogForce,  ///< a factor on the force: the log-linear method's assumption
 };
-/// Parameters that can be requested.
+/// Error models that can be requested.
 inline constexpr NameTable<ErrorModel, 3> kErrorModelNames{
     {{"force", ErrorModel::kForce}, {"speed", ErrorModel::kSpeed}, {"time", ErrorModel::kTime}}};
 /// As in /estimates.
@@ -65,11 +65,12 @@ struct FamilyChoice {
   std::optional<Family> family = Family::kPower;
   /// True if the user selected the family. If false, logs are compared with every family, and one
   /// that is significantly better than the power law is taken.
-  bool asked = false;
+  bool requested = false;
 };
 
-/// Whether a fit can be requested it by name: a term comes with its family, back-EMF is in none.
-inline bool can_be_asked(const ParameterInfo& parameter) {
+/// Whether a parameter can be requested by name. A term is requested by its family; only back-EMF
+/// belongs to none.
+inline bool can_be_requested(const ParameterInfo& parameter) {
   return !parameter.term || parameter.id == ParameterId::kBackEmf;
 }
 
@@ -85,9 +86,9 @@ struct IdentifyOptions {
   /// a1, b1, m' together from surge rows and coast-down curves: the curve then sharpens a1 and b1
   /// too, where it is believed as much as the rows.
   bool joint = false;
-  std::vector<ParameterId> asked = {};  ///< empty: those the given trials exist for
-  bool asked_all =
-      false;  ///< `asked` contains all parameters; those that the vehicle does not have are left out
+  std::vector<ParameterId> requested = {};  ///< empty: those the given trials exist for
+  /// `requested` contains all parameters; those that the vehicle does not have are left out.
+  bool requested_all = false;
   bool fit_input_delay = false;         ///< logs: one delay of all commands, s, where it is unknown
   std::vector<LogChannel> biases = {};  ///< logs: channels with an unknown constant offset
   std::uint64_t seed = 1;               ///< of the multistart and of the bootstrap

@@ -45,12 +45,12 @@ std::string table_reason(ParameterId id, const TrialData& data, const Reasons& r
 
 }  // namespace
 
-std::vector<ParameterId> asked_for(const Vehicle& vehicle, const TrialData& data,
-                                   const IdentifyOptions& options) {
-  if (!options.asked.empty()) {
-    std::vector<ParameterId> asked = options.asked;
-    std::erase_if(asked, [&](ParameterId id) { return !has(vehicle, id); });
-    return asked;
+std::vector<ParameterId> requested_parameters(const Vehicle& vehicle, const TrialData& data,
+                                              const IdentifyOptions& options) {
+  if (!options.requested.empty()) {
+    std::vector<ParameterId> requested = options.requested;
+    std::erase_if(requested, [&](ParameterId id) { return !has(vehicle, id); });
+    return requested;
   }
   std::vector<ParameterId> ids;
   if (data.surge) ids.insert(ids.end(), {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta});
@@ -67,7 +67,7 @@ std::vector<ParameterId> asked_for(const Vehicle& vehicle, const TrialData& data
 }
 
 std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Reasons& reasons,
-                                                const std::vector<ParameterId>& asked,
+                                                const std::vector<ParameterId>& requested,
                                                 Model& model) {
   std::vector<ParameterId> refused;
   for (const ParameterInfo& parameter : parameter_table()) {
@@ -76,7 +76,8 @@ std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Rea
       estimate = {{}, {}, {}, Source::kGiven, "no steering"};
       continue;
     }
-    const bool wanted = std::find(asked.begin(), asked.end(), parameter.id) != asked.end();
+    const bool wanted =
+        std::find(requested.begin(), requested.end(), parameter.id) != requested.end();
     const auto logged = reasons.logs.find(parameter.id);
     const bool held = estimate.value && logged != reasons.logs.end() && wanted &&
                       (estimate.source == Source::kGiven || is_assumed(estimate));

@@ -33,7 +33,7 @@ void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context)
 struct Draws {
   int count = 0;
   std::uint64_t seed = 1;
-  OpenVehicle open = {};
+  UnmodelledVariation open = {};
 };
 
 /// Reads noise, latency and lag used for tuning robust gains, and the samples.

@@ -105,7 +105,7 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
                   scenario.name, plain_degps, on_tyres_degps)};
 }
 
-std::vector<Finding> asked_in_vain(const Scenario& scenario, const Model& model) {
+std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model) {
   std::vector<Finding> findings;
   if (scenario.sensors) {
     const double sample_time_s = model.vehicle.sample_time_s;
@@ -162,7 +162,7 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
   return {};
 }
 
-std::optional<Finding> not_led(const HeadingRateChoice& said, const Model& model) {
+std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& said, const Model& model) {
   if (!said.empty() || measured_yaw_rate_degps(model)) return std::nullopt;
   return Finding{model.file, 0, Severity::kWarning, "not-led",
                  fmt::format("the heading rate is not limited, because the model has no highest "

@@ -21,7 +21,7 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
 /// Warnings about parts of a scenario without effect on this vehicle: a latency of a fraction of a
 /// sample (`rounded-latency`), a step behind the end (`late-step`), a waypoint within an obstacle
 /// (`blocked-waypoint`), a speed beyond the motors (`unreachable-speed`).
-std::vector<Finding> asked_in_vain(const Scenario& scenario, const Model& model);
+std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model);
 
 /// A warning (`unsigned-speed-runs-away`) where the speed law, fed with the size of the speed alone, as
 /// a GPS gives it, pushes a vehicle that rolls backward further back: m' mu_s/eps_s > g1(u)/u at a
@@ -59,7 +59,7 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
 
 /// A warning (`not-led`) if the option is not given and the model has no highest measured yaw rate,
 /// so that the heading rate is not limited.
-std::optional<Finding> not_led(const HeadingRateChoice& said, const Model& model);
+std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& said, const Model& model);
 
 /// A warning (`beyond-trials`) where a turn of `fastest_degps`, >= 0, is clearly faster than yaw
 /// resistance was measured, `measured_degps` > 0. `file` is the model's.

@@ -88,9 +88,9 @@ Scale scale_of(const std::string& quoted, const Words& words, Dimension dimensio
   if (dimension == Dimension::kGeographic) {
     return {quoted, Confidence::kLikely, "positions on the Earth are given in degrees"};
   }
-  const double to_asked = dimension == Dimension::kAngle ? degrees(1.0) : 1.0;
+  const double to_column_unit = dimension == Dimension::kAngle ? degrees(1.0) : 1.0;
   if (is_si_by_convention(words)) {
-    return {times(quoted, to_asked), Confidence::kLikely, "such messages are in SI units"};
+    return {times(quoted, to_column_unit), Confidence::kLikely, "such messages are in SI units"};
   }
   if (dimension == Dimension::kAngle && largest(values) > 2.0 * pi<double>()) {
     return {

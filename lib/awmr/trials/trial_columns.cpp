@@ -182,7 +182,7 @@ std::string trials_with(const std::string& column) {
 }
 
 /// Reason why no file that could use a mapping did.
-std::string asked_of_none(const ColumnMapping& mapping) {
+std::string why_unused(const ColumnMapping& mapping) {
   return fmt::format(
       "no file with the columns of this formula needs {}, which is a column of: {}; correct the "
       "formula or leave it out{}",
@@ -236,7 +236,7 @@ Status check_mappings(const TrialOptions& options, std::span<const std::size_t> 
     const ColumnMapping& mapping = options.columns[i];
     if (mapping.standing || std::find(used.begin(), used.end(), i) != used.end()) continue;
     if (headers.empty()) headers = headers_of(files);
-    const std::string why = unusable(mapping, headers).value_or(asked_of_none(mapping));
+    const std::string why = unusable(mapping, headers).value_or(why_unused(mapping));
     faults.push_back({place_of(mapping), "unused: " + why});
   }
   if (!faults.empty()) return input_errors(std::move(faults));

@@ -222,9 +222,9 @@ std::vector<UnitFix> turn_unit_fixes(double share, const Interval& possible, boo
   return found;
 }
 
-WrongUnit wrong_column(const TurnShare& worst, const TurnJudgement& judgement, bool is_printed,
+WrongUnit wrong_column(const TurnShare& worst, const TurnJudgement& evaluation, bool is_printed,
                        int line) {
-  std::vector<UnitFix> unit_fixes = turn_unit_fixes(worst.share, judgement.possible, is_printed);
+  std::vector<UnitFix> unit_fixes = turn_unit_fixes(worst.share, evaluation.possible, is_printed);
   const std::string described = fmt::format("line {} turns at {}, {}", worst.row->line,
                                             turn_text(*worst.row), worst.described);
   if (unit_fixes.empty()) {
@@ -251,20 +251,20 @@ WrongUnit wrong_rows(const std::vector<TurnShare>& shares, double most) {
 }
 
 /// Returns the column or the rows that violate a criterion.
-std::optional<WrongUnit> wrong_by(TurnJudgement judgement, bool is_printed) {
+std::optional<WrongUnit> wrong_by(TurnJudgement evaluation, bool is_printed) {
   constexpr double kApart = 10.0;
-  std::vector<TurnShare>& shares = judgement.shares;
+  std::vector<TurnShare>& shares = evaluation.shares;
   if (shares.empty()) return std::nullopt;
   int line = shares.front().row->line;
   for (const TurnShare& one : shares) line = std::min(line, one.row->line);
   std::ranges::stable_sort(shares, {}, &TurnShare::share);
   const TurnShare& middle = shares[shares.size() / 2];
   const TurnShare& largest = shares.back();
-  if (largest.share < judgement.least) return wrong_column(largest, judgement, is_printed, line);
-  if (largest.share <= judgement.most) return std::nullopt;
-  const bool is_apart = middle.share <= judgement.most && largest.share > kApart * middle.share;
-  if (is_apart) return wrong_rows(shares, judgement.most);
-  return wrong_column(largest, judgement, is_printed, line);
+  if (largest.share < evaluation.least) return wrong_column(largest, evaluation, is_printed, line);
+  if (largest.share <= evaluation.most) return std::nullopt;
+  const bool is_apart = middle.share <= evaluation.most && largest.share > kApart * middle.share;
+  if (is_apart) return wrong_rows(shares, evaluation.most);
+  return wrong_column(largest, evaluation, is_printed, line);
 }
 
 }  // namespace
@@ -273,9 +273,9 @@ std::optional<WrongUnit> wrong_turn(const TrialSet<TurningRow>& turning,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle) {
   const bool is_printed = turning.rate_column == "yaw_rate_radps";
-  for (TurnJudgement& judgement :
+  for (TurnJudgement& evaluation :
        judgements(turning, speed_curve(turning, surge, vehicle), vehicle)) {
-    if (auto wrong = wrong_by(std::move(judgement), is_printed)) return wrong;
+    if (auto wrong = wrong_by(std::move(evaluation), is_printed)) return wrong;
   }
   return std::nullopt;
 }

@@ -504,9 +504,9 @@ std::vector<Contradiction> unit_contradictions(const Evidence& evidence) {
   const auto steering = evidence.vehicle.has_steering() ? judge_steering_unit(evidence)
                                                         : judge_absent_steering(evidence);
   const auto speed = judge_speed(evidence);
-  for (const auto& judged : {steering, judge_rates(evidence), judge_rate_alone(evidence),
-                             speed ? speed : judge_speed_alone(evidence)}) {
-    if (judged) found.push_back(*judged);
+  for (const auto& evaluated : {steering, judge_rates(evidence), judge_rate_alone(evidence),
+                                speed ? speed : judge_speed_alone(evidence)}) {
+    if (evaluated) found.push_back(*evaluated);
   }
   return found;
 }

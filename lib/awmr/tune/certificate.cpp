@@ -204,7 +204,7 @@ SampledHeadingLoop certified_loop(const Gains<double>& gains, const ConstraintCo
 }
 
 Result<Certificate> certify(const Model& model, const ConstraintContext& context,
-                            const OpenVehicle& open, const Gains<double>& gains) {
+                            const UnmodelledVariation& open, const Gains<double>& gains) {
   AWMR_ASSIGN_OR_RETURN(const ConfidenceSet set, ConfidenceSet::make(model));
   const Interval rates = examined_rates_radps(context);
   Certificate certificate{.parameters = set.parameters(),

@@ -27,9 +27,9 @@ namespace awmr {
 /// (tests/tune/certificate_test.cpp).
 /// Errors (input): as PlantSampler::make.
 Result<Certificate> certify(const Model& model, const ConstraintContext& context,
-                            const OpenVehicle& open, const Gains<double>& gains);
+                            const UnmodelledVariation& open, const Gains<double>& gains);
 
-/// Tolerance of the search for a minimum: a share of a delay margin, and as much of damping.
+/// Accepted error of the search: relative for a delay margin, absolute for a damping ratio.
 inline constexpr double kCertificateTolerance = 2e-3;
 
 /// A plant of the confidence set that loops are examined with.

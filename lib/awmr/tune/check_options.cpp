@@ -88,9 +88,9 @@ void check_robustness(const TuneOptions& options, std::vector<Fault>& faults) {
   if (options.draws < 0 || options.draws > 1000) {
     faults.push_back({"", fmt::format("draws: {} is not in 0 ... 1000", options.draws)});
   }
-  if (options.judged_draws < 0 || options.judged_draws > 100000) {
+  if (options.evaluation_draws < 0 || options.evaluation_draws > 100000) {
     faults.push_back(
-        {"", fmt::format("judged_draws: {} is not in 0 ... 100000", options.judged_draws)});
+        {"", fmt::format("judged_draws: {} is not in 0 ... 100000", options.evaluation_draws)});
   }
   if (!(options.tail_share > 0.0 && options.tail_share <= 1.0)) {
     faults.push_back({"", fmt::format("tail_share: {} is not in (0, 1]", options.tail_share)});
@@ -116,7 +116,7 @@ void check_limits(const TuningLimits& limits, std::vector<Fault>& faults) {
 }
 
 void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
-  const OpenVehicle& open = options.open;
+  const UnmodelledVariation& open = options.open;
   if (!open.any()) return;
   if (options.nominal) {
     faults.push_back(
@@ -139,7 +139,7 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
   }
   const auto fewest = static_cast<int>(open.combinations());
   for (const auto& [name, count] :
-       {std::pair("draws", options.draws), std::pair("judged_draws", options.judged_draws)}) {
+       {std::pair("draws", options.draws), std::pair("judged_draws", options.evaluation_draws)}) {
     if (count >= fewest || (count == 0 && name == std::string_view("judged_draws"))) continue;
     faults.push_back({"", fmt::format("{}: {} does not cover all {} combinations of `open`; give a "
                                       "multiple of {}",
@@ -154,7 +154,7 @@ void check_part(const TuneOptions& options, std::vector<Fault>& faults) {
                       "nominal disables the draws that a shard divides; remove one of the two"});
   }
   if (auto fault =
-          shard_fault(*options.shard, options.judged_draws, "fresh draws (judged_draws)")) {
+          shard_fault(*options.shard, options.evaluation_draws, "fresh draws (judged_draws)")) {
     faults.push_back(std::move(*fault));
   }
 }
@@ -219,7 +219,7 @@ void check_goals(const TuneOptions& options, const Vehicle& vehicle, std::vector
     faults.push_back(
         {"", "goals need sampled plants, which nominal disables; remove one of the two"});
   }
-  if (options.judged_draws == 0) {
+  if (options.evaluation_draws == 0) {
     faults.push_back({"", "goals are evaluated on fresh draws; judged_draws has to be above 0"});
   }
   if (options.goals.size() > kMostGoals) {

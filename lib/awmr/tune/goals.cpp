@@ -11,7 +11,7 @@
 namespace awmr {
 namespace {
 
-/// A metric of the gains; larger is worse.
+/// A metric of one run; larger is worse.
 struct RunFigure {
   const char* name;
   double (*value)(const Metrics& metrics, const Scenario& scenario);
@@ -130,20 +130,21 @@ double quantile_of_excess(const GoalInMode& one, std::span<const RunOutcome> out
   return *at;
 }
 
-JudgedGoal judged_goal(const GoalInMode& one, const JudgedRuns& runs, std::size_t scenarios) {
+EvaluatedGoal evaluate_goal(const GoalInMode& one, const EvaluatedRuns& runs,
+                            std::size_t scenarios) {
   const std::vector<double> all = excesses(one, runs.outcomes, scenarios);
   const auto held = static_cast<std::size_t>(
       std::count_if(all.begin(), all.end(), [](double excess) { return excess <= 1.0; }));
-  JudgedGoal judged{.goal = *one.goal,
-                    .mode = one.mode,
-                    .gains = runs.gains,
-                    .held = static_cast<int>(held),
-                    .runs = static_cast<int>(all.size()),
-                    .ci95 = clopper_pearson(held, all.size()),
-                    .verdict = GoalVerdict::kOpen};
-  if (judged.ci95.lo >= one.goal->share) judged.verdict = GoalVerdict::kMet;
-  if (judged.ci95.hi < one.goal->share) judged.verdict = GoalVerdict::kMissed;
-  return judged;
+  EvaluatedGoal evaluated{.goal = *one.goal,
+                          .mode = one.mode,
+                          .gains = runs.gains,
+                          .held = static_cast<int>(held),
+                          .runs = static_cast<int>(all.size()),
+                          .ci95 = clopper_pearson(held, all.size()),
+                          .verdict = GoalVerdict::kOpen};
+  if (evaluated.ci95.lo >= one.goal->share) evaluated.verdict = GoalVerdict::kMet;
+  if (evaluated.ci95.hi < one.goal->share) evaluated.verdict = GoalVerdict::kMissed;
+  return evaluated;
 }
 
 }  // namespace awmr

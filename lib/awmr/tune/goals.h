@@ -17,7 +17,7 @@
 namespace awmr {
 
 RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario);
-/// Takes scores by draw, then mode, then scenario.
+/// `scores` are by draw, then mode, then scenario.
 std::vector<RunOutcome> outcomes_of(std::span<const ModeScore> scores,
                                     std::span<const Scenario> scenarios);
 
@@ -45,6 +45,7 @@ double quantile_of_excess(const GoalInMode& one, std::span<const RunOutcome> out
                           std::size_t scenarios);
 
 /// In how many draws the goal holds in the mode, with the verdict on it.
-JudgedGoal judged_goal(const GoalInMode& one, const JudgedRuns& runs, std::size_t scenarios);
+EvaluatedGoal evaluate_goal(const GoalInMode& one, const EvaluatedRuns& runs,
+                            std::size_t scenarios);
 
 }  // namespace awmr

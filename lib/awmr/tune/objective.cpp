@@ -24,7 +24,7 @@ std::size_t runs_together(std::size_t count, std::size_t scenarios) {
   return std::min(kBatchRuns, (share + kFour - 1) / kFour * kFour);
 }
 
-/// The metrics of a failed run are those up to the failure.
+/// Metrics of a run that failed, up to the failure.
 Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario,
                           const ObjectiveSetting& setting) {
   return drive_batch(std::span(&run, 1), scenario, setting.vehicle.sample_time_s,
@@ -33,7 +33,7 @@ Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario,
       .metrics;
 }
 
-/// Random-draw number for the runs of a vehicle.
+/// Number of a vehicle's draw, which with the seed selects the random numbers of its runs.
 std::uint64_t number_of(const ObjectiveSetting& setting, std::size_t vehicle) {
   return setting.numbers.empty() ? vehicle : setting.numbers[vehicle];
 }

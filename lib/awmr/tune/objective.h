@@ -69,8 +69,8 @@ struct ObjectiveSetting {
   std::span<const YawMode> modes() const { return tuned_modes(vehicle, mode); }
 };
 
-/// Sensor noise of all runs, by scenario, then vehicle. Empty if it would exceed kMostNoiseBytes;
-/// the runs then draw it themselves.
+/// Standard normals of the sensor noise of all runs, by scenario, then vehicle. Empty if they would
+/// exceed kMostNoiseBytes; the runs then draw them themselves.
 using RunNoise = std::vector<std::vector<DrawnNoise>>;
 inline constexpr double kMostNoiseBytes = 64e6;
 RunNoise draw_noise(const ObjectiveSetting& setting);

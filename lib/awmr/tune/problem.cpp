@@ -13,8 +13,8 @@
 namespace awmr {
 namespace {
 
-/// Objective of the global search for a point that violates a constraint: worse than any relevant
-/// objective.
+/// Added to the violation of a point that was not simulated or whose runs break off, to give its
+/// value in a search: above any relevant objective.
 constexpr double kRejected = 1e3;
 /// Violation of every limit by gains whose runs break off, on top of their own.
 constexpr double kInvalid = 1.0;

@@ -18,7 +18,7 @@ namespace awmr {
 namespace {
 
 /// Median, 95 % quantile (the least value that as many do not exceed) and mean of the worst.
-JudgedFigure figure_of(const std::string& name, std::vector<double> values, double tail_share) {
+EvaluatedFigure figure_of(const std::string& name, std::vector<double> values, double tail_share) {
   std::sort(values.begin(), values.end());
   const auto n = static_cast<double>(values.size());
   const auto quantile = [&](double p) {
@@ -30,8 +30,8 @@ JudgedFigure figure_of(const std::string& name, std::vector<double> values, doub
 }
 
 /// Statistics of one set of gains in one mode over all draws.
-JudgedGains judged(const JudgedRuns& runs, YawMode mode, double tail_share) {
-  JudgedGains result{.gains = runs.gains, .mode = mode, .figures = {}, .scenario = {}};
+EvaluatedGains evaluate(const EvaluatedRuns& runs, YawMode mode, double tail_share) {
+  EvaluatedGains result{.gains = runs.gains, .mode = mode, .figures = {}, .scenario = {}};
   std::array<std::vector<double>, kRunFigures> values;
   int completed = 0;
   for (const RunOutcome& outcome : runs.outcomes) {
@@ -48,17 +48,17 @@ JudgedGains judged(const JudgedRuns& runs, YawMode mode, double tail_share) {
 }
 
 /// The runs in one of `count` scenarios.
-JudgedRuns in_scenario(const JudgedRuns& runs, std::size_t scenario, std::size_t count) {
-  JudgedRuns of_one{runs.gains, {}};
+EvaluatedRuns in_scenario(const EvaluatedRuns& runs, std::size_t scenario, std::size_t count) {
+  EvaluatedRuns of_one{runs.gains, {}};
   for (std::size_t i = scenario; i < runs.outcomes.size(); i += count) {
     of_one.outcomes.push_back(runs.outcomes[i]);
   }
   return of_one;
 }
 
-/// The vehicle with its unmodelled variation; the draws take the combinations in turn, masses
-/// first, then forces.
-void open_up(const OpenVehicle& open, int number, DrawnVehicle& vehicle) {
+/// Applies the unmodelled variation of draw `number`, from 1. The draws take the combinations in
+/// turn; the mass factor changes with every draw, the force range after all mass factors.
+void open_up(const UnmodelledVariation& open, int number, DrawnVehicle& vehicle) {
   const std::size_t turn = at(number - 1) % open.combinations();
   const std::size_t masses = std::max<std::size_t>(1, open.mass_factors.size());
   if (!open.mass_factors.empty()) {
@@ -70,7 +70,7 @@ void open_up(const OpenVehicle& open, int number, DrawnVehicle& vehicle) {
 
 }  // namespace
 
-std::size_t OpenVehicle::combinations() const {
+std::size_t UnmodelledVariation::combinations() const {
   return std::max<std::size_t>(1, mass_factors.size()) *
          std::max<std::size_t>(1, wheel_forces.size());
 }
@@ -89,7 +89,7 @@ Result<PlantSampler> sampler_of(Model model) {
 /// without plants the nominal one again.
 Result<std::vector<DrawnVehicle>> vehicles_with(const Model& model, std::span<const int> numbers,
                                                 const std::vector<Plant<double>>& plants,
-                                                const OpenVehicle& open) {
+                                                const UnmodelledVariation& open) {
   AWMR_ASSIGN_OR_RETURN(const Plant<double> own, model.plant());
   std::vector<DrawnVehicle> vehicles(numbers.size() + 1, {own, model.vehicle.wheel_force});
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -102,7 +102,7 @@ Result<std::vector<DrawnVehicle>> vehicles_with(const Model& model, std::span<co
 }  // namespace
 
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
-                                              std::uint64_t seed, const OpenVehicle& open) {
+                                              std::uint64_t seed, const UnmodelledVariation& open) {
   std::vector<Plant<double>> plants;
   if (!model.covariance.parameters.empty()) {
     AWMR_ASSIGN_OR_RETURN(const PlantSampler sampler, sampler_of(model));
@@ -115,7 +115,7 @@ Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<cons
 }
 
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
-                                              const OpenVehicle& open) {
+                                              const UnmodelledVariation& open) {
   std::vector<int> numbers(at(draws));
   std::iota(numbers.begin(), numbers.end(), 1);
   std::vector<Plant<double>> plants;
@@ -126,11 +126,11 @@ Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std
   return vehicles_with(model, numbers, plants, open);
 }
 
-std::vector<JudgedRuns> run_candidates(const ObjectiveSetting& setting,
-                                       const std::vector<NamedCandidate>& candidates) {
+std::vector<EvaluatedRuns> run_candidates(const ObjectiveSetting& setting,
+                                          const std::vector<NamedCandidate>& candidates) {
   const std::size_t of_own = setting.modes().size() * setting.scenarios.size();
   const RunNoise noise = draw_noise(setting);
-  std::vector<JudgedRuns> runs;
+  std::vector<EvaluatedRuns> runs;
   for (const NamedCandidate& candidate : candidates) {
     const auto scores = run_all(setting, noise, std::span(&candidate.gains, 1)).front();
     runs.push_back(
@@ -139,27 +139,27 @@ std::vector<JudgedRuns> run_candidates(const ObjectiveSetting& setting,
   return runs;
 }
 
-Judgement judgement_of(const std::vector<JudgedRuns>& runs, const JudgedBy& by) {
-  Judgement judgement;
-  for (const JudgedRuns& of_gains : runs) {
+EvaluationResult evaluation_of(const std::vector<EvaluatedRuns>& runs, const EvaluationSetup& by) {
+  EvaluationResult evaluation;
+  for (const EvaluatedRuns& of_gains : runs) {
     for (const YawMode mode : by.modes) {
-      judgement.gains.push_back(judged(of_gains, mode, by.tail_share));
+      evaluation.gains.push_back(evaluate(of_gains, mode, by.tail_share));
     }
     for (const GoalInMode& one : by_mode(by.goals, by.modes)) {
-      judgement.goals.push_back(judged_goal(one, of_gains, by.scenarios.size()));
+      evaluation.goals.push_back(evaluate_goal(one, of_gains, by.scenarios.size()));
     }
   }
   const std::size_t count = by.scenarios.size();
   for (std::size_t scenario = 0; count > 1 && scenario < count; ++scenario) {
-    for (const JudgedRuns& of_gains : runs) {
-      const JudgedRuns here = in_scenario(of_gains, scenario, count);
+    for (const EvaluatedRuns& of_gains : runs) {
+      const EvaluatedRuns here = in_scenario(of_gains, scenario, count);
       for (const YawMode mode : by.modes) {
-        judgement.by_scenario.push_back(judged(here, mode, by.tail_share));
-        judgement.by_scenario.back().scenario = by.scenarios[scenario];
+        evaluation.by_scenario.push_back(evaluate(here, mode, by.tail_share));
+        evaluation.by_scenario.back().scenario = by.scenarios[scenario];
       }
     }
   }
-  return judgement;
+  return evaluation;
 }
 
 }  // namespace awmr

@@ -16,10 +16,10 @@ namespace awmr {
 /// The model's own vehicle, then those of the numbers (from 1) from its covariance, or its own
 /// again where it has none; each with its unmodelled variation. Errors (input): as PlantSampler's.
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
-                                              std::uint64_t seed, const OpenVehicle& open);
+                                              std::uint64_t seed, const UnmodelledVariation& open);
 /// Draws 1 to `draws`, spread evenly (PlantSampler::draw_evenly).
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
-                                              const OpenVehicle& open);
+                                              const UnmodelledVariation& open);
 
 /// Gains with the name that they are evaluated under.
 struct NamedCandidate {
@@ -28,24 +28,24 @@ struct NamedCandidate {
 };
 
 /// Every set of gains in every mode over all vehicles of the setting but the first, the model's own.
-std::vector<JudgedRuns> run_candidates(const ObjectiveSetting& setting,
-                                       const std::vector<NamedCandidate>& candidates);
+std::vector<EvaluatedRuns> run_candidates(const ObjectiveSetting& setting,
+                                          const std::vector<NamedCandidate>& candidates);
 
-struct Judgement {
-  std::vector<JudgedGains> gains;  ///< by gains, then mode
-  std::vector<JudgedGains>
-      by_scenario;                ///< by scenario, then gains, then mode; empty where there is one
-  std::vector<JudgedGoal> goals;  ///< by gains, then goal, then mode
+struct EvaluationResult {
+  std::vector<EvaluatedGains> gains;  ///< by gains, then mode
+  std::vector<EvaluatedGains>
+      by_scenario;  ///< by scenario, then gains, then mode; empty where there is one
+  std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode
 };
 /// Criteria of the runs.
-struct JudgedBy {
+struct EvaluationSetup {
   std::vector<YawMode> modes;
   std::vector<std::string> scenarios;  ///< by name, in the runs' order
   double tail_share = 1.0;
   std::vector<TuningGoal> goals;
 };
-/// Statistics over all draws, for each set of gains. A run that does not settle counts as the whole
-/// duration.
-Judgement judgement_of(const std::vector<JudgedRuns>& runs, const JudgedBy& by);
+/// Statistics over all draws, for each set of gains. The settling time of a run that does not
+/// settle is the scenario's duration.
+EvaluationResult evaluation_of(const std::vector<EvaluatedRuns>& runs, const EvaluationSetup& by);
 
 }  // namespace awmr

@@ -42,8 +42,7 @@ Optimizer optimizer(nlopt_algorithm algorithm, const SearchSpace& space, int eva
   return opt;
 }
 
-/// Callbacks of NLopt, which evaluates the objective and the constraints of a point one after the
-/// other.
+/// Callbacks of NLopt, which calls objective() and residuals() of a point separately.
 class NloptCallbacks {
  public:
   virtual ~NloptCallbacks() = default;
@@ -79,20 +78,20 @@ class OneGeneration : public NloptCallbacks {
   std::vector<Point> next;
 
   double objective(const Point& point) override {
-    if (asked_ < known_.size()) return known_[asked_++].value();
+    if (requested_ < known_.size()) return known_[requested_++].value();
     next.push_back(point);
     if (next.size() == kPopulation) nlopt_force_stop(search_);
     return 0.0;
   }
   void residuals(const Point&, std::span<double> result) override {
     std::ranges::fill(result, 0.0);
-    if (next.empty()) std::ranges::copy(known_[asked_ - 1].residuals, result.begin());
+    if (next.empty()) std::ranges::copy(known_[requested_ - 1].residuals, result.begin());
   }
 
  private:
   const std::vector<Looked>& known_;
   nlopt_opt search_;
-  std::size_t asked_ = 0;
+  std::size_t requested_ = 0;
 };
 
 Point point_at(unsigned dimension, const double* x) {
@@ -124,11 +123,11 @@ std::string reason(nlopt_result code) {
   }
 }
 
-nlopt_result run(nlopt_opt search, NloptCallbacks& requested, unsigned constraints,
+nlopt_result run(nlopt_opt search, NloptCallbacks& callbacks, unsigned constraints,
                  const Point& start) {
   const std::vector<double> tolerances(constraints, 0.0);
-  nlopt_set_min_objective(search, objective_callback, &requested);
-  nlopt_add_inequality_mconstraint(search, constraints, constraints_callback, &requested,
+  nlopt_set_min_objective(search, objective_callback, &callbacks);
+  nlopt_add_inequality_mconstraint(search, constraints, constraints_callback, &callbacks,
                                    tolerances.data());
   Point x = start;
   double value = 0.0;
@@ -212,9 +211,9 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
         optimizer(NLOPT_LN_COBYLA, problem.space(), budget - problem.evaluations);
     nlopt_set_initial_step1(search.get(), kFirstStep);
     nlopt_set_xtol_abs1(search.get(), kLastStep);
-    OneByOne requested(problem);
+    OneByOne callbacks(problem);
     const nlopt_result code =
-        run(search.get(), requested, problem.constraints(), problem.space().point_of(from));
+        run(search.get(), callbacks, problem.constraints(), problem.space().point_of(from));
     if (failed(code)) return program_fault("NLopt's COBYLA: " + reason(code));
     stop = fmt::format("; local, {} searches: {}", searches, reason(code));
     const Candidate& after = problem.nearest;

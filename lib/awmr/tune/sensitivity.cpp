@@ -34,7 +34,8 @@ Interval room(const Point& from, const Pair& pair, const SearchSpace& space) {
           std::min(upper[pair[0]] - from[pair[0]], upper[pair[1]] - from[pair[1]])};
 }
 
-/// Interval between the last of the first `good` of kPoints between two ends, and the next point.
+/// Of kPoints after ends.lo in equal steps to ends.hi the first `good` are good: the last good one
+/// (ends.lo if there is none) and the next one.
 Interval last_good(const Interval& ends, std::ptrdiff_t good) {
   const double step = (ends.hi - ends.lo) / kPoints;
   return {ends.lo + step * static_cast<double>(good),

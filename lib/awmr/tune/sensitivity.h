@@ -10,13 +10,13 @@
 
 namespace awmr {
 
-/// Gains with what of them the objective leaves open.
+/// Gains with the ranges in which the objective hardly changes.
 struct SettledGains {
   Gains<double> gains{};
-  /// Range in which mu and epsilon can be scaled together while the objective rises by at most
+  /// Values of mu, rad/s^2, that epsilon is scaled with while the objective rises by at most
   /// kIndifferent.
   Interval mu;
-  Interval speed_mu;  ///< the same of mu_s and epsilon_s
+  Interval speed_mu;  ///< mu_s, m/s^2, with epsilon_s in the same way
 };
 
 /// The objective hardly depends on mu while mu/epsilon stays: inside the boundary layer that ratio

@@ -51,7 +51,7 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
   if (!options.nominal) {
     steps *= 1.0 + options.draws;
     // Three sets of gains are evaluated, each draw once.
-    evaluations += (3.0 * options.judged_draws + sensitivity_runs(model, options.sensitivity)) /
+    evaluations += (3.0 * options.evaluation_draws + sensitivity_runs(model, options.sensitivity)) /
                    (1.0 + options.draws);
   }
   if (evaluations * steps <= kMostSearchSteps) return {};
@@ -154,7 +154,7 @@ Status check_baseline(const Objective& objective, const Baseline& baseline) {
                      "give another baseline, or slower scenarios");
 }
 
-/// Additional start of the search: slower poles, which suit a vehicle with large noise.
+/// Factors on the poles of further starts: slower ones suit a vehicle with large noise.
 constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 
 /// Starts of the search: pole placement with wide layers, the same slowed, pole placement and the
@@ -202,7 +202,7 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
   ObjectiveSetting elsewhere = setting;
   elsewhere.scenarios = {held_out};
   elsewhere.goals.clear();
-  const Evaluation judged = Objective(std::move(elsewhere), baseline.gains)(settled.gains);
+  const Evaluation evaluated = Objective(std::move(elsewhere), baseline.gains)(settled.gains);
 
   return Tuning{.gains = settled.gains,
                 .constraints = constraints_of(settled.gains, context),
@@ -223,8 +223,8 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
                 .active = std::move(active),
                 .arithmetic = std::string(setting.arithmetic.rounding),
                 .history = found.history,
-                .held_out_scores = judged.scores,
-                .held_out_objective = judged.objective,
+                .held_out_scores = evaluated.scores,
+                .held_out_objective = evaluated.objective,
                 .certificate = std::move(certificate),
                 .trade_off = std::move(trade_off),
                 .robust = {}};
@@ -242,13 +242,13 @@ Status check_latency(const ConstraintContext& context, const std::string& model_
                   option_text("nominal")));
 }
 
-/// Gains are evaluated on other draws than those that they were tuned on.
-constexpr std::uint64_t kJudgedSeeds = 0x6a75646765ULL;
+/// XORed with the seed, so that gains are evaluated on other draws than they were tuned on.
+constexpr std::uint64_t kEvaluationSeeds = 0x6a75646765ULL;
 
 /// The numbers of the fresh draws, from 1: those of the part, or all.
-std::vector<int> judged_draws_of(const TuneOptions& options) {
+std::vector<int> evaluation_draws_of(const TuneOptions& options) {
   const Shard shard = options.shard.value_or(Shard{});
-  std::vector<int> draws(at(shard.share_of(options.judged_draws)));
+  std::vector<int> draws(at(shard.share_of(options.evaluation_draws)));
   for (int i = 0; int& draw : draws) draw = shard.item(i++) + 1;
   return draws;
 }
@@ -266,16 +266,16 @@ std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   return candidates;
 }
 
-/// Runs the candidates on fresh draws, and evaluates them if these are all draws.
+/// Runs the candidates on fresh draws. A shard keeps its runs; otherwise adds their statistics.
 Status judge(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
              const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
-  if (options.judged_draws == 0) return {};
-  setting.seed ^= kJudgedSeeds;
-  const std::vector<int> draws = judged_draws_of(options);
+  if (options.evaluation_draws == 0) return {};
+  setting.seed ^= kEvaluationSeeds;
+  const std::vector<int> draws = evaluation_draws_of(options);
   AWMR_ASSIGN_OR_RETURN(setting.vehicles, vehicles_of(model, draws, setting.seed, options.open));
   setting.numbers = {0};
   setting.numbers.insert(setting.numbers.end(), draws.begin(), draws.end());
-  std::vector<JudgedRuns> runs = run_candidates(setting, candidates);
+  std::vector<EvaluatedRuns> runs = run_candidates(setting, candidates);
   if (options.shard) {
     robust.runs = std::move(runs);
     return {};
@@ -283,13 +283,13 @@ Status judge(const Model& model, ObjectiveSetting setting, const TuneOptions& op
   const std::span<const YawMode> modes = setting.modes();
   std::vector<std::string> names;
   for (const Scenario& scenario : setting.scenarios) names.push_back(scenario.name);
-  Judgement judgement = judgement_of(runs, {.modes = {modes.begin(), modes.end()},
-                                            .scenarios = std::move(names),
-                                            .tail_share = options.tail_share,
-                                            .goals = options.goals});
-  robust.judged = std::move(judgement.gains);
-  robust.judged_by_scenario = std::move(judgement.by_scenario);
-  robust.goals = std::move(judgement.goals);
+  EvaluationResult evaluation = evaluation_of(runs, {.modes = {modes.begin(), modes.end()},
+                                                     .scenarios = std::move(names),
+                                                     .tail_share = options.tail_share,
+                                                     .goals = options.goals});
+  robust.evaluated = std::move(evaluation.gains);
+  robust.evaluated_by_scenario = std::move(evaluation.by_scenario);
+  robust.goals = std::move(evaluation.goals);
   return {};
 }
 
@@ -299,8 +299,8 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                              const Scenario& held_out) {
   RobustTuning robust{.conditions = conditions_of(model.vehicle),
                       .from_covariance = !model.covariance.parameters.empty(),
-                      .judged = {},
-                      .judged_by_scenario = {},
+                      .evaluated = {},
+                      .evaluated_by_scenario = {},
                       .goals = {},
                       .runs = {},
                       .sensitivity = {}};
@@ -332,8 +332,8 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
 
 }  // namespace
 
-Result<Tuning> tune(const Model& model, const TuneOptions& asked) {
-  TuneOptions options = asked;
+Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
+  TuneOptions options = requested;
   AWMR_RETURN_IF_ERROR(check_options(options, model.vehicle));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());

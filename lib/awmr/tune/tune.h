@@ -106,7 +106,7 @@ inline constexpr double kWider = 0.1;
 
 /// Unmodelled variation that neither trials nor data sheets determine: payload, battery voltage,
 /// values missing in a paper. The draws take the combinations in turn; the nominal plant has none.
-struct OpenVehicle {
+struct UnmodelledVariation {
   std::vector<double> mass_factors = {};    ///< of m' and I'z alike; empty: 1
   std::vector<Interval> wheel_forces = {};  ///< F' of one wheel over F_max; empty: the vehicle's
 
@@ -136,7 +136,7 @@ inline constexpr std::size_t kMostGoals = 20;
 /// Default number of draws that goals are evaluated on.
 inline constexpr int kGoalDraws = 500;
 inline constexpr int kFewestSamples = 16, kMostSamples = 100'000;
-inline constexpr std::size_t kRunFigures = 6;  ///< of a run
+inline constexpr std::size_t kRunFigures = 6;  ///< names in run_figure_names()
 bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 
@@ -145,9 +145,9 @@ struct TuneOptions {
   /// alone would have it. Else robust: `draws` plants from the model's covariance in addition to its
   /// own, under LoopConditions. Every constraint holds for all of them.
   bool nominal = false;
-  int draws = 32;         ///< 0 ... 1000
-  int judged_draws = 50;  ///< fresh draws for the evaluation of the gains, 0 ... 100000
-  OpenVehicle open = {};  ///< of a robust search
+  int draws = 32;                 ///< 0 ... 1000
+  int evaluation_draws = 50;      ///< fresh draws for the evaluation of the gains, 0 ... 100000
+  UnmodelledVariation open = {};  ///< of a robust search
   /// A part of the evaluation, for several machines: the whole search, and the fresh draws of the
   /// part (tune_shard.h).
   std::optional<Shard> shard = {};
@@ -170,7 +170,8 @@ struct TuneOptions {
   int global_evaluations = 80;  ///< >= 1
   /// >= 0, of the local searches together; 0: the best of the global search is the answer.
   int local_evaluations = 80;
-  /// Seed of the global search. Other seeds show how flat the objective is.
+  /// Seed of the draws, their noise, the global search and the sensitivity samples. The gains of
+  /// other seeds show how much they depend on chance.
   std::uint64_t seed = 1;
   /// Each has to hold headings, under a name of its own; empty: default_tuning_scenarios().
   std::vector<Scenario> scenarios;
@@ -229,42 +230,43 @@ struct SearchHistory {
   int global_evaluations = 0;  ///< those of the global search; behind them the local one's
   int evaluations = 0;
 };
-/// Longer histories are thinned to the steps at even positions; the first and the last are kept.
+/// A longer history is thinned to evenly spaced steps, including the first and the last.
 inline constexpr std::size_t kMostHistorySteps = 200;
 
-/// Metrics of a run in the objective.
+/// Metrics of a run for goals and evaluation. The objective has others (objective.h).
 struct RunOutcome {
   YawMode mode{};
   bool completed = false;  ///< settled after every step
   bool broke_off = false;  ///< its figures are those of what came before
-  /// In the order of run_figure_names(). A run that never settles has taken the whole scenario to.
+  /// In the order of run_figure_names(). The settling time of a run that does not settle is the
+  /// scenario's duration.
   std::array<double, kRunFigures> figures{};
 };
 /// The runs of one set of gains, by draw, then mode, then scenario.
-struct JudgedRuns {
-  std::string gains;  ///< as in JudgedGains
+struct EvaluatedRuns {
+  std::string gains;  ///< as in EvaluatedGains
   std::vector<RunOutcome> outcomes;
 };
 
 /// A metric of the runs of one set of gains in one mode, over the evaluation draws.
-struct JudgedFigure {
+struct EvaluatedFigure {
   std::string name;  ///< "heading_iae_degs"
   double median = 0.0;
   double q95 = 0.0;
   double tail_mean = 0.0;  ///< over the worst tail_share of the draws (CVaR)
 };
 
-/// JudgedGains::gains of the tuned gains.
+/// EvaluatedGains::gains of the tuned gains.
 inline constexpr const char* kRobustGains = "robust";
 
 /// One set of gains in one mode, over the evaluation draws.
-struct JudgedGains {
+struct EvaluatedGains {
   /// kRobustGains, "baseline", "paper" (where the baseline is another), "unobserved" (without their
   /// observer)
   std::string gains;
   YawMode mode{};
   double completed_share = 0.0;  ///< settled after every step
-  std::vector<JudgedFigure> figures;
+  std::vector<EvaluatedFigure> figures;
   std::string scenario = {};  ///< empty: over all of them
 };
 
@@ -298,10 +300,10 @@ inline constexpr NameTable<GoalVerdict, 3> kGoalVerdictNames{
     {{"met", GoalVerdict::kMet}, {"missed", GoalVerdict::kMissed}, {"open", GoalVerdict::kOpen}}};
 
 /// A goal in one mode with one set of gains, over the evaluation draws.
-struct JudgedGoal {
+struct EvaluatedGoal {
   TuningGoal goal;
   YawMode mode{};
-  std::string gains;  ///< as in JudgedGains
+  std::string gains;  ///< as in EvaluatedGains
   int held = 0;       ///< draws in which every limit is kept
   int runs = 0;       ///< draws
   Interval ci95;      ///< of the share, by Clopper and Pearson
@@ -311,12 +313,12 @@ struct JudgedGoal {
 /// Conditions of a robust search, and results of its gains.
 struct RobustTuning {
   LoopConditions conditions;
-  bool from_covariance = false;     ///< false: the model has none, so that only noise was drawn
-  std::vector<JudgedGains> judged;  ///< by gains, then mode; empty of a part
+  bool from_covariance = false;  ///< false: the model has none, so that only noise was drawn
+  std::vector<EvaluatedGains> evaluated;  ///< by gains, then mode; empty of a part
   /// The same by scenario first; empty where there is one.
-  std::vector<JudgedGains> judged_by_scenario;
-  std::vector<JudgedGoal> goals;  ///< by gains, then goal, then mode; empty of a part
-  std::vector<JudgedRuns> runs;   ///< of a part: those of its draws, by gains
+  std::vector<EvaluatedGains> evaluated_by_scenario;
+  std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode; empty of a part
+  std::vector<EvaluatedRuns> runs;   ///< of a part: those of its draws, by gains
   std::optional<GlobalSensitivity> sensitivity;  ///< absent if not requested
 };
 

@@ -65,18 +65,18 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
       static_cast<int>(json.optional_integer("local_evaluations", 0, kEvaluationLimit)
                            .value_or(options.local_evaluations));
   options.nominal = json.optional_boolean("nominal").value_or(options.nominal);
-  if (json.has("goals")) options.judged_draws = kGoalDraws;
+  if (json.has("goals")) options.evaluation_draws = kGoalDraws;
   if (auto open = json.optional_object("open")) {
     options.open = read_open(std::move(*open));
     const auto turn = static_cast<int>(options.open.combinations());
-    for (int* count : {&options.draws, &options.judged_draws}) {
+    for (int* count : {&options.draws, &options.evaluation_draws}) {
       *count = (*count + turn - 1) / turn * turn;
     }
   }
   options.draws = static_cast<int>(json.optional_integer("draws", 0, 1000).value_or(options.draws));
-  options.judged_draws =
+  options.evaluation_draws =
       static_cast<int>(json.optional_integer("judged_draws", json.has("goals") ? 1 : 0, 100'000)
-                           .value_or(options.judged_draws));
+                           .value_or(options.evaluation_draws));
   options.sensitivity =
       static_cast<int>(json.optional_integer("sensitivity", 0, kMostSamples).value_or(0));
   if (options.sensitivity > 0 && options.sensitivity < kFewestSamples) {
@@ -245,8 +245,8 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
                  {"yaw_rate_s", c.yaw_rate_late_s},
                  {"speed_s", c.speed_late_s}}},
                {"motor_time_constant_s", c.motor_time_constant_s},
-               {"judged_draws", options.judged_draws},
-               {"quantiles", quantiles_json(robust.judged)}};
+               {"judged_draws", options.evaluation_draws},
+               {"quantiles", quantiles_json(robust.evaluated)}};
   if (c.heading_correlation_s > 0.0 || c.yaw_rate_correlation_s > 0.0 ||
       c.speed_correlation_s > 0.0) {
     json["noise_correlation"] = {{"heading_s", c.heading_correlation_s},
@@ -256,8 +256,8 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
   if (options.open.any()) json["open"] = open_json(options.open);
   if (options.activity_max) json["activity_max"] = *options.activity_max;
   // Last, where a merge of parts puts it.
-  if (!robust.judged_by_scenario.empty()) {
-    json["by_scenario"] = by_scenario_json(robust.judged_by_scenario);
+  if (!robust.evaluated_by_scenario.empty()) {
+    json["by_scenario"] = by_scenario_json(robust.evaluated_by_scenario);
   }
   return json;
 }

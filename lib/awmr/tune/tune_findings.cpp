@@ -14,15 +14,16 @@
 namespace awmr {
 namespace {
 
-void note_goal(const JudgedGoal& judged, std::vector<Finding>& findings) {
-  if (judged.verdict == GoalVerdict::kMet) return;
-  const bool is_missed = judged.verdict == GoalVerdict::kMissed;
+void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
+  if (evaluated.verdict == GoalVerdict::kMet) return;
+  const bool is_missed = evaluated.verdict == GoalVerdict::kMissed;
   findings.push_back(
       {"", 0, Severity::kWarning, is_missed ? "goal-missed" : "goal-open",
        fmt::format("{} of {} fresh draws in {} meet the goal ({:.1f} to {:.1f} %), {:g} % are "
                    "required: {}",
-                   judged.held, judged.runs, name_of(judged.mode), 100.0 * judged.ci95.lo,
-                   100.0 * judged.ci95.hi, 100.0 * judged.goal.share,
+                   evaluated.held, evaluated.runs, name_of(evaluated.mode),
+                   100.0 * evaluated.ci95.lo, 100.0 * evaluated.ci95.hi,
+                   100.0 * evaluated.goal.share,
                    is_missed ? "tune on more draws (--draws), raise the limits or accept less"
                              : "increase judged_draws")});
 }
@@ -41,7 +42,7 @@ void note_unsettled(const std::string& scenario, YawMode mode, double completed_
                    100.0 * completed_share)});
 }
 
-/// A note if too few samples leave the most influential input of a metric undetermined.
+/// A note if the total index of some input of a metric has a 95 % interval wider than kWide.
 void note_sensitivity(const Tuning& tuning, std::vector<Finding>& findings) {
   if (!tuning.robust || !tuning.robust->sensitivity) return;
   constexpr double kWide = 0.5;  // an index with a 95 % interval of 0.2 to 0.7 is uninformative
@@ -96,7 +97,7 @@ void note_scenarios(const Model& model, const TuneOptions& options, const Tuning
         under(tuning.robust->conditions, {.name = "the vehicle", .guidance = OpenLoop{}}));
   }
   for (const Scenario& scenario : scenarios) {
-    std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
+    std::ranges::move(unattainable_requests(scenario, model), std::back_inserter(findings));
   }
 }
 
@@ -111,14 +112,15 @@ std::vector<Finding> nominal_findings(const Tuning& tuning) {
 
 }  // namespace
 
-std::vector<Finding> evaluation_findings(const std::vector<JudgedGains>& judged,
-                                         const std::vector<JudgedGains>& judged_by_scenario,
-                                         const std::vector<JudgedGoal>& goals) {
+std::vector<Finding> evaluation_findings(const std::vector<EvaluatedGains>& evaluated,
+                                         const std::vector<EvaluatedGains>& evaluated_by_scenario,
+                                         const std::vector<EvaluatedGoal>& goals) {
   std::vector<Finding> findings;
-  for (const JudgedGoal& goal : goals) {
+  for (const EvaluatedGoal& goal : goals) {
     if (goal.gains == kRobustGains) note_goal(goal, findings);
   }
-  for (const JudgedGains& one : judged_by_scenario.empty() ? judged : judged_by_scenario) {
+  for (const EvaluatedGains& one :
+       evaluated_by_scenario.empty() ? evaluated : evaluated_by_scenario) {
     if (one.gains == kRobustGains) {
       note_unsettled(one.scenario, one.mode, one.completed_share, findings);
     }
@@ -130,9 +132,9 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
                                    const Tuning& tuning) {
   std::vector<Finding> findings;
   if (!options.shard) {
-    findings = tuning.robust && !tuning.robust->judged.empty()
-                   ? evaluation_findings(tuning.robust->judged, tuning.robust->judged_by_scenario,
-                                         tuning.robust->goals)
+    findings = tuning.robust && !tuning.robust->evaluated.empty()
+                   ? evaluation_findings(tuning.robust->evaluated,
+                                         tuning.robust->evaluated_by_scenario, tuning.robust->goals)
                    : nominal_findings(tuning);
   }
   note_sensitivity(tuning, findings);

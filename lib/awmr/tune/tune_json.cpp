@@ -16,10 +16,10 @@ namespace {
 constexpr NumberRule kGoalLimit{.min = 0.0, .max = 1e9, .min_excluded = true};
 
 /// By mode, then gains.
-void put_quantiles(const JudgedGains& judged, Json& json) {
-  Json& entry = json[std::string(name_of(judged.mode))][judged.gains];
-  entry["completed_share"] = judged.completed_share;
-  for (const JudgedFigure& figure : judged.figures) {
+void put_quantiles(const EvaluatedGains& evaluated, Json& json) {
+  Json& entry = json[std::string(name_of(evaluated.mode))][evaluated.gains];
+  entry["completed_share"] = evaluated.completed_share;
+  for (const EvaluatedFigure& figure : evaluated.figures) {
     entry[figure.name] = {
         {"median", figure.median}, {"q95", figure.q95}, {"tail_mean", figure.tail_mean}};
   }
@@ -76,8 +76,8 @@ Json goal_json(const TuningGoal& goal) {
   return json;
 }
 
-OpenVehicle read_open(JsonObject json) {
-  OpenVehicle open;
+UnmodelledVariation read_open(JsonObject json) {
+  UnmodelledVariation open;
   if (json.has("mass_factors")) {
     open.mass_factors =
         json.numbers("mass_factors", {.min = kLeastMassFactor, .max = kMostMassFactor});
@@ -98,7 +98,7 @@ OpenVehicle read_open(JsonObject json) {
   return open;
 }
 
-Json open_json(const OpenVehicle& open) {
+Json open_json(const UnmodelledVariation& open) {
   Json json = Json::object();
   if (!open.mass_factors.empty()) json["mass_factors"] = open.mass_factors;
   for (const Interval& force : open.wheel_forces) {
@@ -107,15 +107,15 @@ Json open_json(const OpenVehicle& open) {
   return json;
 }
 
-Json quantiles_json(const std::vector<JudgedGains>& judged) {
+Json quantiles_json(const std::vector<EvaluatedGains>& evaluated) {
   Json json = Json::object();
-  for (const JudgedGains& one : judged) put_quantiles(one, json);
+  for (const EvaluatedGains& one : evaluated) put_quantiles(one, json);
   return json;
 }
 
-Json by_scenario_json(const std::vector<JudgedGains>& judged) {
+Json by_scenario_json(const std::vector<EvaluatedGains>& evaluated) {
   Json json = Json::object();
-  for (const JudgedGains& one : judged) put_quantiles(one, json[one.scenario]);
+  for (const EvaluatedGains& one : evaluated) put_quantiles(one, json[one.scenario]);
   return json;
 }
 
@@ -167,20 +167,20 @@ Json trade_off_json(const TradeOff& trade_off) {
   return json;
 }
 
-Json goals_json(const std::vector<JudgedGoal>& goals) {
+Json goals_json(const std::vector<EvaluatedGoal>& goals) {
   Json json = Json::array();
-  for (const JudgedGoal& judged : goals) {
+  for (const EvaluatedGoal& evaluated : goals) {
     Json limits = Json::object();
-    for (const GoalLimit& limit : judged.goal.at_most) limits[limit.figure] = limit.most;
+    for (const GoalLimit& limit : evaluated.goal.at_most) limits[limit.figure] = limit.most;
     json.push_back({{"at_most", std::move(limits)},
-                    {"share", judged.goal.share},
-                    {"soft", judged.goal.is_soft},
-                    {"mode", name_of(judged.mode)},
-                    {"gains", judged.gains},
-                    {"held", judged.held},
-                    {"runs", judged.runs},
-                    {"ci95", {judged.ci95.lo, judged.ci95.hi}},
-                    {"verdict", name_in(kGoalVerdictNames, judged.verdict)}});
+                    {"share", evaluated.goal.share},
+                    {"soft", evaluated.goal.is_soft},
+                    {"mode", name_of(evaluated.mode)},
+                    {"gains", evaluated.gains},
+                    {"held", evaluated.held},
+                    {"runs", evaluated.runs},
+                    {"ci95", {evaluated.ci95.lo, evaluated.ci95.hi}},
+                    {"verdict", name_in(kGoalVerdictNames, evaluated.verdict)}});
   }
   return json;
 }

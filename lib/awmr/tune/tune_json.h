@@ -30,18 +30,18 @@ TuningGoal read_goal(JsonObject json);
 Json goal_json(const TuningGoal& goal);
 
 /// Reads and writes the unmodelled variation, as in tune.json.
-OpenVehicle read_open(JsonObject json);
-Json open_json(const OpenVehicle& open);
+UnmodelledVariation read_open(JsonObject json);
+Json open_json(const UnmodelledVariation& open);
 
 /// `/robust/quantiles`: by mode, then gains.
-Json quantiles_json(const std::vector<JudgedGains>& judged);
+Json quantiles_json(const std::vector<EvaluatedGains>& evaluated);
 /// `/robust/by_scenario`: the quantiles of each.
-Json by_scenario_json(const std::vector<JudgedGains>& judged);
+Json by_scenario_json(const std::vector<EvaluatedGains>& evaluated);
 /// `/certificate`
 Json certificate_json(const Certificate& certificate);
 /// `/trade_off`
 Json trade_off_json(const TradeOff& trade_off);
 /// `/goals`
-Json goals_json(const std::vector<JudgedGoal>& goals);
+Json goals_json(const std::vector<EvaluatedGoal>& goals);
 
 }  // namespace awmr

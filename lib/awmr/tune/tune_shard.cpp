@@ -22,29 +22,30 @@ namespace awmr {
 namespace {
 
 constexpr const char* kGainsHash = "gains_json_sha256";
-/// Limits of an evaluation: as in tune.json, and more than are ever given.
-constexpr long kMostJudgedDraws = 100'000;
+/// Largest number of fresh draws, as in tune.json.
+constexpr long kMaxEvaluationDraws = 100'000;
 
 /// One directory's part; its runs lie in the table.
 struct TunePart {
   ShardOrigin origin;
-  int judged_draws = 0;
+  int evaluation_draws = 0;
   std::vector<std::string> gains;
-  JudgedBy by;
+  EvaluationSetup by;
   std::string gains_sha256;
   std::vector<Finding> findings;
 
   /// The draws of this part.
-  int draws() const { return origin.shard.share_of(judged_draws); }
+  int draws() const { return origin.shard.share_of(evaluation_draws); }
 };
 
 TunePart tune_part_from_json(JsonObject& json) {
-  TunePart part{.origin = read_shard_origin(json, kTuneShardSchema),
-                .judged_draws = static_cast<int>(json.integer("judged_draws", 1, kMostJudgedDraws)),
-                .gains = json.strings("gains"),
-                .by = {},
-                .gains_sha256 = json.string(kGainsHash),
-                .findings = {}};
+  TunePart part{
+      .origin = read_shard_origin(json, kTuneShardSchema),
+      .evaluation_draws = static_cast<int>(json.integer("judged_draws", 1, kMaxEvaluationDraws)),
+      .gains = json.strings("gains"),
+      .by = {},
+      .gains_sha256 = json.string(kGainsHash),
+      .findings = {}};
   for (const std::string& name : json.strings("modes")) {
     const auto mode = value_in(kYawModeNames, name);
     if (!mode) json.fault("modes", fmt::format("'{}' is no mode", name));
@@ -68,14 +69,14 @@ std::string other_search(const TunePart& first, const TunePart& part) {
   std::string other =
       other_arithmetic(first.origin, part.origin, "run all parts on processors with AVX2 or NEON");
   if (!other.empty()) return other;
-  const JudgedBy& a = part.by;
-  const JudgedBy& b = first.by;
-  const auto goals_of = [](const JudgedBy& by) {
+  const EvaluationSetup& a = part.by;
+  const EvaluationSetup& b = first.by;
+  const auto goals_of = [](const EvaluationSetup& by) {
     Json goals = Json::array();
     for (const TuningGoal& goal : by.goals) goals.push_back(goal_json(goal));
     return goals;
   };
-  if (part.judged_draws != first.judged_draws || part.gains != first.gains ||
+  if (part.evaluation_draws != first.evaluation_draws || part.gains != first.gains ||
       part.gains_sha256 != first.gains_sha256 || a.modes != b.modes || a.scenarios != b.scenarios ||
       a.tail_share != b.tail_share || goals_of(a) != goals_of(b)) {
     return made_with_other_options(first.origin);
@@ -122,14 +123,15 @@ std::string_view take_line(std::string_view& text) {
 
 /// The runs of a part, by gains: of each those of its draws in their order. Errors (input), by
 /// line: a run that is none of the part's, in another place, or missing.
-Result<std::vector<JudgedRuns>> judged_from_text(const TunePart& part, std::string_view text,
-                                                 const std::string& file) {
+Result<std::vector<EvaluatedRuns>> evaluated_runs_from_text(const TunePart& part,
+                                                            std::string_view text,
+                                                            const std::string& file) {
   std::string_view rest = text;
   if (take_line(rest) != head_of_table()) {
     return input_error(file + ":1:1", "these are not the columns of judged.csv");
   }
   int line = 1;
-  std::vector<JudgedRuns> runs;
+  std::vector<EvaluatedRuns> runs;
   for (const std::string& gains : part.gains) {
     runs.push_back({gains, {}});
     for (int i = 0; i < part.draws(); ++i) {
@@ -155,24 +157,24 @@ Result<std::vector<JudgedRuns>> judged_from_text(const TunePart& part, std::stri
   return runs;
 }
 
-Result<std::vector<JudgedRuns>> read_judged(const TunePart& part) {
-  AWMR_ASSIGN_OR_RETURN(const std::string text, read_shard_table(part.origin, kJudgedTable));
-  return judged_from_text(part, text, (part.origin.directory / kJudgedTable).string());
+Result<std::vector<EvaluatedRuns>> read_evaluated_runs(const TunePart& part) {
+  AWMR_ASSIGN_OR_RETURN(const std::string text, read_shard_table(part.origin, kEvaluationTable));
+  return evaluated_runs_from_text(part, text, (part.origin.directory / kEvaluationTable).string());
 }
 
 /// The runs of all parts, by gains, then draw. `parts` are in the order of their numbers.
-Result<std::vector<JudgedRuns>> read_all_runs(const std::vector<TunePart>& parts) {
+Result<std::vector<EvaluatedRuns>> read_all_runs(const std::vector<TunePart>& parts) {
   const TunePart& first = parts.front();
-  std::vector<std::vector<JudgedRuns>> by_part;
+  std::vector<std::vector<EvaluatedRuns>> by_part;
   for (const TunePart& part : parts) {
-    AWMR_ASSIGN_OR_RETURN(std::vector<JudgedRuns> runs, read_judged(part));
+    AWMR_ASSIGN_OR_RETURN(std::vector<EvaluatedRuns> runs, read_evaluated_runs(part));
     by_part.push_back(std::move(runs));
   }
   const std::size_t per_draw = first.by.modes.size() * first.by.scenarios.size();
-  std::vector<JudgedRuns> all;
+  std::vector<EvaluatedRuns> all;
   for (std::size_t g = 0; g < first.gains.size(); ++g) {
-    JudgedRuns whole{first.gains[g], {}};
-    for (std::size_t draw = 0; draw < at(first.judged_draws); ++draw) {
+    EvaluatedRuns whole{first.gains[g], {}};
+    for (std::size_t draw = 0; draw < at(first.evaluation_draws); ++draw) {
       const std::vector<RunOutcome>& outcomes = by_part[draw % parts.size()][g].outcomes;
       const auto begin = outcomes.begin() + eigen_index(draw / parts.size() * per_draw);
       whole.outcomes.insert(whole.outcomes.end(), begin, begin + eigen_index(per_draw));
@@ -197,11 +199,11 @@ Result<Json> read_part_gains(const TunePart& part) {
 
 }  // namespace
 
-std::string judged_csv(const Tuning& tuning, const TuneOptions& options) {
-  const std::vector<JudgedRuns>& all = tuning.robust->runs;
-  const std::size_t draws = at(options.shard->share_of(options.judged_draws));
+std::string evaluation_csv(const Tuning& tuning, const TuneOptions& options) {
+  const std::vector<EvaluatedRuns>& all = tuning.robust->runs;
+  const std::size_t draws = at(options.shard->share_of(options.evaluation_draws));
   std::string text = head_of_table() + "\n";
-  for (const JudgedRuns& runs : all) {
+  for (const EvaluatedRuns& runs : all) {
     const std::size_t per_draw = runs.outcomes.size() / draws;
     std::size_t scenario = 0;
     for (std::size_t i = 0; i < runs.outcomes.size(); ++i) {
@@ -224,11 +226,11 @@ std::string tune_shard_text(const Tuning& tuning, const TuneOptions& options,
       shard_document(kTuneShardSchema, {.provenance = provenance,
                                         .shard = *options.shard,
                                         .arithmetic = tuning.arithmetic,
-                                        .csv_sha256 = sha256_hex(judged_csv(tuning, options))});
+                                        .csv_sha256 = sha256_hex(evaluation_csv(tuning, options))});
   json[kGainsHash] = sha256_hex(gains_text(tuning, options, provenance));
-  json["judged_draws"] = options.judged_draws;
+  json["judged_draws"] = options.evaluation_draws;
   json["gains"] = Json::array();
-  for (const JudgedRuns& runs : tuning.robust->runs) json["gains"].push_back(runs.gains);
+  for (const EvaluatedRuns& runs : tuning.robust->runs) json["gains"].push_back(runs.gains);
   json["modes"] = Json::array();
   json["scenarios"] = Json::array();
   // The scores are by mode, then scenario.
@@ -259,14 +261,14 @@ bool is_finished_tune_shard(const std::filesystem::path& directory, const Shard&
   return is_finished_part(
       directory, kTuneShardSchema,
       {.provenance = provenance, .shard = shard, .arithmetic = std::string(arithmetic->rounding)},
-      kJudgedTable);
+      kEvaluationTable);
 }
 
 Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>& directories) {
   AWMR_ASSIGN_OR_RETURN(
       const std::vector<TunePart> parts,
       read_parts(directories, kTuneShardSchema, tune_part_from_json, other_search));
-  AWMR_ASSIGN_OR_RETURN(const std::vector<JudgedRuns> runs, read_all_runs(parts));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<EvaluatedRuns> runs, read_all_runs(parts));
   for (const TunePart& part : parts) {
     AWMR_RETURN_IF_ERROR(read_part_gains(part));
   }
@@ -275,25 +277,25 @@ Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>&
     return input_error((directories.front() / kTuneShardGains).string(),
                        "contains no robust gains; run the part again");
   }
-  Judgement judgement = judgement_of(runs, parts.front().by);
-  json["robust"]["quantiles"] = quantiles_json(judgement.gains);
-  if (!judgement.by_scenario.empty()) {
-    json["robust"]["by_scenario"] = by_scenario_json(judgement.by_scenario);
+  EvaluationResult evaluation = evaluation_of(runs, parts.front().by);
+  json["robust"]["quantiles"] = quantiles_json(evaluation.gains);
+  if (!evaluation.by_scenario.empty()) {
+    json["robust"]["by_scenario"] = by_scenario_json(evaluation.by_scenario);
   }
-  if (!judgement.goals.empty()) json["goals"] = goals_json(judgement.goals);
+  if (!evaluation.goals.empty()) json["goals"] = goals_json(evaluation.goals);
   std::vector<Finding> findings =
-      evaluation_findings(judgement.gains, judgement.by_scenario, judgement.goals);
+      evaluation_findings(evaluation.gains, evaluation.by_scenario, evaluation.goals);
   findings.insert(findings.end(), parts.front().findings.begin(), parts.front().findings.end());
-  return MergedTuning{to_text(json), std::move(judgement.gains), std::move(judgement.by_scenario),
-                      std::move(judgement.goals), std::move(findings)};
+  return MergedTuning{to_text(json), std::move(evaluation.gains), std::move(evaluation.by_scenario),
+                      std::move(evaluation.goals), std::move(findings)};
 }
 
-Status check_judged_csv(std::string_view text, const std::string& file,
-                        const std::string& shard_json) {
+Status check_evaluation_csv(std::string_view text, const std::string& file,
+                            const std::string& shard_json) {
   TunePart part;
   AWMR_RETURN_IF_ERROR(check_json_object(
       shard_json, file, [&](JsonObject& json) { part = tune_part_from_json(json); }));
-  AWMR_RETURN_IF_ERROR(judged_from_text(part, text, file));
+  AWMR_RETURN_IF_ERROR(evaluated_runs_from_text(part, text, file));
   return {};
 }
 

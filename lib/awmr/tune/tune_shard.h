@@ -18,22 +18,22 @@ namespace awmr {
 /// them, and the runs.
 inline constexpr std::string_view kTuneShardSchema = "awmr.tune_shard/1";
 inline constexpr const char* kTuneShardGains = "gains.json";
-inline constexpr const char* kJudgedTable = "judged.csv";
+inline constexpr const char* kEvaluationTable = "judged.csv";
 
 /// The bytes of judged.csv, a row for each run by gains, draw, mode and scenario:
 /// `gains,draw,mode,scenario,completed,broke_off` and the figures; scenarios by number, from 1.
 /// Precondition: robust gains, tuned with options.shard.
-std::string judged_csv(const Tuning& tuning, const TuneOptions& options);
+std::string evaluation_csv(const Tuning& tuning, const TuneOptions& options);
 
-/// The bytes of shard.json: origin and number of the part, the metrics of its runs, and the hashes
-/// of the two files next to it.
+/// The bytes of shard.json: origin and number of the part, gains, modes, scenarios, tail share and
+/// goals of the evaluation, and the hashes of the two files next to it.
 std::string tune_shard_text(const Tuning& tuning, const TuneOptions& options,
                             const Provenance& provenance);
 
 /// Read-backs of judged.csv and shard.json (core/file.h): that of the table takes the text of its
 /// shard.json.
-Status check_judged_csv(std::string_view text, const std::string& file,
-                        const std::string& shard_json);
+Status check_evaluation_csv(std::string_view text, const std::string& file,
+                            const std::string& shard_json);
 Status check_tune_shard_text(std::string_view text, const std::string& file);
 
 /// Whether the directory holds this part already, finished, from the same inputs and options, and as it
@@ -41,12 +41,12 @@ Status check_tune_shard_text(std::string_view text, const std::string& file);
 bool is_finished_tune_shard(const std::filesystem::path& directory, const Shard& shard,
                             const Provenance& provenance);
 
-/// Result of a single run.
+/// The result that a single run without parts has.
 struct MergedTuning {
-  std::string gains_text;                               ///< the bytes of gains.json
-  std::vector<JudgedGains> judged, judged_by_scenario;  ///< as in RobustTuning
-  std::vector<JudgedGoal> goals;
-  std::vector<Finding> findings;  ///< those of the evaluation draws, then those of the parts
+  std::string gains_text;                                        ///< the bytes of gains.json
+  std::vector<EvaluatedGains> evaluated, evaluated_by_scenario;  ///< as in RobustTuning
+  std::vector<EvaluatedGoal> goals;
+  std::vector<Finding> findings;  ///< of the evaluation draws, then of the first part
 };
 
 /// Puts the parts in the directories together, in any order. Errors (input): a directory without

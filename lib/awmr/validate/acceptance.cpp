@@ -196,7 +196,7 @@ std::vector<double> factors_of_draws(const std::vector<Compared>& channels, std:
   return factors;
 }
 
-ChannelAcceptance judged(const Compared& one, double factor) {
+ChannelAcceptance evaluate(const Compared& one, double factor) {
   ChannelAcceptance result{
       .channel = one.channel.name,
       .unit = one.channel.unit,
@@ -242,7 +242,7 @@ void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
   const double allowed = quantile_of(factors, kLevel);
   double reached = 0.0;
   for (const Compared& one : channels) {
-    result.channels.push_back(judged(one, allowed));
+    result.channels.push_back(evaluate(one, allowed));
     reached = std::max(reached, result.channels.back().distance / one.usual);
   }
   // The drive itself counts: under the null hypothesis, all n + 1 ranks are equally likely.

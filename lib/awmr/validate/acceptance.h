@@ -44,7 +44,7 @@ struct ChannelAcceptance {
 
 /// A single change of the model that reduces its distance from the drive.
 struct FaultHypothesis {
-  std::string what;    ///< "mass_norm", "gyro bias"
+  std::string what;    ///< "mass_norm", "bias of the yaw rate"
   double value = 0.0;  ///< best value: a factor of the model's, or in the unit
   std::string unit;    ///< "times" for a factor
   /// Fraction of the sum of squared distances removed by this change, in [0, 1].

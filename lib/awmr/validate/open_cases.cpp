@@ -55,7 +55,7 @@ std::vector<std::vector<std::size_t>> batches_of(const std::vector<ClaimCase>& c
   return batches;
 }
 
-ClaimCase judged(ClaimCase open, bool reproduced) {
+ClaimCase evaluate(ClaimCase open, bool reproduced) {
   open.reproduced = reproduced;
   return open;
 }
@@ -112,7 +112,7 @@ void add_open_cases(const Model& model, const std::optional<Gains<double>>& gain
                     const Progress& progress) {
   const std::vector<ClaimCase> cases = open_cases(model);
   const std::vector<std::vector<std::size_t>> batches = batches_of(cases);
-  std::vector<std::vector<Claim>> judged_in(cases.size());
+  std::vector<std::vector<Claim>> claims_by_case(cases.size());
   std::atomic<std::size_t> done = 0;
   LoopControl control;
   if (progress) control.progress = [&] { progress(done, cases.size()); };
@@ -122,7 +122,7 @@ void add_open_cases(const Model& model, const std::optional<Gains<double>>& gain
     auto claims_of =
         check_claims_of(models, gains, arithmetic, control_in(cases[batches[b].front()]));
     for (std::size_t i = 0; i < claims_of.size(); ++i) {
-      judged_in[batches[b][i]] = std::move(claims_of[i]);
+      claims_by_case[batches[b][i]] = std::move(claims_of[i]);
     }
     done += claims_of.size();
   };
@@ -130,10 +130,10 @@ void add_open_cases(const Model& model, const std::optional<Gains<double>>& gain
   for (std::size_t c = 0; c < claims.size(); ++c) {
     Claim& claim = claims[c];
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      const Claim& there = judged_in[i][c];
-      claim.cases.push_back(judged(cases[i], there.reproduced));
+      const Claim& there = claims_by_case[i][c];
+      claim.cases.push_back(evaluate(cases[i], there.reproduced));
       for (std::size_t m = 0; m < claim.modes.size(); ++m) {
-        claim.modes[m].cases.push_back(judged(cases[i], there.modes[m].reproduced));
+        claim.modes[m].cases.push_back(evaluate(cases[i], there.modes[m].reproduced));
       }
     }
     claim.decided_by = decisive_settings(claim.cases);

@@ -18,8 +18,8 @@
 /// cent off where the commands change fast. With x2 the fit to the logs with every other command, held over two rows,
 /// the standard errors become sqrt(C + ((x2 - x)/2)^2).
 ///
-/// Which plant predicts better is judged by cross-validation: the tyres are fitted to every other window
-/// and predict the rest, and the other way round. Of each held-out window
+/// Which plant predicts better is found by cross-validation: the tyres are fitted to every other
+/// window and predict the rest, and the other way round. Of each held-out window
 ///
 ///     D_w = sum over c of log(sum e^2 of the 3-DOF model / sum e^2 of the four wheels),
 ///

@@ -55,9 +55,9 @@ std::vector<CoastFit> fits_of(const std::vector<CoastCurve>& curves, const Inter
                               const FamilyChoice& choice) {
   std::vector<CoastFit> fits;
   for (const Family family : kCoastFamilies) {
-    const Family asked =
+    const Family requested =
         choice.family == Family::kDeadZone ? Family::kPower : choice.family.value_or(family);
-    if (choice.asked && family != asked) continue;
+    if (choice.requested && family != requested) continue;
     fits.push_back(fit_coast_alone(curves, beta_range, family));
   }
   return fits;
@@ -128,7 +128,7 @@ MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& v
   result.reason = "a coast-down shows m' only together with a1 and b1, which are not identified";
   if (curves.empty()) return result;
   const std::vector<CoastFit> fits = fits_of(curves, vehicle.surge_beta_range, family);
-  const bool by_aicc = family.asked && !family.family;
+  const bool by_aicc = family.requested && !family.family;
   const CoastFit& fit = by_aicc ? best_of(fits) : fits.front();
   if (!fit.usable) {
     result.reason += fmt::format(" (the fit of the curve alone: {})", fit.stop_reason);
@@ -140,7 +140,7 @@ MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& v
   for (const CoastFit& other : fits) {
     if (&other != &fit && other.usable) result.reports.push_back(report_of_alone(other));
   }
-  if (!family.asked) hold_against_others(fits, curves.front().file, result);
+  if (!family.requested) hold_against_others(fits, curves.front().file, result);
   result.alone = fit;
   return result;
 }

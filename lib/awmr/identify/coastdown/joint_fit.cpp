@@ -128,7 +128,7 @@ double mean_square(const Eigen::VectorXd& e) {
   return e.squaredNorm() / static_cast<double>(e.size());
 }
 
-/// State of the fit at these parameters and noise levels.
+/// Stores the fit at the present parameters and noise levels, the last or not.
 void keep(const Stacked& s, const Rows& rows, CoastProblem& problem, const BySet& variance,
           const BySet& dof, JointFit& joint) {
   const Eigen::Index count = rows_of(joint.surge.free) + 1;

@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// Adds what the other families of surge resistance make of the logs; returns the advice, if any.
+/// Adds the fits of the other families of surge resistance; returns advice if another one is best.
 std::optional<std::string> try_rivals(BestFamily alternatives, const FamilyFit& chosen,
                                       Adequacy& adequacy) {
   for (EstimatorReport& report : reports_of(alternatives.others, chosen)) {
@@ -75,7 +75,7 @@ Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
   for (const auto& [channel, noise] : chosen.fit.noise) {
     if (!noise.of_the_model()) continue;
     std::string advice =
-        "an unmodelled effect acts on the vehicle (steering trim, unequal sides, a motor driver "
+        "an unmodelled effect acts on the vehicle (a motor driver "
         "that brakes at a command of 0, a slope, sliding tyres), or the sensor drifts";
     if (channel == LogChannel::kSpeed && try_families) {
       advice = try_rivals(best_family(logs, power_law, chosen, {.only_suspects = false}), chosen,

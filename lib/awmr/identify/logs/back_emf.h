@@ -2,7 +2,7 @@
 ///
 /// While the motors drive, what they lose and a linear part of the resistance are one: straight ahead
 ///     m' du/dt = 4 (F' - k_e u) - g1(u)
-/// and only with the motors off is g1 alone. So k_e is requested of logs that hold both.
+/// and only with the motors off is g1 alone. So k_e needs logs with both.
 #pragma once
 
 #include <string>
@@ -22,8 +22,8 @@ LogFitOptions with_back_emf(LogFitOptions options);
 /// Whether k_e is free in a fit with these options.
 bool frees_back_emf(const LogFitOptions& options);
 
-/// Whether k_e may improve a fit that has it among its candidate terms: by a score test, or because
-/// its errors are correlated, which can hide the effect.
+/// Whether to try k_e, a candidate term of this fit: its score test has a large gain, slow drift of
+/// a channel may hide it, or the fit did not converge.
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms);
 
 /// Whether a fit with k_e free is significantly better than one without, and identifies k_e.

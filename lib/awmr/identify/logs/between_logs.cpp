@@ -43,7 +43,7 @@ ByLog collect(const std::vector<DrivingLog>& logs, const std::vector<LogFit>& fi
   return found;
 }
 
-/// Tests whether the logs' values of one quantity agree.
+/// Result of Cochran's Q test that the logs agree on a quantity.
 struct Heterogeneity {
   double p_value = 1.0;
   double widening = 1.0;  ///< of the standard error, for the mean of such vehicles

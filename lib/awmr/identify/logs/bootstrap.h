@@ -25,7 +25,7 @@ struct BootstrapInput {
 /// Block bootstrap: blocks drawn with replacement, one Gauss-Newton step from the solution for each
 /// draw, scaled to the covariance's standard error; the 2.5 % and 97.5 % percentiles of every
 /// quantity's value. The percentiles bring the shape, which need not be normal. Empty where no
-/// resamples are asked for.
+/// resamples are requested.
 std::vector<Interval> block_bootstrap(const BootstrapInput& input, const BootstrapOptions& options);
 
 }  // namespace awmr

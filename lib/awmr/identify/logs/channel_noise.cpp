@@ -79,8 +79,8 @@ ChannelNoise unit_noise(double logit, double correlation_s) {
           .correlation_s = correlation_s};
 }
 
-/// Upper limit of errors of a channel, in whole windows spread over the logs. They determine the
-/// levels to 1 %.
+/// All errors of a channel, or if there are more than 2 kEnough, at least about kEnough of them in
+/// whole windows spread over the logs. These determine the levels to 1 %.
 std::vector<ErrorSeries> some_of(std::span<const ErrorSeries> series) {
   constexpr std::size_t kEnough = 20'000;
   std::size_t total = 0;
@@ -172,8 +172,8 @@ struct SecondOrder {
   }
 };
 
-/// Bounds of the search for a second-order drift: periods from two windows to two samples, and
-/// almost no white noise.
+/// Bounds of the search for a second-order drift: its share of the variance from 0.2 % to nearly
+/// all, periods from two windows to two samples.
 struct SecondOrderRange {
   SecondOrder lowest;
   SecondOrder highest;

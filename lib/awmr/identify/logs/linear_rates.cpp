@@ -81,8 +81,8 @@ void add_product(double share, const Vector3& a, const Vector3& b, std::array<Ve
   }
 }
 
-/// Adds the back-EMF of the driven wheels. A wheel rolls at w = J (u, v, r) and pushes with J^T F',
-/// and each loses k_e w of its force:
+/// Damping matrix of back-EMF. A wheel rolls at w = J (u, v, r) and pushes with J^T F', and loses
+/// k_e w of its force:
 ///     (X, Y, N) -= k_e D (u, v, r),   D = sum J^T J over the wheels whose motor is on
 ///     J_rear = (1, 0, -+d),   J_front = (cos d_r, sin d_r, l_f sin d_r -+ d cos d_r)
 struct Braking {

@@ -51,7 +51,7 @@ struct CommandPath {
   std::optional<std::size_t> lag_column = {};      ///< where the lag is free
   std::optional<OffsetColumn> steering_trim = {};  ///< rad, added to command or logged angle
   std::optional<OffsetColumn> imbalance = {};  ///< e: left forces times 1 - e, right times 1 + e
-  /// A motor is off as soon as its command is 0, whatever its lag, like motors with back-EMF.
+  /// A motor is off as soon as its command is 0, whatever its lag: true for motors with back-EMF.
   bool switches_off = false;
 };
 
@@ -78,7 +78,8 @@ struct DelayedCommand {
 /// Moves the state and its derivatives on.
 class LinearStepper {
  public:
-  /// `columns`: 0 for the state alone. `latency`: of the command path. `longest_step_s`: of LinearPlant.
+  /// `columns`: 0 for the state alone. `latency`: columns_of() the command path. `longest_step_s`:
+  /// as for LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
                 const std::vector<ParameterColumn>& parameters, const LateColumns& latency,
                 double longest_step_s = 0.0);

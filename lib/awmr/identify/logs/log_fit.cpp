@@ -49,7 +49,7 @@ std::vector<double> suspect_gains(const LogProblem& problem, const SearchPoint& 
   return gains;
 }
 
-/// Makes the result of a search that ended at `solved`; `sums` are those there, all finite.
+/// Returns the fit at the end of a search, `solved`; `sums` are those there, all finite.
 LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector<WindowSums>& sums,
               const LogFitOptions& options) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;

@@ -93,16 +93,16 @@ bool turns(const std::vector<DrivingLog>& logs) {
 /// Channels with an offset: the requested ones, a yaw rate whose bias the heading shows, and a
 /// heading that the course over ground shows to be turned.
 std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
-                                        std::vector<LogChannel> asked) {
+                                        std::vector<LogChannel> requested) {
   const auto add = [&](LogChannel channel, bool is_biased) {
-    const bool known = std::ranges::find(asked, channel) != asked.end();
-    if (is_biased && !known) asked.push_back(channel);
+    const bool known = std::ranges::find(requested, channel) != requested.end();
+    if (is_biased && !known) requested.push_back(channel);
   };
   add(LogChannel::kYawRate, std::ranges::any_of(logs, has_gyro_bias));
   add(LogChannel::kHeading, std::ranges::any_of(logs, [](const DrivingLog& log) {
         return heading_offset_rad(log).has_value();
       }));
-  return asked;
+  return requested;
 }
 
 /// Numbers integrated by all searches: about half a minute on a processor of 2023, and more for long
@@ -141,15 +141,15 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
 /// Frees the parameters that are requested or have no value; these have to be guessed. Reasons: of
 /// those that the logs cannot show.
 void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
-                     const std::vector<ParameterId>& asked, const Model& model,
+                     const std::vector<ParameterId>& requested, const Model& model,
                      std::map<ParameterId, std::string>& reasons) {
   const bool turning = turns(logs);
   for (const ParameterInfo& parameter : parameter_table()) {
     const Estimate& known = model[parameter.id];
     if (known.value) fit.initial_guess[at(parameter.id)] = *known.value;
-    const bool wanted = contains(asked, parameter.id) || !known.value;
+    const bool wanted = contains(requested, parameter.id) || !known.value;
     const bool back_emf = parameter.id == ParameterId::kBackEmf;
-    if (!can_be_asked(parameter) || !wanted) continue;
+    if (!can_be_requested(parameter) || !wanted) continue;
     const std::string why = cannot_show(logs, parameter.id);
     if (!why.empty()) reasons[parameter.id] = why;
     // In a turn, what is not shown still acts on what is: it stays free, and is refused.
@@ -164,13 +164,13 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
 /// and no table fit has absorbed it into the resistance.
 bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                         const IdentifyOptions& options, const Model& model) {
-  return options.asked.empty() && !vehicle.back_emf_s_per_m &&
+  return options.requested.empty() && !vehicle.back_emf_s_per_m &&
          !model[ParameterId::kSurgeAlpha].value && !model[ParameterId::kYawAlpha].value &&
          why_no_back_emf(logs).empty();
 }
 
 bool is_open(const FamilyChoice& choice) {
-  return !choice.family || (!choice.asked && choice.family == Family::kPower);
+  return !choice.family || (!choice.requested && choice.family == Family::kPower);
 }
 
 void report(const IdentifyOptions& options, std::string_view what) {
@@ -228,11 +228,11 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   if (!surge_open && !yaw_open) return chosen;
   // Without a request, another family has to be significantly better than the paper's.
   report(options, "trying families of resistance");
-  const bool somebody_asked = !surge.family || !yaw.family;
+  const bool is_family_requested = !surge.family || !yaw.family;
   const FamilyContest contest{.surge = surge_open,
                               .yaw = yaw_open,
-                              .lead = somebody_asked ? 0.0 : kFamilyAicThreshold,
-                              .only_suspects = !somebody_asked};
+                              .lead = is_family_requested ? 0.0 : kFamilyAicThreshold,
+                              .only_suspects = !is_family_requested};
   const auto contenders =
       static_cast<double>(contender_count(power_law, chosen.found.best, contest));
   announce(options,
@@ -329,7 +329,7 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   stage.reports.push_back(chosen.fit.report);
   append(stage.findings, autocorrelation_findings(chosen.fit, logs.front().file));
   report(options, "checking the fit");
-  const bool try_families = surge.asked && surge.family == Family::kPower;
+  const bool try_families = surge.requested && surge.family == Family::kPower;
   const Adequacy adequacy = judge_adequacy(logs, power_law, chosen, try_families);
   append(stage.reports, adequacy.alternatives);
   append(stage.findings, adequacy.findings);
@@ -442,12 +442,12 @@ std::vector<Finding> speed_findings(const Vehicle& vehicle, const std::vector<Dr
 
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                                const IdentifyOptions& options,
-                               const std::vector<ParameterId>& asked, const Model& model,
+                               const std::vector<ParameterId>& requested, const Model& model,
                                bool overrule) {
   LogStage stage;
   LogFitOptions power_law = fit_options(vehicle, logs, options);
   power_law.initial_guess = guess_from_logs(logs, vehicle);
-  free_parameters(power_law, logs, asked, model, stage.reasons);
+  free_parameters(power_law, logs, requested, model, stage.reasons);
   AWMR_RETURN_IF_ERROR(check_replay(plant_of(vehicle, power_law.initial_guess), logs.front().file));
   if (looks_for_back_emf(vehicle, logs, options, model)) {
     power_law.candidate_terms.push_back(ParameterId::kBackEmf);
@@ -455,7 +455,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   FamilyFit first = fit_first_family(logs, power_law, options);
   if (is_steering_measured(logs, power_law, first, options)) {
     Result<LogStage> measured =
-        run_log_stage(vehicle, with_measured_steering(logs), options, asked, model, overrule);
+        run_log_stage(vehicle, with_measured_steering(logs), options, requested, model, overrule);
     if (measured) measured->findings.push_back(measured_steering_finding(logs.front().file));
     return measured;
   }

@@ -33,7 +33,7 @@ struct LogStage {
   bool withdraws_intervals = false;  ///< the values are shown without standard errors and intervals
 };
 
-/// Fits the logs from the model's values so far. All of `asked` are free; others are held at their
+/// Fits the logs from the model's values so far. All of `requested` are free; others are held at their
 /// value, or free as well where they have none. `overrule`: the logs also fill what other trials
 /// did.
 /// Findings: `estimates-disagree` (logs against tables, p < 0.01), `coloured-residuals`,
@@ -42,7 +42,7 @@ struct LogStage {
 /// Errors (input): a given time constant is too fast for a log.
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                                const IdentifyOptions& options,
-                               const std::vector<ParameterId>& asked, const Model& model,
+                               const std::vector<ParameterId>& requested, const Model& model,
                                bool overrule);
 
 }  // namespace awmr

@@ -88,15 +88,15 @@ Multistart multistart(const LogProblem& problem, const LogFitOptions& options) {
     solved[i] = solve(rough, from_measured(rough, from[i]), kRough);
   });
   Multistart result;
-  std::vector<std::size_t> converged;  // somewhere
+  std::vector<std::size_t> usable;
   for (std::size_t i = 0; i < from.size(); ++i) {
     result.starts.push_back({values_at(quantities, from[i]), solved[i].cost, false,
                              solved[i].stop_reason.substr(0, kReasonLength)});
-    if (solved[i].usable) converged.push_back(i);
+    if (solved[i].usable) usable.push_back(i);
   }
-  std::ranges::stable_sort(converged, {}, [&](std::size_t i) { return solved[i].cost; });
-  for (const std::size_t i : converged) result.ends.push_back(solved[i].point.coordinates);
-  if (!converged.empty()) result.starts[converged.front()].chosen = true;
+  std::ranges::stable_sort(usable, {}, [&](std::size_t i) { return solved[i].cost; });
+  for (const std::size_t i : usable) result.ends.push_back(solved[i].point.coordinates);
+  if (!usable.empty()) result.starts[usable.front()].chosen = true;
   return result;
 }
 

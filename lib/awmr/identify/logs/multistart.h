@@ -9,15 +9,16 @@
 namespace awmr {
 
 struct Multistart {
-  /// End points of the searches that converged or stopped at a finite cost, smallest cost first.
+  /// Coordinates at the ends of the searches with a usable solution, smallest cost first.
   std::vector<std::vector<double>> ends;
   std::vector<SearchStart> starts;  ///< the initial guess, the other places, the random ones
 };
 
-/// Uses the initial guess of other trials if there is one. Otherwise makes a rough search from the
-/// guess, from each other place given and, where some of the guess is an order of magnitude, from
-/// several random ones, on short parts of some of the windows: over a long one, the effect of a
-/// wrong guess accumulates, and the search ends where the motion is nothing like the log.
+/// Returns the initial guess if other trials gave all of it and no other place is given. Otherwise
+/// makes a rough search from the guess, from each other place and, where some of the guess is an
+/// order of magnitude, from several random ones. The searches use short parts of some of the
+/// windows: over a long part the effect of a wrong guess accumulates, and the search ends where the
+/// motion is nothing like the log.
 Multistart multistart(const LogProblem& problem, const LogFitOptions& options);
 
 }  // namespace awmr

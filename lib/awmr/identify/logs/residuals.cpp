@@ -100,7 +100,8 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
   return u;
 }
 
-/// Initial derivatives: 1 by the component itself, and of the steering angle by its trim.
+/// The initial motion. Derivatives: 1 by a free component of the state itself, and of the steering angle
+/// by its trim.
 LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t columns) {
   LinearMotion motion{u.initial, std::vector<double>(kStateSize * columns, 0.0)};
   for (std::size_t i = 0; columns > 0 && i < model.initial.size(); ++i) {
@@ -112,7 +113,7 @@ LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t 
   return motion;
 }
 
-/// Readings of a window, by channel.
+/// Simulated sensor filters of a window; none for channels without a filter.
 using SmoothedChannels = std::array<std::optional<SmoothedChannel>, kChannelCount>;
 
 SmoothedChannels smoothed_channels(const FitWindow& window, const Unpacked& u,

@@ -19,13 +19,14 @@ std::optional<double> half_width_of(const Model& model, ParameterId id) {
 
 }  // namespace
 
-std::vector<Precision> precision_of(const Model& model, std::span<const ParameterId> asked) {
+std::vector<Precision> precision_of(const Model& model, std::span<const ParameterId> requested) {
   std::vector<Precision> precisions;
   for (const ParameterInfo& parameter : parameter_table()) {
-    const bool named = std::find(asked.begin(), asked.end(), parameter.id) != asked.end();
+    const bool named =
+        std::find(requested.begin(), requested.end(), parameter.id) != requested.end();
     const bool is_given = model[parameter.id].source == Source::kGiven;
     if ((parameter.term && !named) || !has(model.vehicle, parameter.id)) continue;
-    if (asked.empty() ? is_given : !named) continue;
+    if (requested.empty() ? is_given : !named) continue;
     precisions.push_back({parameter.id, half_width_of(model, parameter.id)});
   }
   return precisions;

@@ -17,10 +17,10 @@ struct Precision {
   std::optional<double> half_width;
 };
 
-/// Precision of the parameters in `asked`; if that is empty, of every parameter that the vehicle
-/// has and that is not given. Terms that only some families have are left out: they may be 0 and
-/// have no relative width.
-std::vector<Precision> precision_of(const Model& model, std::span<const ParameterId> asked);
+/// Precision of the parameters in `requested`; if that is empty, of every parameter that the
+/// vehicle has and that is not given. Terms that only some families have are left out: they may be
+/// 0 and have no relative width.
+std::vector<Precision> precision_of(const Model& model, std::span<const ParameterId> requested);
 
 /// Every half width is there and at most `limit`, > 0. False for an empty list.
 bool is_enough(std::span<const Precision> precisions, double limit);

@@ -35,8 +35,8 @@ double scatter(const Model& model, FitSubject subject, ErrorModel error) {
   return 0.0;
 }
 
-/// Left and right wheel forces for this yaw moment, m, without steering: on the spot, or with as
-/// little rearward force as possible.
+/// Left and right wheel forces for this yaw moment, m, without steering: opposite ones, or with the
+/// left wheels at their rearward limit (0 if they cannot push back) if that is less.
 ///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
 SideForces<double> sides_for(const Vehicle& vehicle, double tau_turn_m) {
   const double difference = tau_turn_m / (2.0 * vehicle.half_track_m);
@@ -175,9 +175,9 @@ std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOp
   const int count = shard.share_of(options.runs);
   std::vector<OneRun> runs(at(count));
   std::atomic<int> done = 0;
-  int described = 0;
+  int reported = 0;
   LoopControl control;
-  if (progress) control.progress = [&] { progress(described = done); };
+  if (progress) control.progress = [&] { progress(reported = done); };
   parallel_for(
       runs.size(), options.threads,
       [&](std::size_t i) {
@@ -189,17 +189,17 @@ std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOp
         ++done;
       },
       control);
-  if (progress && described < count) progress(count);
+  if (progress && reported < count) progress(count);
   return runs;
 }
 
 /// The parameters to evaluate: those requested, or all, where the model has a value.
-std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<ParameterId>& asked) {
+std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<ParameterId>& requested) {
   std::vector<RecoverTruth> truths;
   for (const ParameterInfo& parameter : parameter_table()) {
-    const bool is_asked = std::ranges::find(asked, parameter.id) != asked.end();
+    const bool is_requested = std::ranges::find(requested, parameter.id) != requested.end();
     const std::optional<double>& value = model[parameter.id].value;
-    if (value && (asked.empty() || is_asked)) truths.push_back({parameter.id, *value});
+    if (value && (requested.empty() || is_requested)) truths.push_back({parameter.id, *value});
   }
   return truths;
 }
@@ -244,20 +244,20 @@ Status check_drive(const DrivePlan& drive) {
 /// Back-EMF that was fitted is requested again.
 RecoverOptions options_for(const Model& model, RecoverOptions options) {
   const bool log = options.plan == RecoverPlan::kLog;
-  if (log && options.identify.asked.empty() && !is_absent_term(model, ParameterId::kBackEmf) &&
+  if (log && options.identify.requested.empty() && !is_absent_term(model, ParameterId::kBackEmf) &&
       model[ParameterId::kBackEmf].source != Source::kGiven) {
     for (const ParameterInfo& parameter : parameter_table()) {
-      if (!can_be_asked(parameter) || !has(model.vehicle, parameter.id)) continue;
+      if (!can_be_requested(parameter) || !has(model.vehicle, parameter.id)) continue;
       if (model[parameter.id].source != Source::kGiven) {
-        options.identify.asked.push_back(parameter.id);
+        options.identify.requested.push_back(parameter.id);
       }
     }
   }
   if (model.simulated_motion() == Motion::kPlanar) return options;
   options.drive.straight = true;
-  if (options.plan == RecoverPlan::kLog && options.identify.asked.empty()) {
-    options.identify.asked = {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta,
-                              ParameterId::kMassNorm};
+  if (options.plan == RecoverPlan::kLog && options.identify.requested.empty()) {
+    options.identify.requested = {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta,
+                                  ParameterId::kMassNorm};
   }
   return options;
 }
@@ -297,8 +297,8 @@ Result<RecoverPart> recover_part(const Model& model, const RecoverOptions& given
                               .coast_from_mps = top_speed_mps(model)};
   RecoverPart part{.all_runs = options.runs,
                    .noise_text = noise_in_words(experiment.noise, options),
-                   .asked = given.identify.asked,
-                   .truths = truths_of(model, given.identify.asked),
+                   .requested = given.identify.requested,
+                   .truths = truths_of(model, given.identify.requested),
                    .runs = {},
                    .refusal = {},
                    .error = {}};

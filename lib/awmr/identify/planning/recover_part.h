@@ -45,11 +45,11 @@ struct RecoverRefusal {
 
 /// Some of the runs of a recovery, or all of them.
 struct RecoverPart {
-  int all_runs = 0;                  ///< of all parts
-  std::string noise_text;            ///< as simulated
-  std::vector<ParameterId> asked;    ///< empty: all that the trials identify
-  std::vector<RecoverTruth> truths;  ///< of the evaluated parameters
-  std::vector<RecoverRun> runs;      ///< by index
+  int all_runs = 0;                    ///< of all parts
+  std::string noise_text;              ///< as simulated
+  std::vector<ParameterId> requested;  ///< empty: all that the trials identify
+  std::vector<RecoverTruth> truths;    ///< of the evaluated parameters
+  std::vector<RecoverRun> runs;        ///< by index
   std::optional<RecoverRefusal> refusal;
   std::optional<Error> error;  ///< why no run gave a model at all: that of the first
 };
@@ -60,8 +60,8 @@ struct RecoverPart {
 Result<RecoverPart> recover_part(const Model& model, const RecoverOptions& options,
                                  const Shard& shard, const std::function<void(int)>& progress);
 
-/// Computes the statistics of the runs. Precondition: `whole` has all of them. Errors: those of the
-/// runs, if all have one; (refused) no run gives a requested parameter, or any.
+/// Computes the statistics of the runs. Precondition: `whole` has all of them. Errors: that of the
+/// first run, if all have one; (refused) no run gives one of the requested parameters, or any.
 Result<Recovery> recovery_of(const RecoverPart& whole);
 
 }  // namespace awmr

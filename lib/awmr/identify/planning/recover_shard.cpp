@@ -87,7 +87,7 @@ RecoverShardFile shard_file_from_json(JsonObject& json) {
   part.all_runs = static_cast<int>(json.integer("runs", 2, kMostRecoverRuns));
   part.noise_text = json.string("noise");
   for (const std::string& name : json.strings("asked")) {
-    if (const auto id = read_parameter(json, "asked", name)) part.asked.push_back(*id);
+    if (const auto id = read_parameter(json, "asked", name)) part.requested.push_back(*id);
   }
   part.truths = read_truths(json.object("truths"));
   if (auto refusal = json.optional_object("refusal")) part.refusal = read_refusal(*refusal);
@@ -100,7 +100,7 @@ RecoverShardFile shard_file_from_json(JsonObject& json) {
 std::string other_recovery(const RecoverShardFile& first, const RecoverShardFile& file) {
   const RecoverPart& a = first.part;
   const RecoverPart& b = file.part;
-  if (a.all_runs != b.all_runs || a.noise_text != b.noise_text || a.asked != b.asked ||
+  if (a.all_runs != b.all_runs || a.noise_text != b.noise_text || a.requested != b.requested ||
       a.truths != b.truths) {
     return made_with_other_options(first.origin);
   }
@@ -166,7 +166,7 @@ std::string recover_shard_text(const RecoverPart& part, const Shard& shard,
   json["runs"] = part.all_runs;
   json["noise"] = part.noise_text;
   json["asked"] = Json::array();
-  for (const ParameterId id : part.asked) json["asked"].push_back(info(id).name);
+  for (const ParameterId id : part.requested) json["asked"].push_back(info(id).name);
   json["truths"] = Json::object();
   for (const RecoverTruth& truth : part.truths) {
     json["truths"][std::string(info(truth.id).name)] = truth.value;

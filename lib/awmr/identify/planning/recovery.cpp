@@ -36,12 +36,12 @@ RecoveredParameter recovered_parameter(const RecoverTruth& truth, std::size_t pl
   return p;
 }
 
-/// Errors: that of the runs, where all have one; (refused) no run gave anything, or nothing that was
-/// requested.
+/// Errors: that of the first run, if all have one; (refused) no run gave any parameter, or one of
+/// the requested ones.
 Status check_recovered(const Recovery& recovery, const RecoverPart& whole) {
   if (whole.error) return tl::unexpected(*whole.error);
   std::vector<std::string_view> missing;
-  for (const ParameterId id : whole.asked) {
+  for (const ParameterId id : whole.requested) {
     const auto is_it = [&](const RecoveredParameter& p) { return p.id == id; };
     if (std::ranges::none_of(recovery.parameters, is_it)) missing.push_back(info(id).name);
   }

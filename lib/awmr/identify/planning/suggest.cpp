@@ -168,8 +168,8 @@ double log_determinant(const Eigen::MatrixXd& covariance) {
 
 /// C_after = (C^-1 + J^T J)^-1, J what the trial would measure by the coordinates, in units of its
 /// noise.
-SuggestedTrial judged(const CandidateTrial& candidate, const Model& model,
-                      const Uncertainty& uncertainty, const Target& target) {
+SuggestedTrial evaluate(const CandidateTrial& candidate, const Model& model,
+                        const Uncertainty& uncertainty, const Target& target) {
   const Eigen::MatrixXd j = jacobian_of(model, uncertainty.parameters, candidate.standardised);
   const Eigen::MatrixXd& before = uncertainty.covariance;
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(before.rows(), before.rows());
@@ -218,7 +218,7 @@ Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
     AWMR_RETURN_IF_ERROR(check_replay(model.plant_as_known(), model.file));
   }
   for (const CandidateTrial& candidate : candidates_of(model, options)) {
-    suggestion.trials.push_back(judged(candidate, model, uncertainty, target));
+    suggestion.trials.push_back(evaluate(candidate, model, uncertainty, target));
     const SuggestedTrial& trial = suggestion.trials.back();
     if (std::isfinite(trial.std_error_before) && std::isfinite(trial.std_error_after) &&
         std::isfinite(trial.d_gain)) {

@@ -123,8 +123,8 @@ std::optional<YawScrub> mean_scrub(const ScrubMoments& met, double of_law, doubl
                   .yaw_rate_radps = range_of(met.rates_radps)};
 }
 
-/// Range of the c_i between the slowest and the fastest turn if they change with the rate: the
-/// union of a straight line's intervals at both ends. Noise of r alone makes c fall with r, and
+/// Range of the c_i between the slowest and the fastest turn if they change with the rate: it spans
+/// the 95 % intervals of a straight line at both ends. Noise of r alone makes c fall with r, and
 /// noise of tau alone makes it rise with tau; only a change shows over both.
 std::optional<Interval> changing_scrub(const ScrubMoments& met, const Model& model) {
   for (const auto* over : {&met.rates_radps, &met.applied_m}) {
@@ -176,7 +176,7 @@ void note_standing(Model& model, const TrialSet<TurningRow>& turning,
                    standing.size() == 1 ? "" : "s", lines, *model.yaw_held_m));
 }
 
-/// Findings on a scrub that is not constant.
+/// Findings on turns beyond the rates that g3 was fitted to, and on scrub that changes with rate.
 void note_limits(Model& model, const TrialSet<TurningRow>& turning, const ScrubMoments& met) {
   const YawScrub& scrub = *model.yaw_scrub;
   const Interval rates = scrub.yaw_rate_radps;

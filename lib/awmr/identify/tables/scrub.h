@@ -20,9 +20,10 @@ namespace awmr {
 /// Fewer differential turns give no estimate of scatter.
 inline constexpr std::size_t kFewestScrubRows = 3;
 
-/// Sets model.yaw_scrub where the model knows g3 and there are enough turns, which then have to lie
-/// within the yaw rates that g3 was fitted to. Findings say why not (`few-scrub-rows`, `negative-scrub`,
-/// `scrub-beyond-trials`), and where c_i changes with r (`scrub-grows`), which a constant does not tell.
+/// Sets model.yaw_held_m, the largest moment at which the vehicle did not turn (`scrub-holds`), and
+/// model.yaw_scrub if the model has g3 and there are enough turns (else `few-scrub-rows`) whose
+/// interval is not all negative (else `negative-scrub`). Warns of turns beyond the yaw rates that
+/// g3 was fitted to (`scrub-beyond-trials`) and of c_i that change with r (`scrub-grows`).
 void measure_scrub(const TrialSet<TurningRow>& turning, Model& model);
 
 }  // namespace awmr

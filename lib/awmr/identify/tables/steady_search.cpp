@@ -139,7 +139,7 @@ bool SteadySearch::is_at_bound(TransformedParameter c) const {
   return theta_[at(c)] <= bounds.lo || theta_[at(c)] >= bounds.hi;
 }
 
-/// Coordinates that stopped at a bound; the search then continues.
+/// Searches until it ends or coordinates have stayed at a bound for some iterations; returns these.
 std::vector<TransformedParameter> SteadySearch::search_until_at_bound() {
   StopAtBound stop([this] {
     std::vector<TransformedParameter> at_bound;

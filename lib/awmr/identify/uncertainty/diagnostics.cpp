@@ -148,8 +148,8 @@ Eigen::VectorXd studentised(const Eigen::VectorXd& residuals, const Eigen::Vecto
     const double e = residuals(i);
     const double without = (sse - e * e / free) / (degrees_of_freedom - 1.0);
     // A point that alone decides a parameter has no residual to test.
-    const double judged = free > 1e-12 && without > 0.0 ? e / std::sqrt(without * free) : 0.0;
-    t(i) = std::isfinite(judged) ? judged : 0.0;
+    const double evaluated = free > 1e-12 && without > 0.0 ? e / std::sqrt(without * free) : 0.0;
+    t(i) = std::isfinite(evaluated) ? evaluated : 0.0;
   }
   return t;
 }
