@@ -157,7 +157,7 @@ struct CompareCommand {
   fs::path output;
   AllocationChoice allocation = {};
   HeadingRateChoice heading_rate_limit = {};
-  PlantChoice plant = {};
+  PlantChoice plant = {.checks_other = true};
   bool resume = false;     ///< continue from the output directory
   ShardChoice shard = {};  ///< as in `compare`
   InputNames names = {};
@@ -234,7 +234,7 @@ Result<Outcome> execute(const RunCommand& command);
 void add_run(CLI::App& app, Session& session);
 
 struct ExplainCommand {
-  std::string code;  ///< of a finding; empty: all
+  std::optional<std::string> code;  ///< of a finding; empty: all
 };
 Result<Outcome> execute(const ExplainCommand& command);
 void add_explain(CLI::App& app, Session& session);

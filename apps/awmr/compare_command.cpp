@@ -140,11 +140,9 @@ Result<Comparison> compare_until_interrupted(const ComparedInputs& inputs, Compa
 void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
   const std::string file = (command.output / kComparisonTable).string();
   const std::string text =
-      command.shard
-          ? "stopped: a part of a comparison has to be run again as a whole\n"
-          : fmt::format(
-                "stopped: {} finished runs are in {}; the same command with --resume goes on\n",
-                comparison.rows.size(), file);
+      command.shard ? "stopped: run the whole part of the comparison again\n"
+                    : fmt::format("stopped: {} finished runs are in {}; continue with --resume\n",
+                                  comparison.rows.size(), file);
   std::fputs(text.c_str(), stderr);
   std::signal(SIGINT, SIG_DFL);
   std::raise(SIGINT);
@@ -161,7 +159,7 @@ Status read_texts(const Texts& texts, CompareCommand& command) {
   AWMR_ASSIGN_OR_RETURN(command.shard, shard_of(texts.shard));
   command.compare.shard = command.shard.value_or(Shard{});
   if (command.shard && command.compare.break_even) {
-    return input_error("--break-even", "needs a whole comparison: leave out --shard");
+    return input_error("--break-even", "cannot be combined with --shard");
   }
   AWMR_ASSIGN_OR_RETURN(command.compare.preferences,
                         preferences_of(texts.weights, texts.relevance));
@@ -171,7 +169,7 @@ Status read_texts(const Texts& texts, CompareCommand& command) {
 void add_samples(CLI::App& command, CompareOptions& options) {
   command
       .add_option("--samples", options.samples,
-                  "Draws of the parameters from the model's covariance, and of noise and "
+                  "Random draws of parameters (from the model's covariance), noise and "
                   "disturbances (default 0: nominal only)")
       ->check(within(0, 1000000));
   command.add_option("--seed", options.seed, "Seed of the draws (default 1)")
@@ -188,7 +186,7 @@ void add_preferences(CLI::App& command, Texts& texts) {
       "finish_time_s, speed_drop_mps, energy_mech and tyre_work, 0 for the others)");
   command
       .add_option("--relevance", texts.relevance,
-                  "Share of a metric, and of the score, below which a difference does not matter "
+                  "Relative difference of a metric or score below which modes are equivalent "
                   "(default 0.05)")
       ->check(within(0.0, 1.0));
 }
@@ -197,8 +195,8 @@ void add_preferences(CLI::App& command, Texts& texts) {
 std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
   if (rate != kMeasuredRate) return words_of_rate(rate);
   return fmt::format(
-      "headings are led at up to {:.3g} deg/s, as fast as yaw resistance was measured\n"
-      "(--heading-rate-limit {}: as the scenarios have them)\n",
+      "heading commands limited to {:.3g} deg/s, the highest yaw rate of the turning trials\n"
+      "(--heading-rate-limit {}: no limit but the scenarios' own)\n",
       *measured_yaw_rate_degps(model), kNoRate);
 }
 
@@ -265,7 +263,7 @@ Result<Outcome> execute(const CompareCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, inputs));
   AWMR_RETURN_IF_ERROR(check_outputs_of(command));
   CompareOptions options = command.compare;
-  options.other_settings = !command.plant.kind;
+  options.other_settings = command.plant.runs_other();
   options.tyres = inputs.tyres;
   if (command.resume && command.shard) {
     if (is_finished_part(comparison_shards(), command.output, *command.shard, provenance)) {
@@ -303,17 +301,15 @@ void add_compare(CLI::App& app, Session& session) {
   add_file(*sub, "--scenario", command->scenarios, "scenario.json, one or more")->required();
   add_samples(*sub, command->compare);
   sub->add_flag("--resume", command->resume,
-                "Go on from what lies in the directory: after Ctrl-C, or with more samples; with "
-                "--shard, leave a part that is finished as it is");
+                "Continue from the results in the directory, after Ctrl-C or with more samples; "
+                "with --shard, skip a finished part");
   add_preferences(*sub, *texts);
   sub->add_flag(
       "--break-even", command->compare.break_even,
-      "Also how much more yaw resistance turns by the sides' forces could meet before a mode "
-      "that steers is better");
+      "Also compute the tyre scrub of differential turns at which a steering mode becomes better");
   add_shard(*sub, texts->shard);
   add_allocation(*sub, command->allocation);
-  add_heading_rate_limit(*sub, command->heading_rate_limit,
-                         "measured, where the model says how fast that was");
+  add_heading_rate_limit(*sub, command->heading_rate_limit, "measured, if the model has that rate");
   add_plant_or_both(*sub, command->plant);
   add_output_directory(*sub, command->output, "Directory for comparison.csv and comparison.json");
 }

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -6,8 +7,8 @@
 #include <sstream>
 
 #include "awmr/core/json.h"
+#include "awmr/core/nearest.h"
 #include "awmr/core/text.h"
-#include "command_line.h"
 #include "commands.h"
 #include "findings_file.h"
 
@@ -112,6 +113,28 @@ std::string list_of(const std::vector<Explanation>& all) {
   return text;
 }
 
+/// The codes that a misspelt or shortened one may stand for: the nearest by letters, then those that
+/// contain it; at most five.
+std::vector<std::string> near_codes(const std::string& code, std::vector<std::string> codes) {
+  constexpr std::size_t kShortest = 3, kMost = 5;
+  std::vector<std::string> near;
+  if (std::string found = nearest(code, codes); !found.empty()) near.push_back(std::move(found));
+  for (std::string& one : codes) {
+    const bool contains = code.size() >= kShortest && one.find(code) != std::string::npos;
+    if (!contains || near.size() == kMost) continue;
+    if (std::ranges::find(near, one) == near.end()) near.push_back(std::move(one));
+  }
+  return near;
+}
+
+tl::unexpected<Error> unknown_code(const std::string& code, const std::vector<std::string>& codes) {
+  const std::vector<std::string> near = near_codes(code, codes);
+  return input_error("CODE", fmt::format("no finding has the code '{}'; {}", shortened(code),
+                                         near.empty() ? "awmr explain lists all codes"
+                                                      : fmt::format("did you mean '{}'?",
+                                                                    fmt::join(near, "', '"))));
+}
+
 Json to_json(const std::vector<Explanation>& all) {
   Json json = Json::array();
   for (const Explanation& one : all) {
@@ -128,17 +151,13 @@ Json to_json(const std::vector<Explanation>& all) {
 
 Result<Outcome> execute(const ExplainCommand& command) {
   std::vector<Explanation> all = explanations();
-  if (command.code.empty()) {
+  if (!command.code) {
     return Outcome{.summary = list_of(all), .document = awmr::to_text(to_json(all))};
   }
   std::vector<std::string> codes;
   for (const Explanation& one : all) codes.push_back(one.code);
   std::erase_if(all, [&](const Explanation& one) { return one.code != command.code; });
-  if (all.empty()) {
-    return input_error(
-        "CODE", fmt::format("no finding has the code '{}'{}; awmr explain lists all",
-                            printable(shortened(command.code)), did_you_mean(command.code, codes)));
-  }
+  if (all.empty()) return unknown_code(*command.code, codes);
   Outcome outcome{.document = awmr::to_text(to_json(all))};
   for (const Explanation& one : all) outcome.summary += text_of(one);
   return outcome;

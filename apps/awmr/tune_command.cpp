@@ -44,8 +44,8 @@ Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
   if (command.mode) options.mode = command.mode;
   if (command.draws && options.nominal) {
     return input_error("--draws",
-                       "nominal gains are tuned on no draws, and the configuration asks for "
-                       "nominal: leave out one of them");
+                       "the configuration sets nominal, which uses no draws; remove --draws or "
+                       "nominal");
   }
   if (command.draws) options.draws = *command.draws;
   if (command.sensitivity) options.sensitivity = *command.sensitivity;
@@ -106,14 +106,14 @@ Result<Outcome> part_outcome(const TuneCommand& command, const Tuning& tuning,
 /// Adds the options of what is searched; returns `--nominal`.
 CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
   auto* nominal = sub.add_flag("--nominal", command.nominal,
-                               "Tune on the model's own values alone: no draws from what is "
-                               "uncertain, no noise, no latency, no lag");
+                               "Tune for the nominal parameters only: no parameter draws, noise, "
+                               "latency or lag");
   sub.add_flag(
       "--observer", command.observer,
-      "Tune a disturbance observer with the gains, for pushes that do not go away: a slope, "
-      "a motor that pulls to one side");
+      "Also tune a disturbance observer, for constant disturbances such as a slope or unequal "
+      "motors");
   sub.add_option("--baseline", command.baseline,
-                 "Gains that the objective is normalised by: pole-placement (default), paper or a "
+                 "Baseline gains, with objective 1: pole-placement (default), paper or a "
                  "gains.json")
       ->type_name("NAME|FILE");
   sub.add_option_function<std::string>(
@@ -126,14 +126,12 @@ CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
 
 void add_draws(CLI::App& sub, TuneCommand& command, CLI::Option* nominal) {
   sub.add_option("--draws", command.draws,
-                 "Plants drawn from the model's covariance that the gains are tuned for (default "
-                 "32)")
+                 "Number of vehicles drawn from the model's covariance to tune for (default 32)")
       ->check(within(0.0, 1000.0))
       ->excludes(nominal);
   sub.add_option("--sensitivity", command.sensitivity,
-                 "Samples that say which of what was assumed (the model's parameters, noise, "
-                 "latency, lag) moves the tuned loop, by Sobol's indices (default none; 256 take "
-                 "some seconds)")
+                 "Samples for a global sensitivity analysis (Sobol indices) of the tuned loop to "
+                 "parameters, noise, latency and lag (default none; 256 take some seconds)")
       ->check(within(kFewestSamples, kMostSamples))
       ->excludes(nominal);
 }
@@ -184,12 +182,11 @@ void add_tune(CLI::App& app, Session& session) {
   add_draws(*sub, *command, nominal);
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit,
-                         "none for scenarios of the user's; of the default ones one is led as "
-                         "measured, one is not");
+                         "none for --config scenarios; of the two default scenarios one is limited "
+                         "to the measured rate");
   add_output(*sub, command->output, "gains.json to write; with --shard, the directory of the part");
   auto* shard = add_shard(*sub, *shard_text)->excludes(nominal);
-  sub->add_flag("--resume", command->resume, "Leave a part that is finished as it is")
-      ->needs(shard);
+  sub->add_flag("--resume", command->resume, "Skip a part that is already finished")->needs(shard);
 }
 
 }  // namespace awmr::cli

@@ -23,7 +23,8 @@ std::string sensitivity_text(const RobustTuning& robust) {
   if (!robust.sensitivity) return {};
   constexpr std::size_t kMostInputs = 3;
   std::string text = fmt::format(
-      "  what moves the tuned loop: total Sobol indices (95 %), {} samples of what was assumed\n",
+      "  sensitivity of the tuned loop: total Sobol indices (95 % interval), {} samples of the "
+      "assumed values\n",
       robust.sensitivity->samples);
   for (const SensitiveFigure& figure : robust.sensitivity->figures) {
     std::vector<std::size_t> order(figure.by_input.size());
@@ -48,21 +49,21 @@ std::string sensitivity_text(const RobustTuning& robust) {
 std::string active_text(const Tuning& tuning) {
   std::string held;
   for (const ActiveConstraint& one : tuning.active) {
-    held += fmt::format("{}{} (a tenth wider gains {:.1f} %)", held.empty() ? "" : "; ", one.name,
-                        100.0 * one.wider_gains);
+    held += fmt::format("{}{} (limit 10 % wider: objective {:.1f} % lower)",
+                        held.empty() ? "" : "; ", one.name, 100.0 * one.wider_gains);
   }
   return fmt::format(
-      "  held by    {}\n"
-      "  as good    with the same mu/epsilon any mu from {:.4g} to {:.4g}, and mu_s from {:.4g} to "
-      "{:.4g}: the least are taken\n",
-      held.empty() ? "no constraint" : held, tuning.mu_as_good.lo, tuning.mu_as_good.hi,
+      "  active limits  {}\n"
+      "  equally good   mu {:.4g} to {:.4g} at the same mu/epsilon, mu_s {:.4g} to {:.4g} at the "
+      "same mu_s/eps_s (smallest used)\n",
+      held.empty() ? "none" : held, tuning.mu_as_good.lo, tuning.mu_as_good.hi,
       tuning.speed_mu_as_good.lo, tuning.speed_mu_as_good.hi);
 }
 
 /// Describes the unmodelled variation that the gains account for; empty without any.
 std::string open_text(const OpenVehicle& open) {
   if (!open.any()) return {};
-  std::string text = "  open      ";
+  std::string text = "  variation     ";
   if (!open.mass_factors.empty()) {
     text += fmt::format(" m' and I'z times {:g}", fmt::join(open.mass_factors, ", "));
   }
@@ -82,9 +83,9 @@ std::string certificate_text(const Certificate& certificate) {
                            one.damping.value, one.delay_margin_s.value);
   }
   return fmt::format(
-      "  certified  damping at least {:.3g}, delay margin {:.3g} s over {}, {:g} s late ({})\n",
+      "  worst case     damping {:.3g}, delay margin {:.3g} s over {}, with {:g} s latency ({})\n",
       certificate.damping_min(), certificate.delay_margin_s(),
-      certificate.parameters > 0 ? "95 % of the model's parameters" : "the model's own values",
+      certificate.parameters > 0 ? "the 95 % region of the parameters" : "the model's own values",
       certificate.latency_s, by_mode);
 }
 
@@ -100,7 +101,7 @@ std::string gains_table(const Tuning& tuning) {
                      tuning.baseline_objective);
   text += gains_line("tuned", tuning.gains, tuning.objective);
   if (const ObserverGains<double>& observer = tuning.gains.observer; observer.is_on()) {
-    text += fmt::format("  observer   {:.4g} rad/s, up to {:.4g} m and {:.4g} of F_max\n",
+    text += fmt::format("  observer       {:.4g} rad/s, at most {:.4g} m and {:.4g} of F_max\n",
                         observer.bandwidth_radps, observer.yaw_max_m, observer.surge_max);
   }
   return text;

@@ -101,7 +101,7 @@ TEST_F(RecoverShards, OfLogsMergeToTheBytesOfASingleRun) {
   EXPECT_EQ(bytes_of(recovery_of(merged->whole).value()), bytes_of(*whole));
 }
 
-TEST_F(RecoverShards, WhatIsRefusedAsAWholeIsRefusedAlikeInParts) {
+TEST_F(RecoverShards, RefusesInPartsWhatItRefusesAsAWhole) {
   // The model's tables do not identify the servo: no run gives its time constant.
   RecoverOptions options = seven_runs();
   options.identify.asked = {ParameterId::kSteeringTimeConstant};
@@ -140,7 +140,7 @@ TEST_F(RecoverShards, AnErrorOfAllRunsIsThatOfTheFirst) {
   EXPECT_EQ(to_text(recovery.error()), to_text(*one.error));
 }
 
-TEST_F(RecoverShards, TheRefusalThatIsToldIsThatOfTheSmallestRun) {
+TEST_F(RecoverShards, ReportsTheRefusalOfTheSmallestRun) {
   RecoverPart one = part({1, 2});
   RecoverPart two = part({2, 2});
   one.refusal = {4, "later"};
@@ -149,7 +149,7 @@ TEST_F(RecoverShards, TheRefusalThatIsToldIsThatOfTheSmallestRun) {
             "first");
 }
 
-TEST_F(RecoverShards, WhatIsMissingOrThereTwiceIsNamed) {
+TEST_F(RecoverShards, NamesMissingAndDuplicateParts) {
   const auto first = write({1, 4});
   const auto second = write({2, 4});
   EXPECT_THAT(fault({first, second}), HasSubstr("of 4 parts, these are missing: 3, 4"));
@@ -206,16 +206,16 @@ TEST_F(RecoverShards, DamagedTablesAreNamed) {
   const auto with = [&](const std::string& cell) {
     return table.substr(0, value) + cell + table.substr(table.find(',', value));
   };
-  expect(last, "has 2 rows, not a multiple of the 3 runs of part 2 of 2: it has lost rows");
+  expect(last, "has 2 runs, part 2 of 2 of 7 runs has 3");
   expect(table + table.substr(row, table.find('\n', row) + 1 - row),
-         "has 4 rows, not a multiple of the 3 runs of part 2 of 2");
-  const auto commas = std::count(table.begin(), table.begin() + std::ptrdiff_t(row), ',');
-  expect(table + "7,0" + std::string(std::size_t(commas) - 1, ',') + "\n",
-         "has run 7 in the place of 1, in part 2 of 2");
-  expect(table.substr(0, row) + "2" + table.substr(row + 1),
-         "has run 2 in the place of 1, in part 2 of 2");
-  expect(table.substr(0, row) + "-1" + table.substr(row + 1),
-         "has run -1 in the place of 1, in part 2 of 2");
+         "has 4 runs, part 2 of 2 of 7 runs has 3");
+  expect(table + table.substr(row), "has 6 runs, part 2 of 2 of 7 runs has 3");
+  const auto first_run = [&](const std::string& run) {
+    return table.substr(0, row) + run + table.substr(row + 1);
+  };
+  for (const char* run : {"2", "3", "7", "-1"}) {
+    expect(first_run(run), std::string("row 1 has run ") + run + " instead of 1");
+  }
   for (const char* cell : {"nan", "inf", "1e308", "", "x", "0x1"}) {
     expect(with(cell), "recovery.csv:2:1: is no run of a recovery");
   }
@@ -226,7 +226,7 @@ TEST_F(RecoverShards, DamagedTablesAreNamed) {
   EXPECT_TRUE(merge_recover_shards({first, second}));
 }
 
-TEST_F(RecoverShards, AFinishedPartIsKnownByItsBytesAndWhatItIsMadeFrom) {
+TEST_F(RecoverShards, RecognisesAFinishedPartByItsBytesAndInputs) {
   const Shard shard{1, 2};
   const auto first = write(shard);
   EXPECT_TRUE(is_finished_part(recover_shards(), first, shard, kProvenance));

@@ -16,27 +16,27 @@ void note_samples(const CompareOptions& options, const Comparison& comparison,
   if (samples < 2 || samples >= kFewSamples) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "few-samples",
-       fmt::format("intervals of {} samples hold the truth in {:.0f} % of cases at "
-                   "the most, not in 95: give {} samples or more",
+       fmt::format("intervals of {} samples have a coverage of at most {:.0f} %, not 95; give {} "
+                   "samples or more",
                    samples, 100.0 * (1.0 - std::pow(0.5, samples - 1)), kFewSamples)});
 }
 
-/// The scrub that the modes are compared with, or a warning if steering and combined turns are
-/// charged with a scrub that they do not have.
+/// Adds the finding on the simulated scrub, or a warning if yaw resistance includes scrub that
+/// steered turns do not have.
 void note_scrub(const Model& model, std::vector<Finding>& findings) {
   if (model.yaw_by_sides_alone) {
     findings.push_back(
         {model.file, 0, Severity::kWarning, "turned-by-sides",
-         "yaw resistance was measured in turns by the sides' forces and holds the scrub of their "
-         "tyres, with which steering and combined are charged here, too: they are shown worse than "
-         "they are. Add steered turns to the turning table (awmr suggest says which)"});
+         "yaw resistance was identified from differential turns and includes their tyre scrub, so "
+         "steering and combined appear worse than they are. Add steered turns to the turning table "
+         "(awmr suggest lists them)"});
   }
   if (!model.yaw_scrub || !(model.yaw_scrub->moment_m > 0.0)) return;
   findings.push_back(
       {model.file, 0, Severity::kNote, "scrub-simulated",
-       fmt::format("differential and combined turns on the model's plant meet the scrub that this "
-                   "vehicle's differential turns met, {:.3g} m (95 %: {:.3g} to {:.3g}), which the "
-                   "controller does not know; --break-even gives the scrub that ends each lead",
+       fmt::format("the simulated plant adds the measured tyre scrub, {:.3g} m (95 %: {:.3g} to "
+                   "{:.3g}), to differential and combined turns; the controller does not "
+                   "compensate it. --break-even gives the scrub that changes each ranking",
                    model.yaw_scrub->moment_m, model.yaw_scrub->ci95_m.lo,
                    model.yaw_scrub->ci95_m.hi)});
 }
@@ -62,7 +62,7 @@ std::vector<Finding> extrapolation_findings(const Comparison& comparison,
   if (!comparison.measured_yaw_rate_degps || comparison.rows.empty()) return {};
   const auto fastest = std::ranges::max_element(
       comparison.rows, {}, [](const ComparisonRow& row) { return row.metrics.yaw_rate_max_degps; });
-  const bool is_led =
+  const bool is_rate_limited =
       std::ranges::find(provenance.options,
                         std::pair(std::string(kRateName), std::string(kMeasuredRate))) !=
       provenance.options.end();
@@ -70,7 +70,7 @@ std::vector<Finding> extrapolation_findings(const Comparison& comparison,
   auto finding = extrapolation_finding(
       model, *comparison.measured_yaw_rate_degps, fastest->metrics.yaw_rate_max_degps,
       fmt::format("{}, {}, sample {}", fastest->scenario, name_of(fastest->mode), fastest->sample),
-      is_led);
+      is_rate_limited);
   if (!finding) return {};
   return {*std::move(finding)};
 }

@@ -19,7 +19,7 @@
 namespace awmr {
 namespace {
 
-/// What may change between a comparison and its continuation.
+/// Options that may change between a comparison and its continuation.
 const std::set<std::string, std::less<>> kFreeOptions{"samples", "weight", "relevance",
                                                       "break_even"};
 
@@ -56,11 +56,11 @@ std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool 
   return row;
 }
 
-/// Origin of comparison.json and of its rows.
+/// Origin and row hash of comparison.json.
 struct Origin {
   Provenance provenance;
   std::string version;                    ///< of the program that wrote it
-  std::string arithmetic;                 ///< of its rows; "scalar" in files of earlier versions
+  std::string arithmetic;                 ///< of its rows; "scalar" if the key is missing
   std::optional<std::string> csv_sha256;  ///< none in files of earlier versions
 };
 
@@ -80,22 +80,23 @@ Result<Origin> read_origin(const std::filesystem::path& path) {
   return origin;
 }
 
-/// What decides the rows: everything but the free options.
+/// The provenance that determines the rows: everything but the free options.
 Provenance fixed(Provenance provenance) {
   std::erase_if(provenance.options,
                 [](const auto& option) { return kFreeOptions.contains(option.first); });
   return provenance;
 }
 
-/// Reason why the rows of a comparison are not those of `now`; empty if they are.
+/// Reason why the rows of a comparison are not those of `now`, and the remedy; empty if they are.
 std::string difference(const Origin& before, const Provenance& now, std::string_view arithmetic) {
-  std::string other =
+  const std::string other =
       origin_difference(fixed(before.provenance), before.version, fixed(now), "this comparison");
-  if (other.empty() && before.arithmetic != arithmetic) {
-    other = fmt::format("was computed in {} arithmetic, this comparison would be in {}",
-                        before.arithmetic, arithmetic);
-  }
-  return other;
+  if (!other.empty()) return other + "; resume with the same, or compare into another directory";
+  if (before.arithmetic == arithmetic) return {};
+  return fmt::format(
+      "was computed in {} arithmetic, this comparison would be in {}; compare into "
+      "another directory",
+      before.arithmetic, arithmetic);
 }
 
 }  // namespace
@@ -144,10 +145,8 @@ Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& di
   const std::filesystem::path csv = directory / kComparisonTable;
   AWMR_ASSIGN_OR_RETURN(const Origin before, read_origin(json));
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
-  if (const std::string other = difference(before, provenance, arithmetic.rounding);
-      !other.empty()) {
-    return input_error(json.string(), other + "; compare into another directory");
-  }
+  const std::string other = difference(before, provenance, arithmetic.rounding);
+  if (!other.empty()) return input_error(json.string(), other);
   AWMR_RETURN_IF_ERROR(check_regular_file(csv));
   AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(csv));
   if (before.csv_sha256 && *before.csv_sha256 != sha256_hex(text)) {

@@ -20,7 +20,7 @@ Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& di
                                                  const Provenance& provenance);
 
 /// The rows of the text of a comparison.csv; `file` names it in errors. Errors (input): it has other
-/// columns, or a row that comparison_csv() does not write.
+/// columns, or a row is not one of a comparison.
 Result<std::vector<ComparisonRow>> comparison_rows(std::string_view text, const std::string& file);
 
 /// Read-back (core/file.h) of comparison.csv.

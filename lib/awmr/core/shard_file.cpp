@@ -148,17 +148,23 @@ Status check_parts(const ShardKind& kind, const std::vector<Part>& parts) {
   return {};
 }
 
-/// Options that differ or exist in only one of the lists, by their marked names (option_text.h).
-std::set<std::string> differing_options(const Provenance& a, const Provenance& b) {
+/// Names of the options or inputs, as (name, value), that are in only one of the lists.
+std::set<std::string> differing(const std::vector<std::pair<std::string, std::string>>& a,
+                                const std::vector<std::pair<std::string, std::string>>& b) {
   std::set<std::string> names;
   for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
-    for (const auto& option : own->options) {
-      if (std::ranges::find(other->options, option) == other->options.end()) {
-        names.insert(option_text(option.first));
-      }
+    for (const auto& one : *own) {
+      if (std::ranges::find(*other, one) == other->end()) names.insert(one.first);
     }
   }
   return names;
+}
+
+/// (name, hash) of each input.
+std::vector<std::pair<std::string, std::string>> inputs_of(const Provenance& provenance) {
+  std::vector<std::pair<std::string, std::string>> inputs;
+  for (const InputFile& input : provenance.inputs) inputs.emplace_back(input.name, input.sha256);
+  return inputs;
 }
 
 }  // namespace
@@ -256,18 +262,23 @@ Status check_items(const Part& part, const ShardFile& file, std::string_view nam
                    std::size_t rows, const std::function<int(std::size_t)>& item_of) {
   const std::string place = (part.directory / file.name).string();
   const Shard& shard = part.origin.shard;
+  if (const auto fault = shard_fault(shard, items, fmt::format("{}s", name))) {
+    return input_error((part.directory / kShardFile).string(), fault->message);
+  }
   const std::size_t share = at(shard.share_of(items));
   for (std::size_t i = 0; i < rows; ++i) {
     const int expected = shard.item(static_cast<int>(i % share));
     if (item_of(i) == expected) continue;
-    return input_error(place, fmt::format("has {} {} in the place of {}, in part {} of {}; run the "
-                                          "part again",
-                                          name, item_of(i), expected, shard.index, shard.count));
+    return input_error(
+        place, fmt::format("row {} has {} {} instead of {}: rows are missing, repeated or of "
+                           "another part; run part {} of {} again",
+                           i + 1, name, item_of(i), expected, shard.index, shard.count));
   }
   if (rows > 0 && rows % share == 0) return {};
-  return input_error(place, fmt::format("has {} rows, not a multiple of the {} {}s of part {} of "
-                                        "{}: it has lost rows; run it again",
-                                        rows, share, name, shard.index, shard.count));
+  return input_error(place,
+                     fmt::format("has {} rows, not a multiple of the {} {}s of part {} of {}: rows "
+                                 "are missing or repeated; run the part again",
+                                 rows, share, name, shard.index, shard.count));
 }
 
 std::string origin_difference(const Provenance& found, const std::string& found_version,
@@ -276,16 +287,19 @@ std::string origin_difference(const Provenance& found, const std::string& found_
     return fmt::format("was written by version {} of the program, this is {}", found_version,
                        version());
   }
-  if (const auto names = differing_options(found, expected); !names.empty()) {
-    return fmt::format("was made with other options ({}) than {}", fmt::join(names, ", "), name);
+  std::set<std::string> options;
+  for (const std::string& option : differing(found.options, expected.options)) {
+    options.insert(option_text(option));
   }
-  const auto same_input = [](const InputFile& a, const InputFile& b) {
-    return a.name == b.name && a.sha256 == b.sha256;
-  };
-  if (!std::ranges::equal(found.inputs, expected.inputs, same_input)) {
-    return fmt::format("was made from other inputs than {}", name);
+  if (!options.empty()) {
+    return fmt::format("was made with other options ({}) than {}", fmt::join(options, ", "), name);
   }
-  return {};
+  const auto inputs = inputs_of(found), expected_inputs = inputs_of(expected);
+  if (inputs == expected_inputs) return {};
+  const std::set<std::string> files = differing(inputs, expected_inputs);
+  return files.empty()
+             ? fmt::format("was made from the inputs in another order than {}", name)
+             : fmt::format("was made from other inputs ({}) than {}", fmt::join(files, ", "), name);
 }
 
 }  // namespace awmr

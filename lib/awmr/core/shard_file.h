@@ -2,6 +2,8 @@
 /// only, because it includes nlohmann/json.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -55,14 +57,14 @@ auto payload_of(const Json& shard_json, const Read& read) {
 /// in shard.json.
 Result<std::string> read_part_file(const Part& part, const ShardFile& file);
 
-/// Checks that the rows of a table are of the part's items, of `items` in total: of each in order,
-/// again and again. `item_of(i)` is the item of row i, `name` names it: "run". Errors (input): a row
-/// of another item; rows are missing.
+/// Checks that the rows of a table are of the part's items, of `items` in total: all in order, once or
+/// more. `item_of(i)` is the item of row i, `name` names it: "run". Errors (input): the part has no
+/// items; a row is of another item; rows are missing.
 Status check_items(const Part& part, const ShardFile& file, std::string_view name, int items,
                    std::size_t rows, const std::function<int(std::size_t)>& item_of);
 
 /// The rows of all parts in the order of a single run. Each part has the rows of its items in order,
-/// `per_item` rows each, again and again. Errors (input): not as often in every part.
+/// `per_item` rows each, once or more. Errors (input): more often in one part than in another.
 template <class Row>
 Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& parts, int items,
                                            std::size_t per_item = 1) {
@@ -75,7 +77,9 @@ Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& 
       const std::vector<Row>& part = parts[item % parts.size()];
       std::size_t& begin = next[item % parts.size()];
       if (part.size() - begin < per_item) {
-        return input_error("", "one of the parts has lost rows: run it again");
+        return input_error("", fmt::format("part {} of {} has fewer rows than another: it has lost "
+                                           "rows, or the other repeats some; run both again",
+                                           item % parts.size() + 1, parts.size()));
       }
       all.insert(all.end(), part.begin() + eigen_index(begin),
                  part.begin() + eigen_index(begin + per_item));

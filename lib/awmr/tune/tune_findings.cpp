@@ -19,12 +19,12 @@ void note_goal(const JudgedGoal& judged, std::vector<Finding>& findings) {
   const bool is_missed = judged.verdict == GoalVerdict::kMissed;
   findings.push_back(
       {"", 0, Severity::kWarning, is_missed ? "goal-missed" : "goal-open",
-       fmt::format("{} of {} fresh draws in {} keep the goal's limits, {:.1f} to {:.1f} %, where "
-                   "{:g} % are required: {}",
+       fmt::format("{} of {} fresh draws in {} meet the goal ({:.1f} to {:.1f} %), {:g} % are "
+                   "required: {}",
                    judged.held, judged.runs, name_of(judged.mode), 100.0 * judged.ci95.lo,
                    100.0 * judged.ci95.hi, 100.0 * judged.goal.share,
                    is_missed ? "tune on more draws (--draws), raise the limits or accept less"
-                             : "judge on more (judged_draws)")});
+                             : "increase judged_draws")});
 }
 
 void note_unsettled(const std::string& scenario, YawMode mode, double completed_share,
@@ -33,9 +33,10 @@ void note_unsettled(const std::string& scenario, YawMode mode, double completed_
   if (completed_share >= kMinShare) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "unsettled",
-       fmt::format("{}{}: {:.0f} % of the runs with the tuned gains settle after every step; "
-                   "figures of the others are of runs that do not get there. Give more time or a "
-                   "faster lead, or an observer (--observer) where something pushes all the time",
+       fmt::format("{}{}: only {:.0f} % of the runs with the tuned gains settle after every step; "
+                   "the metrics of the others are of unsettled runs. Give more time or a higher "
+                   "heading-rate limit, or add an observer (--observer) against constant "
+                   "disturbances",
                    scenario.empty() ? "" : scenario + ", ", name_of(mode),
                    100.0 * completed_share)});
 }
@@ -54,8 +55,8 @@ void note_sensitivity(const Tuning& tuning, std::vector<Finding>& findings) {
   if (open == 0) return;
   findings.push_back(
       {"", 0, Severity::kNote, "sensitivity-open",
-       fmt::format("{} samples leave open what moves {} of {} figures most, as few runs are far "
-                   "from the others: give more (--sensitivity)",
+       fmt::format("{} samples do not show which input affects {} of {} metrics most; increase "
+                   "--sensitivity",
                    tuning.robust->sensitivity->samples, open, figures.size())});
 }
 
@@ -82,8 +83,8 @@ void note_observer(const TuneOptions& options, std::vector<Finding>& findings) {
   if (!options.observer || is_pushed) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "observer-unpushed",
-       "no scenario has a disturbance, so that the observer was tuned where it only lets noise in: "
-       "give one that pushes the vehicle, or none at all for the default ones"});
+       "no scenario has a disturbance, so the observer was tuned on noise alone. Give a scenario "
+       "with a disturbance, or no scenarios to use the default ones"});
 }
 
 /// Requests that the vehicle cannot meet, in the scenarios and in the conditions of the draws.

@@ -95,7 +95,7 @@ Result<std::vector<RunOutcome>> judged_from_text(const Payload& payload, const S
                                                  std::string_view text, const std::string& file) {
   std::string_view rest = text;
   if (take_line(rest) != head_of_table()) {
-    return input_error(file + ":1:1", "these are not the columns of a judging");
+    return input_error(file + ":1:1", "these are not the columns of judged.csv");
   }
   int line = 1;
   std::vector<RunOutcome> runs;
@@ -159,7 +159,7 @@ Result<Json> read_gains_json(const std::vector<Part>& parts) {
   const std::filesystem::path path = parts.front().directory / file.name;
   AWMR_ASSIGN_OR_RETURN(Json json, read_json_file(path));
   if (!json.is_object() || !json.contains("robust") || !json["robust"].is_object()) {
-    return input_error(path.string(), "holds no robust gains: run the part again");
+    return input_error(path.string(), "contains no robust gains; run the part again");
   }
   return json;
 }
@@ -192,7 +192,7 @@ std::string judged_csv(const Tuning& tuning, const TuneOptions& options) {
 const ShardKind& tune_shards() {
   static const ShardKind kind{
       .schema = "awmr.tune_shard/1",
-      .title = "A part of the judging of gains",
+      .title = "A part of the evaluation of gains on fresh draws",
       .files = {{"judged.csv", "csv_sha256", check_judged},
                 {"gains.json", "gains_json_sha256",
                  [](std::string_view text, const std::string& file, const std::string&) {

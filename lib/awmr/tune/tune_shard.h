@@ -1,6 +1,6 @@
-/// The judging of gains in parts, for several machines: each searches the gains, which come out the
-/// same, and runs some of the fresh draws; merge_tune_shards() puts the runs together to the bytes
-/// of a single `awmr tune`.
+/// Evaluation of gains in parts, on several machines: each searches the gains, with the same
+/// result, and runs some of the fresh draws; merge_tune_shards() puts the runs together to the
+/// bytes of a single `awmr tune`.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,7 @@ struct MergedTuning {
   std::string gains_text;                               ///< the bytes of gains.json
   std::vector<JudgedGains> judged, judged_by_scenario;  ///< as in RobustTuning
   std::vector<JudgedGoal> goals;
-  std::vector<Finding> findings;  ///< those of the judged draws, then those of the parts
+  std::vector<Finding> findings;  ///< those of the evaluation draws, then those of the parts
 };
 
 /// Puts the parts in the directories together, in any order. Errors (input): as read_parts(); a file

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "awmr/core/name_table.h"
@@ -97,6 +98,14 @@ Result<std::vector<RecoverRun>> read_runs(const Part& part, const RecoverPart& p
   AWMR_ASSIGN_OR_RETURN(const std::string text, read_part_file(part, table));
   AWMR_ASSIGN_OR_RETURN(std::vector<RecoverRun> runs,
                         recover_runs(text, (part.directory / table.name).string(), payload.truths));
+  const Shard& shard = part.origin.shard;
+  const int expected = shard.share_of(payload.all_runs);
+  if (std::ssize(runs) != expected) {
+    return input_error(
+        (part.directory / table.name).string(),
+        fmt::format("has {} runs, part {} of {} of {} runs has {}: run it again", runs.size(),
+                    shard.index, shard.count, payload.all_runs, expected));
+  }
   AWMR_RETURN_IF_ERROR(check_items(part, table, "run", payload.all_runs, runs.size(),
                                    [&](std::size_t i) { return runs[i].index; }));
   return runs;
