@@ -52,7 +52,8 @@ std::vector<std::string> parts_of(const std::string& list) {
   return parts;
 }
 
-/// The rows of FINDINGS.md: `| codes | severity of all, or of each | meaning | remedy |`.
+/// The rows of FINDINGS.md: `| codes | severity of all, or of each | meaning | remedy |`, as
+/// tests/cli/findings.py checks.
 std::vector<Explanation> explanations() {
   std::vector<Explanation> all;
   std::string group;
@@ -169,8 +170,7 @@ void add_explain(CLI::App& app, Session& session) {
       add_command(app, session, "explain", "Print what a finding's code means and what to do",
                   "awmr explain not-identifiable", [command] { return execute(*command); });
   sub->add_option("CODE", command->code,
-                  "Code in brackets behind a finding; without it, all codes and their meanings")
-      ->type_name("CODE");
+                  "Code of a finding, printed in brackets; without it, all codes are listed");
 }
 
 }  // namespace awmr::cli
