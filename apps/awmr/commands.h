@@ -233,6 +233,12 @@ struct RunCommand {
 Result<Outcome> execute(const RunCommand& command);
 void add_run(CLI::App& app, Session& session);
 
+struct ExplainCommand {
+  std::optional<std::string> code;  ///< of a finding; empty: all
+};
+Result<Outcome> execute(const ExplainCommand& command);
+void add_explain(CLI::App& app, Session& session);
+
 /// Help heading of the commands for the shell and other programs.
 inline constexpr const char* kServiceGroup = "For the shell and other programs";
 

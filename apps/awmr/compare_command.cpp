@@ -135,33 +135,10 @@ Result<Comparison> compare_until_interrupted(const ComparedInputs& inputs, Compa
   return compare(inputs.model, inputs.gains, inputs.scenarios, options);
 }
 
-/// Name of the JSON file with the inputs and the results of comparison.csv.
-const char* json_of(const CompareCommand& command) {
-  return command.shard ? "shard.json" : "comparison.json";
-}
-
-/// Returns the content of the file with that name.
-std::string document_of(const CompareCommand& command, const Comparison& comparison,
-                        const Provenance& provenance) {
-  return command.shard ? shard_text(comparison, command.compare, provenance)
-                       : comparison_text(comparison, command.compare, provenance);
-}
-
-Status write_comparison(const CompareCommand& command, const Comparison& comparison,
-                        const std::string& text) {
-  AWMR_RETURN_IF_ERROR(make_directory(command.output));
-  // comparison.json or shard.json is written last because it contains the hash of the table.
-  const OutputFile files[] = {
-      {command.output / "comparison.csv", comparison_csv(comparison), check_comparison_csv},
-      {command.output / json_of(command), text,
-       command.shard ? check_shard_text : check_comparison_text}};
-  return write_files(files);
-}
-
 /// Prints how to resume, then ends the program by the signal, so that the caller sees the usual
 /// exit status.
 void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
-  const std::string file = (command.output / "comparison.csv").string();
+  const std::string file = (command.output / kComparisonTable).string();
   const std::string text =
       command.shard ? "stopped: run the whole part of the comparison again\n"
                     : fmt::format("stopped: {} finished runs are in {}; continue with --resume\n",
@@ -248,25 +225,35 @@ std::string table_of(const CompareCommand& command, const ComparedInputs& inputs
   return table;
 }
 
-Result<Outcome> outcome_of(const CompareCommand& command, const ComparedInputs& inputs,
-                           const Comparison& comparison, const Provenance& provenance) {
-  const fs::path json = command.output / json_of(command);
-  Outcome outcome{.written = {json, command.output / "comparison.csv"}};
-  const std::string wrote = fmt::format("wrote {} and comparison.csv\n", json.string());
-  if (command.shard) {
-    outcome.summary = fmt::format("part {} of {}: {} runs\n", command.shard->index,
-                                  command.shard->count, comparison.rows.size()) +
-                      wrote;
-  } else {
-    outcome.brief = table_of(command, inputs, comparison);
-    outcome.summary = outcome.brief + wrote;
-    outcome.findings = extrapolation_findings(comparison, provenance);
-  }
-  AWMR_ASSIGN_OR_RETURN(std::vector<Finding> findings, findings_of(command, inputs, comparison));
-  std::ranges::move(findings, std::back_inserter(outcome.findings));
-  outcome.document = document_of(command, comparison, provenance);
+Result<Outcome> part_outcome(const CompareCommand& command, const Comparison& part,
+                             const Provenance& provenance, std::vector<Finding> findings) {
+  return written_part(comparison_shards(), *command.shard, command.output,
+                      comparison_part(part, command.compare, provenance, findings),
+                      fmt::format("{} runs", part.rows.size()), std::move(findings));
+}
+
+Result<Outcome> whole_outcome(const CompareCommand& command, const ComparedInputs& inputs,
+                              const Comparison& comparison, const Provenance& provenance,
+                              const std::vector<Finding>& findings) {
+  Outcome outcome{.brief = table_of(command, inputs, comparison),
+                  .findings = extrapolation_findings(comparison, provenance),
+                  .document = comparison_text(comparison, command.compare, provenance)};
+  std::ranges::copy(findings, std::back_inserter(outcome.findings));
   put_findings_into_document(outcome);
+  AWMR_RETURN_IF_ERROR(write_comparison(command.output, comparison, outcome.document));
+  outcome.written = {command.output / kComparisonJson, command.output / kComparisonTable};
+  outcome.summary = outcome.brief + fmt::format("wrote {} and {}\n",
+                                                outcome.written.front().string(), kComparisonTable);
   return outcome;
+}
+
+/// Errors (input), before the work begins: an output that cannot be written, or is an input.
+Status check_outputs_of(const CompareCommand& command) {
+  return cli::check_outputs(command.output,
+                            command.shard
+                                ? part_files(comparison_shards())
+                                : std::vector<std::string>{kComparisonTable, kComparisonJson},
+                            inputs_of(command));
 }
 
 }  // namespace
@@ -274,13 +261,12 @@ Result<Outcome> outcome_of(const CompareCommand& command, const ComparedInputs& 
 Result<Outcome> execute(const CompareCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const ComparedInputs inputs, read_inputs(command));
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, inputs));
-  AWMR_RETURN_IF_ERROR(
-      check_outputs(command.output, {"comparison.csv", json_of(command)}, inputs_of(command)));
+  AWMR_RETURN_IF_ERROR(check_outputs_of(command));
   CompareOptions options = command.compare;
   options.other_settings = command.plant.runs_other();
   options.tyres = inputs.tyres;
   if (command.resume && command.shard) {
-    if (is_finished_shard(command.output, options, provenance)) {
+    if (is_finished_part(comparison_shards(), command.output, *command.shard, provenance)) {
       return finished_part(*command.shard, command.output);
     }
   } else if (command.resume) {
@@ -288,9 +274,11 @@ Result<Outcome> execute(const CompareCommand& command) {
   }
   AWMR_ASSIGN_OR_RETURN(const Comparison comparison,
                         compare_until_interrupted(inputs, std::move(options)));
-  AWMR_ASSIGN_OR_RETURN(Outcome outcome, outcome_of(command, inputs, comparison, provenance));
-  AWMR_RETURN_IF_ERROR(write_comparison(command, comparison, outcome.document));
-  if (comparison.stopped) end_interrupted(command, comparison);
+  AWMR_ASSIGN_OR_RETURN(std::vector<Finding> findings, findings_of(command, inputs, comparison));
+  Result<Outcome> outcome = command.shard
+                                ? part_outcome(command, comparison, provenance, std::move(findings))
+                                : whole_outcome(command, inputs, comparison, provenance, findings);
+  if (outcome && comparison.stopped) end_interrupted(command, comparison);
   return outcome;
 }
 

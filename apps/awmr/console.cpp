@@ -1,6 +1,7 @@
 #include "console.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
@@ -67,6 +68,9 @@ void tell_findings(const Outcome& outcome, Manner manner) {
   for (const Finding* finding : by_effect(outcome.findings)) {
     const bool matters = outcome.refused && finding->severity == Severity::kError;
     if (manner.quiet ? matters : manner.verbose) text += to_text(*finding, style) + "\n";
+  }
+  if (!manner.quiet && !text.empty() && ::isatty(::fileno(stderr)) == 1) {
+    text += style.faint("awmr explain CODE prints what a finding means and what to do") + "\n";
   }
   print(stderr, text);
 }

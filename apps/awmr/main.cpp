@@ -45,6 +45,7 @@ void add_commands(CLI::App& app, awmr::cli::Session& session) {
   awmr::cli::add_map(app, session);
   awmr::cli::add_log(app, session);
   awmr::cli::add_compass(app, session);
+  awmr::cli::add_explain(app, session);
   awmr::cli::add_schema(app, session);
   awmr::cli::add_completion(app, session);
   awmr::cli::add_man(app, session);

@@ -7,7 +7,6 @@
 #include "awmr/compare/resume.h"
 #include "awmr/compare/shard.h"
 #include "awmr/core/file.h"
-#include "awmr/core/shard_file.h"
 #include "awmr/identify/planning/recover_shard.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/gains_file.h"
@@ -19,44 +18,40 @@
 namespace awmr::cli {
 namespace {
 
-/// Both files of every shard, which the output must not overwrite.
-std::vector<fs::path> files_of(const MergeCommand& command, const char* table) {
-  std::vector<fs::path> paths;
+/// Errors (input): an output that cannot be written, or is a file of a part.
+Status check_outputs_of(const MergeCommand& command, const ShardKind& kind,
+                        const std::vector<std::string>& outputs) {
+  std::vector<fs::path> inputs;
   for (const fs::path& part : command.parts) {
-    paths.push_back(part / kShardFile);
-    paths.push_back(part / table);
+    for (const std::string& file : part_files(kind)) inputs.push_back(part / file);
   }
-  return paths;
+  return cli::check_outputs(command.output, outputs, inputs);
 }
 
 Result<Outcome> merge_comparison(const MergeCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Merged merged, merge_shards(command.parts));
-  AWMR_RETURN_IF_ERROR(check_outputs(command.output, {"comparison.csv", "comparison.json"},
-                                     files_of(command, "comparison.csv")));
+  AWMR_RETURN_IF_ERROR(
+      check_outputs_of(command, comparison_shards(), {kComparisonTable, kComparisonJson}));
   const std::string document = with_findings(
       comparison_text(merged.comparison, merged.options, merged.provenance), merged.findings);
-  AWMR_RETURN_IF_ERROR(make_directory(command.output));
-  const OutputFile files[] = {
-      {command.output / "comparison.csv", comparison_csv(merged.comparison), check_comparison_csv},
-      {command.output / "comparison.json", document, check_comparison_text}};
-  AWMR_RETURN_IF_ERROR(write_files(files));
+  AWMR_RETURN_IF_ERROR(write_comparison(command.output, merged.comparison, document));
   std::string table = comparison_table(merged.comparison, merged.options);
   for (const auto& [name, text] : merged.provenance.options) {
     if (name == kPlantName) table += fmt::format("{}: {}\n", name, text);
     if (name == kRateName) table += words_of_rate(text);
   }
-  return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
-                                                (command.output / "comparison.json").string()),
-                 .brief = table,
-                 .findings = merged.findings,
-                 .document = document,
-                 .written = {files[1].path, files[0].path}};
+  const fs::path json = command.output / kComparisonJson;
+  return Outcome{
+      .summary = table + fmt::format("wrote {} and {}\n", json.string(), kComparisonTable),
+      .brief = table,
+      .findings = merged.findings,
+      .document = document,
+      .written = {json, command.output / kComparisonTable}};
 }
 
 Result<Outcome> merge_recovery(const MergeCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const MergedRecovery merged, merge_recover_shards(command.parts));
-  AWMR_RETURN_IF_ERROR(
-      check_outputs(command.output, {"recover.json"}, files_of(command, kRecoverTable)));
+  AWMR_RETURN_IF_ERROR(check_outputs_of(command, recover_shards(), {"recover.json"}));
   AWMR_ASSIGN_OR_RETURN(const Recovery recovery, recovery_of(merged.whole));
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   Outcome outcome{.summary = recovery_table(recovery),
@@ -67,9 +62,7 @@ Result<Outcome> merge_recovery(const MergeCommand& command) {
 
 Result<Outcome> merge_tuning(const MergeCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const MergedTuning merged, merge_tune_shards(command.parts));
-  std::vector<fs::path> parts = files_of(command, kEvaluationTable);
-  for (const fs::path& part : command.parts) parts.push_back(part / kTuneShardGains);
-  AWMR_RETURN_IF_ERROR(check_outputs(command.output, {"gains.json"}, parts));
+  AWMR_RETURN_IF_ERROR(check_outputs_of(command, tune_shards(), {"gains.json"}));
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   Outcome outcome{.summary = evaluation_table(merged.evaluated, merged.evaluated_by_scenario) +
                              goals_text(merged.goals),
@@ -83,8 +76,8 @@ Result<Outcome> merge_tuning(const MergeCommand& command) {
 
 Result<Outcome> execute(const MergeCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const std::string schema, schema_of_part(command.parts.front()));
-  if (schema == kRecoverShardSchema) return merge_recovery(command);
-  return schema == kTuneShardSchema ? merge_tuning(command) : merge_comparison(command);
+  if (schema == recover_shards().schema) return merge_recovery(command);
+  return schema == tune_shards().schema ? merge_tuning(command) : merge_comparison(command);
 }
 
 void add_merge(CLI::App& app, Session& session) {

@@ -57,30 +57,11 @@ Result<Outcome> whole_outcome(const RecoverCommand& command, const RecoverPart& 
   return outcome;
 }
 
-Result<Outcome> part_outcome(const RecoverCommand& command, const RecoverPart& part,
-                             const Provenance& provenance) {
-  AWMR_RETURN_IF_ERROR(make_directory(*command.output));
-  // The last file contains the hash of the first.
-  const OutputFile files[] = {
-      {*command.output / kRecoverTable, recover_csv(part),
-       [&](std::string_view text, const std::string& file) {
-         return check_recover_csv(text, file, part);
-       }},
-      {*command.output / kShardFile, recover_shard_text(part, *command.shard, provenance),
-       check_recover_shard_text}};
-  AWMR_RETURN_IF_ERROR(write_files(files));
-  return Outcome{.summary = fmt::format("part {} of {}: {} runs\nwrote {} and {}\n",
-                                        command.shard->index, command.shard->count,
-                                        part.runs.size(), files[1].path.string(), kRecoverTable),
-                 .document = files[1].bytes,
-                 .written = {files[1].path, files[0].path}};
-}
-
 /// Checks before the work begins that the output can be written.
 Status check_output_of(const RecoverCommand& command) {
   if (!command.output) return {};
   const std::span inputs(&command.model, 1);
-  return command.shard ? check_outputs(*command.output, {kRecoverTable, kShardFile}, inputs)
+  return command.shard ? check_outputs(*command.output, part_files(recover_shards()), inputs)
                        : check_output(*command.output, inputs);
 }
 
@@ -161,12 +142,14 @@ Result<Outcome> execute(const RecoverCommand& command) {
   options.identify.yaw_family.family = model.yaw_family;
   const Shard shard = command.shard.value_or(Shard{});
   const Provenance provenance = provenance_of(options, inputs);
-  if (command.resume && is_finished_recover_shard(*command.output, shard, provenance)) {
+  if (command.resume && is_finished_part(recover_shards(), *command.output, shard, provenance)) {
     return finished_part(shard, *command.output);
   }
   AWMR_ASSIGN_OR_RETURN(const RecoverPart part, recovered(model, options, shard));
-  return command.shard ? part_outcome(command, part, provenance)
-                       : whole_outcome(command, part, provenance);
+  if (!command.shard) return whole_outcome(command, part, provenance);
+  return written_part(recover_shards(), shard, *command.output,
+                      recover_part_text(part, shard, provenance),
+                      fmt::format("{} runs", part.runs.size()));
 }
 
 void add_recover(CLI::App& app, Session& session) {

@@ -56,26 +56,27 @@ Outcome show_schema(const std::string& name) {
 }  // namespace
 
 const std::vector<Schema>& schemas() {
-  static const std::vector<Schema> all{{"project", project_schema},
-                                       {"vehicle", vehicle_schema},
-                                       {"columns", columns_schema},
-                                       {"model", model_schema},
-                                       {"suggest", suggest_schema},
-                                       {"recover", recover_schema},
-                                       {"recover_shard", recover_shard_schema},
-                                       {"tune", tune_schema},
-                                       {"gains", gains_schema},
-                                       {"tune_shard", tune_shard_schema},
-                                       {"scenario", scenario_schema},
-                                       {"run", run_schema},
-                                       {"emit", emit_schema},
-                                       {"validation", validation_schema},
-                                       {"comparison", comparison_schema},
-                                       {"shard", shard_schema},
-                                       {"figures", figures_schema},
-                                       {"pil", pil_schema},
-                                       {"result", result_schema},
-                                       {"error", error_schema}};
+  static const std::vector<Schema> all{
+      {"project", project_schema},
+      {"vehicle", vehicle_schema},
+      {"columns", columns_schema},
+      {"model", model_schema},
+      {"suggest", suggest_schema},
+      {"recover", recover_schema},
+      {"recover_shard", [] { return shard_schema(recover_shards()); }},
+      {"tune", tune_schema},
+      {"gains", gains_schema},
+      {"tune_shard", [] { return shard_schema(tune_shards()); }},
+      {"scenario", scenario_schema},
+      {"run", run_schema},
+      {"emit", emit_schema},
+      {"validation", validation_schema},
+      {"comparison", comparison_schema},
+      {"shard", [] { return shard_schema(comparison_shards()); }},
+      {"figures", figures_schema},
+      {"pil", pil_schema},
+      {"result", result_schema},
+      {"error", error_schema}};
   return all;
 }
 

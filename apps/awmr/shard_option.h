@@ -5,9 +5,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "awmr/core/result.h"
-#include "awmr/core/shard.h"
+#include "awmr/core/shard_kind.h"
 #include "console.h"
 
 namespace awmr::cli {
@@ -24,7 +25,12 @@ inline CLI::Option* add_shard(CLI::App& command, std::optional<std::string>& tex
 /// Errors (input): text that is not I/N.
 Result<ShardChoice> shard_of(const std::optional<std::string>& text);
 
-/// Outcome if `--resume` finds a finished shard, which remains unchanged.
+/// Outcome if `--resume` finds a finished part, which remains unchanged.
 Result<Outcome> finished_part(const Shard& shard, const std::filesystem::path& directory);
+
+/// Writes a part into the directory. `content` says what it has: "5 runs". Errors: as write_part().
+Result<Outcome> written_part(const ShardKind& kind, const Shard& shard,
+                             const std::filesystem::path& directory, const PartText& part,
+                             const std::string& content, std::vector<Finding> findings = {});
 
 }  // namespace awmr::cli

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "awmr/core/file.h"
-#include "awmr/model/findings_json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/tune/tune_file.h"
@@ -88,36 +87,21 @@ Result<Provenance> provenance_of(const TuneCommand& command, const std::vector<f
 
 /// Errors (input), before the work begins: an output that cannot be written, or is an input.
 Status check_output_of(const TuneCommand& command, const std::vector<fs::path>& inputs) {
-  return command.shard ? check_outputs(command.output,
-                                       {kTuneShardGains, kEvaluationTable, kShardFile}, inputs)
+  return command.shard ? check_outputs(command.output, part_files(tune_shards()), inputs)
                        : check_output(command.output, inputs);
 }
 
 Result<Outcome> part_outcome(const TuneCommand& command, const Tuning& tuning,
                              const TuneOptions& options, const Provenance& provenance,
                              std::vector<Finding> findings) {
-  AWMR_RETURN_IF_ERROR(make_directory(command.output));
-  // The last file contains the hashes of the others.
-  const std::string shard_json =
-      with_findings(tune_shard_text(tuning, options, provenance), findings);
-  const OutputFile files[] = {
-      {command.output / kTuneShardGains, gains_text(tuning, options, provenance), check_gains_text},
-      {command.output / kEvaluationTable, evaluation_csv(tuning, options),
-       [&](std::string_view text, const std::string& file) {
-         return check_evaluation_csv(text, file, shard_json);
-       }},
-      {command.output / kShardFile, shard_json, check_tune_shard_text}};
-  AWMR_RETURN_IF_ERROR(write_files(files));
-  const Shard& shard = *options.shard;
-  return Outcome{
-      .summary = gains_table(tuning) +
-                 fmt::format("part {} of {}: {} of {} fresh draws\nwrote {}, {} and {}\n",
-                             shard.index, shard.count, shard.share_of(options.evaluation_draws),
-                             options.evaluation_draws, files[2].path.string(), kEvaluationTable,
-                             kTuneShardGains),
-      .findings = std::move(findings),
-      .document = files[2].bytes,
-      .written = {files[2].path, files[1].path, files[0].path}};
+  const PartText part = tune_part(tuning, options, provenance, findings);
+  const std::string content =
+      fmt::format("{} of {} fresh draws", options.shard->share_of(options.evaluation_draws),
+                  options.evaluation_draws);
+  AWMR_ASSIGN_OR_RETURN(Outcome outcome, written_part(tune_shards(), *options.shard, command.output,
+                                                      part, content, std::move(findings)));
+  outcome.summary = gains_table(tuning) + outcome.summary;
+  return outcome;
 }
 
 /// Adds the options of what is searched; returns `--nominal`.
@@ -161,7 +145,8 @@ Result<Outcome> execute(const TuneCommand& command) {
   const std::vector<fs::path> inputs = inputs_of(command, config);
   AWMR_RETURN_IF_ERROR(check_output_of(command, inputs));
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, inputs));
-  if (command.resume && is_finished_tune_shard(command.output, *command.shard, provenance)) {
+  if (command.resume &&
+      is_finished_part(tune_shards(), command.output, *command.shard, provenance)) {
     return finished_part(*command.shard, command.output);
   }
   AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune_with_progress(model, config.options));

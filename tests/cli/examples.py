@@ -13,7 +13,7 @@ SOURCE = Path(__file__).resolve().parents[2]
 AWMR = str(Path(sys.argv[1]).resolve())
 # Each after those whose files it uses. Completion's examples are of the shell.
 COMMANDS = ("init", "check", "run", "identify", "live", "tune", "validate", "simulate", "compare", "merge", "emit",
-            "export", "report", "suggest", "recover", "map", "compass", "schema", "man")
+            "export", "report", "suggest", "recover", "map", "compass", "explain", "schema", "man")
 
 
 def examples_of_readme():

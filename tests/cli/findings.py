@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that apps/awmr/FINDINGS.md lists exactly the codes of all findings.
+"""Checks that apps/awmr/FINDINGS.md lists exactly the codes of all findings, each with its severities.
 
 usage: findings.py SOURCE
 """
@@ -11,13 +11,28 @@ SOURCE = pathlib.Path(sys.argv[1])
 sources = [path for folder in ("lib/awmr", "apps/awmr", "apps/awmr-pil") for path in (SOURCE / folder).rglob("*")
            if path.suffix in (".cpp", ".h") and "assets" not in path.parts]
 text = "\n".join(path.read_text(encoding="utf-8") for path in sources)
-made = set(re.findall(r'Severity::k\w+\s*,\s*"([a-z]+(?:-[a-z]+)*)"', text))
-assert len(made) > 40, made
-told = set()
+CODE = r'"([a-z]+(?:-[a-z]+)*)"'
+# `Severity::kNote, "code"`, either side with an alternative: `is_bad ? ... : ...`.
+MADE = re.compile(r"Severity::k(\w+)\s*(?::\s*Severity::k(\w+)\s*)?,\s*(?:[^\";{}]*\?\s*" + CODE + r"\s*:\s*)?" + CODE)
+made = {}
+for first, second, other, code in MADE.findall(text):
+    for name in filter(None, (other, code)):
+        made.setdefault(name, set()).update(severity.lower() for severity in (first, second) if severity)
+assert len(made) > 80, made
+told = {}
 for line in (SOURCE / "apps/awmr/FINDINGS.md").read_text(encoding="utf-8").splitlines():
-    if line.startswith("| `"):
-        told.update(re.findall(r"`([a-z-]+)`", line.split("|")[1]))
-assert not made - told, f"without a line in FINDINGS.md: {sorted(made - told)}"
+    if not line.startswith("| `"):
+        continue
+    cells = line.split("|")
+    codes = re.findall(r"`([a-z-]+)`", cells[1])
+    severities = [set(cell.split(" or ")) for cell in cells[2].strip().split(", ")]
+    assert len(severities) in (1, len(codes)), f"as many severities as codes, or one: {line}"
+    for code, severity in zip(codes, severities if len(severities) > 1 else severities * len(codes)):
+        assert severity <= {"note", "warning", "error"}, line
+        told.setdefault(code, set()).update(severity)
+assert not made.keys() - told, f"without a line in FINDINGS.md: {sorted(made.keys() - told)}"
 gone = [code for code in told if f'"{code}"' not in text]
 assert not gone, f"in FINDINGS.md, but no finding: {gone}"
+wrong = {code: sorted(severity) for code, severity in made.items() if not severity <= told[code]}
+assert not wrong, f"other severities than in FINDINGS.md: {wrong}"
 print(f"{len(told)} codes")

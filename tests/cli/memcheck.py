@@ -36,6 +36,7 @@ def commands(at, files):
     words.update({
         "init": ["init", f"{at}/rover"],
         "pil": ["pil", *both, "--scenario", f"{at}/short.json", "--mode", "combined", "-o", f"{at}/pil.json"],
+        "explain": ["explain", "not-identifiable"],
         "schema": ["schema", "-o", f"{at}/schemas"],
         "completion": ["completion", "bash"],
         "man": ["man", "identify"],

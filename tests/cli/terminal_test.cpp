@@ -56,6 +56,33 @@ TEST_F(Terminal, HasColoursWhereNothingSaysOtherwise) {
   EXPECT_THAT(awmr(identify()).err, Not(HasSubstr("\033")));
 }
 
+TEST_F(Terminal, NamesTheCommandThatExplainsFindings) {
+  const char* const hint = "awmr explain CODE";
+  EXPECT_THAT(on_terminal("", identify()), HasSubstr(hint));
+  EXPECT_THAT(on_terminal("", identify() + " --quiet"), Not(HasSubstr(hint)));
+  EXPECT_THAT(on_terminal("", "schema"), Not(HasSubstr(hint))) << "there is no finding";
+  EXPECT_THAT(awmr(identify()).err, Not(HasSubstr(hint)));
+}
+
+TEST(Explain, PrintsSeverityMeaningAndRemedyOfACode) {
+  const ProcessResult one = awmr("explain few-samples");
+  EXPECT_EQ(one.exit_code, 0);
+  EXPECT_THAT(one.out,
+              AllOf(HasSubstr("few-samples\n  severity warning\n"),
+                    HasSubstr("meaning  fewer than 6 samples"), HasSubstr("remedy   --samples")));
+  // The severity of each code of a row.
+  EXPECT_THAT(awmr("explain held-samples").out, HasSubstr("severity note\n"));
+  EXPECT_THAT(awmr("explain quantised-samples").out, HasSubstr("severity warning\n"));
+  const std::string all = awmr("explain").out;
+  EXPECT_THAT(all, AllOf(HasSubstr("few-samples"), HasSubstr("inertia-mismatch"),
+                         HasSubstr("Fits of logs\n")));
+  EXPECT_THAT(awmr("explain few-samples --json").out, HasSubstr("\"severity\": \"warning\""));
+  const ProcessResult none = awmr("explain few-sample");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("did you mean 'few-samples'?"));
+  EXPECT_THAT(awmr("explain unsettle").err, HasSubstr("did you mean 'unsettled'?"));
+}
+
 TEST_F(Terminal, ShowsHowFarLongWorkIs) {
   ASSERT_EQ(awmr(identify()).exit_code, 0);
   const std::string tune = "tune --model " + path("model.json") + " -o " + path("gains.json");

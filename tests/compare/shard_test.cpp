@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "awmr/core/file.h"
 #include "awmr/model/paper_gains.h"
@@ -37,9 +39,8 @@ class Shards : public ::testing::Test {
   std::filesystem::path write(Shard shard, const Comparison& part,
                               const Provenance& provenance = kProvenance) {
     const auto path = directory_.path() / ("part" + std::to_string(directories_++));
-    std::filesystem::create_directories(path);
-    EXPECT_TRUE(write_file(path / "comparison.csv", comparison_csv(part)));
-    EXPECT_TRUE(write_file(path / "shard.json", shard_text(part, options(shard), provenance)));
+    EXPECT_TRUE(
+        write_part(comparison_shards(), path, comparison_part(part, options(shard), provenance)));
     return path;
   }
   std::filesystem::path write(Shard shard) { return write(shard, run(shard)); }
@@ -104,14 +105,39 @@ TEST_F(Shards, DamagedOrStoppedPartsAreRefused) {
   EXPECT_THAT(fault({first, second}), HasSubstr("not as it was written"));
   Comparison stopped = run({2, 2});
   stopped.rows.pop_back();
-  EXPECT_THAT(fault({first, write({2, 2}, stopped)}), HasSubstr("lost rows"));
+  EXPECT_THAT(fault({first, write({2, 2}, stopped)}), HasSubstr("rows are missing"));
   stopped.stopped = true;
   EXPECT_THAT(fault({first, write({2, 2}, stopped)}), HasSubstr("run it again"));
   Comparison twice = run({2, 2});
   twice.rows.push_back(twice.rows.back());
-  EXPECT_THAT(fault({first, write({2, 2}, twice)}), HasSubstr("appears twice"));
+  EXPECT_THAT(fault({first, write({2, 2}, twice)}),
+              HasSubstr("has sample 5 instead of 1: rows are missing, repeated or of another "
+                        "part; run part 2 of 2 again"));
+  // A whole scenario is missing, or appears in the place of another.
+  Comparison half = run({2, 2});
+  half.rows.resize(half.rows.size() / 2);
+  EXPECT_THAT(fault({first, write({2, 2}, half)}),
+              HasSubstr("part 2 of 2 has fewer rows than another"));
+  std::copy_n(half.rows.begin(), half.rows.size(), std::back_inserter(half.rows));
+  EXPECT_THAT(fault({first, write({2, 2}, half)}), HasSubstr("is not in its place"));
   // Rows of another shard under this shard's name.
-  EXPECT_THAT(fault({first, write({2, 2}, run({1, 2}))}), HasSubstr("is none of part 2 of 2"));
+  EXPECT_THAT(fault({first, write({2, 2}, run({1, 2}))}),
+              HasSubstr("row 1 has sample 0 instead of 1"));
+}
+
+TEST_F(Shards, PartWithoutSamplesIsRefused) {
+  const auto a = directory_.path() / "a";
+  const auto b = directory_.path() / "b";
+  CompareOptions nominal_only = options({1, 2});
+  nominal_only.samples = 0;
+  Comparison first = run({1, 2});
+  std::erase_if(first.rows, [](const ComparisonRow& row) { return row.sample != 0; });
+  ASSERT_TRUE(
+      write_part(comparison_shards(), a, comparison_part(first, nominal_only, kProvenance)));
+  nominal_only.shard = {2, 2};
+  ASSERT_TRUE(
+      write_part(comparison_shards(), b, comparison_part(run({2, 2}), nominal_only, kProvenance)));
+  EXPECT_THAT(fault({a, b}), HasSubstr("2/2 is no part"));
 }
 
 }  // namespace

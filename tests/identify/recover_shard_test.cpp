@@ -42,6 +42,8 @@ RecoverOptions seven_runs() {
 
 std::string bytes_of(const Recovery& recovery) { return recovery_text(recovery, kProvenance); }
 
+constexpr const char* kRecoverTable = "recovery.csv";
+
 class RecoverShards : public ::testing::Test {
  protected:
   static RecoverPart part(Shard shard) {
@@ -49,9 +51,7 @@ class RecoverShards : public ::testing::Test {
   }
   fs::path write(Shard shard, const RecoverPart& part, const Provenance& provenance = kProvenance) {
     const fs::path path = directory_.path() / ("part" + std::to_string(directories_++));
-    fs::create_directories(path);
-    write_all(path / kRecoverTable, recover_csv(part));
-    write_all(path / kShardFile, recover_shard_text(part, shard, provenance));
+    EXPECT_TRUE(write_part(recover_shards(), path, recover_part_text(part, shard, provenance)));
     return path;
   }
   fs::path write(Shard shard) { return write(shard, part(shard)); }
@@ -207,12 +207,15 @@ TEST_F(RecoverShards, DamagedTablesAreNamed) {
     return table.substr(0, value) + cell + table.substr(table.find(',', value));
   };
   expect(last, "has 2 runs, part 2 of 2 of 7 runs has 3");
-  expect(table + table.substr(row, table.find('\n', row) + 1 - row), "run 1 comes after run 5");
-  const auto commas = std::count(table.begin(), table.begin() + std::ptrdiff_t(row), ',');
-  expect(table + "7,0" + std::string(std::size_t(commas) - 1, ',') + "\n",
-         "run 7 is none of part 2 of 2");
-  expect(table.substr(0, row) + "2" + table.substr(row + 1), "run 2 is none of part 2 of 2");
-  expect(table.substr(0, row) + "-1" + table.substr(row + 1), "run -1 is none of part 2 of 2");
+  expect(table + table.substr(row, table.find('\n', row) + 1 - row),
+         "has 4 runs, part 2 of 2 of 7 runs has 3");
+  expect(table + table.substr(row), "has 6 runs, part 2 of 2 of 7 runs has 3");
+  const auto first_run = [&](const std::string& run) {
+    return table.substr(0, row) + run + table.substr(row + 1);
+  };
+  for (const char* run : {"2", "3", "7", "-1"}) {
+    expect(first_run(run), std::string("row 1 has run ") + run + " instead of 1");
+  }
   for (const char* cell : {"nan", "inf", "1e308", "", "x", "0x1"}) {
     expect(with(cell), "recovery.csv:2:1: is no run of a recovery");
   }
@@ -226,18 +229,18 @@ TEST_F(RecoverShards, DamagedTablesAreNamed) {
 TEST_F(RecoverShards, RecognisesAFinishedPartByItsBytesAndInputs) {
   const Shard shard{1, 2};
   const auto first = write(shard);
-  EXPECT_TRUE(is_finished_recover_shard(first, shard, kProvenance));
-  EXPECT_FALSE(is_finished_recover_shard(first, {2, 2}, kProvenance));
-  EXPECT_FALSE(is_finished_recover_shard(first, {1, 3}, kProvenance));
-  EXPECT_FALSE(is_finished_recover_shard(directory_.path(), shard, kProvenance));
+  EXPECT_TRUE(is_finished_part(recover_shards(), first, shard, kProvenance));
+  EXPECT_FALSE(is_finished_part(recover_shards(), first, {2, 2}, kProvenance));
+  EXPECT_FALSE(is_finished_part(recover_shards(), first, {1, 3}, kProvenance));
+  EXPECT_FALSE(is_finished_part(recover_shards(), directory_.path(), shard, kProvenance));
   Provenance other = kProvenance;
   other.inputs[0].sha256 = "cd";
-  EXPECT_FALSE(is_finished_recover_shard(first, shard, other));
+  EXPECT_FALSE(is_finished_part(recover_shards(), first, shard, other));
   other = kProvenance;
   other.options.pop_back();
-  EXPECT_FALSE(is_finished_recover_shard(first, shard, other));
+  EXPECT_FALSE(is_finished_part(recover_shards(), first, shard, other));
   write_all(first / kRecoverTable, read_all(first / kRecoverTable) + "\n");
-  EXPECT_FALSE(is_finished_recover_shard(first, shard, kProvenance));
+  EXPECT_FALSE(is_finished_part(recover_shards(), first, shard, kProvenance));
 }
 
 }  // namespace

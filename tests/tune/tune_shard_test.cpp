@@ -48,10 +48,7 @@ class TuneShard : public ::testing::Test {
     const Result<Tuning> tuning = tune(uncertain_model(), options);
     EXPECT_TRUE(tuning) << to_text(tuning.error());
     const auto path = directory_.path() / fmt::format("{}_{}", shard.index, shard.count);
-    std::filesystem::create_directory(path);
-    write_all(path / kTuneShardGains, gains_text(*tuning, options, kProvenance));
-    write_all(path / kEvaluationTable, evaluation_csv(*tuning, options));
-    write_all(path / kShardFile, tune_shard_text(*tuning, options, kProvenance));
+    EXPECT_TRUE(write_part(tune_shards(), path, tune_part(*tuning, options, kProvenance)));
     return path;
   }
   static std::string fault(const std::vector<std::filesystem::path>& parts) {
@@ -87,17 +84,17 @@ TEST_F(TuneShard, PartsAreTheBytesOfASingleRunInAnyOrder) {
 
 TEST_F(TuneShard, NamesFilesThatAreNotOfThePart) {
   const auto first = write({1, 2}), second = write({2, 2});
-  EXPECT_TRUE(is_finished_tune_shard(first, {1, 2}, kProvenance));
-  EXPECT_FALSE(is_finished_tune_shard(first, {2, 2}, kProvenance));
-  const std::string table = read_all(first / kEvaluationTable);
-  edit(first / kEvaluationTable, "robust,1,", "robust,2,");
+  EXPECT_TRUE(is_finished_part(tune_shards(), first, {1, 2}, kProvenance));
+  EXPECT_FALSE(is_finished_part(tune_shards(), first, {2, 2}, kProvenance));
+  const std::string table = read_all(first / "judged.csv");
+  edit(first / "judged.csv", "robust,1,", "robust,2,");
   EXPECT_THAT(fault({first, second}), HasSubstr("judged.csv"));
-  EXPECT_FALSE(is_finished_tune_shard(first, {1, 2}, kProvenance));
-  write_all(first / kEvaluationTable, table);
-  edit(first / kTuneShardGains, "\"lambda\"", "\"lambda_\"");
+  EXPECT_FALSE(is_finished_part(tune_shards(), first, {1, 2}, kProvenance));
+  write_all(first / "judged.csv", table);
+  edit(first / "gains.json", "\"lambda\"", "\"lambda_\"");
   EXPECT_THAT(fault({first, second}), HasSubstr("gains.json"));
-  EXPECT_FALSE(is_finished_tune_shard(first, {1, 2}, kProvenance));
-  edit(first / kTuneShardGains, "\"lambda_\"", "\"lambda\"");
+  EXPECT_FALSE(is_finished_part(tune_shards(), first, {1, 2}, kProvenance));
+  edit(first / "gains.json", "\"lambda_\"", "\"lambda\"");
   EXPECT_EQ(fault({first, second}), "merged");
   edit(second / kShardFile, "\"tail_share\": 0.2", "\"tail_share\": 2");
   EXPECT_THAT(fault({first, second}), HasSubstr("/tail_share"));
@@ -109,10 +106,10 @@ TEST_F(TuneShard, NamesFilesThatAreNotOfThePart) {
 /// Rows that are lost, duplicated or moved, with a matching hash.
 TEST_F(TuneShard, NamesTheFirstWrongLineOfATable) {
   const auto only = write({1, 1});
-  const std::string table = read_all(only / kEvaluationTable);
+  const std::string table = read_all(only / "judged.csv");
   const std::string shard = read_all(only / kShardFile);
   const auto fault_of = [&](const std::string& text) {
-    write_all(only / kEvaluationTable, text);
+    write_all(only / "judged.csv", text);
     write_all(only / kShardFile, shard);
     edit(only / kShardFile, sha256_hex(table), sha256_hex(text));
     return fault({only});

@@ -56,41 +56,6 @@ std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool 
   return row;
 }
 
-/// Two comparisons have the same rows when their inputs and options are the same, but for the free
-/// ones, and the same version of the program works them out.
-Status same_origin(const Provenance& before, const std::string& written_by, const Provenance& now,
-                   const std::string& file) {
-  if (written_by != version()) {
-    return input_error(file, fmt::format("was written by version {} of the program, whose runs may "
-                                         "differ from those of version {}; compare into another "
-                                         "directory",
-                                         written_by, version()));
-  }
-  const auto fixed = [](const Provenance& p) {
-    std::vector<std::pair<std::string, std::string>> options;
-    for (const auto& option : p.options) {
-      if (kFreeOptions.count(option.first) == 0) options.push_back(option);
-    }
-    return options;
-  };
-  const auto same_input = [](const InputFile& a, const InputFile& b) {
-    return a.name == b.name && a.sha256 == b.sha256;
-  };
-  if (fixed(before) != fixed(now)) {
-    return input_error(file,
-                       fmt::format("was made with other options ({}); resume with the same, or "
-                                   "compare into another directory",
-                                   differing_options(fixed(before), fixed(now))));
-  }
-  if (!std::equal(before.inputs.begin(), before.inputs.end(), now.inputs.begin(), now.inputs.end(),
-                  same_input)) {
-    return input_error(file,
-                       "was made from other inputs (model, gains or scenarios); resume with "
-                       "the same, or compare into another directory");
-  }
-  return {};
-}
-
 /// Origin and row hash of comparison.json.
 struct Origin {
   Provenance provenance;
@@ -115,7 +80,28 @@ Result<Origin> read_origin(const std::filesystem::path& path) {
   return origin;
 }
 
-Result<std::vector<ComparisonRow>> rows_from_text(std::string_view text, const std::string& file) {
+/// The provenance that determines the rows: everything but the free options.
+Provenance fixed(Provenance provenance) {
+  std::erase_if(provenance.options,
+                [](const auto& option) { return kFreeOptions.contains(option.first); });
+  return provenance;
+}
+
+/// Reason why the rows of a comparison are not those of `now`, and the remedy; empty if they are.
+std::string difference(const Origin& before, const Provenance& now, std::string_view arithmetic) {
+  const std::string other =
+      origin_difference(fixed(before.provenance), before.version, fixed(now), "this comparison");
+  if (!other.empty()) return other + "; resume with the same, or compare into another directory";
+  if (before.arithmetic == arithmetic) return {};
+  return fmt::format(
+      "was computed in {} arithmetic, this comparison would be in {}; compare into "
+      "another directory",
+      before.arithmetic, arithmetic);
+}
+
+}  // namespace
+
+Result<std::vector<ComparisonRow>> comparison_rows(std::string_view text, const std::string& file) {
   std::vector<ComparisonRow> rows;
   std::string_view rest = text;
   const std::vector<std::string> head = take_text_record(rest);
@@ -136,42 +122,39 @@ Result<std::vector<ComparisonRow>> rows_from_text(std::string_view text, const s
   return rows;
 }
 
-}  // namespace
-
-Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path,
-                                             const std::optional<std::string>& sha256) {
-  AWMR_RETURN_IF_ERROR(check_regular_file(path));
-  AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(path));
-  if (sha256 && *sha256 != sha256_hex(text)) {
-    return input_error(path.string(),
-                       "is not as it was written with comparison.json: it was changed, or is of "
-                       "another comparison; compare into another directory");
-  }
-  return rows_from_text(text, path.string());
-}
-
 Status check_comparison_csv(std::string_view text, const std::string& file) {
-  AWMR_RETURN_IF_ERROR(rows_from_text(text, file));
+  AWMR_RETURN_IF_ERROR(comparison_rows(text, file));
   return {};
 }
 
-Status check_comparison_text(std::string_view text, const std::string& file) {
-  return check_json_object(text, file, origin_from_json);
+Status write_comparison(const std::filesystem::path& directory, const Comparison& comparison,
+                        const std::string& document) {
+  AWMR_RETURN_IF_ERROR(make_directory(directory));
+  // comparison.json is last because it has the hash of the table.
+  const OutputFile files[] = {
+      {directory / kComparisonTable, comparison_csv(comparison), check_comparison_csv},
+      {directory / kComparisonJson, document, [](std::string_view text, const std::string& file) {
+         return check_json_object(text, file, origin_from_json);
+       }}};
+  return write_files(files);
 }
 
 Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
                                                  const Provenance& provenance) {
-  const std::filesystem::path json = directory / "comparison.json";
+  const std::filesystem::path json = directory / kComparisonJson;
+  const std::filesystem::path csv = directory / kComparisonTable;
   AWMR_ASSIGN_OR_RETURN(const Origin before, read_origin(json));
-  AWMR_RETURN_IF_ERROR(same_origin(before.provenance, before.version, provenance, json.string()));
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
-  if (before.arithmetic != arithmetic.rounding) {
-    return input_error(json.string(),
-                       fmt::format("was computed in {} arithmetic, this comparison would be in {}; "
-                                   "compare into another directory",
-                                   before.arithmetic, arithmetic.rounding));
+  const std::string other = difference(before, provenance, arithmetic.rounding);
+  if (!other.empty()) return input_error(json.string(), other);
+  AWMR_RETURN_IF_ERROR(check_regular_file(csv));
+  AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(csv));
+  if (before.csv_sha256 && *before.csv_sha256 != sha256_hex(text)) {
+    return input_error(csv.string(),
+                       "is not as it was written with comparison.json: it was changed, or is of "
+                       "another comparison; compare into another directory");
   }
-  return read_rows(directory / "comparison.csv", before.csv_sha256);
+  return comparison_rows(text, csv.string());
 }
 
 }  // namespace awmr

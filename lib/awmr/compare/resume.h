@@ -1,8 +1,7 @@
-/// A comparison that was stopped, read back.
+/// Files of a comparison: written, and read back to continue one that was stopped.
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,13 +19,20 @@ namespace awmr {
 Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
                                                  const Provenance& provenance);
 
-/// The rows of a comparison.csv. Errors (input): it is missing, a row is not one of a comparison,
-/// or its bytes are not those with the hash (none: not checked).
-Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path,
-                                             const std::optional<std::string>& sha256);
+/// The rows of the text of a comparison.csv; `file` names it in errors. Errors (input): it has other
+/// columns, or a row is not one of a comparison.
+Result<std::vector<ComparisonRow>> comparison_rows(std::string_view text, const std::string& file);
 
-/// Read-backs (core/file.h) of comparison.csv and comparison.json, as a comparison is resumed.
+/// Read-back (core/file.h) of comparison.csv.
 Status check_comparison_csv(std::string_view text, const std::string& file);
-Status check_comparison_text(std::string_view text, const std::string& file);
+
+/// Files of a comparison in its directory.
+inline constexpr const char* kComparisonTable = "comparison.csv";
+inline constexpr const char* kComparisonJson = "comparison.json";
+
+/// Writes both files into the directory, which is made if necessary. `document` is the text of
+/// comparison.json. Errors: as write_files().
+Status write_comparison(const std::filesystem::path& directory, const Comparison& comparison,
+                        const std::string& document);
 
 }  // namespace awmr

@@ -2,18 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
-#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
 
 #include "awmr/compare/compare_findings.h"
 #include "awmr/compare/resume.h"
-#include "awmr/core/hash.h"
 #include "awmr/core/index.h"
-#include "awmr/core/json_document.h"
 #include "awmr/core/shard_file.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/simulate/batch.h"
@@ -21,14 +16,11 @@
 namespace awmr {
 namespace {
 
-constexpr std::string_view kShardSchema = "awmr.shard/1";
-constexpr const char* kTable = "comparison.csv";
 /// Maximum number of samples of a comparison.
-constexpr long kMostSamples = 1'000'000'000;
+constexpr long kMaxSamples = 1'000'000'000;
 
-/// One directory's part.
-struct Part {
-  ShardOrigin origin;
+/// The keys of shard.json that a comparison adds.
+struct Payload {
   int samples = 0;
   std::uint64_t seed = 0;
   Preferences preferences;
@@ -77,141 +69,101 @@ std::vector<Change> read_changes(JsonObject& json) {
   return changes;
 }
 
-Part part_from_json(JsonObject& json) {
-  Part part{.origin = read_shard_origin(json, kShardSchema),
-            .samples = static_cast<int>(json.integer("samples", 0, kMostSamples)),
-            .seed = json.seed("seed"),
-            .preferences = read_preferences(json),
-            .measured_yaw_rate_degps = json.optional_number("measured_yaw_rate_degps", kPositive),
-            .changes = read_changes(json),
-            .findings = read_findings(json)};
-  json.reject_unknown_keys();
-  return part;
+Payload read_payload(JsonObject& json) {
+  return {.samples = static_cast<int>(json.integer("samples", 0, kMaxSamples)),
+          .seed = json.seed("seed"),
+          .preferences = read_preferences(json),
+          .measured_yaw_rate_degps = json.optional_number("measured_yaw_rate_degps", kPositive),
+          .changes = read_changes(json),
+          .findings = read_findings(json)};
 }
 
-/// Why a part is not of the same comparison as the first; empty where it is.
-std::string other_comparison(const Part& first, const Part& part) {
-  if (part.samples != first.samples || part.seed != first.seed ||
-      part.preferences != first.preferences) {
-    return made_with_other_options(first.origin);
-  }
-  return other_arithmetic(first.origin, part.origin,
-                          "run all parts on processors with AVX2 or NEON");
-}
-
-/// Every scenario, mode and set of gains has every sample once, from the part that it belongs to.
-Status check_rows(const std::vector<ComparisonRow>& rows, const Part& part,
-                  std::map<std::tuple<std::string, std::string, YawMode, int>, int>& seen) {
-  const std::string place = (part.origin.directory / kTable).string();
-  const Shard& shard = part.origin.shard;
-  for (const ComparisonRow& row : rows) {
-    if (!shard.has(row.sample) || row.sample > part.samples) {
-      return input_error(place, fmt::format("sample {} is none of part {} of {}", row.sample,
-                                            shard.index, shard.count));
-    }
-    if (seen[{row.scenario, row.gains, row.mode, row.sample}]++ > 0) {
-      return input_error(
-          place, fmt::format("sample {} of scenario '{}' appears twice", row.sample, row.scenario));
-    }
-  }
-  return {};
-}
-
-/// The rows of all parts, each row once.
-Result<std::vector<ComparisonRow>> rows_of(const std::vector<Part>& parts) {
-  std::vector<ComparisonRow> rows;
-  std::map<std::tuple<std::string, std::string, YawMode, int>, int> seen;
+/// The rows of all parts in the order of a single run: by scenario, gains, mode, sample.
+Result<std::vector<ComparisonRow>> rows_of(const std::vector<Part>& parts, int items) {
+  const ShardFile& table = comparison_shards().files.front();
+  std::vector<std::vector<ComparisonRow>> rows;
   for (const Part& part : parts) {
+    AWMR_ASSIGN_OR_RETURN(const std::string text, read_part_file(part, table));
     AWMR_ASSIGN_OR_RETURN(std::vector<ComparisonRow> more,
-                          read_rows(part.origin.directory / kTable, part.origin.csv_sha256));
-    AWMR_RETURN_IF_ERROR(check_rows(more, part, seen));
-    rows.insert(rows.end(), std::make_move_iterator(more.begin()),
-                std::make_move_iterator(more.end()));
+                          comparison_rows(text, (part.directory / table.name).string()));
+    AWMR_RETURN_IF_ERROR(check_items(part, table, "sample", items, more.size(),
+                                     [&](std::size_t i) { return more[i].sample; }));
+    rows.push_back(std::move(more));
   }
-  return rows;
+  return in_order_of_items(rows, items);
 }
 
-/// In the order of a single run: scenarios and gains as each part has them, modes, samples. Errors
-/// (input): not every one of them has `samples`, counted from 0.
-Status put_in_order(std::vector<ComparisonRow>& rows, std::size_t samples) {
-  std::map<std::string, std::size_t> scenarios;
-  std::map<std::string, std::size_t> gains;
-  std::set<YawMode> modes;
-  for (const ComparisonRow& row : rows) {
-    scenarios.emplace(row.scenario, scenarios.size());
-    gains.emplace(row.gains, gains.size());
-    modes.insert(row.mode);
-  }
-  const std::size_t runs = scenarios.size() * gains.size() * modes.size() * samples;
-  if (rows.size() != runs) {
-    return input_error("", fmt::format("the parts have {} runs, the comparison {}: one of them has "
-                                       "lost rows; run it again",
-                                       rows.size(), runs));
-  }
-  const auto key = [&](const ComparisonRow& row) {
-    return std::tuple(scenarios[row.scenario], gains[row.gains], row.mode, row.sample);
+/// Errors (input): not every scenario, mode and set of gains has `items` rows, one after the other.
+Status check_groups(const std::vector<ComparisonRow>& rows, std::size_t items) {
+  const auto group_of = [&](std::size_t i) {
+    return std::tuple(rows[i].scenario, rows[i].gains, rows[i].mode);
   };
-  std::sort(rows.begin(), rows.end(),
-            [&](const ComparisonRow& a, const ComparisonRow& b) { return key(a) < key(b); });
+  std::set<std::tuple<std::string, std::string, YawMode>> seen;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::size_t first = i - i % items;
+    if (i == first ? seen.insert(group_of(i)).second : group_of(i) == group_of(first)) continue;
+    return input_error("", fmt::format("sample {} of scenario '{}' is not in its place in every "
+                                       "part: rows were lost or appear twice; run the parts again",
+                                       rows[i].sample, rows[i].scenario));
+  }
   return {};
 }
 
 }  // namespace
 
-std::string shard_text(const Comparison& part, const CompareOptions& options,
-                       const Provenance& provenance) {
-  Json json = shard_document(kShardSchema, {.provenance = provenance,
-                                            .shard = options.shard,
-                                            .arithmetic = part.arithmetic,
-                                            .csv_sha256 = sha256_hex(comparison_csv(part)),
-                                            .stopped = part.stopped});
-  json["samples"] = options.samples;
-  json["seed"] = options.seed;
-  json["relevance"] = options.preferences.relevance;
-  json["weights"] = options.preferences.weights;
+const ShardKind& comparison_shards() {
+  static const ShardKind kind{
+      .schema = "awmr.shard/1",
+      .title = "A part of a comparison",
+      .files = {{kComparisonTable, "csv_sha256",
+                 [](std::string_view text, const std::string& file, const std::string&) {
+                   return check_comparison_csv(text, file);
+                 }}},
+      .own_keys = {"changes", "findings"},  // part 1 has the changes
+      .arithmetic = batch_rounding,
+      .arithmetic_advice = "run all parts on processors with AVX2 or NEON",
+      .read = [](JsonObject& json) { read_payload(json); }};
+  return kind;
+}
+
+PartText comparison_part(const Comparison& part, const CompareOptions& options,
+                         const Provenance& provenance, const std::vector<Finding>& findings) {
+  Json json{{"samples", options.samples},
+            {"seed", options.seed},
+            {"relevance", options.preferences.relevance},
+            {"weights", options.preferences.weights}};
   if (part.measured_yaw_rate_degps) {
     json["measured_yaw_rate_degps"] = *part.measured_yaw_rate_degps;
   }
   for (const Change& change : part.changes) json["changes"].push_back(change_to_json(change));
-  return to_text(json);
-}
-
-bool is_finished_shard(const std::filesystem::path& directory, const CompareOptions& options,
-                       const Provenance& provenance) {
-  const auto arithmetic = batch_arithmetic();
-  return arithmetic && is_finished_part(directory, kShardSchema,
-                                        {.provenance = provenance,
-                                         .shard = options.shard,
-                                         .arithmetic = std::string(arithmetic->rounding)},
-                                        kTable);
-}
-
-Status check_shard_text(std::string_view text, const std::string& file) {
-  return check_json_object(text, file, part_from_json);
-}
-
-std::string shard_schema() {
-  return json_schema_text(kShardSchema, "A part of a comparison",
-                          [](JsonObject& json) { part_from_json(json); });
+  PartText text = part_text(comparison_shards(),
+                            {.provenance = provenance,
+                             .shard = options.shard,
+                             .arithmetic = part.arithmetic,
+                             .stopped = part.stopped},
+                            {comparison_csv(part)}, json);
+  text.shard_json = with_findings(text.shard_json, findings);
+  return text;
 }
 
 Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directories) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<Part> parts,
-                        read_parts(directories, kShardSchema, part_from_json, other_comparison));
-  const Part& first = parts.front();
+                        read_parts(comparison_shards(), directories));
+  const PartOrigin& origin = parts.front().origin;
+  const Payload payload = payload_of(parts.front().json, read_payload);
   Merged merged;
-  AWMR_ASSIGN_OR_RETURN(merged.comparison.rows, rows_of(parts));
-  AWMR_RETURN_IF_ERROR(put_in_order(merged.comparison.rows, at(first.samples) + 1));
-  merged.comparison.whole_samples = first.samples + 1;
-  merged.comparison.measured_yaw_rate_degps = first.measured_yaw_rate_degps;
-  merged.comparison.changes = first.changes;  // part 1 has them
-  merged.comparison.arithmetic = first.origin.arithmetic;
-  merged.options.samples = first.samples;
-  merged.options.seed = first.seed;
-  merged.options.preferences = first.preferences;
-  merged.provenance = first.origin.provenance;
+  merged.provenance = origin.provenance;
+  merged.options.samples = payload.samples;
+  merged.options.seed = payload.seed;
+  merged.options.preferences = payload.preferences;
+  merged.comparison.whole_samples = payload.samples + 1;
+  merged.comparison.arithmetic = origin.arithmetic;
+  merged.comparison.measured_yaw_rate_degps = payload.measured_yaw_rate_degps;
+  merged.comparison.changes = payload.changes;
+  AWMR_ASSIGN_OR_RETURN(merged.comparison.rows, rows_of(parts, payload.samples + 1));
+  AWMR_RETURN_IF_ERROR(check_groups(merged.comparison.rows, at(payload.samples) + 1));
   merged.findings = extrapolation_findings(merged.comparison, merged.provenance);
-  merged.findings.insert(merged.findings.end(), first.findings.begin(), first.findings.end());
+  merged.findings.insert(merged.findings.end(), payload.findings.begin(), payload.findings.end());
   return merged;
 }
 

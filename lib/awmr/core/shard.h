@@ -8,9 +8,6 @@
 
 namespace awmr {
 
-/// File that identifies a shard and its origin.
-inline constexpr const char* kShardFile = "shard.json";
-
 /// One of `count` shards: every item i, from 0, with i mod count = index - 1.
 struct Shard {
   int index = 1;  ///< 1 ... count

@@ -3,48 +3,51 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
 #include "awmr/core/file.h"
 #include "awmr/core/hash.h"
+#include "awmr/core/json_document.h"
 #include "awmr/core/option_text.h"
 
 namespace awmr {
 namespace {
 
 /// Maximum number of shards: far above any cluster.
-constexpr long kMostShards = 1'000'000;
+constexpr long kMaxShards = 1'000'000;
 
-std::string file_of(const ShardOrigin& part) { return (part.directory / kShardFile).string(); }
+/// Beginning of shard.json: everything but the payload.
+Json common_keys(const ShardKind& kind, const PartOrigin& origin,
+                 const std::vector<std::string>& files) {
+  Json json = output_document(kind.schema, origin.provenance);
+  json["shard_index"] = origin.shard.index;
+  json["shard_count"] = origin.shard.count;
+  json["arithmetic"] = origin.arithmetic;
+  json[kind.files.front().hash_key] = sha256_hex(files.front());
+  json["stopped"] = origin.stopped;
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    json[kind.files[i].hash_key] = sha256_hex(files[i]);
+  }
+  return json;
+}
 
-/// Reason why a shard is not of the same job as the first; empty if it is.
-std::string other_work(const ShardOrigin& first, const ShardOrigin& part) {
-  const auto same_input = [](const InputFile& a, const InputFile& b) {
-    return a.name == b.name && a.sha256 == b.sha256;
-  };
-  const auto& a = first.provenance;
-  const auto& b = part.provenance;
-  if (part.version != version()) {
-    return fmt::format("was made by version {} of the program, this is {}", part.version,
-                       version());
-  }
-  if (part.shard.count != first.shard.count) {
-    return fmt::format("is one of {} parts, {} is one of {}", part.shard.count,
-                       first.directory.string(), first.shard.count);
-  }
-  if (part.shard.index > part.shard.count) {
-    return fmt::format("is part {} of {}: there is none", part.shard.index, part.shard.count);
-  }
-  if (a.options != b.options) {
-    return fmt::format("{} ({})", made_with_other_options(first),
-                       differing_options(a.options, b.options));
-  }
-  if (!std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(), same_input)) {
-    return fmt::format("was made from other inputs than {}", first.directory.string());
-  }
-  if (part.stopped) return "was stopped before its end: run it again";
-  return {};
+/// Reads shard.json: the keys written by common_keys(), then the payload.
+PartOrigin read_part(const ShardKind& kind, JsonObject& json) {
+  json.schema(kind.schema);
+  PartOrigin origin{
+      .provenance = read_provenance(json),
+      .shard = {.index = static_cast<int>(json.integer("shard_index", 1, kMaxShards)),
+                .count = static_cast<int>(json.integer("shard_count", 1, kMaxShards))},
+      .arithmetic = json.optional_string("arithmetic").value_or("scalar"),
+      .stopped = json.boolean("stopped"),
+      .version = json.string("version")};
+  for (const ShardFile& file : kind.files) json.string(file.hash_key);
+  json.ignore("command");
+  kind.read(json);
+  json.reject_unknown_keys();
+  return origin;
 }
 
 /// Empty if the file names none.
@@ -54,67 +57,199 @@ std::string schema_in(const Json& document) {
   return schema != document.end() && schema->is_string() ? schema->get<std::string>() : "";
 }
 
+Result<Json> read_shard_json(const std::filesystem::path& directory) {
+  AWMR_RETURN_IF_ERROR(check_regular_file(directory / kShardFile));
+  return read_json_file(directory / kShardFile);
+}
+
+Result<Part> read_part(const ShardKind& kind, const std::filesystem::path& directory) {
+  const std::string place = (directory / kShardFile).string();
+  Part part{.directory = directory, .json = {}, .origin = {}};
+  AWMR_ASSIGN_OR_RETURN(part.json, read_shard_json(directory));
+  const std::string found = schema_in(part.json);
+  if (!found.empty() && found != kind.schema) {
+    return input_error(place + ":/schema",
+                       fmt::format("expected \"{}\", found \"{}\": this is a part of another kind "
+                                   "of work; merge each kind by itself",
+                                   kind.schema, found));
+  }
+  std::vector<Fault> faults;
+  JsonObject json(part.json, place, "", faults);
+  part.origin = read_part(kind, json);
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return part;
+}
+
+/// shard.json without the keys that differ between the parts of one job.
+Json shared_keys(const ShardKind& kind, Json json) {
+  for (const char* key : {"shard_index", "stopped", "arithmetic"}) json.erase(key);
+  json.erase(kind.files.front().hash_key);
+  for (const char* key : kind.own_keys) json.erase(key);
+  return json;
+}
+
+/// Reason why a part is not of the same job as the first; empty if it is.
+std::string difference(const ShardKind& kind, const Part& first, const Part& part) {
+  const std::string name = first.directory.string();
+  const Shard& shard = part.origin.shard;
+  if (shard.count != first.origin.shard.count) {
+    return fmt::format("is one of {} parts, {} is one of {}", shard.count, name,
+                       first.origin.shard.count);
+  }
+  if (shard.index > shard.count) {
+    return fmt::format("is part {} of {}: there is none", shard.index, shard.count);
+  }
+  const std::string other =
+      origin_difference(part.origin.provenance, part.origin.version, first.origin.provenance, name);
+  if (!other.empty()) return other;
+  if (part.origin.stopped) return "was stopped before its end: run it again";
+  if (part.origin.arithmetic != first.origin.arithmetic) {
+    return fmt::format(
+        "was computed in {} arithmetic, {} in {}: their numbers are rounded differently; {}",
+        part.origin.arithmetic, name, first.origin.arithmetic, kind.arithmetic_advice);
+  }
+  if (shared_keys(kind, part.json) != shared_keys(kind, first.json)) {
+    return fmt::format("was made with other options than {}", name);
+  }
+  return {};
+}
+
 /// The lowest numbers of missing shards.
-std::vector<int> missing_of(const std::map<int, const ShardOrigin*>& by_index, int count) {
+std::vector<int> missing_of(const std::map<int, const Part*>& by_index, int count) {
   constexpr std::size_t kNamed = 20;
   std::vector<int> missing;
   for (int i = 1; i <= count && missing.size() < kNamed; ++i) {
-    if (by_index.count(i) == 0) missing.push_back(i);
+    if (!by_index.contains(i)) missing.push_back(i);
   }
   return missing;
 }
 
-}  // namespace
-
-Json shard_document(std::string_view schema, const ShardOrigin& origin) {
-  Json json = output_document(schema, origin.provenance);
-  json["shard_index"] = origin.shard.index;
-  json["shard_count"] = origin.shard.count;
-  json["arithmetic"] = origin.arithmetic;
-  json["csv_sha256"] = origin.csv_sha256;
-  json["stopped"] = origin.stopped;
-  return json;
+Status check_parts(const ShardKind& kind, const std::vector<Part>& parts) {
+  std::vector<Fault> faults;
+  std::map<int, const Part*> by_index;
+  for (const Part& part : parts) {
+    std::string why = difference(kind, parts.front(), part);
+    const Shard& shard = part.origin.shard;
+    if (why.empty()) {
+      const auto [there, is_new] = by_index.emplace(shard.index, &part);
+      if (is_new) continue;
+      why = fmt::format("is part {} of {}, which {} is as well", shard.index, shard.count,
+                        there->second->directory.string());
+    }
+    faults.push_back({(part.directory / kShardFile).string(), std::move(why)});
+  }
+  const int count = parts.front().origin.shard.count;
+  const std::vector<int> missing = missing_of(by_index, count);
+  if (faults.empty() && !missing.empty()) {
+    faults.push_back(
+        {"", fmt::format("of {} parts, these are missing: {}", count, fmt::join(missing, ", "))});
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return {};
 }
 
-ShardOrigin read_shard_origin(JsonObject& json, std::string_view schema) {
-  json.schema(schema);
-  ShardOrigin origin{
-      .provenance = read_provenance(json),
-      .version = json.string("version"),
-      .shard = {.index = static_cast<int>(json.integer("shard_index", 1, kMostShards)),
-                .count = static_cast<int>(json.integer("shard_count", 1, kMostShards))},
-      .arithmetic = json.optional_string("arithmetic").value_or("scalar"),
-      .csv_sha256 = json.string("csv_sha256"),
-      .stopped = json.boolean("stopped")};
-  json.ignore("command");
-  return origin;
+/// Names of the options or inputs, as (name, value), that are in only one of the lists.
+std::set<std::string> differing(const std::vector<std::pair<std::string, std::string>>& a,
+                                const std::vector<std::pair<std::string, std::string>>& b) {
+  std::set<std::string> names;
+  for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    for (const auto& one : *own) {
+      if (std::ranges::find(*other, one) == other->end()) names.insert(one.first);
+    }
+  }
+  return names;
+}
+
+/// (name, hash) of each input.
+std::vector<std::pair<std::string, std::string>> inputs_of(const Provenance& provenance) {
+  std::vector<std::pair<std::string, std::string>> inputs;
+  for (const InputFile& input : provenance.inputs) inputs.emplace_back(input.name, input.sha256);
+  return inputs;
+}
+
+}  // namespace
+
+PartText part_text(const ShardKind& kind, const PartOrigin& origin, std::vector<std::string> files,
+                   const Json& payload) {
+  Json json = common_keys(kind, origin, files);
+  json.update(payload);
+  return {.shard_json = to_text(json), .files = std::move(files)};
+}
+
+std::vector<std::string> part_files(const ShardKind& kind) {
+  std::vector<std::string> names{kShardFile};
+  for (const ShardFile& file : kind.files) names.emplace_back(file.name);
+  return names;
+}
+
+Status write_part(const ShardKind& kind, const std::filesystem::path& directory,
+                  const PartText& part) {
+  std::vector<OutputFile> files;
+  for (std::size_t i = 0; i < part.files.size(); ++i) {
+    files.push_back({directory / kind.files[i].name, part.files[i],
+                     [&, i](std::string_view text, const std::string& file) {
+                       return kind.files[i].check(text, file, part.shard_json);
+                     }});
+  }
+  // Last, because it has the hashes of the others.
+  files.push_back({directory / kShardFile, part.shard_json,
+                   [&](std::string_view text, const std::string& file) {
+                     return check_json_object(text, file,
+                                              [&](JsonObject& json) { read_part(kind, json); });
+                   }});
+  AWMR_RETURN_IF_ERROR(make_directory(directory));
+  return write_files(files);
+}
+
+bool is_finished_part(const ShardKind& kind, const std::filesystem::path& directory,
+                      const Shard& shard, const Provenance& provenance) {
+  const auto found = read_shard_json(directory);
+  if (!found || !found->is_object()) return false;
+  std::vector<std::string> files;
+  for (const ShardFile& file : kind.files) {
+    auto text = check_regular_file(directory / file.name).and_then([&] {
+      return read_file(directory / file.name);
+    });
+    if (!text) return false;
+    files.push_back(*std::move(text));
+  }
+  const Json expected = common_keys(
+      kind, {.provenance = provenance, .shard = shard, .arithmetic = kind.arithmetic()}, files);
+  for (const auto& [key, value] : expected.items()) {
+    const auto there = found->find(key);
+    if (there == found->end() || *there != value) return false;
+  }
+  return true;
 }
 
 Result<std::string> schema_of_part(const std::filesystem::path& directory) {
-  AWMR_RETURN_IF_ERROR(check_regular_file(directory / kShardFile));
-  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(directory / kShardFile));
+  AWMR_ASSIGN_OR_RETURN(const Json document, read_shard_json(directory));
   return schema_in(document);
 }
 
-Result<Json> read_shard_json(const std::filesystem::path& directory, std::string_view schema) {
-  const std::filesystem::path path = directory / kShardFile;
-  AWMR_RETURN_IF_ERROR(check_regular_file(path));
-  AWMR_ASSIGN_OR_RETURN(Json document, read_json_file(path));
-  const std::string found = schema_in(document);
-  if (!found.empty() && found != schema) {
-    return input_error(path.string() + ":/schema",
-                       fmt::format("expected \"{}\", found \"{}\": this is a part of another kind "
-                                   "of work; merge each kind by itself",
-                                   schema, found));
-  }
-  return document;
+std::string shard_schema(const ShardKind& kind) {
+  return json_schema_text(kind.schema, kind.title,
+                          [&](JsonObject& json) { read_part(kind, json); });
 }
 
-Result<std::string> read_shard_table(const ShardOrigin& origin, std::string_view name) {
-  const std::filesystem::path path = origin.directory / name;
+Result<std::vector<Part>> read_parts(const ShardKind& kind,
+                                     const std::vector<std::filesystem::path>& directories) {
+  if (directories.empty()) return input_error("", "no directories: give those of all parts");
+  std::vector<Part> parts;
+  for (const std::filesystem::path& directory : directories) {
+    AWMR_ASSIGN_OR_RETURN(Part part, read_part(kind, directory));
+    parts.push_back(std::move(part));
+  }
+  AWMR_RETURN_IF_ERROR(check_parts(kind, parts));
+  std::ranges::sort(parts, {}, [](const Part& part) { return part.origin.shard.index; });
+  return parts;
+}
+
+Result<std::string> read_part_file(const Part& part, const ShardFile& file) {
+  const std::filesystem::path path = part.directory / file.name;
   AWMR_RETURN_IF_ERROR(check_regular_file(path));
   AWMR_ASSIGN_OR_RETURN(std::string text, read_file(path));
-  if (sha256_hex(text) != origin.csv_sha256) {
+  if (sha256_hex(text) != part.json.at(file.hash_key)) {
     return input_error(path.string(),
                        fmt::format("is not as it was written with {}: it was changed "
                                    "or cut off; run the part again",
@@ -123,75 +258,48 @@ Result<std::string> read_shard_table(const ShardOrigin& origin, std::string_view
   return text;
 }
 
-bool is_finished_part(const std::filesystem::path& directory, std::string_view schema,
-                      const ShardOrigin& origin, std::string_view table) {
-  if (!check_regular_file(directory / kShardFile) || !check_regular_file(directory / table)) {
-    return false;
+Status check_items(const Part& part, const ShardFile& file, std::string_view name, int items,
+                   std::size_t rows, const std::function<int(std::size_t)>& item_of) {
+  const std::string place = (part.directory / file.name).string();
+  const Shard& shard = part.origin.shard;
+  if (const auto fault = shard_fault(shard, items, fmt::format("{}s", name))) {
+    return input_error((part.directory / kShardFile).string(), fault->message);
   }
-  const auto found = read_json_file(directory / kShardFile);
-  const auto text = read_file(directory / table);
-  if (!found || !text || !found->is_object()) return false;
-  ShardOrigin finished = origin;
-  finished.csv_sha256 = sha256_hex(*text);
-  const Json expected = shard_document(schema, finished);
-  for (const auto& [key, value] : expected.items()) {
-    const auto there = found->find(key);
-    if (there == found->end() || *there != value) return false;
+  const std::size_t share = at(shard.share_of(items));
+  for (std::size_t i = 0; i < rows; ++i) {
+    const int expected = shard.item(static_cast<int>(i % share));
+    if (item_of(i) == expected) continue;
+    return input_error(
+        place, fmt::format("row {} has {} {} instead of {}: rows are missing, repeated or of "
+                           "another part; run part {} of {} again",
+                           i + 1, name, item_of(i), expected, shard.index, shard.count));
   }
-  return true;
+  if (rows > 0 && rows % share == 0) return {};
+  return input_error(place,
+                     fmt::format("has {} rows, not a multiple of the {} {}s of part {} of {}: rows "
+                                 "are missing or repeated; run the part again",
+                                 rows, share, name, shard.index, shard.count));
 }
 
-std::string differing_options(const std::vector<std::pair<std::string, std::string>>& a,
-                              const std::vector<std::pair<std::string, std::string>>& b) {
-  std::set<std::string> names;
-  for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
-    for (const auto& option : *own) {
-      if (std::find(other->begin(), other->end(), option) == other->end()) {
-        names.insert(option_text(option.first));
-      }
-    }
+std::string origin_difference(const Provenance& found, const std::string& found_version,
+                              const Provenance& expected, const std::string& name) {
+  if (found_version != version()) {
+    return fmt::format("was written by version {} of the program, this is {}", found_version,
+                       version());
   }
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
-std::string made_with_other_options(const ShardOrigin& first) {
-  return fmt::format("was made with other options than {}", first.directory.string());
-}
-
-std::string other_arithmetic(const ShardOrigin& first, const ShardOrigin& part,
-                             std::string_view advice) {
-  if (part.arithmetic == first.arithmetic) return {};
-  return fmt::format(
-      "was computed in {} arithmetic, {} in {}: their numbers are rounded differently; {}",
-      part.arithmetic, first.directory.string(), first.arithmetic, advice);
-}
-
-Status check_parts(const std::vector<ShardOrigin>& parts,
-                   const std::function<std::string(std::size_t)>& why_not) {
-  std::vector<Fault> faults;
-  std::map<int, const ShardOrigin*> by_index;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const ShardOrigin& part = parts[i];
-    std::string why = other_work(parts.front(), part);
-    if (why.empty()) why = why_not(i);
-    if (!why.empty()) {
-      faults.push_back({file_of(part), why});
-      continue;
-    }
-    const auto [there, is_new] = by_index.emplace(part.shard.index, &part);
-    if (is_new) continue;
-    faults.push_back(
-        {file_of(part), fmt::format("is part {} of {}, which {} is as well", part.shard.index,
-                                    part.shard.count, there->second->directory.string())});
+  std::set<std::string> options;
+  for (const std::string& option : differing(found.options, expected.options)) {
+    options.insert(option_text(option));
   }
-  const int count = parts.front().shard.count;
-  const std::vector<int> missing = missing_of(by_index, count);
-  if (faults.empty() && !missing.empty()) {
-    faults.push_back(
-        {"", fmt::format("of {} parts, these are missing: {}", count, fmt::join(missing, ", "))});
+  if (!options.empty()) {
+    return fmt::format("was made with other options ({}) than {}", fmt::join(options, ", "), name);
   }
-  if (!faults.empty()) return input_errors(std::move(faults));
-  return {};
+  const auto inputs = inputs_of(found), expected_inputs = inputs_of(expected);
+  if (inputs == expected_inputs) return {};
+  const std::set<std::string> files = differing(inputs, expected_inputs);
+  return files.empty()
+             ? fmt::format("was made from the inputs in another order than {}", name)
+             : fmt::format("was made from other inputs ({}) than {}", fmt::join(files, ", "), name);
 }
 
 }  // namespace awmr

@@ -1,9 +1,10 @@
-/// Files of a shard, common to all kinds of jobs: shard.json identifies the shard and its origin; a
-/// table next to it has the results. Include from .cpp files only, because it includes
-/// nlohmann/json.
+/// Files of a part in both directions, and the parts of a job put together. Include from .cpp files
+/// only, because it includes nlohmann/json.
 #pragma once
 
-#include <algorithm>
+#include <fmt/format.h>
+
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -11,85 +12,86 @@
 #include <utility>
 #include <vector>
 
+#include "awmr/core/index.h"
 #include "awmr/core/json.h"
-#include "awmr/core/shard.h"
+#include "awmr/core/shard_kind.h"
 
 namespace awmr {
 
-/// Contents common to every shard.json.
-struct ShardOrigin {
-  std::filesystem::path directory = {};  ///< the shard was read from here
+/// Contents common to every shard.json, except the hashes.
+struct PartOrigin {
   Provenance provenance;
-  std::string version = {};  ///< of the program that wrote it
   Shard shard;
-  std::string arithmetic;       ///< rounding of its numbers; "scalar" in files of earlier versions
-  std::string csv_sha256 = {};  ///< of the table next to it
-  bool stopped = false;         ///< stopped before all items were done: must be run again
+  std::string arithmetic;    ///< rounding of its numbers; "scalar" in files of earlier versions
+  bool stopped = false;      ///< stopped before all items were done: must be run again
+  std::string version = {};  ///< of the program that wrote it
 };
 
-/// Beginning of shard.json.
-Json shard_document(std::string_view schema, const ShardOrigin& origin);
-/// Reads the keys written by shard_document().
-ShardOrigin read_shard_origin(JsonObject& json, std::string_view schema);
+/// The text of a part with these files. `payload` has the keys of ShardKind::read.
+PartText part_text(const ShardKind& kind, const PartOrigin& origin, std::vector<std::string> files,
+                   const Json& payload);
 
-/// The schema of the shard in the directory, which identifies its kind; empty if the file names
-/// none. Errors: as read_json_file().
-Result<std::string> schema_of_part(const std::filesystem::path& directory);
+/// A part, read. Its payload is that of `json`, which ShardKind::read accepts.
+struct Part {
+  std::filesystem::path directory;
+  Json json;  ///< shard.json
+  PartOrigin origin;
+};
 
-/// Reads DIR/shard.json. Errors: as read_json_file(); (input) it is a shard of another kind of job.
-Result<Json> read_shard_json(const std::filesystem::path& directory, std::string_view schema);
+/// Reads the parts in the directories and checks that they are of one job, each exactly once;
+/// returns them in order of their numbers. Errors (input), each with its place: a part of another
+/// kind, program version, number of parts, option, input, arithmetic or payload; one that is
+/// stopped, duplicate or missing.
+Result<std::vector<Part>> read_parts(const ShardKind& kind,
+                                     const std::vector<std::filesystem::path>& directories);
 
-/// Reads the table next to shard.json. Errors: as read_file(); (input) its hash differs from the
-/// one in shard.json.
-Result<std::string> read_shard_table(const ShardOrigin& origin, std::string_view name);
-
-/// True if the directory holds this shard, finished: shard.json is as it would be written now, and
-/// its csv_sha256 is that of the table next to it.
-bool is_finished_part(const std::filesystem::path& directory, std::string_view schema,
-                      const ShardOrigin& origin, std::string_view table);
-
-/// Checks that the shards are of one job, each exactly once and none missing. `why_not` returns any
-/// other reason why a shard does not match the first, or an empty text. Errors (input), each with
-/// its place: another program version, number of shards, option or input; a shard that is stopped,
-/// duplicate or missing.
-Status check_parts(const std::vector<ShardOrigin>& parts,
-                   const std::function<std::string(std::size_t)>& why_not);
-
-/// Options that differ or exist in only one of the lists, by their marked names (option_text.h).
-std::string differing_options(const std::vector<std::pair<std::string, std::string>>& a,
-                              const std::vector<std::pair<std::string, std::string>>& b);
-
-/// Texts for `why_not`: other options; numbers rounded in another way, which cannot be mixed, with
-/// the remedy.
-std::string made_with_other_options(const ShardOrigin& first);
-std::string other_arithmetic(const ShardOrigin& first, const ShardOrigin& part,
-                             std::string_view advice);
-
-/// Reads the shards in the directories with `read`, which takes the JsonObject of shard.json and
-/// returns a value with a ShardOrigin `origin`. Checks them by check_parts() with `why_not(first,
-/// part)`; returns them in order of their numbers.
-template <class Read, class WhyNot>
-auto read_parts(const std::vector<std::filesystem::path>& directories, std::string_view schema,
-                const Read& read, const WhyNot& why_not)
-    -> Result<std::vector<decltype(read(std::declval<JsonObject&>()))>> {
-  if (directories.empty()) return input_error("", "no directories: give those of all parts");
-  std::vector<decltype(read(std::declval<JsonObject&>()))> parts;
-  std::vector<ShardOrigin> origins;
-  for (const std::filesystem::path& directory : directories) {
-    AWMR_ASSIGN_OR_RETURN(const Json document, read_shard_json(directory, schema));
-    std::vector<Fault> faults;
-    JsonObject json(document, (directory / kShardFile).string(), "", faults);
-    parts.push_back(read(json));
-    if (!faults.empty()) return input_errors(std::move(faults));
-    parts.back().origin.directory = directory;
-    origins.push_back(parts.back().origin);
-  }
-  AWMR_RETURN_IF_ERROR(
-      check_parts(origins, [&](std::size_t i) { return why_not(parts.front(), parts[i]); }));
-  std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
-    return a.origin.shard.index < b.origin.shard.index;
-  });
-  return parts;
+/// Reads the payload of a valid shard.json by `read`.
+template <class Read>
+auto payload_of(const Json& shard_json, const Read& read) {
+  std::vector<Fault> faults;
+  JsonObject json(shard_json, kShardFile, "", faults);
+  return read(json);
 }
+
+/// Reads a file next to shard.json. Errors: as read_file(); (input) its hash differs from the one
+/// in shard.json.
+Result<std::string> read_part_file(const Part& part, const ShardFile& file);
+
+/// Checks that the rows of a table are of the part's items, of `items` in total: all in order, once or
+/// more. `item_of(i)` is the item of row i, `name` names it: "run". Errors (input): the part has no
+/// items; a row is of another item; rows are missing.
+Status check_items(const Part& part, const ShardFile& file, std::string_view name, int items,
+                   std::size_t rows, const std::function<int(std::size_t)>& item_of);
+
+/// The rows of all parts in the order of a single run. Each part has the rows of its items in order,
+/// `per_item` rows each, once or more. Errors (input): more often in one part than in another.
+template <class Row>
+Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& parts, int items,
+                                           std::size_t per_item = 1) {
+  std::size_t rows = 0;
+  for (const std::vector<Row>& part : parts) rows += part.size();
+  std::vector<Row> all;
+  std::vector<std::size_t> next(parts.size());
+  while (all.size() < rows) {
+    for (std::size_t item = 0; item < at(items); ++item) {
+      const std::vector<Row>& part = parts[item % parts.size()];
+      std::size_t& begin = next[item % parts.size()];
+      if (part.size() - begin < per_item) {
+        return input_error("", fmt::format("part {} of {} has fewer rows than another: it has lost "
+                                           "rows, or the other repeats some; run both again",
+                                           item % parts.size() + 1, parts.size()));
+      }
+      all.insert(all.end(), part.begin() + eigen_index(begin),
+                 part.begin() + eigen_index(begin + per_item));
+      begin += per_item;
+    }
+  }
+  return all;
+}
+
+/// Difference between the origins of two results that are to be put together, `found` being other
+/// than `expected`, which `name` names; empty if there is none.
+std::string origin_difference(const Provenance& found, const std::string& found_version,
+                              const Provenance& expected, const std::string& name);
 
 }  // namespace awmr

@@ -53,6 +53,8 @@ inline constexpr std::size_t kBatchRuns = 16;
 /// AWMR_INSTRUCTIONS, for tests.
 /// Errors (input): it names none that the processor has.
 Result<BatchArithmetic> batch_arithmetic();
+/// Its rounding; empty on an error.
+std::string batch_rounding();
 
 /// The metrics of each run, in order. Errors (input) of a run: as failure_of(). All controllers have
 /// the same driven wheels, split and form of the allocation.

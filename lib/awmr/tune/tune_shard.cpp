@@ -2,18 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "awmr/core/csv.h"
 #include "awmr/core/csv_cell.h"
-#include "awmr/core/file.h"
-#include "awmr/core/hash.h"
 #include "awmr/core/index.h"
-#include "awmr/core/json_document.h"
 #include "awmr/core/shard_file.h"
 #include "awmr/model/findings_json.h"
+#include "awmr/model/gains_file.h"
+#include "awmr/simulate/batch.h"
 #include "awmr/tune/robust.h"
 #include "awmr/tune/tune_findings.h"
 #include "awmr/tune/tune_json.h"
@@ -21,67 +18,38 @@
 namespace awmr {
 namespace {
 
-constexpr const char* kGainsHash = "gains_json_sha256";
-/// Largest number of fresh draws, as in tune.json.
-constexpr long kMaxEvaluationDraws = 100'000;
+/// Maximum of evaluation_draws, as in tune.json.
+constexpr long kMaxJudgedDraws = 100'000;
 
-/// One directory's part; its runs lie in the table.
-struct TunePart {
-  ShardOrigin origin;
+/// The keys of shard.json that a tuning adds; the runs are in the table.
+struct Payload {
   int evaluation_draws = 0;
   std::vector<std::string> gains;
   EvaluationSetup by;
-  std::string gains_sha256;
   std::vector<Finding> findings;
-
-  /// The draws of this part.
-  int draws() const { return origin.shard.share_of(evaluation_draws); }
 };
 
-TunePart tune_part_from_json(JsonObject& json) {
-  TunePart part{
-      .origin = read_shard_origin(json, kTuneShardSchema),
-      .evaluation_draws = static_cast<int>(json.integer("judged_draws", 1, kMaxEvaluationDraws)),
+Payload read_payload(JsonObject& json) {
+  Payload payload{
+      .evaluation_draws = static_cast<int>(json.integer("judged_draws", 1, kMaxJudgedDraws)),
       .gains = json.strings("gains"),
       .by = {},
-      .gains_sha256 = json.string(kGainsHash),
       .findings = {}};
   for (const std::string& name : json.strings("modes")) {
     const auto mode = value_in(kYawModeNames, name);
     if (!mode) json.fault("modes", fmt::format("'{}' is no mode", name));
-    part.by.modes.push_back(mode.value_or(YawMode::kCombined));
+    payload.by.modes.push_back(mode.value_or(YawMode::kCombined));
   }
-  if (part.by.modes.empty()) json.fault("modes", "names no mode");
-  if (part.gains.empty()) json.fault("gains", "names no evaluated gains");
-  part.by.scenarios = json.strings("scenarios");
-  if (part.by.scenarios.empty()) json.fault("scenarios", "names no scenario");
-  part.by.tail_share = json.number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true});
+  if (payload.by.modes.empty()) json.fault("modes", "names no mode");
+  if (payload.gains.empty()) json.fault("gains", "names no evaluated gains");
+  payload.by.scenarios = json.strings("scenarios");
+  if (payload.by.scenarios.empty()) json.fault("scenarios", "names no scenario");
+  payload.by.tail_share = json.number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true});
   for (JsonObject& goal : json.objects("goals")) {
-    part.by.goals.push_back(read_goal(std::move(goal)));
+    payload.by.goals.push_back(read_goal(std::move(goal)));
   }
-  part.findings = read_findings(json);
-  json.reject_unknown_keys();
-  return part;
-}
-
-/// Why a part is not of the same search as the first; empty where it is.
-std::string other_search(const TunePart& first, const TunePart& part) {
-  std::string other =
-      other_arithmetic(first.origin, part.origin, "run all parts on processors with AVX2 or NEON");
-  if (!other.empty()) return other;
-  const EvaluationSetup& a = part.by;
-  const EvaluationSetup& b = first.by;
-  const auto goals_of = [](const EvaluationSetup& by) {
-    Json goals = Json::array();
-    for (const TuningGoal& goal : by.goals) goals.push_back(goal_json(goal));
-    return goals;
-  };
-  if (part.evaluation_draws != first.evaluation_draws || part.gains != first.gains ||
-      part.gains_sha256 != first.gains_sha256 || a.modes != b.modes || a.scenarios != b.scenarios ||
-      a.tail_share != b.tail_share || goals_of(a) != goals_of(b)) {
-    return made_with_other_options(first.origin);
-  }
-  return {};
+  payload.findings = read_findings(json);
+  return payload;
 }
 
 std::string head_of_table() {
@@ -121,32 +89,30 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// The runs of a part, by gains: of each those of its draws in their order. Errors (input), by
-/// line: a run that is none of the part's, in another place, or missing.
-Result<std::vector<EvaluatedRuns>> evaluated_runs_from_text(const TunePart& part,
-                                                            std::string_view text,
-                                                            const std::string& file) {
+/// The runs of a part: by gains, draw, mode, scenario. Errors (input), by line: a run that is none of
+/// the part's, in another place, or missing.
+Result<std::vector<RunOutcome>> evaluated_runs_from_text(const Payload& payload, const Shard& shard,
+                                                         std::string_view text,
+                                                         const std::string& file) {
   std::string_view rest = text;
   if (take_line(rest) != head_of_table()) {
     return input_error(file + ":1:1", "these are not the columns of judged.csv");
   }
   int line = 1;
-  std::vector<EvaluatedRuns> runs;
-  for (const std::string& gains : part.gains) {
-    runs.push_back({gains, {}});
-    for (int i = 0; i < part.draws(); ++i) {
-      for (const YawMode mode : part.by.modes) {
-        for (std::size_t scenario = 0; scenario < part.by.scenarios.size(); ++scenario) {
+  std::vector<RunOutcome> runs;
+  for (const std::string& gains : payload.gains) {
+    for (int i = 0; i < shard.share_of(payload.evaluation_draws); ++i) {
+      for (const YawMode mode : payload.by.modes) {
+        for (std::size_t scenario = 0; scenario < payload.by.scenarios.size(); ++scenario) {
           ++line;
-          const std::string place =
-              place_of_row(gains, part.origin.shard.item(i) + 1, mode, scenario);
+          const std::string place = place_of_row(gains, shard.item(i) + 1, mode, scenario);
           const auto outcome = outcome_in(take_line(rest), place, mode);
           if (!outcome) {
             return input_error(fmt::format("{}:{}:1", file, line),
                                fmt::format("is not the run {} of the part; run the part again",
                                            std::string_view(place).substr(0, place.size() - 1)));
           }
-          runs.back().outcomes.push_back(*outcome);
+          runs.push_back(*outcome);
         }
       }
     }
@@ -157,48 +123,50 @@ Result<std::vector<EvaluatedRuns>> evaluated_runs_from_text(const TunePart& part
   return runs;
 }
 
-Result<std::vector<EvaluatedRuns>> read_evaluated_runs(const TunePart& part) {
-  AWMR_ASSIGN_OR_RETURN(const std::string text, read_shard_table(part.origin, kEvaluationTable));
-  return evaluated_runs_from_text(part, text, (part.origin.directory / kEvaluationTable).string());
+Status check_judged(std::string_view text, const std::string& file, const std::string& shard_json) {
+  const Json json = Json::parse(shard_json);
+  AWMR_RETURN_IF_ERROR(evaluated_runs_from_text(
+      payload_of(json, read_payload), {json["shard_index"], json["shard_count"]}, text, file));
+  return {};
 }
 
-/// The runs of all parts, by gains, then draw. `parts` are in the order of their numbers.
-Result<std::vector<EvaluatedRuns>> read_all_runs(const std::vector<TunePart>& parts) {
-  const TunePart& first = parts.front();
-  std::vector<std::vector<EvaluatedRuns>> by_part;
-  for (const TunePart& part : parts) {
-    AWMR_ASSIGN_OR_RETURN(std::vector<EvaluatedRuns> runs, read_evaluated_runs(part));
-    by_part.push_back(std::move(runs));
+/// The runs of all parts, by gains, then draw.
+Result<std::vector<EvaluatedRuns>> read_all_runs(const std::vector<Part>& parts,
+                                                 const Payload& payload) {
+  const ShardFile& table = tune_shards().files.front();
+  std::vector<std::vector<RunOutcome>> runs;
+  for (const Part& part : parts) {
+    AWMR_ASSIGN_OR_RETURN(const std::string text, read_part_file(part, table));
+    AWMR_ASSIGN_OR_RETURN(std::vector<RunOutcome> of_part,
+                          evaluated_runs_from_text(payload, part.origin.shard, text,
+                                                   (part.directory / table.name).string()));
+    runs.push_back(std::move(of_part));
   }
-  const std::size_t per_draw = first.by.modes.size() * first.by.scenarios.size();
-  std::vector<EvaluatedRuns> all;
-  for (std::size_t g = 0; g < first.gains.size(); ++g) {
-    EvaluatedRuns whole{first.gains[g], {}};
-    for (std::size_t draw = 0; draw < at(first.evaluation_draws); ++draw) {
-      const std::vector<RunOutcome>& outcomes = by_part[draw % parts.size()][g].outcomes;
-      const auto begin = outcomes.begin() + eigen_index(draw / parts.size() * per_draw);
-      whole.outcomes.insert(whole.outcomes.end(), begin, begin + eigen_index(per_draw));
-    }
-    all.push_back(std::move(whole));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<RunOutcome> all,
+                        in_order_of_items(runs, payload.evaluation_draws,
+                                          payload.by.modes.size() * payload.by.scenarios.size()));
+  std::vector<EvaluatedRuns> by_gains;
+  const auto of_each = eigen_index(all.size() / payload.gains.size());
+  for (auto begin = all.begin(); begin != all.end(); begin += of_each) {
+    by_gains.push_back({payload.gains[by_gains.size()], {begin, begin + of_each}});
   }
-  return all;
+  return by_gains;
 }
 
-/// The gains of a part, as they were written with it.
-Result<Json> read_part_gains(const TunePart& part) {
-  const std::filesystem::path path = part.origin.directory / kTuneShardGains;
-  AWMR_RETURN_IF_ERROR(check_regular_file(path));
-  AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(path));
-  if (sha256_hex(text) != part.gains_sha256) {
-    return input_error(path.string(),
-                       "is not the file that shard.json was written with: run the "
-                       "part again");
+/// gains.json, which is the same in all parts.
+Result<Json> read_gains_json(const std::vector<Part>& parts) {
+  const ShardFile& file = tune_shards().files.back();
+  for (const Part& part : parts) AWMR_RETURN_IF_ERROR(read_part_file(part, file));
+  const std::filesystem::path path = parts.front().directory / file.name;
+  AWMR_ASSIGN_OR_RETURN(Json json, read_json_file(path));
+  if (!json.is_object() || !json.contains("robust") || !json["robust"].is_object()) {
+    return input_error(path.string(), "contains no robust gains; run the part again");
   }
-  return read_json_file(path);
+  return json;
 }
 
-}  // namespace
-
+/// The text of judged.csv: `gains,draw,mode,scenario,completed,broke_off` and the figures, scenarios
+/// by number, from 1.
 std::string evaluation_csv(const Tuning& tuning, const TuneOptions& options) {
   const std::vector<EvaluatedRuns>& all = tuning.robust->runs;
   const std::size_t draws = at(options.shard->share_of(options.evaluation_draws));
@@ -220,19 +188,33 @@ std::string evaluation_csv(const Tuning& tuning, const TuneOptions& options) {
   return text;
 }
 
-std::string tune_shard_text(const Tuning& tuning, const TuneOptions& options,
-                            const Provenance& provenance) {
-  Json json =
-      shard_document(kTuneShardSchema, {.provenance = provenance,
-                                        .shard = *options.shard,
-                                        .arithmetic = tuning.arithmetic,
-                                        .csv_sha256 = sha256_hex(evaluation_csv(tuning, options))});
-  json[kGainsHash] = sha256_hex(gains_text(tuning, options, provenance));
-  json["judged_draws"] = options.evaluation_draws;
-  json["gains"] = Json::array();
+}  // namespace
+
+const ShardKind& tune_shards() {
+  static const ShardKind kind{
+      .schema = "awmr.tune_shard/1",
+      .title = "A part of the evaluation of gains on fresh draws",
+      .files = {{"judged.csv", "csv_sha256", check_judged},
+                {"gains.json", "gains_json_sha256",
+                 [](std::string_view text, const std::string& file, const std::string&) {
+                   return check_gains_text(text, file);
+                 }}},
+      .own_keys = {"findings"},
+      .arithmetic = batch_rounding,
+      .arithmetic_advice = "run all parts on processors with AVX2 or NEON",
+      .read = [](JsonObject& json) { read_payload(json); }};
+  return kind;
+}
+
+PartText tune_part(const Tuning& tuning, const TuneOptions& options, const Provenance& provenance,
+                   const std::vector<Finding>& findings) {
+  Json json{{"judged_draws", options.evaluation_draws},
+            {"gains", Json::array()},
+            {"modes", Json::array()},
+            {"scenarios", Json::array()},
+            {"tail_share", options.tail_share},
+            {"goals", Json::array()}};
   for (const EvaluatedRuns& runs : tuning.robust->runs) json["gains"].push_back(runs.gains);
-  json["modes"] = Json::array();
-  json["scenarios"] = Json::array();
   // The scores are by mode, then scenario.
   for (const ModeScore& score : tuning.scores) {
     if (score.scenario == tuning.scores.front().scenario) {
@@ -240,44 +222,21 @@ std::string tune_shard_text(const Tuning& tuning, const TuneOptions& options,
     }
     if (score.mode == tuning.scores.front().mode) json["scenarios"].push_back(score.scenario);
   }
-  json["tail_share"] = options.tail_share;
-  json["goals"] = Json::array();
   for (const TuningGoal& goal : options.goals) json["goals"].push_back(goal_json(goal));
-  return to_text(json);
-}
-
-bool is_finished_tune_shard(const std::filesystem::path& directory, const Shard& shard,
-                            const Provenance& provenance) {
-  const auto arithmetic = batch_arithmetic();
-  if (!check_regular_file(directory / kShardFile) ||
-      !check_regular_file(directory / kTuneShardGains)) {
-    return false;
-  }
-  const auto json = read_json_file(directory / kShardFile);
-  const auto gains = read_file(directory / kTuneShardGains);
-  if (!arithmetic || !json || !gains || !json->is_object()) return false;
-  const auto hash = json->find(kGainsHash);
-  if (hash == json->end() || *hash != sha256_hex(*gains)) return false;
-  return is_finished_part(
-      directory, kTuneShardSchema,
-      {.provenance = provenance, .shard = shard, .arithmetic = std::string(arithmetic->rounding)},
-      kEvaluationTable);
+  PartText text = part_text(
+      tune_shards(),
+      {.provenance = provenance, .shard = *options.shard, .arithmetic = tuning.arithmetic},
+      {evaluation_csv(tuning, options), gains_text(tuning, options, provenance)}, json);
+  text.shard_json = with_findings(text.shard_json, findings);
+  return text;
 }
 
 Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>& directories) {
-  AWMR_ASSIGN_OR_RETURN(
-      const std::vector<TunePart> parts,
-      read_parts(directories, kTuneShardSchema, tune_part_from_json, other_search));
-  AWMR_ASSIGN_OR_RETURN(const std::vector<EvaluatedRuns> runs, read_all_runs(parts));
-  for (const TunePart& part : parts) {
-    AWMR_RETURN_IF_ERROR(read_part_gains(part));
-  }
-  AWMR_ASSIGN_OR_RETURN(Json json, read_part_gains(parts.front()));
-  if (!json.is_object() || !json.contains("robust") || !json["robust"].is_object()) {
-    return input_error((directories.front() / kTuneShardGains).string(),
-                       "contains no robust gains; run the part again");
-  }
-  EvaluationResult evaluation = evaluation_of(runs, parts.front().by);
+  AWMR_ASSIGN_OR_RETURN(const std::vector<Part> parts, read_parts(tune_shards(), directories));
+  const Payload payload = payload_of(parts.front().json, read_payload);
+  AWMR_ASSIGN_OR_RETURN(const std::vector<EvaluatedRuns> runs, read_all_runs(parts, payload));
+  AWMR_ASSIGN_OR_RETURN(Json json, read_gains_json(parts));
+  EvaluationResult evaluation = evaluation_of(runs, payload.by);
   json["robust"]["quantiles"] = quantiles_json(evaluation.gains);
   if (!evaluation.by_scenario.empty()) {
     json["robust"]["by_scenario"] = by_scenario_json(evaluation.by_scenario);
@@ -285,27 +244,9 @@ Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>&
   if (!evaluation.goals.empty()) json["goals"] = goals_json(evaluation.goals);
   std::vector<Finding> findings =
       evaluation_findings(evaluation.gains, evaluation.by_scenario, evaluation.goals);
-  findings.insert(findings.end(), parts.front().findings.begin(), parts.front().findings.end());
+  findings.insert(findings.end(), payload.findings.begin(), payload.findings.end());
   return MergedTuning{to_text(json), std::move(evaluation.gains), std::move(evaluation.by_scenario),
                       std::move(evaluation.goals), std::move(findings)};
-}
-
-Status check_evaluation_csv(std::string_view text, const std::string& file,
-                            const std::string& shard_json) {
-  TunePart part;
-  AWMR_RETURN_IF_ERROR(check_json_object(
-      shard_json, file, [&](JsonObject& json) { part = tune_part_from_json(json); }));
-  AWMR_RETURN_IF_ERROR(evaluated_runs_from_text(part, text, file));
-  return {};
-}
-
-Status check_tune_shard_text(std::string_view text, const std::string& file) {
-  return check_json_object(text, file, tune_part_from_json);
-}
-
-std::string tune_shard_schema() {
-  return json_schema_text(kTuneShardSchema, "A part of the evaluation of gains on fresh draws",
-                          [](JsonObject& json) { tune_part_from_json(json); });
 }
 
 }  // namespace awmr

@@ -5,41 +5,22 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
+#include "awmr/core/shard_kind.h"
 #include "awmr/tune/tune.h"
 
 namespace awmr {
 
-/// The `schema` of its shard.json, and what lies next to it: the gains without what fresh draws say of
-/// them, and the runs.
-inline constexpr std::string_view kTuneShardSchema = "awmr.tune_shard/1";
-inline constexpr const char* kTuneShardGains = "gains.json";
-inline constexpr const char* kEvaluationTable = "judged.csv";
+/// Parts of a tuning: judged.csv has a row for each run by gains, draw, mode and scenario;
+/// gains.json the gains without what fresh draws say of them.
+const ShardKind& tune_shards();
 
-/// The bytes of judged.csv, a row for each run by gains, draw, mode and scenario:
-/// `gains,draw,mode,scenario,completed,broke_off` and the figures; scenarios by number, from 1.
-/// Precondition: robust gains, tuned with options.shard.
-std::string evaluation_csv(const Tuning& tuning, const TuneOptions& options);
-
-/// The bytes of shard.json: origin and number of the part, gains, modes, scenarios, tail share and
-/// goals of the evaluation, and the hashes of the two files next to it.
-std::string tune_shard_text(const Tuning& tuning, const TuneOptions& options,
-                            const Provenance& provenance);
-
-/// Read-backs of judged.csv and shard.json (core/file.h): that of the table takes the text of its
-/// shard.json.
-Status check_evaluation_csv(std::string_view text, const std::string& file,
-                            const std::string& shard_json);
-Status check_tune_shard_text(std::string_view text, const std::string& file);
-
-/// Whether the directory holds this part already, finished, from the same inputs and options, and as it
-/// was written.
-bool is_finished_tune_shard(const std::filesystem::path& directory, const Shard& shard,
-                            const Provenance& provenance);
+/// The part of a tuning that options.shard is. Precondition: robust gains, tuned with that.
+PartText tune_part(const Tuning& tuning, const TuneOptions& options, const Provenance& provenance,
+                   const std::vector<Finding>& findings = {});
 
 /// The result that a single run without parts has.
 struct MergedTuning {
@@ -49,13 +30,9 @@ struct MergedTuning {
   std::vector<Finding> findings;  ///< of the evaluation draws, then of the first part
 };
 
-/// Puts the parts in the directories together, in any order. Errors (input): a directory without
-/// the three files, or with one that is not the one that shard.json was written with; parts of
-/// another kind, or of different searches (inputs, options, version of the program, arithmetic); a
-/// part that is missing or there twice; a row that is none of its part's, or missing.
+/// Puts the parts in the directories together, in any order. Errors (input): as read_parts(); a file
+/// that is not the one that shard.json was written with; a row that is none of its part's, or
+/// missing.
 Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>& directories);
-
-/// The JSON Schema of such a shard.json, from what reads it.
-std::string tune_shard_schema();
 
 }  // namespace awmr

@@ -2,14 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 
-#include "awmr/core/hash.h"
-#include "awmr/core/index.h"
-#include "awmr/core/json_document.h"
 #include "awmr/core/name_table.h"
 #include "awmr/core/rounding.h"
 #include "awmr/core/shard_file.h"
@@ -19,18 +15,12 @@ namespace awmr {
 namespace {
 
 /// Runs of a recovery at the most, and how far from 1 a true value may lie.
-constexpr long kMostRecoverRuns = std::numeric_limits<int>::max();
+constexpr long kMaxRecoverRuns = std::numeric_limits<int>::max();
 constexpr double kLargestTruth = 1e100;
 constexpr double kSmallestTruth = 1e-100;
 
 constexpr NameTable<ErrorKind, 3> kErrorKindNames{
     {{"input", ErrorKind::kInput}, {"refused", ErrorKind::kRefused}, {"fault", ErrorKind::kFault}}};
-
-/// One directory's part; its runs lie in the table.
-struct RecoverShardFile {
-  ShardOrigin origin;
-  RecoverPart part;
-};
 
 Json error_json(const Error& error) {
   Json json;
@@ -75,16 +65,16 @@ std::vector<RecoverTruth> read_truths(JsonObject json) {
 }
 
 RecoverRefusal read_refusal(JsonObject json) {
-  RecoverRefusal refusal{.run = static_cast<int>(json.integer("run", 0, kMostRecoverRuns)),
+  RecoverRefusal refusal{.run = static_cast<int>(json.integer("run", 0, kMaxRecoverRuns)),
                          .message = json.string("message")};
   json.reject_unknown_keys();
   return refusal;
 }
 
-RecoverShardFile shard_file_from_json(JsonObject& json) {
-  RecoverShardFile file{.origin = read_shard_origin(json, kRecoverShardSchema), .part = {}};
-  RecoverPart& part = file.part;
-  part.all_runs = static_cast<int>(json.integer("runs", 2, kMostRecoverRuns));
+/// The keys of shard.json that a recovery adds; the runs are in the table.
+RecoverPart read_payload(JsonObject& json) {
+  RecoverPart part;
+  part.all_runs = static_cast<int>(json.integer("runs", 2, kMaxRecoverRuns));
   part.noise_text = json.string("noise");
   for (const std::string& name : json.strings("asked")) {
     if (const auto id = read_parameter(json, "asked", name)) part.requested.push_back(*id);
@@ -92,82 +82,65 @@ RecoverShardFile shard_file_from_json(JsonObject& json) {
   part.truths = read_truths(json.object("truths"));
   if (auto refusal = json.optional_object("refusal")) part.refusal = read_refusal(*refusal);
   if (auto error = json.optional_object("error")) part.error = read_error(*error);
-  json.reject_unknown_keys();
-  return file;
+  return part;
 }
 
-/// Why a part is not of the same recovery as the first; empty where it is.
-std::string other_recovery(const RecoverShardFile& first, const RecoverShardFile& file) {
-  const RecoverPart& a = first.part;
-  const RecoverPart& b = file.part;
-  if (a.all_runs != b.all_runs || a.noise_text != b.noise_text || a.requested != b.requested ||
-      a.truths != b.truths) {
-    return made_with_other_options(first.origin);
-  }
-  return other_arithmetic(first.origin, file.origin,
-                          "run all parts on processors of one kind, with the same C library");
-}
-
-/// The part's own runs, each once. Errors (input): a run that is not one of them, or appears
-/// twice; one that is missing.
-Status check_runs(const std::vector<RecoverRun>& runs, const RecoverShardFile& file) {
-  const std::string place = (file.origin.directory / kRecoverTable).string();
-  const Shard& shard = file.origin.shard;
-  int before = -1;
-  for (const RecoverRun& run : runs) {
-    if (!shard.has(run.index) || run.index >= file.part.all_runs) {
-      return input_error(place, fmt::format("run {} is none of part {} of {}", run.index,
-                                            shard.index, shard.count));
-    }
-    if (run.index <= before) {
-      return input_error(place, fmt::format("run {} comes after run {}", run.index, before));
-    }
-    before = run.index;
-  }
-  const int expected = shard.share_of(file.part.all_runs);
-  if (std::ssize(runs) != expected) {
-    return input_error(
-        place, fmt::format("has {} runs, part {} of {} of {} runs has {}: run it "
-                           "again",
-                           runs.size(), shard.index, shard.count, file.part.all_runs, expected));
-  }
+Status check_runs(std::string_view text, const std::string& file, const std::string& shard_json) {
+  const RecoverPart part = payload_of(Json::parse(shard_json), read_payload);
+  AWMR_RETURN_IF_ERROR(recover_runs(text, file, part.truths));
   return {};
 }
 
-Result<std::vector<RecoverRun>> read_runs(const RecoverShardFile& file) {
-  AWMR_ASSIGN_OR_RETURN(const std::string text, read_shard_table(file.origin, kRecoverTable));
-  const std::string place = (file.origin.directory / kRecoverTable).string();
-  AWMR_ASSIGN_OR_RETURN(std::vector<RecoverRun> runs, recover_runs(text, place, file.part.truths));
-  AWMR_RETURN_IF_ERROR(check_runs(runs, file));
+/// The runs of a part. Errors (input): a run that is none of the part's, in another place, or
+/// missing.
+Result<std::vector<RecoverRun>> read_runs(const Part& part, const RecoverPart& payload) {
+  const ShardFile& table = recover_shards().files.front();
+  AWMR_ASSIGN_OR_RETURN(const std::string text, read_part_file(part, table));
+  AWMR_ASSIGN_OR_RETURN(std::vector<RecoverRun> runs,
+                        recover_runs(text, (part.directory / table.name).string(), payload.truths));
+  const Shard& shard = part.origin.shard;
+  const int expected = shard.share_of(payload.all_runs);
+  if (std::ssize(runs) != expected) {
+    return input_error(
+        (part.directory / table.name).string(),
+        fmt::format("has {} runs, part {} of {} of {} runs has {}: run it again", runs.size(),
+                    shard.index, shard.count, payload.all_runs, expected));
+  }
+  AWMR_RETURN_IF_ERROR(check_items(part, table, "run", payload.all_runs, runs.size(),
+                                   [&](std::size_t i) { return runs[i].index; }));
   return runs;
 }
 
-/// Report of the parts in addition to their runs: the refusal of the smallest run; an error where
-/// all have one, that of the first part, which has the first run.
-void take_words(const std::vector<RecoverShardFile>& files, RecoverPart& whole) {
-  whole.refusal.reset();
-  whole.error.reset();
-  for (const RecoverShardFile& file : files) {
-    const auto& refusal = file.part.refusal;
-    if (refusal && (!whole.refusal || refusal->run < whole.refusal->run)) whole.refusal = refusal;
+/// Adds a part's reasons to those of the whole: the refusal of the smallest run, and an error only if
+/// all parts have one, that of the first part, which has the first run.
+void take_reasons(const RecoverPart& part, RecoverPart& whole) {
+  if (part.refusal && (!whole.refusal || part.refusal->run < whole.refusal->run)) {
+    whole.refusal = part.refusal;
   }
-  const auto fails = [](const RecoverShardFile& file) { return file.part.error.has_value(); };
-  if (std::ranges::all_of(files, fails)) whole.error = files.front().part.error;
+  if (!part.error) whole.error.reset();
 }
 
 }  // namespace
 
-std::string recover_shard_text(const RecoverPart& part, const Shard& shard,
-                               const Provenance& provenance) {
-  Json json = shard_document(kRecoverShardSchema, {.provenance = provenance,
-                                                   .shard = shard,
-                                                   .arithmetic = rounding_of_functions(),
-                                                   .csv_sha256 = sha256_hex(recover_csv(part))});
-  json["runs"] = part.all_runs;
-  json["noise"] = part.noise_text;
-  json["asked"] = Json::array();
+const ShardKind& recover_shards() {
+  static const ShardKind kind{
+      .schema = "awmr.recover_shard/1",
+      .title = "A part of a recovery",
+      .files = {{"recovery.csv", "csv_sha256", check_runs}},
+      .own_keys = {"refusal", "error"},
+      .arithmetic = rounding_of_functions,
+      .arithmetic_advice = "run all parts on processors of one kind, with the same C library",
+      .read = [](JsonObject& json) { read_payload(json); }};
+  return kind;
+}
+
+PartText recover_part_text(const RecoverPart& part, const Shard& shard,
+                           const Provenance& provenance) {
+  Json json{{"runs", part.all_runs},
+            {"noise", part.noise_text},
+            {"asked", Json::array()},
+            {"truths", Json::object()}};
   for (const ParameterId id : part.requested) json["asked"].push_back(info(id).name);
-  json["truths"] = Json::object();
   for (const RecoverTruth& truth : part.truths) {
     json["truths"][std::string(info(truth.id).name)] = truth.value;
   }
@@ -175,44 +148,24 @@ std::string recover_shard_text(const RecoverPart& part, const Shard& shard,
     json["refusal"] = {{"run", part.refusal->run}, {"message", part.refusal->message}};
   }
   if (part.error) json["error"] = error_json(*part.error);
-  return to_text(json);
-}
-
-bool is_finished_recover_shard(const std::filesystem::path& directory, const Shard& shard,
-                               const Provenance& provenance) {
-  return is_finished_part(
-      directory, kRecoverShardSchema,
+  return part_text(
+      recover_shards(),
       {.provenance = provenance, .shard = shard, .arithmetic = rounding_of_functions()},
-      kRecoverTable);
-}
-
-Status check_recover_csv(std::string_view text, const std::string& file, const RecoverPart& part) {
-  AWMR_RETURN_IF_ERROR(recover_runs(text, file, part.truths));
-  return {};
-}
-
-Status check_recover_shard_text(std::string_view text, const std::string& file) {
-  return check_json_object(text, file, shard_file_from_json);
-}
-
-std::string recover_shard_schema() {
-  return json_schema_text(kRecoverShardSchema, "A part of a recovery",
-                          [](JsonObject& json) { shard_file_from_json(json); });
+      {recover_csv(part)}, json);
 }
 
 Result<MergedRecovery> merge_recover_shards(const std::vector<std::filesystem::path>& directories) {
-  AWMR_ASSIGN_OR_RETURN(
-      const std::vector<RecoverShardFile> files,
-      read_parts(directories, kRecoverShardSchema, shard_file_from_json, other_recovery));
-  MergedRecovery merged{.whole = files.front().part, .provenance = files.front().origin.provenance};
-  std::vector<RecoverRun>& all = merged.whole.runs;
-  for (const RecoverShardFile& file : files) {
-    AWMR_ASSIGN_OR_RETURN(std::vector<RecoverRun> runs, read_runs(file));
-    all.insert(all.end(), std::make_move_iterator(runs.begin()),
-               std::make_move_iterator(runs.end()));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<Part> parts, read_parts(recover_shards(), directories));
+  MergedRecovery merged{.whole = payload_of(parts.front().json, read_payload),
+                        .provenance = parts.front().origin.provenance};
+  std::vector<std::vector<RecoverRun>> runs;
+  for (const Part& part : parts) {
+    const RecoverPart payload = payload_of(part.json, read_payload);
+    AWMR_ASSIGN_OR_RETURN(std::vector<RecoverRun> of_part, read_runs(part, payload));
+    runs.push_back(std::move(of_part));
+    take_reasons(payload, merged.whole);
   }
-  std::ranges::sort(all, {}, &RecoverRun::index);
-  take_words(files, merged.whole);
+  AWMR_ASSIGN_OR_RETURN(merged.whole.runs, in_order_of_items(runs, merged.whole.all_runs));
   return merged;
 }
 

@@ -8,7 +8,6 @@
 
 #include "awmr/core/csv.h"
 #include "awmr/core/csv_cell.h"
-#include "awmr/identify/planning/recover_shard.h"
 
 namespace awmr {
 namespace {
