@@ -204,12 +204,13 @@ void ClosedLoop<Row>::follow(std::size_t run, const GuidanceOutput& output) {
 
 template <class Row>
 void ClosedLoop<Row>::quantise_commands() {
-  if (!scenario_.actuators) return;
+  const auto& actuators = scenario_.actuators;
+  if (!actuators || !(actuators->steering_quantum_rad > 0.0 || actuators->pwm_counts > 0)) return;
   Vehicles<Row>& v = runs_->vehicles;
   for_active([&](std::size_t run) {
     auto force = run_of<SideForces<double>>(v.force, run);
     auto steering_rad = run_of<double>(v.steering_command_rad, run);
-    quantise(*scenario_.actuators, run_of<double>(v.force_most, run), force, steering_rad);
+    quantise(*actuators, run_of<double>(v.force_most, run), force, steering_rad);
     put(force, run, v.force);
     put(steering_rad, run, v.steering_command_rad);
   });

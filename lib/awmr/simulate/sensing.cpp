@@ -75,15 +75,19 @@ Sensing::Sensing(const std::optional<Sensors>& sensors, double sample_time_s, co
                 noise ? &noise->yaw_rate : nullptr),
       speed_(sensors ? sensors->speed : Channel{}, sample_time_s, seed.random(kSpeed),
              noise ? &noise->speed : nullptr),
-      gps_(seed.random(kGps)) {}
+      gps_(seed.random(kGps)),
+      motion_(1 + std::max({heading_.latency, yaw_rate_.latency, speed_.latency})) {}
 
 Sensed Sensing::at(std::size_t k, const State<double>& truth) {
   Sensed sensed{{truth.psi_rad, truth.u_mps, truth.v_mps, truth.r_radps}, {truth.x_m, truth.y_m}};
   if (!sensors_) return sensed;
-  motion_.push_back(sensed.motion);
-  sensed.motion.psi_rad = heading_.read(k, motion_[heading_.sample_read_at(k)].psi_rad);
-  sensed.motion.r_radps = yaw_rate_.read(k, motion_[yaw_rate_.sample_read_at(k)].r_radps);
-  sensed.motion.u_mps = speed_.read(k, motion_[speed_.sample_read_at(k)].u_mps);
+  motion_[k % motion_.size()] = sensed.motion;
+  const auto motion_for = [&](const Sensor& sensor) -> const Measurement<double>& {
+    return motion_[sensor.sample_read_at(k) % motion_.size()];
+  };
+  sensed.motion.psi_rad = heading_.read(k, motion_for(heading_).psi_rad);
+  sensed.motion.r_radps = yaw_rate_.read(k, motion_for(yaw_rate_).r_radps);
+  sensed.motion.u_mps = speed_.read(k, motion_for(speed_).u_mps);
   if (!sensors_->speed_signed) sensed.motion.u_mps = std::abs(sensed.motion.u_mps);
   if (!sensors_->sway_measured) sensed.motion.v_mps = 0.0;
   if (sensors_->gps) sensed.position_m = navigate(k, truth, sensed.motion);

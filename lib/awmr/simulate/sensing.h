@@ -54,7 +54,7 @@ class Sensing {
   double sample_time_s_;
   Sensor heading_, yaw_rate_, speed_;
   Random gps_;
-  std::vector<Measurement<double>> motion_;    ///< true, by sample
+  std::vector<Measurement<double>> motion_;    ///< true, of the latest samples that are still read
   std::vector<Position<double>> true_m_;       ///< by sample
   std::vector<Position<double>> travelled_m_;  ///< by sample: dead reckoning from the first
   Position<double> fix_offset_m_{};            ///< position = travelled + this

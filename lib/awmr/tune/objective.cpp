@@ -1,6 +1,7 @@
 #include "awmr/tune/objective.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -125,6 +126,7 @@ RunNoise draw_noise(const ObjectiveSetting& setting) {
 
 std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting, const RunNoise& noise,
                                             std::span<const Gains<double>> gains) {
+  if (gains.empty()) return {};
   const std::vector<BatchRun> runs = runs_of(setting, gains);
   const std::size_t modes = setting.modes().size();
   const std::size_t scenarios = setting.scenarios.size();
@@ -162,13 +164,21 @@ Objective::Objective(ObjectiveSetting setting, const Gains<double>& baseline)
       noise_(draw_noise(setting_)),
       baseline_scores_(run_all(setting_, noise_, std::span(&baseline, 1)).front()) {
   baseline_ = evaluate(baseline_scores_);
+  known_.emplace(std::bit_cast<GainNumbers>(baseline), baseline_);
 }
 
 std::vector<Evaluation> Objective::operator()(std::span<const Gains<double>> gains) const {
+  std::vector<Gains<double>> unknown;
+  for (const Gains<double>& one : gains) {
+    if (known_.try_emplace(std::bit_cast<GainNumbers>(one)).second) unknown.push_back(one);
+  }
+  auto scores = run_all(setting_, noise_, unknown);
+  for (std::size_t i = 0; i < unknown.size(); ++i) {
+    known_[std::bit_cast<GainNumbers>(unknown[i])] = evaluate(std::move(scores[i]));
+  }
   std::vector<Evaluation> evaluations;
-  if (gains.empty()) return evaluations;
-  for (std::vector<ModeScore>& scores : run_all(setting_, noise_, gains)) {
-    evaluations.push_back(evaluate(std::move(scores)));
+  for (const Gains<double>& one : gains) {
+    evaluations.push_back(known_.at(std::bit_cast<GainNumbers>(one)));
   }
   return evaluations;
 }

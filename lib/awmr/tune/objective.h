@@ -17,6 +17,7 @@
 
 #include <array>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -85,15 +86,17 @@ struct Evaluation {
   bool valid = false;      ///< finite, and no run breaks off
 };
 
+/// Not for several threads at once.
 class Objective {
  public:
   Objective(ObjectiveSetting setting, const Gains<double>& baseline);
 
-  /// Simulates every mode of every vehicle for each set of gains. What is found of one depends neither
-  /// on the others nor on the number of cores.
+  /// Simulates every mode of every vehicle for each set of gains that was not evaluated before. What is found of
+  /// one depends neither on the others nor on the number of cores.
   std::vector<Evaluation> operator()(std::span<const Gains<double>> gains) const;
   Evaluation operator()(const Gains<double>& gains) const;
   const Evaluation& baseline() const { return baseline_; }
+  const ObjectiveSetting& setting() const { return setting_; }
   std::span<const YawMode> modes() const { return setting_.modes(); }
   std::span<const TuningGoal> goals() const { return setting_.goals; }
   std::size_t draws() const { return setting_.vehicles.size() - 1; }
@@ -105,6 +108,9 @@ class Objective {
   RunNoise noise_;
   std::vector<ModeScore> baseline_scores_;  ///< by vehicle, then mode, then scenario
   Evaluation baseline_;
+  /// Evaluations so far, by the numbers of the gains: the parts of a search meet the same gains again.
+  using GainNumbers = std::array<double, sizeof(Gains<double>) / sizeof(double)>;
+  mutable std::map<GainNumbers, Evaluation> known_;
 };
 
 /// All runs of each set of gains, by vehicle, then mode, then scenario. The number of a vehicle is

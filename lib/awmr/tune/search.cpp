@@ -256,9 +256,13 @@ void note_broken(Problem& problem, SearchResult& result) {
 /// Goes on from gains that were found on some of the draws, on all of them.
 Result<std::string> finish(Problem& problem, const Gains<double>& from,
                            std::span<const Gains<double>> starts, int most_evaluations) {
-  std::vector<Point> points{problem.space().point_of(from)};
-  for (const Gains<double>& start : starts) points.push_back(problem.space().point_of(start));
-  problem.look_at(points);
+  const auto look_at = [&problem](const Gains<double>& gains) {
+    const Point point = problem.space().point_of(gains);
+    problem.look_at(std::span(&point, 1));
+  };
+  look_at(from);
+  // Gains that are feasible on some draws only may be further from those of all than a start is.
+  if (!problem.nearest.feasible()) std::ranges::for_each(starts, look_at);
   problem.simulate_all = true;
   const int budget = problem.nearest.feasible() ? std::min(kFinishEvaluations, most_evaluations)
                                                 : most_evaluations;

@@ -9,8 +9,8 @@
 namespace awmr {
 namespace {
 
-/// Points looked at on either side, and then again between the last good one and the next.
-constexpr int kPoints = 8;
+/// Halvings of what is left of either side of a stretch.
+constexpr int kHalvings = 6;
 /// A residual above this is that of an active constraint.
 constexpr double kActive = -0.01;
 /// Evaluations of the search for what a wider limit is worth.
@@ -34,39 +34,25 @@ Interval room(const Point& from, const Pair& pair, const SearchSpace& space) {
           std::min(upper[pair[0]] - from[pair[0]], upper[pair[1]] - from[pair[1]])};
 }
 
-/// Of kPoints after ends.lo in equal steps to ends.hi the first `good` are good: the last good one
-/// (ends.lo if there is none) and the next one.
-Interval last_good(const Interval& ends, std::ptrdiff_t good) {
-  const double step = (ends.hi - ends.lo) / kPoints;
-  return {ends.lo + step * static_cast<double>(good),
-          good == kPoints ? ends.hi : ends.lo + step * static_cast<double>(good + 1)};
-}
-
 /// The stretch around 0 over which the logarithms of a pair can be moved together and the objective is
-/// at most `most`.
+/// at most `most`: it rises towards both ends.
 Interval stretch(Problem& problem, const Point& from, const Pair& pair, double most) {
+  const auto is_good = [&](double by_ln) {
+    const Point point = scaled(from, pair, by_ln);
+    const Candidate there = problem.look_at(std::span(&point, 1)).front().candidate;
+    return there.feasible() && there.objective <= most;
+  };
+  const auto last_good = [&](double end) {
+    if (is_good(end)) return end;
+    double good = 0.0;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (good + end);
+      (is_good(middle) ? good : end) = middle;
+    }
+    return good;
+  };
   const Interval within = room(from, pair, problem.space());
-  // Each way: from what is good to what is not, as far as is known.
-  std::array<Interval, 2> ends{{{0.0, within.lo}, {0.0, within.hi}}};
-  for (int round = 0; round < 2; ++round) {
-    std::vector<Point> points;
-    for (const Interval& end : ends) {
-      for (int i = 1; i <= kPoints; ++i) {
-        points.push_back(scaled(from, pair, end.lo + (end.hi - end.lo) * i / kPoints));
-      }
-    }
-    const std::vector<Looked> looked = problem.look_at(points);
-    const auto is_good = [most](const Looked& one) {
-      return one.candidate.feasible() && one.candidate.objective <= most;
-    };
-    auto first = looked.begin();
-    for (Interval& end : ends) {
-      const auto bad = std::find_if_not(first, first + kPoints, is_good);
-      end = last_good(end, bad - first);
-      first += kPoints;
-    }
-  }
-  return {ends[0].lo, ends[1].lo};
+  return {last_good(within.lo), last_good(within.hi)};
 }
 
 }  // namespace

@@ -33,27 +33,26 @@ std::vector<TradeOffPoint> front_of(std::vector<TradeOffPoint> points) {
   return front;
 }
 
-TradeOff trade_off_of(const ObjectiveSetting& searched, const ConstraintContext& context,
+TradeOff trade_off_of(const Objective& searched, const ConstraintContext& context,
                       std::vector<TradeOffPoint> met, const Gains<double>& tuned,
                       const Gains<double>& baseline) {
   TradeOff result{.front = front_of(std::move(met)), .named = {}};
   const auto add = [&result](const char* name, const Evaluation& evaluation) {
     if (evaluation.valid) result.named.push_back({name, evaluation.trade_off});
   };
-  ObjectiveSetting setting = searched;
-  setting.goals.clear();
-  const Objective objective(setting, baseline);
-  add("tuned", objective(tuned));
-  add("baseline", objective.baseline());
-  add("paper", objective(kPaperGains));
+  add("tuned", searched(tuned));
+  add("baseline", searched.baseline());
+  add("paper", searched(kPaperGains));
   const LqiWeights<double> weights = lqi_weights(context);
   const double inertia_norm = context.plant.inertia_norm;
   if (!(weights.heading_rad > 0.0 && weights.tau_turn_m > 0.0) ||
       !settles_when_sampled(lqi_gains(weights, inertia_norm), context.sample_time_s)) {
     return result;
   }
-  for (Scenario& scenario : setting.scenarios) scenario.control.lqi = weights;
-  add("lqi", Objective(std::move(setting), baseline).baseline());
+  ObjectiveSetting by_lqi = searched.setting();
+  by_lqi.goals.clear();
+  for (Scenario& scenario : by_lqi.scenarios) scenario.control.lqi = weights;
+  add("lqi", Objective(std::move(by_lqi), baseline).baseline());
   return result;
 }
 

@@ -197,8 +197,7 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
   const Evaluation tuned = all(settled.gains);
   AWMR_ASSIGN_OR_RETURN(Certificate certificate,
                         certify(model, context, options.open, settled.gains));
-  TradeOff trade_off =
-      trade_off_of(searched(setting, options), context, found.met, settled.gains, baseline.gains);
+  TradeOff trade_off = trade_off_of(some, context, found.met, settled.gains, baseline.gains);
   ObjectiveSetting elsewhere = setting;
   elsewhere.scenarios = {held_out};
   elsewhere.goals.clear();
