@@ -71,9 +71,11 @@ std::optional<MassEstimate> by_stop_time(const SteadyFit& surge,
   const auto mass = mass_from_stop_time(surge, stops->rows);
   if (!mass) {
     result.reason = fmt::format(
-        "the surge exponent {:.4g} is 1 or more: with it the vehicle never stops, and a stop time "
-        "says nothing",
-        surge[TransformedParameter::kBeta]);
+        "the surge exponent {:.4g} is 1 or more, with which the vehicle never stops, so a stop "
+        "time "
+        "does not determine m'. Choose a family with Coulomb friction ({}), or record the speed "
+        "of the coast-down as a curve",
+        surge[TransformedParameter::kBeta], option_text("family auto"));
     return std::nullopt;
   }
   const MassEstimate estimate = from_stop_time(*mass, stops->rows.size());
@@ -236,10 +238,24 @@ std::optional<double> demanded_by_grip(const SteadyFit& surge,
   return mass_norm_by_grip(surge.law(), fastest_mps);
 }
 
+/// `back-emf-assumed`: the surge runs are driven and the coast-down is not, so that a force which falls
+/// with the speed would pass for resistance, and for mass:  m' = g1/|u_dot|,  g1 + 4 k_e u in its place.
+Finding assumed_back_emf(const std::string& file) {
+  return {
+      file, 0, Severity::kNote, "back-emf-assumed",
+      "mass_norm assumes that the force of a motor does not fall with the speed at a constant "
+      "command. For a voltage-driven motor whose driver coasts, m' is too large by the ratio of "
+      "4 k_e u to g1. Set motor.back_emf_s_per_m in the vehicle file (0: a force), or identify "
+      "it from a log with driven and coasting sections"};
+}
+
 /// `implausible-deceleration` and the like. A whole curve does not depend on the last centimetres.
 void check(const SteadyFit& surge, const std::optional<TrialSet<StopTimeRow>>& stops,
            const std::vector<CoastCurve>& curves, const Vehicle& vehicle, MassResult& result) {
   if (!result.estimate) return;
+  if (!vehicle.back_emf_s_per_m) {
+    result.findings.push_back(assumed_back_emf(stops ? stops->file : curves.front().file));
+  }
   const double mass_norm = std::exp(result.estimate->log_mass_norm);
   std::optional<double> deviation;
   if (!result.posterior.empty() && curves.empty()) {
