@@ -82,9 +82,10 @@ void delay(std::uint32_t by_ms, InputTimes& times) {
 
 /// Applies the actuators to the chip's command.
 void command(const LoopSetup& setup, LoopRow& row) {
-  const Allocation<float>& asked = row.step.output.command;
-  row.force = {static_cast<double>(asked.force.left), static_cast<double>(asked.force.right)};
-  row.steering_command_rad = static_cast<double>(asked.steering_rad);
+  const Allocation<float>& requested = row.step.output.command;
+  row.force = {static_cast<double>(requested.force.left),
+               static_cast<double>(requested.force.right)};
+  row.steering_command_rad = static_cast<double>(requested.steering_rad);
   if (setup.scenario.actuators) {
     quantise(*setup.scenario.actuators, setup.force_max, row.force, row.steering_command_rad);
   }
@@ -125,8 +126,8 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
   std::vector<Fault> faults;
   if (std::holds_alternative<OpenLoop>(scenario.guidance)) {
     faults.push_back({file + ":/guidance",
-                      "is open loop, which asks nothing of a controller: give "
-                      "heading, waypoints, line or lissajous"});
+                      "is open loop, which uses no controller; give heading, waypoints, line or "
+                      "lissajous"});
   }
   if (scenario.held_tau_speed()) {
     faults.push_back({file + ":/guidance/tau_speed",

@@ -115,7 +115,7 @@ SetUp set_up_of(const Mission& mission) {
 }
 
 constexpr std::string_view kHeader =
-    R"(// Made by awmr pil: what this firmware does beside holding headings.
+    R"(// Made by awmr pil: this firmware's tasks in addition to heading hold.
 #pragma once
 
 #include "awmr.h"

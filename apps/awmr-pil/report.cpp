@@ -72,7 +72,7 @@ Result<Provenance> provenance_of(const PilOptions& options) {
 
 }  // namespace
 
-void judge(const PilOptions& options, double period_cycles, Report& report) {
+void evaluate(const PilOptions& options, double period_cycles, Report& report) {
   const bool by_table = options.emit.resistance == ResistanceForm::kTable;
   const ChipFigures& figures = report.chip.figures;
   std::vector<Check>& checks = report.checks;

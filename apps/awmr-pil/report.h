@@ -62,7 +62,7 @@ struct Report {
 
 /// Adds the checks of cycles, memory, differences and faults to the report, each with its bound.
 /// `period_cycles` is the sample time in cycles of the chip's clock.
-void judge(const cli::PilOptions& options, double period_cycles, Report& report);
+void evaluate(const cli::PilOptions& options, double period_cycles, Report& report);
 
 /// Returns the content of pil.json. Errors (input): an input cannot be read again.
 Result<std::string> report_text(const cli::PilOptions& options, const LoopSetup& setup,

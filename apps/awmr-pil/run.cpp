@@ -304,15 +304,16 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
 
 }  // namespace
 
-Result<Outcome> run_pil(const PilOptions& asked, const Watch& watch) {
-  const std::vector<fs::path> inputs{asked.model, asked.gains, asked.scenario};
-  AWMR_RETURN_IF_ERROR(check_output(asked.output, inputs));
-  auto in = read_inputs(asked);
+Result<Outcome> run_pil(const PilOptions& requested, const Watch& watch) {
+  const std::vector<fs::path> inputs{requested.model, requested.gains, requested.scenario};
+  AWMR_RETURN_IF_ERROR(check_output(requested.output, inputs));
+  auto in = read_inputs(requested);
   if (!in) return tl::unexpected(in.error());
   std::vector<Finding> findings;
-  AWMR_RETURN_IF_ERROR(cli::note_other_model(asked.gains, asked.model, findings, asked.mode));
-  if (asked.injection != Injection::kNone) AWMR_RETURN_IF_ERROR(place_injection(*in));
-  const PilOptions options = resolved(asked, *in);
+  AWMR_RETURN_IF_ERROR(
+      cli::note_other_model(requested.gains, requested.model, findings, requested.mode));
+  if (requested.injection != Injection::kNone) AWMR_RETURN_IF_ERROR(place_injection(*in));
+  const PilOptions options = resolved(requested, *in);
   Report report;
   auto chip = run_chip(options, *in, watch);
   if (!chip) return tl::unexpected(chip.error());
@@ -322,7 +323,7 @@ Result<Outcome> run_pil(const PilOptions& asked, const Watch& watch) {
   if (auto compared = compare_runs(options, *in, report); !compared) {
     return tl::unexpected(compared.error());
   }
-  judge(options, in->setup.sample_time_s * kClockHz, report);
+  evaluate(options, in->setup.sample_time_s * kClockHz, report);
   const auto text = report_text(options, in->setup, report);
   if (!text) return tl::unexpected(text.error());
   const std::string document = with_findings(*text, findings);

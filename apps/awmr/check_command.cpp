@@ -118,8 +118,8 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
   const auto nothing_shows = [&](ParameterId id) {
     check.missing.push_back(
         {"", 0, Severity::kError, "missing-trial",
-         fmt::format("nothing shows {} ({}), which gains need: {}", info(id).name, info(id).meaning,
-                     vehicle ? trial_of(*vehicle, id) : info(id).trial)});
+         fmt::format("no trial for {} ({}), which the gains need: {}", info(id).name,
+                     info(id).meaning, vehicle ? trial_of(*vehicle, id) : info(id).trial)});
   };
   if (!project.surge) nothing_shows(ParameterId::kSurgeAlpha);
   if (!project.turning) nothing_shows(ParameterId::kYawAlpha);
@@ -127,8 +127,8 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
   if (vehicle == nullptr || vehicle->sway_alpha) return;
   check.notes.push_back(
       {project.vehicle.string() + ":/sway_alpha", 0, Severity::kNote, "assumed-sway",
-       fmt::format("not given ({}): identify will assume that of common tyres, within a factor of "
-                   "about 1.7, as long as no driving log with sway_mps shows it",
+       fmt::format("not given ({}): identify assumes that of common tyres, +-70 %, unless a "
+                   "driving log has sway_mps",
                    info(ParameterId::kSwayAlpha).meaning)});
 }
 
@@ -151,8 +151,9 @@ void add_mapping_hint(const fs::path& path, TrialKind kind, const TrialOptions& 
   }
   if (pairs.empty()) return;
   faults.push_back({path.string() + ":1:1",
-                    fmt::format("by their names its columns may be, for project.json's trials, "
-                                "\"columns\": {{\"{}\": {{{}}}}}; awmr map {} --trial {} says why",
+                    fmt::format("suggested entry for project.json's trials, from the column names: "
+                                "\"columns\": {{\"{}\": {{{}}}}}; awmr map {} --trial {} gives the "
+                                "reasons",
                                 path.filename().string(), fmt::join(pairs, ", "), path.string(),
                                 name_in(kTrialKindNames, kind))});
 }
@@ -232,7 +233,7 @@ std::string document_of(const Check& check) {
 
 std::string summary_of(const fs::path& project, const Check& check) {
   if (check.missing.empty() && check.implausible.empty()) {
-    return fmt::format("{}: nothing to mend; next: awmr run {} -o out\n", project.string(),
+    return fmt::format("{}: no problems found; next: awmr run {} -o out\n", project.string(),
                        project.string());
   }
   return fmt::format("{}: {} to fill in, {} to record, {} implausible\n", project.string(),
@@ -259,10 +260,9 @@ Result<Outcome> execute(const CheckCommand& command) {
 void add_check(CLI::App& app, Session& session) {
   auto command = std::make_shared<CheckCommand>();
   CLI::App* sub = add_command(
-      app, session, "check",
-      "Say what a project still lacks and what in it cannot be, before any fit",
+      app, session, "check", "Check a project for missing and implausible values before any fit",
       "awmr check configs/paper/project.json\n"
-      "Exit codes: 0 nothing to mend; 1 something is missing or implausible; 2 bad input",
+      "Exit codes: 0 no problems; 1 something is missing or implausible; 2 bad input",
       [command] { return execute(*command); });
   add_file(*sub, "PROJECT", command->project, "project.json, or its directory")->required();
 }

@@ -157,7 +157,7 @@ struct CompareCommand {
   fs::path output;
   AllocationChoice allocation = {};
   HeadingRateChoice heading_rate_limit = {};
-  PlantChoice plant = {};
+  PlantChoice plant = {.checks_other = true};
   bool resume = false;     ///< continue from the output directory
   ShardChoice shard = {};  ///< as in `compare`
   InputNames names = {};

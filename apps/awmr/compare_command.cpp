@@ -4,24 +4,22 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <iterator>
 #include <memory>
 #include <set>
 
+#include "awmr/compare/compare_findings.h"
 #include "awmr/compare/resume.h"
 #include "awmr/compare/shard.h"
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/scenario_file.h"
-#include "awmr/simulate/validity.h"
 #include "commands.h"
 #include "gains_origin.h"
 #include "inputs.h"
-#include "judgement_words.h"
 #include "numbers.h"
 #include "paths.h"
 #include "progress.h"
@@ -72,6 +70,29 @@ Result<std::vector<NamedGains>> read_named_gains(const std::vector<fs::path>& pa
   return all;
 }
 
+/// Inputs of a comparison, with the options of the command line applied.
+struct ComparedInputs {
+  Model model;
+  std::vector<NamedGains> gains;
+  std::vector<Scenario> scenarios;
+  Tyres<double> tyres;
+  HeadingRateChoice rate;
+  std::vector<Finding> findings;
+};
+
+Result<ComparedInputs> read_inputs(const CompareCommand& command) {
+  ComparedInputs inputs;
+  AWMR_ASSIGN_OR_RETURN(inputs.model, read_model(command.model));
+  AWMR_ASSIGN_OR_RETURN(inputs.gains, read_named_gains(command.gains, inputs.model));
+  AWMR_ASSIGN_OR_RETURN(inputs.scenarios, read_each(command.scenarios, read_scenario));
+  choose(command.allocation, inputs.model, inputs.scenarios);
+  AWMR_ASSIGN_OR_RETURN(inputs.tyres, tyres_of(command.plant, inputs.findings));
+  AWMR_RETURN_IF_ERROR(choose(command.plant, inputs.tyres, inputs.scenarios));
+  inputs.rate = rate_to_compare_at(command.heading_rate_limit, inputs.model);
+  AWMR_RETURN_IF_ERROR(limit_heading_rate(inputs.rate, inputs.model, inputs.scenarios));
+  return inputs;
+}
+
 std::vector<fs::path> inputs_of(const CompareCommand& command) {
   std::vector<fs::path> paths{command.model};
   paths.insert(paths.end(), command.gains.begin(), command.gains.end());
@@ -80,16 +101,16 @@ std::vector<fs::path> inputs_of(const CompareCommand& command) {
   return paths;
 }
 
-Result<Provenance> provenance_of(const CompareCommand& command,
-                                 const std::vector<Scenario>& scenarios,
-                                 const HeadingRateChoice& rate) {
+Result<Provenance> provenance_of(const CompareCommand& command, const ComparedInputs& compared) {
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs,
                         input_files(inputs_of(command), command.names));
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   options.emplace_back("samples", std::to_string(command.compare.samples));
   options.emplace_back("seed", std::to_string(command.compare.seed));
-  for (auto& option : options_of_rate(rate)) options.push_back(std::move(option));
-  for (auto& option : options_of(command.plant, scenarios)) options.push_back(std::move(option));
+  for (auto& option : options_of_rate(compared.rate)) options.push_back(std::move(option));
+  for (auto& option : options_of(command.plant, compared.scenarios)) {
+    options.push_back(std::move(option));
+  }
   if (command.compare.break_even) options.emplace_back("break_even", "true");
   const Preferences& preferences = command.compare.preferences;
   if (!preferences.weights.empty()) {
@@ -106,14 +127,12 @@ Result<Provenance> provenance_of(const CompareCommand& command,
 }
 
 /// Runs the comparison with a progress bar until it ends or Ctrl-C is pressed.
-Result<Comparison> compare_until_interrupted(const Model& model,
-                                             const std::vector<NamedGains>& gains,
-                                             const std::vector<Scenario>& scenarios,
-                                             CompareOptions options) {
+Result<Comparison> compare_until_interrupted(const ComparedInputs& inputs, CompareOptions options) {
+  const StopOnInterrupt interrupt;
   Working bar("comparing");
   options.stop = &stop_requested;
   options.progress = [&bar](std::size_t done, std::size_t total) { bar(done, total); };
-  return compare(model, gains, scenarios, options);
+  return compare(inputs.model, inputs.gains, inputs.scenarios, options);
 }
 
 /// Name of the JSON file with the inputs and the results of comparison.csv.
@@ -144,11 +163,9 @@ Status write_comparison(const CompareCommand& command, const Comparison& compari
 void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
   const std::string file = (command.output / "comparison.csv").string();
   const std::string text =
-      command.shard
-          ? "stopped: a part of a comparison has to be run again as a whole\n"
-          : fmt::format(
-                "stopped: {} finished runs are in {}; the same command with --resume goes on\n",
-                comparison.rows.size(), file);
+      command.shard ? "stopped: run the whole part of the comparison again\n"
+                    : fmt::format("stopped: {} finished runs are in {}; continue with --resume\n",
+                                  comparison.rows.size(), file);
   std::fputs(text.c_str(), stderr);
   std::signal(SIGINT, SIG_DFL);
   std::raise(SIGINT);
@@ -165,11 +182,23 @@ Status read_texts(const Texts& texts, CompareCommand& command) {
   AWMR_ASSIGN_OR_RETURN(command.shard, shard_of(texts.shard));
   command.compare.shard = command.shard.value_or(Shard{});
   if (command.shard && command.compare.break_even) {
-    return input_error("--break-even", "needs a whole comparison: leave out --shard");
+    return input_error("--break-even", "cannot be combined with --shard");
   }
   AWMR_ASSIGN_OR_RETURN(command.compare.preferences,
                         preferences_of(texts.weights, texts.relevance));
   return {};
+}
+
+void add_samples(CLI::App& command, CompareOptions& options) {
+  command
+      .add_option("--samples", options.samples,
+                  "Random draws of parameters (from the model's covariance), noise and "
+                  "disturbances (default 0: nominal only)")
+      ->check(within(0, 1000000));
+  command.add_option("--seed", options.seed, "Seed of the draws (default 1)")
+      ->check(within<std::uint64_t>(0, kAnySeed));
+  command.add_option("--threads", options.threads, "0 (default): one per core")
+      ->check(within(0, 1024));
 }
 
 void add_preferences(CLI::App& command, Texts& texts) {
@@ -180,7 +209,7 @@ void add_preferences(CLI::App& command, Texts& texts) {
       "finish_time_s, speed_drop_mps, energy_mech and tyre_work, 0 for the others)");
   command
       .add_option("--relevance", texts.relevance,
-                  "Share of a metric, and of the score, below which a difference does not matter "
+                  "Relative difference of a metric or score below which modes are equivalent "
                   "(default 0.05)")
       ->check(within(0.0, 1.0));
 }
@@ -189,99 +218,67 @@ void add_preferences(CLI::App& command, Texts& texts) {
 std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
   if (rate != kMeasuredRate) return words_of_rate(rate);
   return fmt::format(
-      "headings are led at up to {:.3g} deg/s, as fast as yaw resistance was measured\n"
-      "(--heading-rate-limit {}: as the scenarios have them)\n",
+      "heading commands limited to {:.3g} deg/s, the highest yaw rate of the turning trials\n"
+      "(--heading-rate-limit {}: no limit but the scenarios' own)\n",
       *measured_yaw_rate_degps(model), kNoRate);
 }
 
-/// How much scrub the modes are compared with, or a warning where steering is charged with one that it does
-/// not have.
-void note_scrub(const Model& model, std::vector<Finding>& findings) {
-  if (model.yaw_by_sides_alone) {
-    findings.push_back(
-        {model.file, 0, Severity::kWarning, "turned-by-sides",
-         "yaw resistance was measured in turns by the sides' forces and holds the scrub of their "
-         "tyres, with which steering and combined are charged here, too: they are shown worse than "
-         "they are. Add steered turns to the turning table (awmr suggest says which)"});
-  }
-  if (!model.yaw_scrub || !(model.yaw_scrub->moment_m > 0.0)) return;
-  findings.push_back(
-      {model.file, 0, Severity::kNote, "scrub-simulated",
-       fmt::format("differential and combined turns on the model's plant meet the scrub that this "
-                   "vehicle's differential turns met, {:.3g} m (95 %: {:.3g} to {:.3g}), which the "
-                   "controller does not know; --break-even gives the scrub that ends each lead",
-                   model.yaw_scrub->moment_m, model.yaw_scrub->ci95_m.lo,
-                   model.yaw_scrub->ci95_m.hi)});
-}
-
-/// Adds all findings except the one on the fastest turn. They are the same for a shard and the
-/// whole.
-Status add_findings(const CompareCommand& command, const Comparison& comparison, const Model& model,
-                    const std::vector<Scenario>& scenarios, std::vector<Finding>& findings) {
+/// The findings that a part of the comparison has, too: of the inputs, then of the comparison.
+Result<std::vector<Finding>> findings_of(const CompareCommand& command,
+                                         const ComparedInputs& inputs,
+                                         const Comparison& comparison) {
+  std::vector<Finding> findings = inputs.findings;
   for (const fs::path& gains : command.gains) {
     AWMR_RETURN_IF_ERROR(note_other_model(gains, command.model, findings));
   }
-  for (const Scenario& scenario : scenarios) {
-    std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
-    if (auto finding = tyres_differ(scenario, model)) findings.push_back(*finding);
-  }
-  const int samples = command.shard ? command.compare.samples : comparison.whole_samples - 1;
-  if (samples >= 2 && samples < kFewSamples) {
-    findings.push_back(
-        {"", 0, Severity::kWarning, "few-samples",
-         fmt::format("intervals of {} samples hold the truth in {:.0f} % of cases at "
-                     "the most, not in 95: give {} samples or more",
-                     samples, 100.0 * (1.0 - std::pow(0.5, samples - 1)), kFewSamples)});
-  }
-  if (auto finding = not_led(command.heading_rate_limit, model)) findings.push_back(*finding);
-  note_scrub(model, findings);
-  return {};
+  std::ranges::move(compare_findings(inputs.model, inputs.scenarios, command.compare, comparison,
+                                     command.heading_rate_limit),
+                    std::back_inserter(findings));
+  return findings;
 }
 
-Outcome outcome_of_part(const CompareCommand& command, const Comparison& part,
-                        std::vector<Finding> findings) {
-  return {.summary = fmt::format("part {} of {}: {} runs\nwrote {} and comparison.csv\n",
-                                 command.compare.shard.index, command.compare.shard.count,
-                                 part.rows.size(), (command.output / json_of(command)).string()),
-          .findings = std::move(findings)};
-}
-
-Outcome outcome_of_whole(const CompareCommand& command, const Comparison& comparison,
-                         const Model& model, const std::vector<Scenario>& scenarios,
-                         const HeadingRateChoice& rate, const Provenance& provenance,
-                         std::vector<Finding> more) {
-  std::string table = comparison_table(comparison, command.compare) + rate_in_words(rate, model);
-  for (const auto& [name, text] : options_of(command.plant, scenarios)) {
+/// Table of a whole comparison, with the settings that are not in it.
+std::string table_of(const CompareCommand& command, const ComparedInputs& inputs,
+                     const Comparison& comparison) {
+  std::string table =
+      comparison_table(comparison, command.compare) + rate_in_words(inputs.rate, inputs.model);
+  for (const auto& [name, text] : options_of(command.plant, inputs.scenarios)) {
     table += fmt::format("{}: {}\n", name, text);
   }
-  std::vector<Finding> findings = extrapolation_findings(comparison, provenance);
-  std::ranges::move(more, std::back_inserter(findings));
-  return {.summary = table + fmt::format("wrote {} and comparison.csv\n",
-                                         (command.output / json_of(command)).string()),
-          .brief = table,
-          .findings = std::move(findings)};
+  return table;
+}
+
+Result<Outcome> outcome_of(const CompareCommand& command, const ComparedInputs& inputs,
+                           const Comparison& comparison, const Provenance& provenance) {
+  const fs::path json = command.output / json_of(command);
+  Outcome outcome{.written = {json, command.output / "comparison.csv"}};
+  const std::string wrote = fmt::format("wrote {} and comparison.csv\n", json.string());
+  if (command.shard) {
+    outcome.summary = fmt::format("part {} of {}: {} runs\n", command.shard->index,
+                                  command.shard->count, comparison.rows.size()) +
+                      wrote;
+  } else {
+    outcome.brief = table_of(command, inputs, comparison);
+    outcome.summary = outcome.brief + wrote;
+    outcome.findings = extrapolation_findings(comparison, provenance);
+  }
+  AWMR_ASSIGN_OR_RETURN(std::vector<Finding> findings, findings_of(command, inputs, comparison));
+  std::ranges::move(findings, std::back_inserter(outcome.findings));
+  outcome.document = document_of(command, comparison, provenance);
+  put_findings_into_document(outcome);
+  return outcome;
 }
 
 }  // namespace
 
 Result<Outcome> execute(const CompareCommand& command) {
-  AWMR_ASSIGN_OR_RETURN(Model model, read_model(command.model));
-  AWMR_ASSIGN_OR_RETURN(const std::vector<NamedGains> gains,
-                        read_named_gains(command.gains, model));
-  AWMR_ASSIGN_OR_RETURN(std::vector<Scenario> scenarios,
-                        read_each(command.scenarios, read_scenario));
-  choose(command.allocation, model, scenarios);
-  std::vector<Finding> findings;
-  AWMR_ASSIGN_OR_RETURN(const Tyres<double> tyres, tyres_of(command.plant, findings));
-  AWMR_RETURN_IF_ERROR(choose(command.plant, tyres, scenarios));
-  const HeadingRateChoice rate = rate_to_compare_at(command.heading_rate_limit, model);
-  AWMR_RETURN_IF_ERROR(limit_heading_rate(rate, model, scenarios));
-  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, scenarios, rate));
+  AWMR_ASSIGN_OR_RETURN(const ComparedInputs inputs, read_inputs(command));
+  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, inputs));
   AWMR_RETURN_IF_ERROR(
       check_outputs(command.output, {"comparison.csv", json_of(command)}, inputs_of(command)));
   CompareOptions options = command.compare;
-  options.other_settings = !command.plant.kind;
-  options.tyres = tyres;
+  options.other_settings = command.plant.runs_other();
+  options.tyres = inputs.tyres;
   if (command.resume && command.shard) {
     if (is_finished_shard(command.output, options, provenance)) {
       return finished_part(*command.shard, command.output);
@@ -289,18 +286,11 @@ Result<Outcome> execute(const CompareCommand& command) {
   } else if (command.resume) {
     AWMR_ASSIGN_OR_RETURN(options.finished, read_finished(command.output, provenance));
   }
-  const StopOnInterrupt interrupt;
   AWMR_ASSIGN_OR_RETURN(const Comparison comparison,
-                        compare_until_interrupted(model, gains, scenarios, std::move(options)));
-  AWMR_RETURN_IF_ERROR(add_findings(command, comparison, model, scenarios, findings));
-  Outcome outcome = command.shard ? outcome_of_part(command, comparison, std::move(findings))
-                                  : outcome_of_whole(command, comparison, model, scenarios, rate,
-                                                     provenance, std::move(findings));
-  outcome.document = document_of(command, comparison, provenance);
-  put_findings_into_document(outcome);
+                        compare_until_interrupted(inputs, std::move(options)));
+  AWMR_ASSIGN_OR_RETURN(Outcome outcome, outcome_of(command, inputs, comparison, provenance));
   AWMR_RETURN_IF_ERROR(write_comparison(command, comparison, outcome.document));
   if (comparison.stopped) end_interrupted(command, comparison);
-  outcome.written = {command.output / json_of(command), command.output / "comparison.csv"};
   return outcome;
 }
 
@@ -321,26 +311,17 @@ void add_compare(CLI::App& app, Session& session) {
            "gains.json from tune; several to compare them with each other")
       ->required();
   add_file(*sub, "--scenario", command->scenarios, "scenario.json, one or more")->required();
-  sub->add_option("--samples", command->compare.samples,
-                  "Draws of the parameters from the model's covariance, and of noise and "
-                  "disturbances (default 0: nominal only)")
-      ->check(within(0, 1000000));
-  sub->add_option("--seed", command->compare.seed, "Seed of the draws (default 1)")
-      ->check(within<std::uint64_t>(0, kAnySeed));
-  sub->add_option("--threads", command->compare.threads, "0 (default): one per core")
-      ->check(within(0, 1024));
+  add_samples(*sub, command->compare);
   sub->add_flag("--resume", command->resume,
-                "Go on from what lies in the directory: after Ctrl-C, or with more samples; with "
-                "--shard, leave a part that is finished as it is");
+                "Continue from the results in the directory, after Ctrl-C or with more samples; "
+                "with --shard, skip a finished part");
   add_preferences(*sub, *texts);
   sub->add_flag(
       "--break-even", command->compare.break_even,
-      "Also how much more yaw resistance turns by the sides' forces could meet before a mode "
-      "that steers is better");
+      "Also compute the tyre scrub of differential turns at which a steering mode becomes better");
   add_shard(*sub, texts->shard);
   add_allocation(*sub, command->allocation);
-  add_heading_rate_limit(*sub, command->heading_rate_limit,
-                         "measured, where the model says how fast that was");
+  add_heading_rate_limit(*sub, command->heading_rate_limit, "measured, if the model has that rate");
   add_plant_or_both(*sub, command->plant);
   add_output_directory(*sub, command->output, "Directory for comparison.csv and comparison.json");
 }

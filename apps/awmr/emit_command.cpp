@@ -53,8 +53,7 @@ std::vector<fs::path> paths_of(const EmitCommand& command, const std::vector<Emi
 
 std::string table_line(const char* name, const EmittedTable& table) {
   return fmt::format(
-      "  {} table: {} lines up to {:g}, worst error {:.1e} below {:g}, {:.1e} of it "
-      "above\n",
+      "  {} table: {} lines up to {:g}, largest error {:.1e} below {:g}, relative {:.1e} above\n",
       name, table.lines.size(), table.top_speed, table.worst_error, table.split,
       table.worst_relative_error);
 }
@@ -194,8 +193,7 @@ void add_emit(CLI::App& app, Session& session) {
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--gains", command->gains, "gains.json from tune")->required();
   sub->add_flag("--header-only", command->header_only, "awmr_params.h alone, without the library");
-  sub->add_flag("--as-is", command->as_is,
-                "Take the vehicle's sizes as they are, where they contradict each other");
+  sub->add_flag("--as-is", command->as_is, "Accept contradictory vehicle sizes");
   add_emit_options(*sub, command->emit);
   add_output_directory(*sub, command->output, "Directory for awmr_params.h and the library");
 }

@@ -12,17 +12,14 @@
 
 namespace awmr::cli {
 
-/// Key of the choice among the options recorded in an output.
-inline constexpr const char* kRateName = "heading_rate_limit";
-
 /// `by_default`: text that describes the behaviour without the option.
 inline void add_heading_rate_limit(CLI::App& command, HeadingRateChoice& choice,
                                    const char* by_default) {
   command
       .add_option("--heading-rate-limit", choice,
-                  fmt::format("deg/s up to which a heading may be led to in every scenario that is "
-                              "not in open loop; 'measured': as fast as yaw resistance was; "
-                              "'none': by the scenarios' own shaping alone (default: {})",
+                  fmt::format("Rate limit of heading commands in closed-loop scenarios, deg/s; "
+                              "'measured': the highest yaw rate of the turning trials; 'none': "
+                              "only the scenarios' own shaping (default: {})",
                               by_default))
       ->check(CLI::Validator(fault_of_rate, "measured, none or deg/s", ""));
 }
@@ -38,8 +35,10 @@ inline std::vector<std::pair<std::string, std::string>> options_of_rate(
 /// define it.
 inline std::string words_of_rate(const HeadingRateChoice& choice) {
   if (choice == kNoRate) return {};
-  if (choice == kMeasuredRate) return "headings are led as fast as yaw resistance was measured\n";
-  return fmt::format("headings are led at up to {} deg/s\n", choice);
+  if (choice == kMeasuredRate)
+    return "heading commands limited to the highest yaw rate of the "
+           "turning trials\n";
+  return fmt::format("heading commands limited to {} deg/s\n", choice);
 }
 
 }  // namespace awmr::cli

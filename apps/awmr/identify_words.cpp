@@ -27,7 +27,8 @@ Result<IdentifyCommand> command_of(const IdentifyWords& words) {
 }
 
 void add_table_files(CLI::App& sub, IdentifyCommand& command) {
-  add_file(sub, "--vehicle", command.vehicle, "vehicle.json: what is known beforehand")->required();
+  add_file(sub, "--vehicle", command.vehicle, "vehicle.json: known properties of the vehicle")
+      ->required();
   add_file(sub, "--surge", command.surge, "CSV of runs at constant thrust, wheels straight");
   add_file(
       sub, "--coastdown", command.coastdowns,
@@ -38,12 +39,12 @@ void add_table_files(CLI::App& sub, IdentifyCommand& command) {
 
 void add_fit_options(CLI::App& sub, IdentifyWords& words) {
   sub.add_option("--method", words.method,
-                 "Which estimator fills the main values: log-linear (default for tables), "
-                 "nonlinear, trajectory (default with --log)")
+                 "Estimator for the main values: log-linear (default for tables), nonlinear, "
+                 "trajectory (default with --log)")
       ->check(one_of(names_in(kMethodNames)));
   sub.add_option("--noise", words.noise,
-                 "Where the nonlinear fit puts the error: force, speed or time (default: on what "
-                 "was measured)")
+                 "Quantity with the error in the nonlinear fit: force, speed or time (default: the "
+                 "measured one)")
       ->check(one_of(names_in(kErrorModelNames)));
   sub.add_option(
          "--family", words.families,
@@ -68,12 +69,12 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
                  "Random starts of a fit of logs without tables (default 6)")
       ->check(within(0, 1000));
   sub.add_option("--bootstrap", command.identify.bootstrap,
-                 "Shape of the intervals of a fit of logs from this many block bootstrap resamples")
+                 "Number of block bootstrap resamples for the shape of the intervals of a log fit")
       ->check(within(0, 1000000));
   sub.add_option("--time-limit", command.identify.time_limit_s,
-                 "Seconds after which the searches in logs stop; what has not converged by then is "
-                 "refused, and where families were not compared the intervals are withdrawn; the "
-                 "result then depends on the machine (default: none)")
+                 "Time limit for log fits, s (default: none). Fits that have not converged are "
+                 "refused; without the comparison of families the intervals are withdrawn. The "
+                 "result then depends on the machine")
       ->check(within(0.1, 1e6));
   sub.add_flag("--cross-validate", command.identify.cross_validate,
                "Leave each log out once and predict it from the others");
@@ -85,10 +86,8 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
 }
 
 void add_reading_options(CLI::App& sub, IdentifyWords& words) {
-  sub.add_flag(
-      "--as-is", words.command.trials.as_is,
-      "Take trials whose units, signs or sides contradict themselves as they are, and keep "
-      "gross outliers");
+  sub.add_flag("--as-is", words.command.trials.as_is,
+               "Accept trials with contradictory units, signs or sides, and keep gross outliers");
   sub.add_option("--prefer", words.prefer,
                  "Which of two disagreeing values to use: printed (default) or timed")
       ->check(one_of(names_in(kPreferenceNames)));

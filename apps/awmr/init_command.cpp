@@ -54,7 +54,7 @@ Result<std::vector<OutputFile>> files_to_write(const InitCommand& command) {
     }
     if (type != fs::file_type::not_found) {
       faults.push_back(
-          {path.string(), "is there already; take another directory, or move it away"});
+          {path.string(), "already exists; choose another directory, or move it away"});
     }
     files.push_back(
         {path, command.example ? std::string(file.bytes) : for_drive(file.bytes, command.drive)});

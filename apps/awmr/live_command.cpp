@@ -118,7 +118,7 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
   };
   std::optional<LiveEnd> end;
   while (!end) {
-    // Data that arrived during an update count, whatever ends the recording.
+    // Data that arrived during an update count, for every end of the recording.
     const std::string bytes = stream.take(std::chrono::milliseconds(100));
     followed.recording.add(bytes);
     if (!bytes.empty()) last_byte = Clock::now();
@@ -168,6 +168,35 @@ Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
   return outcome;
 }
 
+void add_source(CLI::App& sub, LiveCommand& live) {
+  add_file(sub, "--port", live.source.port, "Serial port of the recorder, such as /dev/ttyUSB0");
+  sub.add_option("--baud", live.source.baud, "Of --port (default 115200)")
+      ->check(within(300U, 4000000U));
+  add_file(sub, "--log", live.source.log,
+           "CSV of the driving log as it is written; - for standard input");
+  add_file(sub, "--record", live.record,
+           "CSV to write: all that came (default: the model's name with .csv, where there is none "
+           "yet)");
+}
+
+void add_updates_and_end(CLI::App& sub, LiveCommand& live) {
+  sub.add_option("--every", live.every_s,
+                 "Seconds between two updates (default 5; 1 in the first 20 s)")
+      ->check(within(0.05, 3600.0));
+  sub.add_option("--budget", live.budget_s, "Time limit of a fit during the drive, s (default 5)")
+      ->check(within(0.1, 3600.0));
+  sub.add_option("--enough", live.enough,
+                 "Sufficient relative half width of the 95 % interval of every requested "
+                 "parameter (absolute for exponents; default 0.1)")
+      ->check(within(1e-6, 1.0));
+  sub.add_flag("--until-enough", live.until_enough,
+               "End when --enough is reached; exit code 1 if it is not reached");
+  sub.add_option("--duration", live.duration_s, "End after this time, s (default: never)")
+      ->check(within(0.1, 1e6));
+  sub.add_option("--idle", live.idle_s, "End after this time without input, s (default: never)")
+      ->check(within(0.1, 1e6));
+}
+
 }  // namespace
 
 Result<Outcome> execute(const LiveCommand& asked) {
@@ -205,41 +234,18 @@ void add_live(CLI::App& app, Session& session) {
     LiveCommand live;
   };
   auto words = std::make_shared<Words>();
-  CLI::App* sub = add_command(
-      app, session, "live", "Record a drive, check it at once and fit it while it goes on",
-      "awmr live --vehicle configs/paper/vehicle.json --log - -o live.json "
-      "< datasets/synthetic/drive_1.csv",
-      [words]() -> Result<Outcome> {
-        LiveCommand command = words->live;
-        AWMR_ASSIGN_OR_RETURN(command.identify, command_of(words->identify));
-        return execute(command);
-      });
-  LiveCommand& live = words->live;
+  CLI::App* sub =
+      add_command(app, session, "live", "Record a drive, and check and fit it while driving",
+                  "awmr live --vehicle configs/paper/vehicle.json --log - -o live.json "
+                  "< datasets/synthetic/drive_1.csv",
+                  [words]() -> Result<Outcome> {
+                    LiveCommand command = words->live;
+                    AWMR_ASSIGN_OR_RETURN(command.identify, command_of(words->identify));
+                    return execute(command);
+                  });
   add_table_files(*sub, words->identify.command);
-  add_file(*sub, "--port", live.source.port, "Serial port of the recorder, such as /dev/ttyUSB0");
-  sub->add_option("--baud", live.source.baud, "Of --port (default 115200)")
-      ->check(within(300U, 4000000U));
-  add_file(*sub, "--log", live.source.log,
-           "CSV of the driving log as it is written; - for standard input");
-  add_file(*sub, "--record", live.record,
-           "CSV to write: all that came (default: the model's name with .csv, where there is none "
-           "yet)");
-  sub->add_option("--every", live.every_s,
-                  "Seconds between two looks at the recording (default 5; 1 in the first 20 s)")
-      ->check(within(0.05, 3600.0));
-  sub->add_option("--budget", live.budget_s,
-                  "Seconds that a fit may search while the drive goes on (default 5)")
-      ->check(within(0.1, 3600.0));
-  sub->add_option("--enough", live.enough,
-                  "Half of the 95 % interval over the value (of an exponent itself) that is enough "
-                  "for every requested parameter (default 0.1)")
-      ->check(within(1e-6, 1.0));
-  sub->add_flag("--until-enough", live.until_enough,
-                "End there; exit code 1 where it is not reached");
-  sub->add_option("--duration", live.duration_s, "End after this time, s (default: never)")
-      ->check(within(0.1, 1e6));
-  sub->add_option("--idle", live.idle_s, "End after this time without input, s (default: never)")
-      ->check(within(0.1, 1e6));
+  add_source(*sub, words->live);
+  add_updates_and_end(*sub, words->live);
   add_fit_options(*sub, words->identify);
   add_log_options(*sub, words->identify.command);
   add_reading_options(*sub, words->identify);

@@ -86,10 +86,10 @@ std::string verdict_text(const LiveUpdate& update) {
   if (is_enough(precision_of(*update.model, update.asked), update.enough)) {
     return fmt::format("enough: every half interval is within {:g} %", 100.0 * update.enough);
   }
-  const char* const late =
+  const char* const delay_note =
       update.out_of_time ? " (the last fit did not end within --budget: this is the one before)"
                          : "";
-  return (update.next.empty() ? "drive on" : "next: " + update.next) + late;
+  return (update.next.empty() ? "drive on" : "next: " + update.next) + delay_note;
 }
 
 void LiveScreen::show(const LiveUpdate& update) {

@@ -98,8 +98,8 @@ std::string summary_of(const MapCommand& command, const std::vector<ColumnGuess>
   }
   const std::vector<std::string> open = open_columns(likely_columns(guesses), command.trial);
   for (const std::string& name : open) {
-    text +=
-        fmt::format("  open   {:<17} nothing is sure enough: --column {}=EXPRESSION\n", name, name);
+    text += fmt::format("  open   {:<17} no column is a good match; give --column {}=EXPRESSION\n",
+                        name, name);
   }
   if (command.output) {
     text += fmt::format("wrote {}: read it, correct it, give it back as --columns-file\n",
@@ -129,10 +129,10 @@ Result<Outcome> execute(const MapCommand& command) {
 
 void add_map(CLI::App& app, Session& session) {
   auto command = std::make_shared<MapCommand>();
-  CLI::App* sub = add_command(
-      app, session, "map", "Guess what the columns of a log or a table are, each with the reason",
-      "awmr map datasets/synthetic/drive_1.csv -o map.json",
-      [command] { return execute(*command); });
+  CLI::App* sub =
+      add_command(app, session, "map", "Suggest a column mapping for a log or table, with reasons",
+                  "awmr map datasets/synthetic/drive_1.csv -o map.json",
+                  [command] { return execute(*command); });
   add_file(*sub, "FILE", command->file,
            "A log: CSV, ULog, DataFlash, SysId's JSON, a ROS 2 bag, or a directory of tables")
       ->required();

@@ -13,8 +13,8 @@
 #include "awmr/model/gains_file.h"
 #include "awmr/tune/tune_shard.h"
 #include "commands.h"
-#include "judgement_words.h"
 #include "paths.h"
+#include "tune_text.h"
 
 namespace awmr::cli {
 namespace {
@@ -33,10 +33,8 @@ Result<Outcome> merge_comparison(const MergeCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Merged merged, merge_shards(command.parts));
   AWMR_RETURN_IF_ERROR(check_outputs(command.output, {"comparison.csv", "comparison.json"},
                                      files_of(command, "comparison.csv")));
-  std::vector<Finding> findings = extrapolation_findings(merged.comparison, merged.provenance);
-  findings.insert(findings.end(), merged.findings.begin(), merged.findings.end());
   const std::string document = with_findings(
-      comparison_text(merged.comparison, merged.options, merged.provenance), findings);
+      comparison_text(merged.comparison, merged.options, merged.provenance), merged.findings);
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   const OutputFile files[] = {
       {command.output / "comparison.csv", comparison_csv(merged.comparison), check_comparison_csv},
@@ -50,7 +48,7 @@ Result<Outcome> merge_comparison(const MergeCommand& command) {
   return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
                                                 (command.output / "comparison.json").string()),
                  .brief = table,
-                 .findings = std::move(findings),
+                 .findings = merged.findings,
                  .document = document,
                  .written = {files[1].path, files[0].path}};
 }
@@ -75,12 +73,8 @@ Result<Outcome> merge_tuning(const MergeCommand& command) {
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   Outcome outcome{
       .summary = judged_table(merged.judged, merged.judged_by_scenario) + goals_text(merged.goals),
-      .findings = goal_findings(merged.goals),
+      .findings = merged.findings,
       .document = merged.gains_text};
-  for (const auto& more :
-       {unsettled_findings(merged.judged, merged.judged_by_scenario), merged.findings}) {
-    outcome.findings.insert(outcome.findings.end(), more.begin(), more.end());
-  }
   AWMR_RETURN_IF_ERROR(write_document(command.output / "gains.json", outcome, check_gains_text));
   return outcome;
 }

@@ -52,7 +52,7 @@ enum class Injection {
   kGpsEmpty,           ///< sentences with empty fields
   kGpsDamaged,         ///< sentences with a wrong checksum
   kGpsRepeated,        ///< the same sentence
-  kGpsLate,            ///< sentences 2 s late
+  kGpsLate,            ///< sentences with 2 s latency
   kGpsJump,            ///< off by 20 m
   kGpsSpeedZero,       ///< a speed that is stuck at 0
   kGpsPositionFrozen,  ///< the same position, with a speed

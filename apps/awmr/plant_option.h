@@ -25,6 +25,8 @@ struct PlantChoice {
   std::optional<PlantKind> kind = {};  ///< overrides the scenarios'; empty: no override
   /// validation.json whose tyres override the scenarios' and the defaults.
   std::optional<std::filesystem::path> tyres_file = {};
+  bool checks_other = false;  ///< of `compare`: without a `kind`, the other plant runs as well
+  bool runs_other() const { return checks_other && !kind; }
 };
 
 inline constexpr const char* kPlantOption = "--plant";
@@ -42,10 +44,10 @@ inline void add_plant_of(CLI::App& command, PlantChoice& choice, std::vector<std
   };
   command
       .add_option_function<std::string>(kPlantOption, set,
-                                        "What moves in every scenario: the model's 3-DOF "
-                                        "equations, or its body on four tyres with "
-                                        "a circle of friction, those of the scenario's tyres or "
-                                        "their defaults (default: " +
+                                        "Simulated plant in every scenario: the model's 3-DOF "
+                                        "equations, or the body on four tyres with a friction "
+                                        "circle, with the scenario's tyres or their defaults "
+                                        "(default: " +
                                             by_default + ")")
       ->check(one_of(std::move(names)));
   add_file(command, kTyresOption, choice.tyres_file,
@@ -57,13 +59,13 @@ inline void add_plant(CLI::App& command, PlantChoice& choice) {
                "four-wheel where a scenario has tyres, else model");
 }
 
-/// The same of `compare`, which without a choice checks its verdicts on the other plant.
+/// --plant of `compare`, whose default checks each verdict on the other plant.
 inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
   std::vector<std::string> names = names_in(kPlantKindNames);
   names.emplace_back(kBothPlants);
   add_plant_of(command, choice, std::move(names),
-               "both: four-wheel where a scenario has tyres, else model, and who is first on the "
-               "other one and with slower and faster gains");
+               "both: four-wheel where a scenario has tyres, else model, and the ranking on the "
+               "other plant and with slower and faster gains");
 }
 
 /// The tyres of the file; without one the defaults. Adds how well they predict (`tyres-simulated`).
@@ -83,7 +85,7 @@ inline Result<Tyres<double>> tyres_of(const PlantChoice& choice, std::vector<Fin
 }
 
 /// Applies the choice to every scenario. Errors (input): a scenario uses a feature that the
-/// four-wheel plant does not support.
+/// four-wheel plant does not support; no run has the tyres of the file.
 inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
                      std::span<Scenario> scenarios) {
   std::vector<Fault> faults;
@@ -99,6 +101,14 @@ inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
     }
   }
   if (!faults.empty()) return input_errors(std::move(faults));
+  const bool has_tyres =
+      std::ranges::any_of(scenarios, [](const Scenario& s) { return s.tyres.has_value(); });
+  if (choice.tyres_file && !has_tyres && !choice.runs_other()) {
+    return input_error(kTyresOption,
+                       fmt::format("nothing runs on the four-wheel plant: leave it out, or give "
+                                   "{} {}",
+                                   kPlantOption, name_in(kPlantKindNames, PlantKind::kFourWheel)));
+  }
   return {};
 }
 

@@ -11,7 +11,7 @@
 
 namespace awmr::cli {
 
-/// Where progress is displayed from now on.
+/// Sets the display of progress.
 struct ProgressManner {
   bool on_terminal = true;  ///< redrawn lines on a terminal; not with `--quiet`
   bool in_lines = true;     ///< plain lines of `live` without a terminal; not with `--json` either
@@ -24,7 +24,7 @@ bool tells_progress_in_lines();
 /// A line on stderr, but not with `--quiet` or `--json`: why work that begins now takes long.
 void print_notice(std::string_view text);
 
-/// Of the terminal; longer lines would wrap, and could not be drawn again.
+/// Width of the terminal; longer lines would wrap and could not be redrawn.
 std::size_t terminal_columns();
 
 /// During its lifetime the terminal's last line shows the current work and the elapsed time. Once

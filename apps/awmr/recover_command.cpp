@@ -131,10 +131,10 @@ void add_estimator(CLI::App& sub, RecoverWords& words) {
   sub.add_option("--noise", words.noise, "Its noise model, as in identify")
       ->check(one_of(names_in(kErrorModelNames)));
   sub.add_option("--error", words.error,
-                 "Where the simulated error of table rows lies: log-force, force, speed or time "
-                 "(default: where the estimator assumes it)")
+                 "Quantity with the simulated error of table rows: log-force, force, speed or time "
+                 "(default: as the estimator assumes)")
       ->check(one_of(names_in(kErrors)));
-  sub.add_option("--fit", words.asked, "Parameters asked for, as in identify")->delimiter(',');
+  sub.add_option("--fit", words.asked, "Parameters to fit, as in identify")->delimiter(',');
   sub.add_flag("--joint", words.command.recover.identify.joint, "As in identify");
 }
 
@@ -184,7 +184,7 @@ void add_recover(CLI::App& app, Session& session) {
   auto* output = add_file(*sub, "-o,--output", words->command.output,
                           "recover.json to write; with --shard, the directory of the part");
   auto* shard = add_shard(*sub, words->shard)->needs(output);
-  sub->add_flag("--resume", words->command.resume, "Leave a part that is finished as it is")
+  sub->add_flag("--resume", words->command.resume, "Skip a part that is already finished")
       ->needs(shard);
 }
 

@@ -5,17 +5,9 @@
 #include <set>
 
 #include "awmr/core/file.h"
-#include "awmr/core/json.h"
-#include "awmr/core/json_document.h"
 #include "awmr/core/option_text.h"
-#include "awmr/emit/manifest.h"
-#include "awmr/model/gains_file.h"
-#include "awmr/model/model_file.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/model/vehicle_file.h"
-#include "awmr/report/report.h"
-#include "awmr/simulate/run_side.h"
-#include "awmr/simulate/run_table.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/trials/load.h"
 #include "awmr/tune/tune_file.h"
@@ -23,53 +15,10 @@
 #include "json_output.h"
 #include "paths.h"
 #include "project.h"
+#include "run_files.h"
 
 namespace awmr::cli {
 namespace {
-
-constexpr const char* kLibrary = "firmware";
-
-std::string run_name(const fs::path& scenario, YawMode mode, const char* gains) {
-  return fmt::format("run_{}_{}_{}.csv", scenario.stem().string(), name_of(mode), gains);
-}
-
-std::string scenario_name(const fs::path& scenario) {
-  return fmt::format("scenario_{}.json", scenario.stem().string());
-}
-
-/// Writes the data of the report: every scenario, and its runs in every mode with the tuned and
-/// with the paper's gains.
-Result<std::vector<fs::path>> write_runs(const Project& project, const InputNames& names,
-                                         const fs::path& directory) {
-  std::vector<fs::path> written;
-  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(directory / "model.json"));
-  AWMR_ASSIGN_OR_RETURN(const Gains<double> tuned, read_gains(directory / "gains.json"));
-  const std::pair<const char*, Gains<double>> sets[] = {{"tuned", tuned}, {"paper", kPaperGains}};
-  for (const fs::path& path : project.scenarios) {
-    AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(path));
-    AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(path));
-    written.push_back(directory / scenario_name(path));
-    AWMR_RETURN_IF_ERROR(write_file(written.back(), text, check_json_text));
-    for (const YawMode mode : yaw_modes(model.vehicle)) {
-      for (const auto& [name, gains] : sets) {
-        AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, mode));
-        std::vector<fs::path> paths{directory / "model.json", path};
-        if (name == sets[0].first) paths.push_back(directory / "gains.json");
-        AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths, names));
-        const Provenance provenance{
-            "simulate", {{"mode", std::string(name_of(mode))}, {"gains", name}}, std::move(inputs)};
-        const fs::path csv = directory / run_name(path, mode, name);
-        const std::string text_of_run = run_csv(run, scenario);
-        const OutputFile files[] = {
-            {csv, text_of_run, check_run_text},
-            {run_side_path(csv), run_side_text(text_of_run, provenance, "", {}), check_json_text}};
-        AWMR_RETURN_IF_ERROR(write_files(files));
-        for (const OutputFile& file : files) written.push_back(file.path);
-      }
-    }
-  }
-  return written;
-}
 
 /// Combined outcome of the steps, and the document of each under the name of its file.
 struct Steps {
@@ -131,48 +80,10 @@ std::vector<fs::path> inputs_of(const RunCommand& command, const Project& projec
   return inputs;
 }
 
-std::vector<std::string> outputs_of(const Project& project) {
-  std::vector<std::string> outputs{"model.json",    "gains.json",     "validation.json",
-                                   "awmr_params.h", "comparison.csv", "comparison.json",
-                                   "report.html"};
-  for (const fs::path& path : project.scenarios) {
-    outputs.push_back(scenario_name(path));
-    for (const YawMode mode : kYawModes) {
-      for (const char* gains : {"tuned", "paper"}) {
-        const std::string run = run_name(path, mode, gains);
-        outputs.push_back(run);
-        outputs.push_back(run_side_path(run).string());
-      }
-    }
-  }
-  return outputs;
-}
-
 template <class T>
 void add_faults(const Result<T>& read, std::vector<Fault>& faults) {
   if (read) return;
   faults.insert(faults.end(), read.error().faults.begin(), read.error().faults.end());
-}
-
-/// Errors (input): each file that run would overwrite and that no awmr command wrote. Results name
-/// their command; emitted files are listed in their manifest.
-Status check_own_results(const fs::path& directory) {
-  std::vector<Fault> faults;
-  for (const char* name : {"model.json", "gains.json", "validation.json", "comparison.json"}) {
-    const fs::path path = directory / name;
-    AWMR_ASSIGN_OR_RETURN(const bool exists, regular_file_exists(path));
-    if (!exists) continue;
-    const auto json = read_json_file(path);
-    if (json && json->is_object() && json->contains("command")) continue;
-    faults.push_back({path.string(),
-                      "is not a result that awmr wrote, and run would replace it. Choose another "
-                      "directory, or move the file away"});
-  }
-  add_faults(check_report_page(directory / "report.html"), faults);
-  add_faults(check_replaceable(directory, {{"awmr_params.h", ""}}), faults);
-  add_faults(check_replaceable(directory / kLibrary, library_outline()), faults);
-  if (!faults.empty()) return input_errors(std::move(faults));
-  return {};
 }
 
 Result<Trials> read_trials(const Project& project) {
@@ -215,7 +126,7 @@ Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Pr
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   std::vector<fs::path> inputs = inputs_of(command, project, tune);
-  AWMR_RETURN_IF_ERROR(cli::check_outputs(command.output, outputs_of(project), inputs));
+  AWMR_RETURN_IF_ERROR(cli::check_outputs(command.output, run_outputs(project), inputs));
   AWMR_RETURN_IF_ERROR(check_own_results(command.output));
   return inputs;
 }

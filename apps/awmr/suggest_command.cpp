@@ -34,8 +34,8 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
   if (!command.gains && !command.scenario) return {};
   if (!command.gains || !command.scenario) {
     return input_error("--gains",
-                       "--gains and --scenario go together: they are the closed loop "
-                       "whose metric is to become surer");
+                       "--gains and --scenario go together: they define the closed loop of the "
+                       "metric");
   }
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_RETURN_IF_ERROR(check_mode(model.vehicle, command.mode));
@@ -50,8 +50,7 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
     if (!(of_own.*metric.value)) {
       if (command.parameter != metric.name) continue;
       return input_error("--parameter",
-                         fmt::format("the run of {} in {} has no {}: there is nothing to become "
-                                     "surer of",
+                         fmt::format("the run of {} in {} has no {}; choose another parameter",
                                      scenario.name, name_of(command.mode), metric.name));
     }
     options.metrics.push_back(
@@ -113,14 +112,19 @@ void add_suggest(CLI::App& app, Session& session) {
   SuggestCommand& command = *held;
   add_file(*sub, "--model", command.model, "model.json from identify")->required();
   sub->add_option("--parameter", command.parameter,
-                  "What is to become surer: a parameter, or with --gains and --scenario one of "
-                  "heading_iae_degs, overshoot_deg, speed_drop_mps (default: all, A-optimal)");
+                  "Parameter to improve, or with --gains and --scenario one of the metrics "
+                  "heading_iae_degs, overshoot_deg, speed_drop_mps (default: all parameters, "
+                  "A-optimal)");
   add_file(*sub, "--gains", command.gains, "gains.json of the closed loop");
   add_file(*sub, "--scenario", command.scenario, "scenario.json of the closed loop");
-  add_choice(*sub, "--mode", command.mode, kYawModeNames, "Of the scenario (default combined)");
+  add_choice(*sub, "--mode", command.mode, kYawModeNames,
+             "Yaw-control mode of the scenario "
+             "(default combined)");
   sub->add_option("--repeats", command.repeats, "Runs of each trial (default 3)")
       ->check(within(1, 1000));
-  sub->add_option("--most", command.most, "Trials on the sheet (default 8; the file has all)")
+  sub->add_option("--most", command.most,
+                  "Number of trials on the sheet (default 8; the file has "
+                  "all)")
       ->check(within(1, 1000));
   add_file(*sub, "-o,--output", command.output, "suggest.json to write");
 }

@@ -45,29 +45,29 @@ std::string brief_of(const Validation& validation) {
                      others.empty() ? "none" : fmt::format("{}", fmt::join(others, " ")));
 }
 
-/// Returns the result of `judge` for each log.
-template <class Judge>
-auto judge_logs(const ValidateCommand& command, const Vehicle& vehicle, const Judge& judge,
-                std::vector<Finding>& findings)
+/// Returns the result of `validate_one` for each log.
+template <class Evaluate>
+auto evaluate_logs(const ValidateCommand& command, const Vehicle& vehicle, const Evaluate& evaluate,
+                   std::vector<Finding>& findings)
     -> Result<
-        std::vector<typename decltype(judge(std::declval<const DrivingLog&>()))::value_type>> {
-  using Judged = typename decltype(judge(std::declval<const DrivingLog&>()))::value_type;
+        std::vector<typename decltype(evaluate(std::declval<const DrivingLog&>()))::value_type>> {
+  using Evaluated = typename decltype(evaluate(std::declval<const DrivingLog&>()))::value_type;
   AWMR_ASSIGN_OR_RETURN(const TrialOptions options, with_vehicle_columns(command.trials, vehicle));
   std::vector<std::size_t> used;
-  const auto judge_runs = [&](const fs::path& path) -> Result<std::vector<Judged>> {
+  const auto evaluate_runs = [&](const fs::path& path) -> Result<std::vector<Evaluated>> {
     AWMR_ASSIGN_OR_RETURN(const std::vector<DrivingLog> runs, read_logs(path, options, findings));
-    std::vector<Judged> judged;
+    std::vector<Evaluated> evaluated;
     for (const DrivingLog& log : runs) {
       used.insert(used.end(), log.mapped.begin(), log.mapped.end());
       AWMR_RETURN_IF_ERROR(check_consistency(log, path.string(), vehicle, options, findings));
-      AWMR_ASSIGN_OR_RETURN(Judged one, judge(log));
-      judged.push_back(std::move(one));
+      AWMR_ASSIGN_OR_RETURN(Evaluated one, evaluate(log));
+      evaluated.push_back(std::move(one));
     }
-    return judged;
+    return evaluated;
   };
-  AWMR_ASSIGN_OR_RETURN(const auto by_file, read_each(command.logs, judge_runs));
+  AWMR_ASSIGN_OR_RETURN(const auto by_file, read_each(command.logs, evaluate_runs));
   if (!command.other_columns) AWMR_RETURN_IF_ERROR(check_mappings(options, used, command.logs));
-  std::vector<Judged> all;
+  std::vector<Evaluated> all;
   for (const auto& runs : by_file) all.insert(all.end(), runs.begin(), runs.end());
   return all;
 }
@@ -82,7 +82,7 @@ Status add_judged_logs(const ValidateCommand& command, const Model& model,
       if (command.tyres) read.push_back(log);
       return validate_log(log, model, command.horizon_s, command.log_tolerance);
     };
-    AWMR_ASSIGN_OR_RETURN(auto logs, judge_logs(command, model.vehicle, by_model, findings));
+    AWMR_ASSIGN_OR_RETURN(auto logs, evaluate_logs(command, model.vehicle, by_model, findings));
     add_logs(validation, std::move(logs), command.log_tolerance);
     if (!command.tyres) return {};
     const Working working("fitting tyres");
@@ -94,7 +94,8 @@ Status add_judged_logs(const ValidateCommand& command, const Model& model,
   const auto under_control = [&](const DrivingLog& log) {
     return accept_drive(log, model, *gains, scenario, command.acceptance);
   };
-  AWMR_ASSIGN_OR_RETURN(auto drives, judge_logs(command, model.vehicle, under_control, findings));
+  AWMR_ASSIGN_OR_RETURN(auto drives,
+                        evaluate_logs(command, model.vehicle, under_control, findings));
   add_drives(validation, std::move(drives));
   return {};
 }
@@ -144,8 +145,8 @@ void note_fitted_logs(const Model& model, const Provenance& provenance,
                             [&](const InputFile& fitted) { return fitted.sha256 == input.sha256; });
     if (!is_fitted) continue;
     findings.push_back({input.name, 0, Severity::kWarning, "log-of-the-fit",
-                        "the model was fitted to this log: its figures describe the fit, not the "
-                        "prediction of another drive. Validate on a log that was not fitted"});
+                        "the model was fitted to this log, so the result shows the fit, not the "
+                        "prediction. Validate on a log that was not fitted"});
   }
 }
 
@@ -153,7 +154,7 @@ void note_fitted_logs(const Model& model, const Provenance& provenance,
 std::string summary_of(const ValidateCommand& command, const Validation& validation) {
   if (command.claims) return claims_table(validation.claims) + validation.verdict + '\n';
   const char* const title =
-      validation.trials.empty() ? "" : "in sample, on the rows that the model was fitted to\n";
+      validation.trials.empty() ? "" : "on the trials that the model was fitted to (in sample)\n";
   std::string text = title + brief_of(validation) + logs_table(validation);
   for (const Acceptance& drive : validation.drives) text += acceptance_table(drive);
   return text;
@@ -169,9 +170,8 @@ void add_model_options(CLI::App& sub, ValidateCommand& command) {
 
 void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& columns) {
   add_file(sub, "--log", command.logs,
-           "CSV of a driving log, best one that the model was not fitted to; may be repeated");
-  sub.add_option("--horizon", command.horizon_s,
-                 "Length of the windows that a log is predicted over, s (default 10)")
+           "CSV of a driving log, preferably not used in the fit; may be repeated");
+  sub.add_option("--horizon", command.horizon_s, "Prediction horizon for logs, s (default 10)")
       ->check(within(0.01, 1e6));
   sub.add_option("--log-tolerance", command.log_tolerance,
                  "Largest accepted NRMSE of a channel over a window (default 0.3)")
@@ -181,28 +181,28 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& colum
                "compare both plants on windows held out from that fit")
       ->needs("--log");
   sub.add_flag("--as-is", command.trials.as_is,
-               "Take logs whose units, signs or sides contradict themselves as they are");
+               "Accept logs with contradictory units, signs or sides");
   sub.add_option("--column", columns.columns, kColumnHelp);
   add_file(sub, "--columns-file", columns.file, kColumnsFileHelp);
 }
 
 void add_drive_options(CLI::App& sub, ValidateCommand& command) {
   auto* scenario = add_file(sub, "--scenario", command.scenario,
-                            "The logs are drives of this scenario under the gains: compared with "
-                            "the prediction by the model's uncertainty, noise and lags");
+                            "The logs are drives of this scenario with the gains; compare them "
+                            "with the predicted distribution (parameter uncertainty, noise, lags)");
   scenario->needs("--log")->needs("--gains")->excludes("--tyres");
   add_choice(sub, "--mode", command.acceptance.mode, kYawModeNames,
-             "How they turned (default combined)")
+             "Yaw-control mode of the drives (default combined)")
       ->needs(scenario);
-  sub.add_option("--draws", command.acceptance.draws, "Foretold drives (default 200)")
+  sub.add_option("--draws", command.acceptance.draws, "Predicted drives (default 200)")
       ->check(within(39, 10000))
       ->needs(scenario);
   sub.add_option("--seed", command.acceptance.seed, "Of the draws (default 1)")
       ->check(within<std::uint64_t>(0, kAnySeed))
       ->needs(scenario);
   sub.add_option("--from", command.acceptance.from_s,
-                 "Time in the log at which the scenario begins, s (default: the first row that "
-                 "commands anything)")
+                 "Time in the log at which the scenario begins, s (default: first row with a "
+                 "non-zero command)")
       ->check(within(-1e12, 1e12))
       ->needs(scenario);
 }
@@ -210,9 +210,8 @@ void add_drive_options(CLI::App& sub, ValidateCommand& command) {
 void add_claims_options(CLI::App& sub, ValidateCommand& command) {
   auto* claims =
       sub.add_flag("--claims", command.claims,
-                   "Check the paper's fourteen claims: the result, the criterion with its "
-                   "reason, and the settings left open by the paper that decide it; "
-                   "without --gains, with the paper's gains");
+                   "Check the paper's fourteen claims: result, criterion, and the settings not "
+                   "given in the paper that decide it (without --gains: the paper's gains)");
   add_file(sub, "--claims-table", command.claims_table, "Also write the claims as a Markdown table")
       ->needs(claims);
   add_allocation(sub, command.allocation);
@@ -258,7 +257,7 @@ void add_validate(CLI::App& app, Session& session) {
   auto command = std::make_shared<ValidateCommand>();
   auto columns = std::make_shared<ColumnWords>();
   CLI::App* sub = add_command(
-      app, session, "validate", "Hold the model against its trials and the paper's claims",
+      app, session, "validate", "Validate the model on its trials and the paper's claims",
       "awmr validate --model model.json --gains gains.json -o validation.json",
       [command, columns]() -> Result<Outcome> {
         AWMR_ASSIGN_OR_RETURN(command->trials.columns, column_mappings(*columns));

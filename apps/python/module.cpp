@@ -4,8 +4,9 @@
 
 PYBIND11_MODULE(awmr, module) {
   module.doc() =
-      "From trials to gains: read_vehicle, load_trials, identify, tune, simulate, compare.\n\n"
-      "Units stand in the names: _m, _s, _rad, _deg, _mps, _radps, _kg. Forces are over F_max, the "
+      "From trials to gains: read_vehicle, load_trials, identify, tune, simulate, compare.\n"
+      "\n"
+      "Units are in the names: _m, _s, _rad, _deg, _mps, _radps, _kg. Forces are over F_max, the "
       "largest force of one motor. Angles and yaw rates count counter-clockwise, left is positive. "
       "Rows are NumPy arrays, what is doubtful is a list of Finding, what fails raises Error.";
   module.attr("__version__") = awmr::version();

@@ -1,7 +1,7 @@
 /// Everything. A file of one's own needs only the header of its task:
 ///
 ///     read a vehicle, a model, gains     model/vehicle_file.h, model/model_file.h, model/gains_file.h
-///     judge what a vehicle's file says   model/plausibility.h
+///     check a vehicle's plausibility     model/plausibility.h
 ///     read trials                        trials/load.h
 ///     fit a model to them                identify/identify.h
 ///     ask which trial to record next     identify/planning/suggest.h

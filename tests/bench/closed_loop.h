@@ -13,12 +13,13 @@ namespace awmr::bench {
 /// Metrics of the run. `command(measured, reference)` returns the allocation of a sample;
 /// `move(t_s, allocation, state)` advances the state by one sample.
 template <class T, class Command, class Move>
-MeterSums<T> driven(const Scenario& scenario, double sample_time_s, const Resistance<T>& yaw,
-                    const MeteredVehicle<T>& vehicle, const Command& command, const Move& move) {
+MetricsAccumulator<T> driven(const Scenario& scenario, double sample_time_s,
+                             const Resistance<T>& yaw, const MetricsVehicle<T>& vehicle,
+                             const Command& command, const Move& move) {
   const auto& headings = std::get<HeadingSteps>(scenario.guidance);
   const auto course = metered_course(scenario);
   const T none = T(0.0);
-  MeterSums<T> sums;
+  MetricsAccumulator<T> sums;
   State<T> s{};
   SideForces<T> held{none, none};
   double goal_before_rad = 0.0;

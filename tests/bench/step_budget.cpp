@@ -45,7 +45,7 @@ double drive(const Plant<double>& nominal, const Controller<double>& controller,
   const double step_s = sample_time_s / substeps;
   const auto plant = counted<Plant<Counted>>(resolved_at_rest(nominal, step_s));
   const auto laws = counted<PreparedController<Counted>>(prepared(controller));
-  const auto vehicle = counted<MeteredVehicle<Counted>>(metered_vehicle(controller.limits));
+  const auto vehicle = counted<MetricsVehicle<Counted>>(metered_vehicle(controller.limits));
   double steps = 0.0;
   const auto command = [&](const Measurement<Counted>& measured,
                            const Reference<Counted>& reference) {

@@ -77,7 +77,7 @@ class Check : public ::testing::Test {
 TEST_F(Check, AFilledProjectHasNothingToMend) {
   const ProcessResult result = awmr("check " + project());
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("nothing to mend; next: awmr run"));
+  EXPECT_THAT(result.out, HasSubstr("no problems found; next: awmr run"));
   EXPECT_EQ(awmr("check " + path("project.json").string()).exit_code, 0);
 }
 
@@ -146,7 +146,7 @@ TEST_F(Check, WhatGainsNeedAndNothingShowsIsNamed) {
   write("project.json", json);
   const ProcessResult result = awmr("check " + project());
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("nothing shows mass_norm"));
+  EXPECT_THAT(result.err, HasSubstr("no trial for mass_norm"));
 }
 
 TEST_F(Check, WrongUnitsOfTheVehicleAreNamedWithTheValueTheyWouldBe) {

@@ -62,7 +62,7 @@ TEST_F(Contradiction, SuggestEndedWithAFaultOfTheProgramOrNotAtAllOnAnExtremeMod
   model["surge"]["beta"]["value"] = 1e-6;
   model["surge"]["beta"]["ci95"] = nullptr;
   write_all(path("odd.json"), model.dump());
-  expect_refused(awmr("suggest --model " + path("odd.json")), "is no finite number");
+  expect_refused(awmr("suggest --model " + path("odd.json")), "is not finite at this model");
   expect_refused(awmr("suggest --model " + edited("/steering/time_constant_s/value", 1e-6)),
                  "too fast to be followed");
 }

@@ -17,12 +17,13 @@ COMMANDS = ("init", "check", "run", "identify", "live", "tune", "validate", "sim
 
 
 def examples_of_readme():
-    inside = False
-    for line in (SOURCE / "README.md").read_text().splitlines():
-        if line.startswith("```"):
-            inside = line == "```sh"
-        elif inside and line.startswith("awmr "):
-            yield line
+    for page in ("README.md", "apps/awmr/COMMANDS.md"):
+        inside = False
+        for line in (SOURCE / page).read_text().splitlines():
+            if line.startswith("```"):
+                inside = line == "```sh"
+            elif inside and line.startswith("awmr "):
+                yield line
 
 
 def examples_of_help(command):

@@ -83,7 +83,7 @@ TEST_F(Init, OverwritesNothingAndThenWritesNothing) {
   write_all(path("scenarios/mine.json"), "mine");
   const ProcessResult result = init();
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("surge.csv: is there already"));
+  EXPECT_THAT(result.err, HasSubstr("surge.csv: already exists"));
   EXPECT_EQ(read_all(path("surge.csv")), "precious");
   EXPECT_FALSE(fs::exists(path("vehicle.json")));
   fs::remove(path("surge.csv"));

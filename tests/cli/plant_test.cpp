@@ -48,7 +48,7 @@ class PlantOption : public ::testing::Test {
   inline static std::string model_, gains_;
 };
 
-/// Two runs on tyres, one by steering and one by the sides' forces: the tyres are found in them and used.
+/// Two runs on tyres, one steered and one differential: the tyres are found in them and used.
 TEST_F(PlantOption, TyresOfValidateAreThoseOfTheRuns) {
   Json scenario = Json::parse(read_all(std::string(AWMR_SOURCE_DIR) + "/" + kC3));
   scenario["duration_s"] = 40;
@@ -93,6 +93,18 @@ TEST_F(PlantOption, TyresOfValidateAreThoseOfTheRuns) {
                                        path("compared"))));
   ASSERT_EQ(compared.exit_code, 0) << compared.err;
   EXPECT_THAT(read_all(path("compared") + "/comparison.json"), HasSubstr("tyres-simulated"));
+  // Nothing would run on them.
+  for (const char* plant : {"", "--plant model "}) {
+    EXPECT_EQ(awmr(with("simulate", fmt::format("--scenario {} --mode combined {}--tyres {} -o {}",
+                                                kC3, plant, path("tyres.json"), path("none.csv"))))
+                  .exit_code,
+              2)
+        << plant;
+  }
+  EXPECT_EQ(awmr(with("compare", fmt::format("--scenario {} --plant model --tyres {} -o {}", kC3,
+                                             path("tyres.json"), path("none"))))
+                .exit_code,
+            2);
   EXPECT_EQ(
       awmr(fmt::format("validate --model {} --tyres -o {}", model_, path("none.json"))).exit_code,
       2);

@@ -93,7 +93,8 @@ TEST_F(ShardsOfCommands, OfTheLargestSeedAreMergedAndSayHowHeadingsWereLed) {
       parts_of("large", compare(seed + "--shard 1/2"), compare(seed + "--shard 2/2"));
   const ProcessResult merged = awmr(fmt::format("merge {} -o {}", parts, path("merged")));
   expect_done(merged);
-  EXPECT_THAT(merged.out, HasSubstr("headings are led as fast as yaw resistance was measured"));
+  EXPECT_THAT(merged.out,
+              HasSubstr("heading commands limited to the highest yaw rate of the turning trials"));
 }
 
 TEST_F(ShardsOfCommands, OfDifferentKindsAreNotMixed) {

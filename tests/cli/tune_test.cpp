@@ -1,4 +1,4 @@
-/// What tune writes of the gains that it compares with, and of the certificate.
+/// The baseline gains and the certificate in the output of tune.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ TEST_F(TunedGains, AreComparedWithTheFileThatIsGivenAsBaseline) {
     is_input = is_input || input.at("name") == "own.json";
   }
   EXPECT_TRUE(is_input) << json.at("inputs");
-  // The paper's gains are judged as well, as the baseline is another.
+  // The paper's gains are evaluated as well, as the baseline is another.
   EXPECT_TRUE(json.at("robust").at("quantiles").at("steering").contains("paper"));
 }
 
@@ -104,7 +104,7 @@ TEST_F(TunedGains, OfOneModeAreExaminedThereAndWarnElsewhere) {
 TEST_F(TunedGains, CarryTheirCertificateIntoTheHeader) {
   const ProcessResult run = tune("");
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("certified"));
+  EXPECT_THAT(run.out, HasSubstr("worst case"));
   const Json certificate = gains().at("certificate");
   EXPECT_EQ(certificate.at("set"), "95 %");
   double damping = 1.0;

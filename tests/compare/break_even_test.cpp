@@ -83,7 +83,8 @@ TEST(BreakEven, DoesNotDependOnThreadsAndStandsInTheFileOnlyWhenAskedFor) {
   const std::string text = comparison_text(*first, one, provenance);
   EXPECT_EQ(text, comparison_text(*second, one, provenance));
   EXPECT_THAT(text, HasSubstr("\"break_even\""));
-  EXPECT_THAT(comparison_table(*first), HasSubstr("differential ahead of steering in 1: "));
+  EXPECT_THAT(comparison_table(*first),
+              HasSubstr("differential ahead of steering in 1 scenario: "));
   Comparison without = *first;
   without.break_even.reset();
   EXPECT_THAT(comparison_text(without, one, provenance), Not(HasSubstr("break_even")));
@@ -95,7 +96,7 @@ TEST(BreakEven, IsEmptyWhereNothingIsFollowed) {
   ASSERT_TRUE(comparison);
   EXPECT_TRUE(comparison->break_even->empty());
   EXPECT_THAT(comparison_table(*comparison),
-              HasSubstr("no mode that turns by the sides' forces leads"));
+              HasSubstr("neither differential nor combined is ahead"));
 }
 
 TEST(BreakEven, IsRefusedForPartsAndSeveralSetsOfGains) {
@@ -147,9 +148,12 @@ TEST(BreakEven, IsDecidedByTheScrubThatWasMeasured) {
   const auto told = [](const Interval& scrub_m) {
     return comparison_table(told_with(scrub_of(scrub_m)));
   };
-  EXPECT_THAT(told({0.5 * least_m, 0.9 * least_m}), HasSubstr("kept in 1, lost in 0, open in 0"));
-  EXPECT_THAT(told({1.1 * most_m, 2.0 * most_m}), HasSubstr("kept in 0, lost in 1, open in 0"));
-  EXPECT_THAT(told({0.5 * least_m, 2.0 * most_m}), HasSubstr("kept in 0, lost in 0, open in 1"));
+  EXPECT_THAT(told({0.5 * least_m, 0.9 * least_m}),
+              HasSubstr("still ahead in 1, no longer in 0, undecided in 0"));
+  EXPECT_THAT(told({1.1 * most_m, 2.0 * most_m}),
+              HasSubstr("still ahead in 0, no longer in 1, undecided in 0"));
+  EXPECT_THAT(told({0.5 * least_m, 2.0 * most_m}),
+              HasSubstr("still ahead in 0, no longer in 0, undecided in 1"));
 }
 
 TEST(BreakEven, IsOpenWhereScrubWasMeasuredAtOtherRates) {
@@ -171,7 +175,8 @@ TEST(BreakEven, IsDecidedWithAllOfAScrubThatChangesWithTheRate) {
   ASSERT_FALSE(ends_m.empty());
   YawScrub scrub = scrub_of({0.5 * ends_m.front(), 0.9 * ends_m.front()});
   scrub.changing_m = Interval{0.1 * ends_m.front(), 3.0 * ends_m.back()};
-  EXPECT_THAT(comparison_table(told_with(scrub)), HasSubstr("kept in 0, lost in 0, open in 1"));
+  EXPECT_THAT(comparison_table(told_with(scrub)),
+              HasSubstr("still ahead in 0, no longer in 0, undecided in 1"));
 }
 
 TEST(BreakEven, IsNotKeptAgainstWhatTheTyresHold) {
@@ -179,12 +184,12 @@ TEST(BreakEven, IsNotKeptAgainstWhatTheTyresHold) {
   ASSERT_FALSE(ends_m.empty());
   const YawScrub moving = scrub_of({0.5 * ends_m.front(), 0.9 * ends_m.front()});
   EXPECT_THAT(comparison_table(told_with(moving, 2.0 * ends_m.back())),
-              HasSubstr("kept in 0, lost in 0, open in 1"));
-  // If every turn stood still, the moment that held it is the lower bound.
+              HasSubstr("still ahead in 0, no longer in 0, undecided in 1"));
+  // If the vehicle never turned, the largest moment is the lower bound.
   EXPECT_THAT(comparison_table(told_with(std::nullopt, 2.0 * ends_m.back())),
-              HasSubstr("kept in 0, lost in 1, open in 0"));
+              HasSubstr("still ahead in 0, no longer in 1, undecided in 0"));
   EXPECT_THAT(comparison_table(told_with(std::nullopt, 0.5 * ends_m.front())),
-              HasSubstr("kept in 0, lost in 0, open in 1"));
+              HasSubstr("still ahead in 0, no longer in 0, undecided in 1"));
 }
 
 TEST(BreakEven, SaysHowManyTurnsWouldDecide) {
@@ -199,7 +204,7 @@ TEST(BreakEven, SaysHowManyTurnsWouldDecide) {
       EXPECT_NEAR(entry.turns_to_decide.value_or(0), 40, 1);
     }
   }
-  EXPECT_THAT(comparison_table(comparison), HasSubstr("turns by the sides in all would decide"));
+  EXPECT_THAT(comparison_table(comparison), HasSubstr("differential turns in total would decide"));
 }
 
 TEST(BreakEven, OfYawResistanceThatHoldsScrubIsRefused) {

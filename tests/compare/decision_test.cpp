@@ -83,7 +83,7 @@ TEST(Decision, OfWeightsIsThatOfAllCornersOfTheirRange) {
         << number;
     nobody += decision.changes[0].first.empty() ? 1 : 0;
   }
-  // The drawn metrics make both: leads that hang on the weights, and leads that do not.
+  // The drawn metrics give both: leads that depend on the weights, and leads that do not.
   EXPECT_GT(nobody, 5U);
   EXPECT_LT(nobody, 55U);
 }
@@ -206,7 +206,7 @@ TEST(Decision, AnUndecidedLeadIsNotCalledBest) {
   EXPECT_THAT(verdict(), ::testing::StartsWith("differential is best"));
   comparison.changes = {on_tyres({kSteering})};
   EXPECT_EQ(judge(comparison, {}, 1).front().decision->kind(), DecisionKind::kUndecided);
-  EXPECT_THAT(verdict(), ::testing::StartsWith("differential is first here"));
+  EXPECT_THAT(verdict(), ::testing::StartsWith("differential is ahead here"));
   EXPECT_THAT(verdict(), ::testing::HasSubstr("undecided: steering first on the four-wheel plant"));
 }
 

@@ -155,7 +155,7 @@ TEST(Resume, RefusesRowsOfAnUnknownScenario) {
   options.finished.front().scenario = "c";
   const auto c = compare(uncertain_model(), kPaperGains, kScenarios, options);
   ASSERT_FALSE(c);
-  EXPECT_THAT(to_text(c.error()), HasSubstr("none of this comparison's"));
+  EXPECT_THAT(to_text(c.error()), HasSubstr("not belong to this comparison"));
 }
 
 TEST(SeveralGains, AreComparedWithEachOtherAndByMode) {

@@ -74,7 +74,7 @@ TEST_F(Shards, MergeInAnyOrderToTheBytesOfASingleRun) {
   }
 }
 
-TEST_F(Shards, WhatIsMissingOrThereTwiceIsNamed) {
+TEST_F(Shards, NamesMissingAndDuplicateParts) {
   const auto first = write({1, 4});
   const auto second = write({2, 4});
   EXPECT_THAT(fault({first, second}), HasSubstr("of 4 parts, these are missing: 3, 4"));

@@ -65,9 +65,9 @@ TEST(Verdict, GivesTheGapAsWhatTheOtherTakesMoreWhicheverComesFirst) {
 TEST(Verdict, SaysThatATieIsATie) {
   // A mean of 0.1 s with a standard error of 5/sqrt(20) = 1.1 s: 11 % of 10 s, in one of four
   // metrics.
-  EXPECT_THAT(verdict(twenty(0.1, 5.0)), HasSubstr("tie: these runs do not tell them apart"));
+  EXPECT_THAT(verdict(twenty(0.1, 5.0)), HasSubstr("are tied: these runs do not separate them"));
   // 0.4 s with 0.02 s: less than 5 %, whatever p is.
-  EXPECT_THAT(verdict(twenty(0.4, 0.1)), HasSubstr("tie: equal within 5 %"));
+  EXPECT_THAT(verdict(twenty(0.4, 0.1)), HasSubstr("are tied: equal within 5 %"));
 }
 
 TEST(Verdict, GivesTheExactShareOfFailures) {
@@ -100,7 +100,7 @@ TEST(Verdict, SaysWhereNoneCompleted) {
 
 TEST(Verdict, DoesNotRankByAFailureThatMayBeChance) {
   // One of 20: p = 1.
-  EXPECT_THAT(verdict(twenty(0.0, 0.0, 1)), HasSubstr("tie"));
+  EXPECT_THAT(verdict(twenty(0.0, 0.0, 1)), HasSubstr("tied"));
 }
 
 TEST(Verdict, OfAFewSamplesNoneIsLedByWhatNeverCompletes) {
@@ -130,16 +130,16 @@ TEST(Verdict, TiesWhatIsEquivalentInEveryMetric) {
     row.metrics.heading_iae_degs = row.mode == YawMode::kSteering ? 0.02 : 0.0;
     row.metrics.sideslip_max_deg = row.mode == YawMode::kSteering ? 0.02 : 0.0;
   }
-  EXPECT_THAT(verdict(c), HasSubstr("tie"));
+  EXPECT_THAT(verdict(c), HasSubstr("tied"));
   EXPECT_THAT(verdict(c), Not(HasSubstr("behind")));
 }
 
-TEST(Verdict, SaysWhatASingleSampleDoesNotShow) {
+TEST(Verdict, ReportsNoUncertaintyForASingleSample) {
   Comparison c = twenty(3.0, 0.1);
   std::erase_if(c.rows, [](const ComparisonRow& row) { return row.sample > 1; });
-  EXPECT_THAT(verdict(c), HasSubstr("a single sample shows no spread"));
+  EXPECT_THAT(verdict(c), HasSubstr("one sample gives no uncertainty"));
   std::erase_if(c.rows, [](const ComparisonRow& row) { return row.sample > 0; });
-  EXPECT_THAT(verdict(c), HasSubstr("the nominal run alone"));
+  EXPECT_THAT(verdict(c), HasSubstr("nominal model only, no uncertainty"));
 }
 
 TEST(Tally, CountsTheBestAndWhatIsNotToldApart) {

@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(, Sketches, ::testing::Values(&kMega, &kUno),
                          [](const auto& test) { return std::string(test.param->variant); });
 
 using SketchesOnUno = Sketches;
-TEST_P(SketchesOnUno, ThatNeedACardSayThatThereIsNone) {
+TEST_P(SketchesOnUno, ReportAMissingCard) {
   emit();
   for (const char* name : {"CompassCalibration", "RecordTrials"}) {
     const ProcessResult built = run(cxx() + "-x c++ -include Arduino.h -c examples/" + name + "/" +
@@ -254,7 +254,7 @@ TEST_F(OtherProcessors, GiveTheHostsBitsWithAndWithoutAnFpu) {
 #endif
 }
 
-TEST_F(OtherProcessors, AreNotToldToGiveUpWhatTheChecksNeed) {
+TEST_F(OtherProcessors, DoNotGetOptionsThatDisableTheChecks) {
   const ProcessResult built =
       run(std::string("'") + kGxx + "' -O2 -ffast-math -Isrc -c src/awmr.cpp -o awmr.o");
   EXPECT_NE(built.exit_code, 0);

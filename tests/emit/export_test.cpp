@@ -128,7 +128,7 @@ TEST(Export, Px4sYawRateLimitIsWhatFullCommandsGiveUpToWhatWasMeasured) {
   EXPECT_NEAR(limit(), radians(15.0), 1e-8);
 }
 
-TEST(Export, WhatDoesNotFollowFromTheModelIsLeftOutAndSaid) {
+TEST(Export, LeavesOutAndReportsValuesThatDoNotFollowFromTheModel) {
   const std::string px4 = text_of(paper_robot(), ExportFormat::kPx4);
   EXPECT_THAT(px4, HasSubstr("# left out: RA_WHEEL_BASE: the model knows the front axle alone"));
   EXPECT_EQ(parameters_of(px4).count("RA_WHEEL_BASE"), 0U);

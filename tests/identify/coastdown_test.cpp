@@ -128,7 +128,7 @@ TEST(CoastDown, IsManyTimesSurerThanAStopTime) {
   EXPECT_LT(relative(by_curve->model), 0.4 * relative(by_stop->model));
 }
 
-TEST(CoastDown, WithoutASurgeLawRefusesTheMassAndTellsTheRatio) {
+TEST(CoastDown, WithoutASurgeLawRefusesTheMassAndReportsTheRatio) {
   const Truth& t = kTruths[1];
   TrialData data;
   data.curves = {exact_curve(t, 1.5, 0.0)};
@@ -183,7 +183,7 @@ const EstimatorParameter* found(const Model& model, const std::string& family,
   return nullptr;
 }
 
-TEST(CoastDown, AloneItShowsTheTermsOfTheFamilyAskedForOverItsFirst) {
+TEST(CoastDown, AloneGivesTheRatiosOfTheRequestedFamily) {
   const TrialData data = curves_alone({.alpha = 0.8, .beta = 1.0, .coulomb = 0.4});
   IdentifyOptions options;
   options.surge_family = {.family = Family::kCoulombLinear, .asked = true};
@@ -201,7 +201,7 @@ TEST(CoastDown, AloneItShowsTheTermsOfTheFamilyAskedForOverItsFirst) {
   EXPECT_FALSE(result->model[ParameterId::kMassNorm].value);
 }
 
-TEST(CoastDown, AloneItTellsThatAPowerLawDoesNotDescribeIt) {
+TEST(CoastDown, AloneReportsAnInadequatePowerLaw) {
   const auto inadequate = [](const Model& model) {
     return std::any_of(model.record.findings.begin(), model.record.findings.end(),
                        [](const Finding& f) { return f.code == "power-law-inadequate"; });
@@ -220,7 +220,7 @@ TEST(CoastDown, AloneItTellsThatAPowerLawDoesNotDescribeIt) {
   EXPECT_TRUE(chosen->model.record.reports.front().family.starts_with("coulomb"));
 }
 
-TEST(CoastDown, TwoKindsAreWeighedTogetherAndTheirContradictionIsSaid) {
+TEST(CoastDown, CombinesBothKindsAndReportsAContradiction) {
   const Truth& t = kTruths[1];
   TrialData data = surge_only(t, 0.01, 2);
   Random random(2, 1);

@@ -105,7 +105,7 @@ TEST(Compass, ATurnThatDoesNotCoverTheCircleIsRefusedWithWhatIsMissing) {
   }
 }
 
-TEST(Compass, WhatIsNoEllipseIsRefusedOrTold) {
+TEST(Compass, RefusesOrReportsAFieldThatIsNoEllipse) {
   FieldRecord same{.file = "field.csv"};
   for (int i = 0; i < 100; ++i) {
     same.t_s.push_back(i);

@@ -217,21 +217,21 @@ TEST(Families, AreFittedWithoutATermThatTheFamilyBeforeThemHad) {
   }
 }
 
-TEST(Families, AFitWithBadLuckIsSearchedAgainFromTheRivalThatIsAhead) {
+TEST(Families, SearchesAgainFromABetterAlternative) {
   const std::vector<DrivingLog> logs{drive(kTruths[0], 9)};
   const LogFitOptions options = from_nothing(logs);
-  const FamilyFit rival = fit_family(logs, options, Family::kCoulombPower, Family::kPower);
-  ASSERT_TRUE(rival.fit.usable);
+  const FamilyFit alternative = fit_family(logs, options, Family::kCoulombPower, Family::kPower);
+  ASSERT_TRUE(alternative.fit.usable);
   FamilyFit unlucky{Family::kPower, Family::kPower, options, {}};
-  const FamilyFit again = searched_again(logs, options, unlucky, rival);
+  const FamilyFit again = searched_again(logs, options, unlucky, alternative);
   ASSERT_TRUE(again.fit.usable);
   EXPECT_EQ(again.surge, Family::kPower);
-  EXPECT_LT(aic_lead(rival.fit, again.fit), 10.0);
+  EXPECT_LT(aic_lead(alternative.fit, again.fit), 10.0);
   const FamilyFit kept = searched_again(logs, options, again, unlucky);
   EXPECT_EQ(kept.fit.coordinates, again.fit.coordinates) << "a rival without a fit is no rival";
 }
 
-TEST(Families, AreComparedAtTheirOwnOptimaWhateverTheFirstSearchFound) {
+TEST(Families, ComparesFamiliesAtTheirOwnOptima) {
   const std::vector<DrivingLog> logs{drive(kTruths[0], 10)};
   const LogFitOptions options = from_nothing(logs);
   FamilyFit unlucky{Family::kPower, Family::kPower, options, {}};

@@ -1,5 +1,5 @@
-/// Logs whose steering, motors or sensors are late in ways of their own, and drivers that brake at a
-/// command of 0.
+/// Logs with latency of steering, motors or sensors, and motor drivers that brake at a command of
+/// 0.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ DrivingLog with_late_steering(DrivingLog log, std::size_t rows) {
   return log;
 }
 
-TEST(LateLog, TellsADeadTimeOfTheSteeringFromTheServosLag) {
+TEST(LateLog, SeparatesASteeringDeadTimeFromServoLag) {
   constexpr std::size_t kRows = 8;
   TrialData data;
   data.logs = {with_late_steering(drive(kTruths[1], 8, {.duration_s = 40.0}), kRows)};
@@ -42,7 +42,7 @@ TEST(LateLog, TellsADeadTimeOfTheSteeringFromTheServosLag) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
 }
 
-TEST(LateLog, HoldsAMotorLagThatTheVehicleFileGives) {
+TEST(LateLog, KeepsAMotorLagOfTheVehicleFileFixed) {
   constexpr double kLag_s = 0.08;
   TrialData data;
   data.logs = {drive_with_lag(kTruths[1], 8, kLag_s)};

@@ -233,7 +233,7 @@ TEST(LinearReplay, OfALateSensorChangesByTheMotionsRate) {
   EXPECT_LT(apart, here.size() * kStateSize / 20);
 }
 
-TEST(ProductSums, AreThoseOfAllRowsAndTheTriangleStandsForThem) {
+TEST(ProductSums, EqualTheSumsOfAllRowsAndOfTheTriangle) {
   std::mt19937 chance(3);
   std::normal_distribution<double> normal;
   constexpr int kRows = 101;

@@ -1,4 +1,4 @@
-/// Logs whose commands reach the vehicle late, and what a fit answers to logs.
+/// Logs with command latency, and summaries of a fit's results.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -22,7 +22,7 @@ bool refused(const Identification& result, ParameterId id) {
   return std::find(result.refused.begin(), result.refused.end(), id) != result.refused.end();
 }
 
-TEST(Log, GivesEveryParameterFromNothingElse) {
+TEST(Log, IdentifiesEveryParameterFromALogAlone) {
   for (const Truth& t : kTruths) {
     TrialData data;
     data.logs = {drive(t, 3)};
@@ -186,7 +186,7 @@ TEST(Log, FindsByItselfThatCommandsActLateOrWereLoggedLate) {
   }
 }
 
-TEST(Log, TellsMotorsThatLagFromADeadTime) {
+TEST(Log, SeparatesMotorLagFromADeadTime) {
   constexpr double kLag_s = 0.08;
   TrialData data;
   data.logs = {drive_with_lag(kTruths[1], 8, kLag_s)};
@@ -213,7 +213,7 @@ TEST(Log, AnInertiaThatTheVehicleCannotHaveIsRefused) {
   EXPECT_TRUE(result->model[ParameterId::kMassNorm].value);
 }
 
-TEST(Log, IsTheSameWhateverTheThreads) {
+TEST(Log, DoesNotDependOnTheNumberOfThreads) {
   TrialData data;
   data.logs = {drive(kTruths[0], 11, {.duration_s = 12.0})};
   IdentifyOptions one;
@@ -224,7 +224,7 @@ TEST(Log, IsTheSameWhateverTheThreads) {
             model_text(identify(robot(), data, three, {})->model));
 }
 
-TEST(Log, AgainstTablesAContradictionIsSaid) {
+TEST(Log, ReportsAContradictionWithTables) {
   const Truth& t = kTruths[0];
   TrialData data = synthetic(t, 0.01, 3);
   data.coastdown.reset();
@@ -322,7 +322,7 @@ TEST(Log, WhereEverySensorSeemsLateTheActuatorsAreNamed) {
   EXPECT_FALSE(has_finding(*identify(robot(), data, {}, {}), "actuator-lag", ""));
 }
 
-TEST(Log, AServoThatIsNeverToldToMoveIsRefused) {
+TEST(Log, RefusesTheServoLagWithoutASteeringCommand) {
   TrialData data;
   data.logs = {drive(kTruths[1], 23)};
   std::ranges::fill(*data.logs[0].steering_command_rad, 0.0);
@@ -355,7 +355,7 @@ TEST(Log, AFitWhoseTimeIsOverEndsAndShowsNothingWrong) {
   }
 }
 
-TEST(Log, FrictionOfAnotherFamilyIsTakenAndSaid) {
+TEST(Log, SelectsAndReportsABetterFamily) {
   const Truth& t = kTruths[0];
   Plant<double> braked = plant(t);
   braked.surge = {.alpha = 0.74, .beta = 1.0, .coulomb = 0.15};
@@ -380,7 +380,7 @@ DrivingLog geared_drive(const Truth& t, std::uint64_t seed, double duration_s = 
   return simulate_log(geared, robot(), {.duration_s = duration_s, .drive = seed}, {}, random);
 }
 
-TEST(BackEmf, IsRecoveredFromDrivingAndCoastingAndSaid) {
+TEST(BackEmf, IsRecoveredFromDrivingAndCoastingAndReported) {
   const Truth& t = kTruths[0];
   int covered = 0;
   constexpr int kSeeds = 3;
@@ -430,7 +430,7 @@ TEST(BackEmf, WithoutCoastingIsRefusedWithTheTrialThatShowsIt) {
   EXPECT_TRUE(has_finding(*asked, "not-identifiable", "coasting with the motors off"));
 }
 
-TEST(BackEmf, OfTheDataSheetIsHeldAndKeepsTablesOut) {
+TEST(BackEmf, OfTheDataSheetIsFixedAndExcludesTables) {
   Vehicle geared = robot();
   geared.back_emf_s_per_m = kBackEmf;
   TrialData data;
@@ -462,7 +462,7 @@ TEST(FrontWheelDrive, GivesEveryParameterOfALog) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
 }
 
-TEST(Log, AnotherMassOnTheSecondDayIsToldAndWidensTheInterval) {
+TEST(Log, ReportsAnotherMassOnTheSecondDayAndWidensTheInterval) {
   Truth heavy = kTruths[0];
   heavy.mass_norm *= 1.2;
   TrialData data;
@@ -644,7 +644,7 @@ TEST(Log, AnErrorThatSwingsIsOfSecondOrder) {
   }
 }
 
-TEST(Log, WhatIsNewInASwingingErrorIsWhiteAndAsLargeAsSaid) {
+TEST(Log, InnovationsOfASecondOrderErrorAreWhiteWithTheStatedVariance) {
   const ChannelNoise noise{
       .white_std = 0.1, .drift_std = 1.0, .frequency_radps = 9.4, .damping = 0.5};
   double squares = 0.0;
@@ -667,7 +667,7 @@ TEST(Log, WhatIsNewInASwingingErrorIsWhiteAndAsLargeAsSaid) {
   EXPECT_NEAR(products / count, 0.0, 4.0 / std::sqrt(count));
 }
 
-TEST(Recover, TellsBiasAndCoverageOfTables) {
+TEST(Recover, GivesBiasAndCoverageOfTables) {
   const auto fitted = identify(robot(), synthetic(kTruths[0], 0.02, 1), {}, {});
   ASSERT_TRUE(fitted);
   Model model = fitted->model;

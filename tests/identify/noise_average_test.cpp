@@ -1,4 +1,4 @@
-/// Intervals over what a table leaves open of where its errors lie.
+/// Intervals averaged over the unknown location of a table's errors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ TEST(NoiseAverage, InertiaInheritsTheMassesQuantiles) {
   }
 }
 
-TEST(NoiseAverage, AskedForAFamilyTheErrorsStayWhereTheyWere) {
+TEST(NoiseAverage, KeepsTheErrorLocationIfAFamilyIsRequested) {
   IdentifyOptions options;
   options.surge_family = {std::nullopt, true};
   options.yaw_family = {std::nullopt, true};
@@ -87,7 +87,7 @@ TEST(NoiseAverage, WhoNamesTheErrorGetsItsIntervalAlone) {
   EXPECT_EQ(posterior_weight(identified(options), FitSubject::kSurge), 0.0);
 }
 
-TEST(NoiseAverage, MassThatTheGripAsksForStandsBesideAnImplausibleOne) {
+TEST(NoiseAverage, ReportsTheGripMassNextToAnImplausibleOne) {
   const Model model = identified();
   // g1(1.66)/(0.8 g)
   const double expected = 1.31567 * std::pow(1.66, 0.884123) / (0.8 * 9.80665);
@@ -97,7 +97,7 @@ TEST(NoiseAverage, MassThatTheGripAsksForStandsBesideAnImplausibleOne) {
 
 /// Of 150 tables a share has a standard deviation of sqrt(0.95 0.05/150) = 1.8 %: three of them below
 /// 95 % are 89.6 %. scripts/coverage has 1,000.
-TEST(NoiseAverage, MassIntervalHoldsWhereverTheErrorsLie) {
+TEST(NoiseAverage, MassIntervalCoversTheTruthForEveryErrorLocation) {
   const Model model = identified();
   for (const ErrorModel error : {ErrorModel::kTime, ErrorModel::kSpeed, ErrorModel::kForce}) {
     RecoverOptions options;

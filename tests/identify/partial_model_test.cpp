@@ -39,7 +39,7 @@ std::vector<ParameterId> missing_of(const Suggestion& suggestion) {
   return ids;
 }
 
-TEST(PartialModel, SuggestsFirstWhatItHasNoValueOfAndRanksStraightTrials) {
+TEST(PartialModel, SuggestsMissingParametersFirstAndRanksStraightTrials) {
   const auto suggestion = suggest(partial_model(true), {});
   ASSERT_TRUE(suggestion) << to_text(suggestion.error());
   EXPECT_THAT(missing_of(*suggestion),
@@ -52,7 +52,7 @@ TEST(PartialModel, SuggestsFirstWhatItHasNoValueOfAndRanksStraightTrials) {
     EXPECT_LE(trial.std_error_after, trial.std_error_before * (1.0 + 1e-9));
   }
   const std::string sheet = field_sheet(*suggestion, 3);
-  EXPECT_THAT(sheet, HasSubstr("for yaw.alpha, yaw.beta, of no value yet"));
+  EXPECT_THAT(sheet, HasSubstr("for yaw.alpha, yaw.beta, not identified yet"));
   EXPECT_THAT(suggestion_text(*suggestion, {}), HasSubstr("\"missing\""));
 }
 
@@ -63,7 +63,7 @@ TEST(PartialModel, WithoutAMassSuggestsSurgeRunsAndTheCoastDown) {
   for (const SuggestedTrial& trial : suggestion->trials) EXPECT_EQ(trial.kind, TrialKind::kSurge);
 }
 
-TEST(PartialModel, HasNothingToRankByWhereTheParameterHasNoValue) {
+TEST(PartialModel, RefusesToRankByAParameterWithoutValue) {
   const auto suggestion = suggest(partial_model(true), {.parameter = "yaw.alpha"});
   ASSERT_FALSE(suggestion);
   EXPECT_EQ(exit_code(suggestion.error()), 2);
@@ -104,7 +104,7 @@ TEST(PartialModel, IsRecoveredFromAStraightLog) {
   }
 }
 
-TEST(PartialModel, IsNotRecoveredFromTrialsOfWhatItDoesNotKnow) {
+TEST(PartialModel, RefusesToRecoverFromTrialsOfUnknownParameters) {
   Model model = partial_model(true);
   model.record.trials.push_back({TrialKind::kTurning, "turning.csv", 2, 0.05, 0.1, {}});
   const auto turning = recover(model, runs_of(RecoverPlan::kTables, 2), nullptr);

@@ -101,7 +101,7 @@ TEST_F(RecoverShards, OfLogsMergeToTheBytesOfASingleRun) {
   EXPECT_EQ(bytes_of(recovery_of(merged->whole).value()), bytes_of(*whole));
 }
 
-TEST_F(RecoverShards, WhatIsRefusedAsAWholeIsRefusedAlikeInParts) {
+TEST_F(RecoverShards, RefusesInPartsWhatItRefusesAsAWhole) {
   // The model's tables do not identify the servo: no run gives its time constant.
   RecoverOptions options = seven_runs();
   options.identify.asked = {ParameterId::kSteeringTimeConstant};
@@ -140,7 +140,7 @@ TEST_F(RecoverShards, AnErrorOfAllRunsIsThatOfTheFirst) {
   EXPECT_EQ(to_text(recovery.error()), to_text(*one.error));
 }
 
-TEST_F(RecoverShards, TheRefusalThatIsToldIsThatOfTheSmallestRun) {
+TEST_F(RecoverShards, ReportsTheRefusalOfTheSmallestRun) {
   RecoverPart one = part({1, 2});
   RecoverPart two = part({2, 2});
   one.refusal = {4, "later"};
@@ -149,7 +149,7 @@ TEST_F(RecoverShards, TheRefusalThatIsToldIsThatOfTheSmallestRun) {
             "first");
 }
 
-TEST_F(RecoverShards, WhatIsMissingOrThereTwiceIsNamed) {
+TEST_F(RecoverShards, NamesMissingAndDuplicateParts) {
   const auto first = write({1, 4});
   const auto second = write({2, 4});
   EXPECT_THAT(fault({first, second}), HasSubstr("of 4 parts, these are missing: 3, 4"));
@@ -223,7 +223,7 @@ TEST_F(RecoverShards, DamagedTablesAreNamed) {
   EXPECT_TRUE(merge_recover_shards({first, second}));
 }
 
-TEST_F(RecoverShards, AFinishedPartIsKnownByItsBytesAndWhatItIsMadeFrom) {
+TEST_F(RecoverShards, RecognisesAFinishedPartByItsBytesAndInputs) {
   const Shard shard{1, 2};
   const auto first = write(shard);
   EXPECT_TRUE(is_finished_recover_shard(first, shard, kProvenance));

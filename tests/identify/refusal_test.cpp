@@ -69,7 +69,7 @@ TEST(Refusal, TwoRowsGiveValuesWithoutAnError) {
 }
 
 /// Three surge rows leave b1 open from -1 to 2.8, and with it m' by sixteen orders of magnitude.
-TEST(Refusal, AMassThatIsOpenByOrdersOfMagnitudeIsNotShown) {
+TEST(Refusal, RefusesAMassUncertainByOrdersOfMagnitude) {
   TrialData data = synthetic(kTruths[0], 0.0, 1);
   data.surge->rows = {
       {2, 0.2, 0.095663, {}, {}}, {3, 1.2, 1.0453, {}, {}}, {4, 1.6, 1.3539, {}, {}}};

@@ -63,7 +63,7 @@ Model identified(const TrialData& data) {
   return result->model;
 }
 
-TEST(Scrub, IsWhatTurnsByTheSidesMeetBesideYawResistance) {
+TEST(Scrub, EqualsTheExcessMomentOfDifferentialTurns) {
   const Model model = identified(turns(0.012, 1e-6, 1));
   ASSERT_TRUE(model.yaw_scrub);
   EXPECT_NEAR(model.yaw_scrub->moment_m, 0.012, 1e-6);
@@ -101,7 +101,7 @@ TEST(Scrub, NeedsThreeTurns) {
   EXPECT_THAT(codes(model), Contains("few-scrub-rows"));
 }
 
-TEST(Scrub, LessThanNothingIsRefused) {
+TEST(Scrub, RefusesANegativeScrub) {
   TrialData data = turns(0.0, 0.01, 1);
   for (TurningRow& row : data.turning->by_sides) row.yaw_rate_radps *= 57.29578;  // left in deg/s
   const Model model = identified(data);
@@ -109,7 +109,7 @@ TEST(Scrub, LessThanNothingIsRefused) {
   EXPECT_THAT(codes(model), Contains("negative-scrub"));
 }
 
-TEST(Scrub, ThatIsNoConstantIsToldWithAllThatItIs) {
+TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
   // 0.2 r m, from 0.05 to 0.3 rad/s.
   constexpr int kTables = 200;
   int told = 0, held = 0;
@@ -173,7 +173,7 @@ TEST(Scrub, OfTurnsWithOneForceOrAtOneRateDoesNotSeemToChange) {
             10 + 12);
 }
 
-/// A turn attempt under this moment in which the vehicle stood still.
+/// A turn attempt under this moment in which the vehicle did not turn.
 TurningRow standing(double moment_m, int line) {
   TurningRow row = by_sides(0.1, 0.0, 1.0, line);
   const double half = moment_m / (4.0 * steered().half_track_m);
@@ -183,7 +183,7 @@ TurningRow standing(double moment_m, int line) {
   return row;
 }
 
-TEST(Scrub, OfTurnsThatStandStillIsAtLeastWhatTheyWereDrivenWith) {
+TEST(Scrub, IsAtLeastTheLargestMomentWithoutATurn) {
   TrialData data = synthetic(kTruth, 0.02, 1);
   data.turning->standing = {standing(0.05, 21), standing(0.09, 22), standing(0.07, 23)};
   const Model model = identified(data);
@@ -204,7 +204,7 @@ TEST(Scrub, OfTurnsThatStandStillIsAtLeastWhatTheyWereDrivenWith) {
   EXPECT_EQ(read_model(file.path())->yaw_held_m, model.yaw_held_m);
 }
 
-TEST(Scrub, OfTurnsThatHappenedIsThatOfMovingTyresBesideWhatTheyHold) {
+TEST(Scrub, KeepsTheScrubOfTurnsApartFromTheMomentWithoutATurn) {
   TrialData data = turns(0.01, 0.02, 1);
   data.turning->standing = {standing(0.05, 31)};
   const Model model = identified(data);
@@ -213,7 +213,7 @@ TEST(Scrub, OfTurnsThatHappenedIsThatOfMovingTyresBesideWhatTheyHold) {
   EXPECT_DOUBLE_EQ(model.yaw_held_m.value_or(0.0), 0.05);
 }
 
-TEST(Scrub, SaysWhereYawResistanceIsExtrapolated) {
+TEST(Scrub, WarnsIfYawResistanceIsExtrapolated) {
   TrialData data = turns(0.01, 0.01, 1);
   data.turning->by_sides.push_back(by_sides(0.6, 0.01, 1.0, 30));
   EXPECT_THAT(codes(identified(data)), Contains("scrub-beyond-trials"));
@@ -287,7 +287,7 @@ TEST(Scrub, IsSuggestedFromNoScrubToTyresThatSlide) {
   EXPECT_THAT(field_sheet(*suggestion, 3), ::testing::HasSubstr("choice between differential"));
 }
 
-TEST(Scrub, ThatWasMeasuredSaysWithWhatToTurnNext) {
+TEST(Scrub, SuggestsTheNextDifferentialTurns) {
   const Model model = identified(turns(0.01, 0.03, 1));
   const auto suggestion = suggest(model, {});
   ASSERT_TRUE(suggestion) << to_text(suggestion.error());
@@ -296,10 +296,10 @@ TEST(Scrub, ThatWasMeasuredSaysWithWhatToTurnNext) {
     const double scrub_m = moment_of(turn.least) - resisted_m(model, turn.yaw_rate_degps);
     EXPECT_NEAR(scrub_m, std::max(0.0, model.yaw_scrub->ci95_m.lo), 1e-12);
   }
-  EXPECT_THAT(suggestion->about_scrub, ::testing::HasSubstr("4 turns have shown"));
+  EXPECT_THAT(suggestion->about_scrub, ::testing::HasSubstr("4 turns give"));
 }
 
-TEST(Scrub, OfAVehicleThatNeverSteeredIsInYawResistance) {
+TEST(Scrub, IsPartOfYawResistanceWithoutSteeredTurns) {
   TrialData data = synthetic(kTruth, 0.02, 1);
   for (TurningRow& row : data.turning->rows) {
     row = by_sides(row.yaw_rate_radps, 0.02, 1.0, row.line);
@@ -310,7 +310,7 @@ TEST(Scrub, OfAVehicleThatNeverSteeredIsInYawResistance) {
   const auto suggestion = suggest(model, {});
   ASSERT_TRUE(suggestion) << to_text(suggestion.error());
   EXPECT_THAT(suggestion->scrub_turns, IsEmpty());
-  EXPECT_THAT(suggestion->about_scrub, ::testing::HasSubstr("steered ones"));
+  EXPECT_THAT(suggestion->about_scrub, ::testing::HasSubstr("three steered turns"));
   const ScratchFile file("model.json", model_text(model));
   EXPECT_TRUE(read_model(file.path())->yaw_by_sides_alone);
 }

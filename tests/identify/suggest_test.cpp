@@ -20,7 +20,7 @@ Model some_model(double sigma) {
   return identify(v, synthetic(kTruths[0], sigma, 3), {}, {})->model;
 }
 
-TEST(Suggest, RanksEveryCandidateByWhatItPromisesAndNoneMakesItWorse) {
+TEST(Suggest, NoCandidateIncreasesTheStandardError) {
   const auto suggestion = suggest(some_model(0.05), {.parameter = "mass_norm"});
   ASSERT_TRUE(suggestion);
   ASSERT_GT(suggestion->trials.size(), 10U);
@@ -54,7 +54,7 @@ TEST(Suggest, ATurnWhileCoastingIsOneThatTyresRoll) {
   EXPECT_FALSE(without->coasting);
 }
 
-TEST(Suggest, ATurningRunSaysNothingOfSurge) {
+TEST(Suggest, ATurningRunDoesNotImproveSurge) {
   const auto suggestion = suggest(some_model(0.05), {.parameter = "surge.beta"});
   ASSERT_TRUE(suggestion);
   for (const SuggestedTrial& trial : suggestion->trials) {

@@ -70,7 +70,7 @@ TEST(Families, ExactRunsGiveTheirOwnFamilyBack) {
   }
 }
 
-TEST(Families, AutoPrefersThePowerLawWhereItIsTheTruthAndLeavesItWhereItIsNot) {
+TEST(Families, AutoSelectsThePowerLawOnlyIfItIsTheTruth) {
   const Resistance<double> power{.alpha = 1.3157, .beta = 0.8841};
   const auto plain = identify(vehicle(), runs_on(power, 0.0, 0.005, 4), family({}), {});
   ASSERT_TRUE(plain);
@@ -180,7 +180,7 @@ TEST(Outliers, OfAPowerLawThatCoulombFrictionExplainsStay) {
   EXPECT_EQ(result->model.record.reports.front().rows_used, 12);
 }
 
-TEST(Outliers, LeavingARowOutGivesWhatTheFitWithoutItGives) {
+TEST(Outliers, LeaveOneOutEqualsAFitWithoutTheRow) {
   const TrialData data = runs_on({.alpha = 1.3157, .beta = 0.8841}, 0.0, 0.02, 5);
   const auto result = identify(vehicle(), data, {}, {});
   ASSERT_TRUE(result);
@@ -267,7 +267,7 @@ TEST(Bounds, ATermThatStartsAtItsBoundLeavesItWhereTheCostFallsInwards) {
   EXPECT_GT(fit[TransformedParameter::kQuadratic], 0.0);
 }
 
-TEST(Tables, FourRowsGiveThePowerLawWithWideIntervalsWhateverTheFamilyAskedFor) {
+TEST(Tables, FourRowsGiveThePowerLawForEveryRequestedFamily) {
   TrialData data = runs_on({.alpha = 1.2, .beta = 0.8}, 0.0, 0.01, 4);
   data.surge->rows.resize(4);
   for (const bool by_aicc : {false, true}) {
@@ -287,7 +287,7 @@ TEST(Tables, FourRowsGiveThePowerLawWithWideIntervalsWhateverTheFamilyAskedFor) 
   }
 }
 
-TEST(Tables, ADeadZoneTakesFromEachSideWhatItCommands) {
+TEST(Tables, SubtractsTheDeadZoneFromEachSidesCommand) {
   TurningRow row;
   row.tau_turn_m = 0.4;
   row.yaw_rate_radps = 0.5;

@@ -94,7 +94,7 @@ TEST(Plausibility, TheInertiaOfAnotherVehicleIsNamedAndAMeasuredOneIsNot) {
   EXPECT_THAT(words(v), IsEmpty());
 }
 
-TEST(Plausibility, AVehicleWithoutSteeringIsAskedForNone) {
+TEST(Plausibility, RequiresNoSteeringOfAVehicleWithoutSteering) {
   Vehicle v = vehicle(2.1, 0.32, 0.22, 0.085, 0.085);
   v.drive = Drive::kDifferential;
   v.steering_max_deg = v.steering_max_rate_degps = v.steering_time_constant_s = 0.0;

@@ -174,9 +174,9 @@ void PilGuidance::expect_leads_by_itself(const std::string& scenario) {
   EXPECT_EQ(json["guidance_on_chip"].get<bool>(), !heading);
 }
 
-/// In the first minute.
+/// In the first half minute.
 TEST_P(PilGuidance, LeadsByItselfBitForBitAsOnTheHost) {
-  expect_leads_by_itself(shortened(std::string("configs/") + GetParam() + ".json", 60.0));
+  expect_leads_by_itself(shortened(std::string("configs/") + GetParam() + ".json", 30.0));
 }
 
 /// One scenario for each set of the firmware's parts and laws.
@@ -296,7 +296,7 @@ TEST_F(Pil, AnObserverTunedWithTheGainsWorksOnTheChip) {
 }
 
 TEST_F(Pil, ALineOverTheUartIsTheSameRun) {
-  const std::string line = shortened("configs/paper/scenarios/c9_line.json", 15.0);
+  const std::string line = shortened("configs/paper/scenarios/c9_line.json", 8.0);
   // The serial line takes 1.5 kB more than the memory link, which stays within 16 KiB.
   ASSERT_EQ(pil(line, "combined", "--link uart --flash-max 16800", "uart.json").exit_code, 0);
   EXPECT_EQ(result("uart.json")["difference_double"], result_of(line)["difference_double"]);
@@ -442,7 +442,7 @@ INSTANTIATE_TEST_SUITE_P(, PilFault, ::testing::ValuesIn(kFaults), [](const auto
 });
 
 TEST_F(Pil, AChipThatIsResetInMidRunIsStartedAnewAndGoesOnAsItsTwin) {
-  const std::string line = shortened("configs/paper/scenarios/c9_line.json", 15.0);
+  const std::string line = shortened("configs/paper/scenarios/c9_line.json", 8.0);
   for (const auto& [scenario, link] : {std::pair{shortened(kC8, 40.0), "--link memory"},
                                        {line, "--link memory"},
                                        {line, "--link uart --line-noise 1e-4 --flash-max 16800"}}) {

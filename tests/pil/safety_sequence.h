@@ -32,7 +32,7 @@ struct Sequence {
   int16_t word;
   int16_t field[3];
   char sentence[96];
-  uint8_t arrived, taken;  // characters of it that came to the port, and that were read from it
+  uint8_t arrived, taken;  // characters that arrived at the port, and that were read from it
   uint8_t causes[awmr::kSensorFaultCount];  // steps with each sensor fault, at most 255
   uint8_t disarmed;                         // how often
 };

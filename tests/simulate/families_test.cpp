@@ -127,7 +127,7 @@ TEST(FrontWheelDrive, HoldsSpeedAndHeadingInEveryModeWithAndWithoutBackEmf) {
   }
 }
 
-TEST(Families, AtRestAForceBelowCoulombFrictionMovesNothingMuch) {
+TEST(Families, AForceBelowCoulombFrictionDoesNotMoveAVehicleAtRest) {
   const Plant<double> plant = plant_of({.alpha = 1.0, .beta = 1.0, .coulomb = 0.3}, 0.0);
   const awmr::Run run = run_open_loop(plant, {}, 5.0, {0.25, 0.0});
   // Below the chord's 1 mm/s the vehicle creeps, by less than 5 mm in 5 s.

@@ -185,7 +185,7 @@ TEST(ElectricWork, IsThatOfTheCopperAndOfTheWheels) {
   EXPECT_DOUBLE_EQ(*electric_work_j(metrics, vehicle, 0.5), 20.0 * 3.0 + 10.0 / 0.5 * 2.0);
 }
 
-TEST(Validity, OfSeveralRunsTheFastestIsTold) {
+TEST(Validity, ReportsTheFastestOfSeveralRuns) {
   struct Judged {
     Metrics metrics;
     std::string name;
@@ -207,7 +207,7 @@ TEST(Validity, OfSeveralRunsTheFastestIsTold) {
   EXPECT_TRUE(extrapolation_in(model, std::vector<Judged>{}, where).empty());
 }
 
-TEST(Validity, WhereALimitIsOnItIsNotAdvised) {
+TEST(Validity, DoesNotAdviseALimitThatIsSet) {
   Model model = fitted_paper_model();
   model.vehicle.yaw_rate_max_degps = 15.0;
   std::vector<Finding> findings;
@@ -219,7 +219,7 @@ TEST(Validity, WhereALimitIsOnItIsNotAdvised) {
   EXPECT_NE(findings[1].message.find("lower the limit"), std::string::npos);
 }
 
-TEST(Validity, HeadingsThatNothingLeadsAreTold) {
+TEST(Validity, WarnsIfHeadingsAreNotRateLimited) {
   Model model = fitted_paper_model();
   const auto finding = not_led("", model);
   ASSERT_TRUE(finding);
@@ -229,7 +229,7 @@ TEST(Validity, HeadingsThatNothingLeadsAreTold) {
   EXPECT_FALSE(not_led("", model));
 }
 
-TEST(Validity, ATurnFasterThanTheTrialsCoveredIsTold) {
+TEST(Validity, WarnsOfATurnFasterThanTheTrials) {
   Model model = fitted_paper_model();
   std::vector<Finding> findings;
   EXPECT_FALSE(measured_yaw_rate_degps(model));
@@ -266,7 +266,7 @@ std::vector<std::string> codes_of(const std::vector<Finding>& findings) {
 }
 using Codes = std::vector<std::string>;
 
-TEST(Validity, WhatAScenarioAsksForInVainIsTold) {
+TEST(Validity, WarnsOfScenarioPartsWithoutEffect) {
   const Model model = fitted_paper_model();
   EXPECT_EQ(codes_of(asked_in_vain(kSteps, model)), Codes{});
 
@@ -302,7 +302,7 @@ TEST(Validity, WhatAScenarioAsksForInVainIsTold) {
   EXPECT_EQ(codes_of(asked_in_vain(fast, model)), Codes{"unreachable-speed"});
 }
 
-TEST(Validity, TyresThatTurnTheVehicleOtherwiseThanItsTrialsAreTold) {
+TEST(Validity, WarnsOfTyresThatContradictTheTurningTrials) {
   Model model = fitted_paper_model();
   Scenario on_tyres = kSteps;
   on_tyres.tyres = Tyres<double>{};

@@ -126,7 +126,7 @@ TEST(Passage, AgreesWithFloodingAGrid) {
   EXPECT_LT(closed, decided);
 }
 
-TEST(NoPassage, TheVehicleStopsAndSaysSo) {
+TEST(NoPassage, TheVehicleStopsAndReportsIt) {
   Scenario scenario = random_layout(0);
   scenario.obstacles = ring(kGoal_m, -1);
   for (const YawMode mode : kYawModes) {

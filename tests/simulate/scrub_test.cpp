@@ -32,7 +32,7 @@ State<double> turning(double r_radps, double steering_rad) {
           .steering_rad = steering_rad};
 }
 
-/// What scrub takes from r_dot, times I'z.
+/// Effect of scrub on r_dot, times I'z.
 double scrub_at(const State<double>& state, const SideForces<double>& force) {
   const Plant<double> plant = scrubbing_plant();
   const double with = state_rates(plant, state, force, 0.0).r_radps;

@@ -31,7 +31,7 @@ struct Making {
   bool sides_apart = true;
   double noise = 1.0;
   double gyro_bias_radps = 0.0;
-  bool combined = false;  ///< the sides produce the same moment as the steering
+  bool combined = false;  ///< the wheel forces produce the same moment as the steering
 };
 
 Measured measured(std::vector<double> values) {
@@ -127,7 +127,8 @@ TEST(LogConsistency, ASpeedWithoutASignIsNamedAndOneWithASignIsNot) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const auto is_named = [&](const DrivingLog& log) {
       return std::ranges::any_of(contradictions(log, vehicle(), {}), [](const Contradiction& c) {
-        return c.column == "speed_mps" && c.message.find("tells no direction") < c.message.size();
+        return c.column == "speed_mps" &&
+               c.message.find("measures no direction") < c.message.size();
       });
     };
     EXPECT_TRUE(is_named(reversing_log(seed, false))) << seed;

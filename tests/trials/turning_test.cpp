@@ -149,7 +149,8 @@ TEST(TurningTrial, RefusesRunsThatTurnBothWaysOrContradictThemselves) {
   const std::string header = "steering_deg,wheel_force,yaw_rate_radps,force_left,force_right\n";
   const std::string steered = "10,0.35,0.1,,\n";
   EXPECT_THAT(faults_of(kReadTurning, header + steered + "5,,0.2,0.1,0.3\n"),
-              ElementsAre(AllOf(StartsWith("3:1: "), HasSubstr("at once"))));
+              ElementsAre(AllOf(StartsWith("3:1: "),
+                                HasSubstr("either by steering or by a force difference"))));
   EXPECT_THAT(faults_of(kReadTurning, header + steered + "0,0.5,0.2,0.1,0.3\n"),
               ElementsAre(AllOf(StartsWith("3:3: "), HasSubstr("is 0.2"))));
   EXPECT_THAT(faults_of(kReadTurning, header + steered + "0,,0.2,0.1,0.3\n0,,0.2,0.1,\n"),

@@ -20,7 +20,7 @@
 namespace awmr::testing {
 namespace {
 
-/// What the vehicle's loop is examined under: its own latency and lag, yaw rates up to 30 deg/s.
+/// Conditions of the certificate: its own latency and lag, yaw rates up to 30 deg/s.
 ConstraintContext context_of(const Model& model) {
   const LoopConditions c = conditions_of(model.vehicle);
   return {.plant = model.plant().value(),

@@ -43,7 +43,7 @@ TEST(Goal, HoldsInARunThatKeepsEveryLimit) {
   EXPECT_TRUE(std::isinf(excess_of(goal, outcome_of(never, kScenario))));
 }
 
-TEST(Goal, IsJudgedByTheLeastValueThatItsShareOfRunsDoesNotExceed) {
+TEST(Goal, IsEvaluatedByTheQuantileOfItsShare) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> seconds(0.5, 6.0);
   for (const int runs : {1, 2, 5, 19, 20, 21, 400}) {
@@ -176,14 +176,14 @@ TEST(Goal, ThatNoGainsReachIsRefusedByItsName) {
   EXPECT_EQ(striven->robust->goals.front().verdict, GoalVerdict::kMissed);
 }
 
-TEST(Goal, IsRefusedWhereItMeansNothing) {
+TEST(Goal, RefusesGoalsWithoutMeaning) {
   const auto why = [](TuneOptions options) {
     const Result<Tuning> tuning = tune(uncertain_model(), options);
     return tuning ? std::string("accepted") : to_text(tuning.error());
   };
   TuneOptions nominal = options_with(quick_and_calm());
   nominal.nominal = true;
-  EXPECT_THAT(why(nominal), HasSubstr("a nominal search draws nothing"));
+  EXPECT_THAT(why(nominal), HasSubstr("which nominal disables"));
   TuneOptions steering = options_with(quick_and_calm());
   steering.goals.front().mode = YawMode::kSteering;
   Model unsteered = uncertain_model();
@@ -195,7 +195,7 @@ TEST(Goal, IsRefusedWhereItMeansNothing) {
   EXPECT_THAT(why(options_with(quick_and_calm(1.0))), HasSubstr("a share of 1"));
   EXPECT_THAT(why(options_with({})), HasSubstr("without a limit"));
   EXPECT_THAT(why(options_with({.at_most = {{"speed", 1.0}}, .mode = {}})),
-              HasSubstr("is no figure"));
+              HasSubstr("unknown or given twice"));
   EXPECT_THAT(why(options_with({.at_most = {{"overshoot_deg", 0.0}}, .mode = {}})),
               HasSubstr("not above 0"));
 }

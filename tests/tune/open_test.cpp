@@ -49,7 +49,7 @@ TEST(Open, IsTakenByTheDrawsInTurnAndNotByTheModelsOwn) {
   }
 }
 
-TEST(Open, GoesByTheNumberOfADrawWhateverPartItIsIn) {
+TEST(Open, DependsOnTheDrawNumberAndNotOnThePart) {
   const Model model = paper_model();
   const auto all = vehicles_of(model, 6, 1, paper_grid());
   const int numbers[] = {2, 5};
@@ -104,7 +104,7 @@ TuneOptions short_search() {
   return options;
 }
 
-TEST(Open, GainsSuitAllOfItAndSayWhatItWas) {
+TEST(Open, GainsSuitEveryVariationAndTheFileListsIt) {
   const Model model = paper_model();
   const TuneOptions options = short_search();
   const Result<Tuning> tuning = tune(model, options);
@@ -128,16 +128,16 @@ std::string refused(const TuneOptions& options) {
 TEST(Open, IsRefusedWhereTheDrawsDoNotTakeAllOfIt) {
   TuneOptions options = short_search();
   options.draws = 1;
-  EXPECT_THAT(refused(options), HasSubstr("draws: 1 do not take all of the 2 combinations"));
+  EXPECT_THAT(refused(options), HasSubstr("draws: 1 does not cover all 2 combinations"));
   options = short_search();
   options.judged_draws = 1;
-  EXPECT_THAT(refused(options), HasSubstr("judged_draws: 1 do not take"));
+  EXPECT_THAT(refused(options), HasSubstr("judged_draws: 1 does not cover"));
   options = short_search();
   options.nominal = true;
-  EXPECT_THAT(refused(options), HasSubstr("a nominal search draws nothing"));
+  EXPECT_THAT(refused(options), HasSubstr("which nominal disables"));
 }
 
-TEST(Open, IsRefusedOutsideOfWhatAVehicleMayBe) {
+TEST(Open, RefusesVariationOutsideTheVehiclesRanges) {
   for (const double factor : {0.0, -1.0, 11.0, std::numeric_limits<double>::quiet_NaN()}) {
     TuneOptions options = short_search();
     options.open.mass_factors = {1.0, factor};

@@ -198,7 +198,7 @@ TEST(Tune, GivesTheSameBytesForTheSameSeed) {
   EXPECT_THAT(first, ::testing::HasSubstr("\"awmr.gains/1\""));
 }
 
-TEST(Tune, TellsItsProgressThatGrowsUpToItsEnd) {
+TEST(Tune, ReportsProgressUpToItsEnd) {
   TuneOptions options = short_options();
   std::vector<std::size_t> done;
   std::size_t total = 0;
@@ -240,7 +240,7 @@ TEST(Tune, TakesTheLeastMuThatScoresAsWell) {
   EXPECT_GT(with_mu(0.7 * heading.mu), own);
 }
 
-TEST(Tune, NamesTheConstraintThatHoldsTheGainsAndWhatItCosts) {
+TEST(Tune, NamesTheActiveConstraintAndItsCost) {
   TuneOptions options = short_options();
   options.local_evaluations = 200;
   options.weights.settling =
@@ -327,7 +327,7 @@ TEST(Tune, NamesALimitThatNoGainsKeep) {
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("steering_rate_rms_degps"));
 }
 
-TEST(Tune, KeepsTheActivityThatIsAskedForOverTheBaseline) {
+TEST(Tune, MeetsTheRequestedActivityLimit) {
   TuneOptions options = short_options();
   options.baseline = Baseline{kPaperGains, kPaperSource};
   options.activity_max = 1.5;
@@ -405,7 +405,7 @@ TEST(Tune, NamesAllUnfitOptionsAtOnce) {
   EXPECT_EQ(tuning.error().faults.size(), 6U) << to_text(tuning.error());
 }
 
-TEST(Tune, RefusesAScenarioThatHoldsAThrustInPlaceOfASpeed) {
+TEST(Tune, RefusesAScenarioWithConstantThrust) {
   TuneOptions options = short_options();
   std::get<HeadingSteps>(options.scenarios.front().guidance).tau_speed = 1.4;
   const Result<Tuning> tuning = tune(paper_model(), options);
@@ -502,7 +502,7 @@ std::pair<double, double> left_by_a_push(const Scenario& pushed, const Gains<dou
   return {degrees(last.psi_ref_rad - last.state.psi_rad), last.u_ref_mps - last.state.u_mps};
 }
 
-TEST(Observed, AnObserverTunedWithTheGainsTakesOffWhatPushesAllTheTime) {
+TEST(Observed, AnObserverCompensatesAConstantDisturbance) {
   TuneOptions options;
   options.nominal = true;
   options.global_evaluations = 80;
@@ -537,7 +537,7 @@ TEST(Observed, AnObserverTunedWithTheGainsTakesOffWhatPushesAllTheTime) {
   EXPECT_EQ(held->gains.observer.yaw_max_m, 0.02);
 }
 
-TEST(Observed, IsJudgedBesideTheSameGainsWithoutIt) {
+TEST(Observed, IsEvaluatedNextToTheSameGainsWithoutObserver) {
   TuneOptions options;
   options.draws = 1;
   options.judged_draws = 10;
@@ -555,7 +555,7 @@ TEST(Observed, IsJudgedBesideTheSameGainsWithoutIt) {
   EXPECT_LE(settled.at("baseline"), 0.5);
 }
 
-TEST(Observed, WhatContradictsASearchForAnObserverIsNamed) {
+TEST(Observed, NamesOptionsThatContradictAnObserver) {
   TuneOptions options = short_options();
   options.observer.emplace();
   options.observer->bandwidth_radps = {0.0, 3.0};
@@ -565,8 +565,7 @@ TEST(Observed, WhatContradictsASearchForAnObserverIsNamed) {
   const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_FALSE(tuning);
   const std::string text = to_text(tuning.error());
-  for (const char* words :
-       {"bandwidth_radps", "surge_max: -1", "disturbance_observer of its own"}) {
+  for (const char* words : {"bandwidth_radps", "surge_max: -1", "sets a disturbance_observer"}) {
     EXPECT_THAT(text, ::testing::HasSubstr(words));
   }
 }
@@ -600,7 +599,7 @@ TEST(Robust, WithoutDrawsAndWithoutACovarianceNoiseAloneIsDrawn) {
   EXPECT_THAT(text, ::testing::HasSubstr("noise alone"));
 }
 
-TEST(TradeOff, KeepsWhatNoOtherBeatsInBoth) {
+TEST(TradeOff, KeepsTheParetoFront) {
   const auto front = front_of({{2.0, 1.0}, {1.0, 3.0}, {1.0, 2.0}, {3.0, 1.0}, {1.5, 2.5}});
   ASSERT_EQ(front.size(), 2U);
   EXPECT_EQ(front[0].settling_time_s, 1.0);

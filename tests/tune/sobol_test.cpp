@@ -77,7 +77,7 @@ TEST(Sobol, IndicesOfASumAreItsShares) {
   }
 }
 
-TEST(Sobol, WhatDoesNotVaryHasNone) {
+TEST(Sobol, AConstantInputHasIndexZero) {
   for (const double constant : {3.0, 1.38, 0.1, 44.1}) {
     for (const SobolIndex& index : indices_of([&](const auto&) { return constant; }, 2, 64)) {
       EXPECT_EQ(index.first, 0.0);
@@ -116,13 +116,14 @@ TEST(Sensitivity, OfTheTunedLoopNamesWhatWasAssumed) {
   EXPECT_EQ(tune(uncertain_model(), options)->gains.heading.mu, tuning->gains.heading.mu);
 }
 
-TEST(Sensitivity, IsRefusedWhereItMeansNothing) {
+TEST(Sensitivity, RefusesSettingsWithoutMeaning) {
   TuneOptions options;
   options.sensitivity = 5;
   EXPECT_THAT(to_text(tune(uncertain_model(), options).error()), HasSubstr("neither 0 nor"));
   options.sensitivity = 64;
   options.nominal = true;
-  EXPECT_THAT(to_text(tune(uncertain_model(), options).error()), HasSubstr("nominal search"));
+  EXPECT_THAT(to_text(tune(uncertain_model(), options).error()),
+              HasSubstr("which nominal disables"));
   options.nominal = false;
   options.sensitivity = kMostSamples;
   options.scenarios = {default_tuning_scenario(paper_model()).value()};

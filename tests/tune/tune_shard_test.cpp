@@ -85,7 +85,7 @@ TEST_F(TuneShard, PartsAreTheBytesOfASingleRunInAnyOrder) {
   EXPECT_THAT(fault({first, first, second, third}), HasSubstr("as well"));
 }
 
-TEST_F(TuneShard, WhatIsNotThePartIsNamed) {
+TEST_F(TuneShard, NamesFilesThatAreNotOfThePart) {
   const auto first = write({1, 2}), second = write({2, 2});
   EXPECT_TRUE(is_finished_tune_shard(first, {1, 2}, kProvenance));
   EXPECT_FALSE(is_finished_tune_shard(first, {2, 2}, kProvenance));
@@ -107,7 +107,7 @@ TEST_F(TuneShard, WhatIsNotThePartIsNamed) {
 }
 
 /// Rows that are lost, duplicated or moved, with a matching hash.
-TEST_F(TuneShard, ATableThatIsNotThatOfItsPartIsNamedByItsLine) {
+TEST_F(TuneShard, NamesTheFirstWrongLineOfATable) {
   const auto only = write({1, 1});
   const std::string table = read_all(only / kJudgedTable);
   const std::string shard = read_all(only / kShardFile);

@@ -72,14 +72,14 @@ Acceptance judged(const DrivingLog& log, AcceptanceOptions options = {.draws = 9
   return acceptance.value_or(Acceptance{});
 }
 
-const Suspect* suspect(const Acceptance& acceptance, std::string_view what) {
-  for (const Suspect& one : acceptance.suspects) {
+const FaultHypothesis* hypothesis(const Acceptance& acceptance, std::string_view what) {
+  for (const FaultHypothesis& one : acceptance.hypotheses) {
     if (one.what == what) return &one;
   }
   return nullptr;
 }
 
-TEST(Acceptance, TakesTheVehicleThatWasForetoldAtTheStatedRate) {
+TEST(Acceptance, AcceptsTheVehicleOfThePredictionAtTheStatedRate) {
   // 40 vehicles from the model's uncertainty: on average 2 are rejected by chance, more than 6 in 1
   // % of all series (binomial).
   const auto sampler = PlantSampler::make(uncertain_model());
@@ -117,7 +117,7 @@ TEST(Acceptance, NamesAHeavierVehicle) {
   heavier.mass_norm *= 3.0;
   const Acceptance acceptance = judged(recorded(heavier, drive_scenario(), 3));
   EXPECT_FALSE(acceptance.inside);
-  const Suspect* mass = suspect(acceptance, "mass_norm");
+  const FaultHypothesis* mass = hypothesis(acceptance, "mass_norm");
   ASSERT_NE(mass, nullptr) << acceptance_table(acceptance);
   EXPECT_NEAR(mass->value, 3.0, 0.5);
 }
@@ -127,7 +127,7 @@ TEST(Acceptance, NamesMotorsOfOneSideThatAreWeak) {
   world.faults.push_back({{Wheel::kFrontLeft, Wheel::kRearLeft}, {}, 0.7});
   const Acceptance acceptance = judged(recorded(paper_plant(), world, 3));
   EXPECT_FALSE(acceptance.inside);
-  const Suspect* motors = suspect(acceptance, "force of the left motors");
+  const FaultHypothesis* motors = hypothesis(acceptance, "force of the left motors");
   ASSERT_NE(motors, nullptr) << acceptance_table(acceptance);
   EXPECT_NEAR(motors->value, 0.7, 0.05);
   EXPECT_GT(motors->explained, 0.8);
@@ -138,7 +138,7 @@ TEST(Acceptance, NamesABiasOfTheGyro) {
   world.sensors->yaw_rate.bias = radians(6.0);
   const Acceptance acceptance = judged(recorded(paper_plant(), world, 3));
   EXPECT_FALSE(acceptance.inside);
-  const Suspect* bias = suspect(acceptance, "bias of the yaw rate");
+  const FaultHypothesis* bias = hypothesis(acceptance, "bias of the yaw rate");
   ASSERT_NE(bias, nullptr) << acceptance_table(acceptance);
   EXPECT_NEAR(bias->value, 6.0, 0.6);
 }

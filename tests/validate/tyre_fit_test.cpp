@@ -69,6 +69,27 @@ TEST(TyreFit, AVehicleWithoutTyresIsPredictedByTheModel) {
   }
 }
 
+/// The same log at 50 Hz with commands that alternate, of a controller at 50 Hz and of one at 100 Hz.
+TEST(TyreFit, CommandsLostBetweenRowsWidenTheIntervals) {
+  DrivingLog log = driven({.friction = 0.5, .stiffness = 7.0});
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    log.force_left[row] *= row % 2 == 0 ? 1.05 : 0.95;
+    log.force_right[row] *= row % 2 == 0 ? 1.05 : 0.95;
+  }
+  std::vector<Finding> findings;
+  Model model = identified();
+  model.vehicle.sample_time_s = 0.02;
+  const auto whole = fit_tyres({log}, model, findings).value();
+  model.vehicle.sample_time_s = 0.01;
+  const auto half = fit_tyres({log}, model, findings).value();
+  ASSERT_TRUE(whole && whole->friction && whole->cornering_per_rad);
+  ASSERT_TRUE(half && half->friction && half->cornering_per_rad);
+  EXPECT_EQ(*half->friction->value, *whole->friction->value);
+  EXPECT_EQ(*half->cornering_per_rad->value, *whole->cornering_per_rad->value);
+  EXPECT_GT(*half->friction->std_error, *whole->friction->std_error);
+  EXPECT_GT(*half->cornering_per_rad->std_error, *whole->cornering_per_rad->std_error);
+}
+
 TEST(TyreFit, NeedsBothKindsOfTurns) {
   for (const bool by_sides : {true, false}) {
     std::vector<Finding> findings;

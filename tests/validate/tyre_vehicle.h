@@ -31,7 +31,7 @@ struct Commands {
   double steering_rad;
 };
 
-/// Rates by the equations of lib/awmr/model/README.md.
+/// Rates by the equations of lib/awmr/model/VEHICLES.md.
 inline Numbers rates(const Numbers& s, const Commands& c, double friction, double stiffness) {
   const double load = kMass * 9.80665 / 4.0;
   const double cos_d = std::cos(s[6]);
@@ -87,12 +87,13 @@ struct LogDrive {
   bool by_sides = true;
   bool by_steering = true;
   double force = 0.45;         ///< the largest mean force
-  double apart = 0.5;          ///< the largest difference of the sides
+  double apart = 0.5;          ///< the largest left/right force difference
   double steering_deg = 20.0;  ///< the largest
   unsigned seed = 1;
 };
 
-/// Parts of 4 s: a turn by the sides, by steering, or by steering, the first second of it coasting.
+/// Parts of 4 s: a differential turn, a steered turn, or a steered turn that coasts for its first
+/// second.
 inline Commands commands(const LogDrive& drive, double t_s) {
   const int part = static_cast<int>(t_s / 4.0);
   std::mt19937 random(drive.seed * 1000 + static_cast<unsigned>(part));

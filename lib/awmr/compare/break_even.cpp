@@ -36,8 +36,7 @@ struct Course {
   BatchArithmetic arithmetic;
 };
 
-/// By moment: the metrics of the course in this mode where the plant has so much scrub. A run that fails
-/// has none.
+/// Metrics of the course in this mode by scrub moment. A run that fails has none.
 std::vector<std::optional<Metrics>> driven_with(const Course& course, YawMode mode,
                                                 const std::vector<double>& moments_m) {
   std::vector<BatchRun> runs;
@@ -129,7 +128,7 @@ Result<std::vector<ComparisonRow>> rows_without_scrub(const Model& model,
   return rows;
 }
 
-/// Those of a scenario, as scoring_of() reads them.
+/// The rows of one scenario, in the form that scoring_of() reads.
 ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::string& scenario) {
   ScenarioRows rows{scenario, {}};
   for (const ComparisonRow& row : all) {
@@ -146,7 +145,8 @@ struct Question {
   BreakEven entry;
 };
 
-/// Of a mode and those that turn less by the sides' forces, `rows` being those of sample 0.
+/// One question for each mode that the given mode is ahead of and that has smaller wheel-force
+/// differences; `rows` are those of sample 0.
 std::vector<Question> questions_of(const Course& course, const ScenarioRows& rows,
                                    const std::vector<ScoredMetric>& scoring, BreakEven entry) {
   std::vector<Question> questions;
@@ -187,7 +187,7 @@ bool turns_at_other_rates(const BreakEven& entry) {
                                   kLittleFurther * entry.fastest_degps < entry.measured_degps->lo);
 }
 
-/// What the model's turns by the sides say of the scrub, into an entry of which all else is known.
+/// Adds the measured scrub of the model's differential turns to an otherwise complete entry.
 void add_measured(const Model& model, BreakEven& entry) {
   const auto& scrub = model.yaw_scrub;
   if (scrub) {
@@ -215,7 +215,7 @@ void add_measured(const Model& model, BreakEven& entry) {
   if (turns <= kMostTurns) entry.turns_to_decide = static_cast<int>(turns);
 }
 
-/// What the measured scrub makes of the leads, of which `all` are of the same pair of modes.
+/// Describes which leads survive the measured scrub; `all` belong to one pair of modes.
 std::string decided(const std::vector<const BreakEven*>& all) {
   std::map<Lead, int> count;
   int at_other_rates = 0;
@@ -232,19 +232,21 @@ std::string decided(const std::vector<const BreakEven*>& all) {
       turns = std::min(turns.value_or(*entry->turns_to_decide), *entry->turns_to_decide);
     }
   }
-  std::string text =
-      fmt::format("    with the measured scrub: kept in {}, lost in {}, open in {}\n",
-                  count[Lead::kKept], count[Lead::kLost], count[Lead::kOpen]);
+  std::string text = fmt::format(
+      "    with the measured scrub: still ahead in {}, no longer in {}, undecided in "
+      "{}\n",
+      count[Lead::kKept], count[Lead::kLost], count[Lead::kOpen]);
   if (at_other_rates > 0) {
     const Interval rates = *all.front()->measured_degps;
     text += fmt::format(
-        "    {} of the open turn at {:.3g} to {:.3g} deg/s at the most, scrub was measured "
-        "at {:.3g} to {:.3g}\n",
+        "    {} of the undecided reach {:.3g} to {:.3g} deg/s; scrub was measured at {:.3g} to "
+        "{:.3g}\n",
         at_other_rates, slowest, fastest, rates.lo, rates.hi);
   }
   if (turns) {
     text += fmt::format(
-        "    about {} turns by the sides in all would decide the first of the open\n", *turns);
+        "    about {} differential turns in total would decide the first of the undecided\n",
+        *turns);
   }
   return text;
 }
@@ -258,9 +260,8 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
   if (model.yaw_by_sides_alone) {
     return input_error(
         option_text("break_even"),
-        "yaw resistance was measured in turns by the sides' forces and holds their "
-        "scrub already: add steered turns (steering_deg, wheel_force) to the turning "
-        "table and identify again");
+        "yaw resistance was identified from differential turns and already includes their scrub; "
+        "add steered turns (steering_deg, wheel_force) to the turning table and identify again");
   }
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
   AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant());
@@ -310,8 +311,12 @@ std::optional<Lead> lead_of(const BreakEven& entry) {
 
 std::string break_even_table(const std::vector<BreakEven>& entries) {
   std::string text =
-      "break-even: how much scrub, the Coulomb yaw moment of a differential turn, ends a lead\n";
-  if (entries.empty()) return text + "  no mode that turns by the sides' forces leads\n";
+      "break-even: tyre scrub (Coulomb yaw moment of a differential turn) at which a mode is no "
+      "longer ahead\n";
+  if (entries.empty())
+    return text +
+           "  neither differential nor combined is ahead of another "
+           "mode\n";
   std::map<std::pair<YawMode, YawMode>, std::vector<const BreakEven*>> pairs;
   for (const BreakEven& entry : entries) pairs[{entry.mode, entry.against}].push_back(&entry);
   for (const auto& [modes, all] : pairs) {
@@ -321,26 +326,25 @@ std::string break_even_table(const std::vector<BreakEven>& entries) {
     const auto lasting = std::count_if(all.begin(), all.end(), [](const BreakEven* entry) {
       return !entry->yaw_coulomb_m.has_value();
     });
-    text += fmt::format("  {} ahead of {} in {}: ", name_of(modes.first), name_of(modes.second),
-                        all.size());
+    text += fmt::format("  {} ahead of {} in {} scenario{}: ", name_of(modes.first),
+                        name_of(modes.second), all.size(), all.size() == 1 ? "" : "s");
     if ((*least)->yaw_coulomb_m) {
-      text += fmt::format("in the first of them until {:.3g} m ({})", *(*least)->yaw_coulomb_m,
-                          (*least)->scenario);
+      text += fmt::format("until {:.3g} m ({})", *(*least)->yaw_coulomb_m, (*least)->scenario);
     }
     if (lasting > 0) {
-      text += fmt::format("{}in {} whatever the moment, up to {:.3g} m",
+      text += fmt::format("{}in {} for any scrub up to {:.3g} m",
                           (*least)->yaw_coulomb_m ? "; " : "", lasting, (*least)->most_m);
     }
     text += '\n';
     if (all.front()->measured_m) text += decided(all);
   }
-  text += fmt::format("  tyres that slide sideways on a friction of 0.8 make {:.3g} m; ",
+  text += fmt::format("  largest possible scrub at tyre friction 0.8: {:.3g} m; ",
                       entries.front().sliding_m);
   const BreakEven& first = entries.front();
   if (first.measured_m && !first.measured_degps) {
     return text + fmt::format(
-                      "yours: {:.3g} m or more, under which the turns by\n"
-                      "  the sides stood still (awmr suggest says what to turn with)\n",
+                      "yours: at least {:.3g} m, at which\n"
+                      "  the vehicle did not turn (awmr suggest lists forces to turn with)\n",
                       first.measured_m->lo);
   }
   if (const auto& measured_m = first.measured_m) {
@@ -348,9 +352,9 @@ std::string break_even_table(const std::vector<BreakEven>& entries) {
            fmt::format("yours, measured: {:.3g} to {:.3g} m\n", measured_m->lo, measured_m->hi);
   }
   return text +
-         "yours: turn by the sides' forces alone,\n"
-         "  wheels straight (awmr suggest says with which), and add the turns to the turning "
-         "table\n";
+         "yours: unknown.\n"
+         "  Record differential turns with straight wheels (awmr suggest lists them) in the "
+         "turning table\n";
 }
 
 }  // namespace awmr

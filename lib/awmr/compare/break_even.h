@@ -11,7 +11,7 @@ namespace awmr {
 /// For each scenario, and each pair of a mode with differential turns and one with less of them
 /// (differential, combined, steering) of which the first has the better score without scrub: the scrub with
 /// which its lead is gone. The controller knows nothing of it.
-/// `comparison` holds the rows of sample 0 with one set of gains. Errors (input): as fleet_of().
+/// `comparison` holds the rows of sample 0 with one set of gains. Errors (input): as sample_plants().
 Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<double>& gains,
                                              const std::vector<Scenario>& scenarios,
                                              const Comparison& comparison,

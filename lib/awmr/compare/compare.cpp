@@ -10,7 +10,7 @@
 
 #include "awmr/compare/break_even.h"
 #include "awmr/compare/decision.h"
-#include "awmr/compare/fleet.h"
+#include "awmr/compare/sampled_plants.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/parallel.h"
@@ -54,8 +54,8 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
     if (options.break_even && scenario.tyres) {
       faults.push_back(
           {option_text("break_even"),
-           fmt::format("asks how much more yaw resistance ends a lead, which tyres have "
-                       "in its place in '{}': leave it out, or run the model's plant",
+           fmt::format("varies the model's yaw resistance, which scenario '{}' replaces by tyres; "
+                       "remove it, or use the model's plant",
                        scenario.name)});
     }
   }
@@ -69,8 +69,7 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
   if (options.break_even && (gains.size() > 1 || options.shard.count > 1)) {
     faults.push_back(
         {option_text("break_even"),
-         fmt::format("needs one set of gains and a whole comparison: leave out the other "
-                     "sets, and {}",
+         fmt::format("needs one set of gains and a whole comparison; remove the other sets, and {}",
                      option_text("shard"))});
   }
   if (gains.empty()) faults.push_back({option_text("gains"), "none given; give at least one"});
@@ -83,14 +82,13 @@ Status check_runs(std::size_t per_sample, int samples) {
   if (at(samples) + 1 <= most) return {};
   return input_error(
       option_text("samples"),
-      fmt::format("{} samples and the nominal one in {} runs each are {:.3g} runs, more "
-                  "than the {} that are kept in memory: give at most {} samples, or "
-                  "fewer scenarios or sets of gains",
+      fmt::format("{} samples and the nominal one in {} runs each are {:.3g} runs, more than the "
+                  "limit of {}; give at most {} samples, or fewer scenarios or sets of gains",
                   samples, per_sample, (samples + 1.0) * static_cast<double>(per_sample), kMaxRuns,
                   most > 0 ? most - 1 : 0));
 }
 
-/// What is run: positions in the lists of scenarios, gains and kYawModes, and the sample.
+/// Index of a run: positions in the lists of scenarios, gains and kYawModes, and the sample.
 struct Place {
   std::size_t scenario, gains, mode, sample;
 };
@@ -125,8 +123,8 @@ Status take_finished(const std::vector<Scenario>& scenarios, const std::vector<N
     const auto mode = position_of(kYawModes, [&](YawMode other) { return other == row.mode; });
     if (!scenario || !set || !mode || *mode >= layout.modes || row.sample < 0) {
       return input_error(option_text("resume"),
-                         fmt::format("the finished run of '{}' in sample {} is none of this "
-                                     "comparison's; compare into another directory",
+                         fmt::format("the finished run of '{}' in sample {} does not belong to "
+                                     "this comparison; compare into another directory",
                                      row.scenario, row.sample));
     }
     if (at(row.sample) >= layout.samples) continue;  // fewer samples are requested now
@@ -170,13 +168,13 @@ std::vector<Block> blocks_of(const Layout& layout, const Shard& shard, const Slo
   return blocks;
 }
 
-std::vector<BatchRun> runs_of(const Fleet& fleet, const Controller<double>& controller,
+std::vector<BatchRun> runs_of(const SampledPlants& plants, const Controller<double>& controller,
                               const Block& block, YawMode mode, std::uint64_t seed) {
   std::vector<BatchRun> runs;
   for (const std::size_t sample : block.samples) {
     // Sample 0 is the run of `awmr simulate`: the scenario's seed alone.
-    runs.push_back({fleet.vehicle(block.scenario, sample), controller, mode, sample == 0 ? 0 : seed,
-                    static_cast<std::uint64_t>(sample)});
+    runs.push_back({plants.vehicle(block.scenario, sample), controller, mode,
+                    sample == 0 ? 0 : seed, static_cast<std::uint64_t>(sample)});
   }
   return runs;
 }
@@ -211,7 +209,7 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   AWMR_RETURN_IF_ERROR(check_runs(scenarios.size() * gains.size() * yaw_modes(model.vehicle).size(),
                                   options.samples));
   for (const NamedGains& set : gains) AWMR_RETURN_IF_ERROR(controller_for(model, set.gains));
-  AWMR_ASSIGN_OR_RETURN(const Fleet fleet, fleet_of(model, scenarios, options));
+  AWMR_ASSIGN_OR_RETURN(const SampledPlants plants, sample_plants(model, scenarios, options));
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
 
   const Layout layout{scenarios.size(), gains.size(), yaw_modes(model.vehicle).size(),
@@ -233,9 +231,9 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
         const Scenario& scenario = scenarios[block.scenario];
         const NamedGains& set = gains[block.gains];
         // The controller knows the model's own values, not the drawn ones.
-        const auto controller = make_controller(fleet.nominal, model.vehicle, set.gains);
+        const auto controller = make_controller(plants.nominal, model.vehicle, set.gains);
         const YawMode mode = kYawModes[block.mode];
-        const std::vector<BatchRun> runs = runs_of(fleet, controller, block, mode, options.seed);
+        const std::vector<BatchRun> runs = runs_of(plants, controller, block, mode, options.seed);
         auto metrics = simulate_batch(runs, scenario, model.vehicle.sample_time_s, arithmetic);
         for (std::size_t i = 0; i < metrics.size(); ++i) {
           const std::size_t index = layout.row(block.place(i));

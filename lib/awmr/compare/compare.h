@@ -52,27 +52,28 @@ struct Contender {
 /// Below so many samples no interval is wide enough for its 95 %.
 inline constexpr int kFewSamples = 6;
 
-/// Runs of a comparison at the most: scenarios times sets of gains times modes times samples, the
-/// nominal one included. Each takes some 2 kB of memory.
+/// Maximum number of runs of a comparison: scenarios times sets of gains times modes times samples,
+/// the nominal one included. Each takes some 2 kB of memory.
 inline constexpr std::size_t kMaxRuns = 1'000'000;
 
 struct CompareOptions {
   /// Monte-Carlo samples in addition to the nominal model (sample 0), >= 0. More show smaller differences
   /// apart; 0 compares the model's own values alone, without intervals or tests.
   int samples = 0;
-  /// Of the draws, the noise and the bootstrap. Another one shows what a verdict owes to chance.
+  /// Seed of the draws, the noise and the bootstrap. Other seeds show the effect of chance on a
+  /// verdict.
   std::uint64_t seed = 1;
-  /// What counts how much in the ranking, which the rows do not depend on.
+  /// Weights of the ranking. The rows do not depend on them.
   Preferences preferences = {};
   /// Also Comparison::break_even; with one set of gains only.
   bool break_even = false;
   /// Also Comparison::changes: who is first on the other plant and with slower and faster gains. Of a
   /// comparison in parts, the first part has them.
   bool other_settings = false;
-  /// Of the four-wheel plant, where that is the other one.
+  /// Tyres of the four-wheel plant, if that is the other plant.
   Tyres<double> tyres = {};
-  /// What of the samples to run: all, or a part that merge_shards() (shard.h) puts to the others. At
-  /// most as many parts as samples, the nominal one included.
+  /// Samples to run: all, or a part for merge_shards() (shard.h). At most as many parts as samples,
+  /// including the nominal one.
   Shard shard = {};
   /// >= 0; 0: one per core. Fewer leave cores to other work; results do not depend on it.
   int threads = 0;
@@ -85,33 +86,32 @@ struct CompareOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// How much scrub (Plant::yaw_scrub_m) ends a mode's lead over another: on the model's own values, every
-/// mode with the scrub that its turns meet, unknown to the controller.
+/// Scrub (Plant::yaw_scrub_m) at which a mode is no longer ahead of another, for the nominal model.
+/// The scrub applies to every mode and is unknown to the controller.
 struct BreakEven {
   std::string scenario;
   YawMode mode{};     ///< differential or combined: it has the better score without scrub
-  YawMode against{};  ///< a mode that turns less by the sides' forces
-  /// c, m, > 0, to within 1.2 % of itself or 7e-6 of most_m, with which the lead is gone; absent where it
+  YawMode against{};  ///< a mode with smaller wheel-force differences
+  /// c, m, > 0, to within 1.2 % of itself or 7e-6 of most_m, at which the lead ends; absent if it
   /// lasts up to most_m.
   std::optional<double> yaw_coulomb_m;
-  double most_m = 0.0;  ///< the largest yaw moment that the sides' forces make, m
-  /// What four tyres that slide sideways on a friction of 0.8 would make, 0.8 g m' l_f, m: no scrub is
-  /// more, where the centre of gravity is half-way between the axles.
+  double most_m = 0.0;  ///< the largest yaw moment of left and right wheel forces, m
+  /// Upper bound of scrub, m: four tyres that slide sideways at friction 0.8, 0.8 g m' l_f, with
+  /// the centre of gravity half-way between the axles.
   double sliding_m = 0.0;
   double fastest_degps =
       0.0;  ///< yaw rate of the mode's run on the model's own values, deg/s, >= 0
-  /// What the vehicle's own turns by the sides' forces met, m: the 95 % interval, wider where it
-  /// changes with the rate, and up to what held turns that stood still; absent where the model has
-  /// no such trial.
+  /// Measured scrub of the vehicle's differential turns, m: the 95 % interval, widened if it
+  /// changes with the rate; from the largest moment without a turn if none turned. Absent without
+  /// such trials.
   std::optional<Interval> measured_m = {};
-  std::optional<Interval> measured_degps =
-      {};  ///< yaw rates of those turns; absent: all stood still
-  /// How many such turns in all would decide, if those to come scatter as those did; absent where the
-  /// lead is decided or more turns alone would not do.
+  std::optional<Interval> measured_degps = {};  ///< yaw rates of those turns; absent if none turned
+  /// Total number of such turns needed for a decision at the same scatter; absent if the lead is
+  /// decided or more turns would not decide it.
   std::optional<int> turns_to_decide = {};
 };
 
-/// What a measured scrub makes of a lead.
+/// Fate of a lead under the measured scrub.
 enum class Lead {
   kKept,  ///< no measured scrub ends it
   kLost,  ///< every one does
@@ -133,7 +133,7 @@ struct Change {
   std::string scenario;
   ChangeKind kind{};
   std::string setting;           ///< "four-wheel", "model"; "slower", "faster"; "within a factor 2"
-  std::vector<Contender> first;  ///< of rank 1; of weights: of rank 1 whatever they are
+  std::vector<Contender> first;  ///< of rank 1; for weights: of rank 1 for all of them
   std::string not_run = {};      ///< why there is no ranking in this setting; empty: there is
 };
 

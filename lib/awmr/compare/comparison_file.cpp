@@ -237,10 +237,8 @@ Json ranking_json(const Preferences& preferences) {
                                {"weight", weight_of(metric, preferences)}});
   }
   json["first_by_weights"] =
-      "share of weights, drawn evenly from all that come to 1 over the "
-      "metrics with a weight, under which the mode has the best score; modes within relevance of "
-      "it, "
-      "and modes that tie for the first place, share it";
+      "fraction of random weightings (uniform over all that sum to 1) for which the mode has the "
+      "best score; modes within relevance of it, and modes tied for best, share it";
   json["decision"] = fmt::format(
       "decided: one mode is of rank 1 in the ranking and under every change; level: "
       "several are; undecided: none is. Changes: any weights within a factor {:g}; with "

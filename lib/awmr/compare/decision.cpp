@@ -53,7 +53,7 @@ Preferences worst_weights(const ModeRows& own, const ModeRows& other,
   return worst;
 }
 
-/// Those that are of rank 1 whatever the weights are within the factor.
+/// Contenders of rank 1 for all weights within the factor.
 Change change_of_weights(const ScenarioRows& scenario,
                          const std::vector<PairedDifference>& differences,
                          const Preferences& preferences, std::uint64_t seed) {
@@ -175,7 +175,7 @@ std::string in_words(const Change& change) {
 
 std::string trials_in_words(const std::vector<std::string_view>& trials) {
   if (trials.empty()) return {};
-  return fmt::format("; {} would tell which plant is right (awmr suggest)",
+  return fmt::format("; {} would show which plant is right (awmr suggest)",
                      fmt::join(trials, " and "));
 }
 

@@ -36,12 +36,12 @@ struct Decision {
   std::vector<Contender> first;  ///< of rank 1 in the ranking itself
   std::vector<Change> changes;   ///< those that have a ranking; never empty: weights need no runs
 
-  /// Those of rank 1 in the ranking and under every change.
+  /// Contenders of rank 1 in the ranking and under every change.
   std::vector<Contender> never_behind() const;
   DecisionKind kind() const;
   /// Whether the change leaves one of `first` in the first place.
   bool survives(const Change& change) const;
-  /// The trials that tell the two plants apart where these differ in who is first.
+  /// Trials that show which of the two plants is right, if their best modes differ.
   std::vector<std::string_view> deciding_trials() const;
 };
 

@@ -8,7 +8,7 @@
 namespace awmr {
 namespace {
 
-/// Whether the runs tell that `other` is better than `own` in the metric, by more than its margin.
+/// Whether `other` is significantly better than `own` in the metric, by more than its margin.
 bool beats(const JudgedScenario& scenario, const MetricColumn& metric, const ModeRows& other,
            const ModeRows& own) {
   const auto theirs = summarise(other, metric).mean;

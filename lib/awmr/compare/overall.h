@@ -33,7 +33,7 @@ struct JudgedScenario {
 /// `comparison` is a judged_part(), and outlives the result, which looks at its rows.
 std::vector<JudgedScenario> judge(const Comparison& comparison, const Preferences& preferences,
                                   std::uint64_t seed);
-/// Those that were ranked.
+/// Ranked scenarios.
 std::vector<JudgedScenario> ranked_of(const std::vector<JudgedScenario>& scenarios);
 
 /// By position: the first scenario of the list with the same runs, every figure of every mode and
@@ -45,8 +45,8 @@ std::vector<std::size_t> first_with_same_runs(const std::vector<JudgedScenario>&
 /// difference is a relevant one. A contender without a value is beaten by any that has one.
 std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios);
 
-/// How many scenarios, of several with the same runs the first, are decided, and how many survive
-/// each kind of change with all of its settings.
+/// Number of decided scenarios, and of those that survive each kind of change with all of its
+/// settings. Scenarios with the same runs count once.
 struct DecisionTally {
   std::map<DecisionKind, int> scenarios;
   struct Share {

@@ -20,8 +20,8 @@ Result<double> weight_in(std::string_view text, const std::string& place) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool number = error == std::errc{} && end == text.data() + text.size();
   if (number && value >= 0.0 && value <= kMaximumWeight) return value;
-  return input_error(place,
-                     fmt::format("'{}' is no weight: a number from 0 to {}", text, kMaximumWeight));
+  return input_error(
+      place, fmt::format("'{}' is not a weight; give a number from 0 to {}", text, kMaximumWeight));
 }
 
 Status check_metric(std::string_view name, const std::string& place) {
@@ -29,8 +29,8 @@ Status check_metric(std::string_view name, const std::string& place) {
   if (std::find(known.begin(), known.end(), name) != known.end()) return {};
   const std::string near = nearest(name, std::vector<std::string>(known.begin(), known.end()));
   const std::string hint = near.empty() ? "" : fmt::format("; did you mean '{}'?", near);
-  return input_error(place, fmt::format("'{}' is no metric that ranks modes{}; there are {}", name,
-                                        hint, fmt::join(known, ", ")));
+  return input_error(place, fmt::format("'{}' is not a metric that ranks modes{}; available: {}",
+                                        name, hint, fmt::join(known, ", ")));
 }
 
 }  // namespace
@@ -46,16 +46,15 @@ std::vector<std::string_view> weighable_metrics() {
 Result<Preferences> preferences_of(const std::vector<std::string>& weights, double relevance) {
   const std::string place = option_text("weight");
   if (!(relevance >= 0.0 && relevance <= 1.0)) {
-    return input_error(option_text("relevance"), "is no share: a number from 0 to 1");
+    return input_error(option_text("relevance"), "is not in 0 ... 1");
   }
   Preferences preferences;
   preferences.relevance = relevance;
   for (const std::string& text : weights) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
-      return input_error(place, fmt::format("'{}' is no weight of a metric: give NAME=WEIGHT, as "
-                                            "finish_time_s=2",
-                                            text));
+      return input_error(place,
+                         fmt::format("'{}' is not NAME=WEIGHT, such as finish_time_s=2", text));
     }
     const std::string name = text.substr(0, equals);
     AWMR_RETURN_IF_ERROR(check_metric(name, place));
@@ -68,7 +67,7 @@ Result<Preferences> preferences_of(const std::vector<std::string>& weights, doub
   if (std::none_of(kMetricColumns.begin(), kMetricColumns.end(), [&](const MetricColumn& metric) {
         return weight_of(metric, preferences) > 0.0;
       })) {
-    return input_error(place, "leaves no metric a weight above 0 to rank by");
+    return input_error(place, "sets every metric's weight to 0; give at least one above 0");
   }
   return preferences;
 }

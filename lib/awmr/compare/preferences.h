@@ -1,4 +1,4 @@
-/// What counts how much when modes are ranked, and what is too little to count.
+/// Weights of the metrics in the ranking, and the relevance margin.
 #pragma once
 
 #include <functional>
@@ -23,9 +23,9 @@ struct Preferences {
   friend bool operator==(const Preferences&, const Preferences&) = default;
 };
 
-/// From "NAME=WEIGHT" each. Errors (input): no such form, a metric that there is not or that is not
-/// ranked (with the nearest name), a weight that is no number in its range, a name twice; no
-/// metric with a weight above 0.
+/// Reads weights of the form "NAME=WEIGHT". Errors (input): another form, an unknown or unranked
+/// metric (with the nearest name), a weight outside its range, a duplicate name; no metric with a
+/// weight above 0.
 Result<Preferences> preferences_of(const std::vector<std::string>& weights, double relevance);
 
 /// The names that weights may have, in the order of comparison.csv.

@@ -107,7 +107,7 @@ std::vector<double> resampled_differences(const Entry& own, const Entry& leader,
   return means;
 }
 
-/// How far one mode's score is above another's.
+/// Ratio of one mode's score to another's.
 struct Behind {
   std::optional<Interval> ratio_ci95;  ///< absent below 2 samples
   Conclusion conclusion{};
@@ -148,7 +148,7 @@ void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
   for (const std::size_t i : best) counts[i] += 1.0 / static_cast<double>(best.size());
 }
 
-/// Shares of weights, drawn evenly from all that come to 1, under which each entry is the best.
+/// For each entry, the share of weightings (uniform over all that sum to 1) for which it is best.
 std::vector<double> shares_by_weights(const std::vector<Entry>& entries, double margin,
                                       Random random) {
   std::vector<double> shares(entries.size(), 0.0);

@@ -50,7 +50,7 @@ inline constexpr std::string_view kNotRanked =
     "not ranked: the scenario gives the vehicle nothing to follow, or none of the metrics that "
     "have a weight";
 
-/// Whether some mode was judged by how well it followed a command.
+/// Whether any mode has a metric of how well it followed a command.
 bool has_a_goal(const ScenarioRows& scenario);
 
 /// Best first. Empty for a scenario that has nothing to follow (open loop), where lower metrics are

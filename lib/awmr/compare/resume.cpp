@@ -19,7 +19,7 @@
 namespace awmr {
 namespace {
 
-/// What may change between a comparison and its continuation.
+/// Options that may change between a comparison and its continuation.
 const std::set<std::string, std::less<>> kFreeOptions{"samples", "weight", "relevance",
                                                       "break_even"};
 
@@ -91,11 +91,11 @@ Status same_origin(const Provenance& before, const std::string& written_by, cons
   return {};
 }
 
-/// What comparison.json says of itself and of its rows.
+/// Origin and row hash of comparison.json.
 struct Origin {
   Provenance provenance;
   std::string version;                    ///< of the program that wrote it
-  std::string arithmetic;                 ///< of its rows; "scalar" where nothing is said
+  std::string arithmetic;                 ///< of its rows; "scalar" if the key is missing
   std::optional<std::string> csv_sha256;  ///< none in files of earlier versions
 };
 

@@ -20,8 +20,8 @@ namespace awmr {
 Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
                                                  const Provenance& provenance);
 
-/// The rows of a comparison.csv. Errors (input): it is missing, no row of a comparison stands where
-/// one should, or its bytes are not those with the hash (none: not checked).
+/// The rows of a comparison.csv. Errors (input): it is missing, a row is not one of a comparison,
+/// or its bytes are not those with the hash (none: not checked).
 Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path,
                                              const std::optional<std::string>& sha256);
 

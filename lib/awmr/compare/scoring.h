@@ -14,7 +14,7 @@ double weight_of(const MetricColumn& metric, const Preferences& preferences);
 /// A metric as it counts in one scenario.
 struct ScoredMetric {
   const MetricColumn* metric = nullptr;
-  double weight = 0.0;   ///< in (0, 1], all of a scenario come to 1
+  double weight = 0.0;   ///< in (0, 1], the weights of a scenario sum to 1
   double offset = 0.0;   ///< f of log_loss(), in the metric's unit, > 0
   double missing = 0.0;  ///< what a run without the metric counts as: the worst of all runs
 };

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "awmr/compare/compare_findings.h"
 #include "awmr/compare/resume.h"
 #include "awmr/core/hash.h"
 #include "awmr/core/index.h"
@@ -22,7 +23,7 @@ namespace {
 
 constexpr std::string_view kShardSchema = "awmr.shard/1";
 constexpr const char* kTable = "comparison.csv";
-/// Samples of a comparison at the most.
+/// Maximum number of samples of a comparison.
 constexpr long kMostSamples = 1'000'000'000;
 
 /// One directory's part.
@@ -204,12 +205,13 @@ Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directorie
   merged.comparison.whole_samples = first.samples + 1;
   merged.comparison.measured_yaw_rate_degps = first.measured_yaw_rate_degps;
   merged.comparison.changes = first.changes;  // part 1 has them
-  merged.findings = first.findings;
   merged.comparison.arithmetic = first.origin.arithmetic;
   merged.options.samples = first.samples;
   merged.options.seed = first.seed;
   merged.options.preferences = first.preferences;
   merged.provenance = first.origin.provenance;
+  merged.findings = extrapolation_findings(merged.comparison, merged.provenance);
+  merged.findings.insert(merged.findings.end(), first.findings.begin(), first.findings.end());
   return merged;
 }
 

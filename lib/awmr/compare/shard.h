@@ -32,7 +32,8 @@ struct Merged {
   Comparison comparison;
   CompareOptions options;  ///< samples and seed
   Provenance provenance;
-  std::vector<Finding> findings;  ///< of the parts: all but those on the fastest turn of all runs
+  std::vector<Finding>
+      findings;  ///< those of the fastest turn of all runs, then those of the parts
 };
 
 /// Puts the parts in the directories together, in any order. Errors (input): a directory without

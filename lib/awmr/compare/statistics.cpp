@@ -53,7 +53,7 @@ std::optional<Conclusion> conclusion_of(const PairedDifference& d) {
   return *d.p_equivalent < kSignificance ? Conclusion::kEquivalent : Conclusion::kUndecided;
 }
 
-/// One row: a metric's differences, with what they come to.
+/// One row: the differences of a metric and their statistics.
 PairedDifference difference_of(const ModeRows& first, const ModeRows& second,
                                const MetricColumn& metric, double relevance,
                                Eigen::ArrayXXd::RowXpr values, Eigen::ArrayXXd::RowXpr counts) {
@@ -88,7 +88,7 @@ PairedDifference difference_of(const ModeRows& first, const ModeRows& second,
   return result;
 }
 
-/// Of the same gains or of the same mode.
+/// Pairs of contenders with the same gains or the same mode.
 std::vector<std::pair<const ModeRows*, const ModeRows*>> comparable_pairs(
     const ScenarioRows& scenario) {
   std::vector<std::pair<const ModeRows*, const ModeRows*>> pairs;

@@ -21,7 +21,7 @@ struct ModeRows {
   std::span<const ComparisonRow> rows;  ///< never empty
 
   const Metrics& nominal() const { return rows.front().metrics; }
-  /// What the statistics are over: the drawn samples, or the nominal run where none was drawn.
+  /// Samples of the statistics: the drawn ones, or the nominal run if there are none.
   std::span<const ComparisonRow> counted() const {
     return rows.size() > 1 ? rows.subspan(1) : rows;
   }
@@ -61,7 +61,7 @@ double bootstrap_tail(std::size_t count, double tail);
 /// Linear between order statistics (type 7 of Hyndman and Fan). `sorted` is not empty, p in [0, 1].
 double quantile(std::span<const double> sorted, double p);
 
-/// What is said of a difference, with a risk of 5 % of being wrong.
+/// Conclusion about a difference, at the 5 % level.
 enum class Conclusion { kRelevant, kEquivalent, kUndecided };
 inline constexpr NameTable<Conclusion, 3> kConclusionNames{{{"relevant", Conclusion::kRelevant},
                                                             {"equivalent", Conclusion::kEquivalent},
@@ -83,8 +83,8 @@ struct PairedDifference {
   /// In the metric's unit, >= 0: a smaller difference does not matter. The metric's floor, or the
   /// relevance's share of the lesser mean, whichever is more.
   double margin = 0.0;
-  /// Of two one-sided t tests (TOST), in [0, 1]: below 0.05 the difference is within the margin.
-  /// Absent below 2 samples.
+  /// p-value of two one-sided t tests (TOST), in [0, 1]: below 0.05 the difference is within the
+  /// margin. Absent below 2 samples.
   std::optional<double> p_equivalent;
   /// Relevant where Holm's p is below 0.05 and the whole interval beyond the margin; for a single
   /// run, whether it is beyond the margin or not. Absent where no mean is.

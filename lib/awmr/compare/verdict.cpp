@@ -88,19 +88,20 @@ std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided
   const RankedMode& best = ranking.front();
   std::vector<std::string> first{best.contender.label()};
   first.insert(first.end(), best.tied_with.begin(), best.tied_with.end());
-  if (first.size() == 1) return first.front() + (is_undecided ? " is first here" : " is best");
-  if (first.size() < ranking.size()) return joined(first) + " tie for the first place";
+  if (first.size() == 1) return first.front() + (is_undecided ? " is ahead here" : " is best");
+  if (first.size() < ranking.size()) return joined(first) + " are tied for best";
   const bool equal = std::all_of(ranking.begin() + 1, ranking.end(), [](const RankedMode& mode) {
     return mode.towards_leader == Conclusion::kEquivalent;
   });
-  if (!equal) return joined(first) + " tie: these runs do not tell them apart";
-  return fmt::format("{} tie: equal within {:g} %", joined(first), 100.0 * preferences.relevance);
+  if (!equal) return joined(first) + " are tied: these runs do not separate them";
+  return fmt::format("{} are tied: equal within {:g} %", joined(first),
+                     100.0 * preferences.relevance);
 }
 
 /// "; combined is first under 83 % of all weights and in 97 % of the samples"
 std::string stability_text(const RankedMode& best) {
   if (!best.tied_with.empty()) return {};  // no mode is first
-  std::string text = fmt::format("; {} is first under {:.0f} % of all weights",
+  std::string text = fmt::format("; {} is best for {:.0f} % of all metric weightings",
                                  best.contender.label(), 100.0 * best.first_by_weights);
   if (best.first_by_samples) {
     text += fmt::format(" and in {:.0f} % of the samples", 100.0 * *best.first_by_samples);
@@ -135,8 +136,8 @@ std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMod
   if (decision) text += decision_text(*decision);
   const std::size_t samples = scenario.modes.front().rows.size() - 1;
   if (samples < 2) {
-    text += samples == 0 ? "; the nominal run alone, without samples, shows no spread"
-                         : "; a single sample shows no spread";
+    text += samples == 0 ? "; nominal model only, no uncertainty (give --samples)"
+                         : "; one sample gives no uncertainty (increase --samples)";
   }
   return text + ".";
 }

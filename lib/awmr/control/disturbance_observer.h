@@ -99,14 +99,14 @@ AWMR_CALLED AxisForces<T> estimate(const Observers<T>& observers, const Observed
           estimate(observers.yaw, motion.momentum.yaw_m, state.yaw)};
 }
 
-/// Advances both states by one sample. `asked` is the command minus d_hat, `allocated` the forces
-/// from the allocation.
+/// Advances both states by one sample. `requested` is the request: the command minus d_hat, `allocated`
+/// the forces from the allocation.
 template <class T>
 AWMR_CALLED void advance(const Observers<T>& observers, const AxisForces<T>& d_hat,
-                         const AxisForces<T>& asked, const GeneralisedForces<T>& allocated,
+                         const AxisForces<T>& requested, const GeneralisedForces<T>& allocated,
                          const ObservedMotion<T>& motion, const T& sample_time_s,
                          ObserversState<T>& state) {
-  AxisForces<T> tau = asked;
+  AxisForces<T> tau = requested;
   if (observers.anti_windup) {
     tau = {allocated.tau_speed, allocated.tau_steering_m + allocated.tau_diff_m};
   }

@@ -122,10 +122,10 @@ class StepCheck {
   bool is_apart_ = false;
 };
 
-/// The yaw rate beside the commanded yaw moment: left and right motors that are swapped, a reversed
-/// servo, or a gyroscope of the wrong sign, turn the vehicle away from where it is to head. A vehicle
-/// that is braked in a turn gets slower: only a quarter turn at a rate that does not fall by a quarter
-/// is wrong.
+/// Compares the yaw rate with the commanded yaw moment: left and right motors that are swapped, a
+/// reversed servo, or a gyroscope of the wrong sign, turn the vehicle away from where it is to
+/// head. A vehicle that is braked in a turn gets slower: only a quarter turn at a rate that does
+/// not fall by a quarter is wrong.
 class TurnCheck {
  public:
   /// rad/s of a word, and the time between two words, s.

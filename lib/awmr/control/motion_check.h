@@ -128,7 +128,7 @@ class MotionCheck {
   float window_m_ = 0.0F;         // along the heading since then
   float window_left_m_ = 0.0F;    // to the left of it, where the motion is straight
   float travelled_m_ = 0.0F;      // integral of the speed since then
-  float same_m_ = 0.0F;           // integral of the speed while the position stood still
+  float same_m_ = 0.0F;           // integral of the speed while the position did not change
   float against_m_ = 0.0F;        // against the commanded direction
   float ahead_m_ = 0.0F;          // of the last motion, valid from Due::kSpeed on
   float track_s_ = 0.0F;          // time of the motion since the track was compared
@@ -218,8 +218,8 @@ class MotionCheck {
     is_straight_ = !(detail::size_of(turned_rad) > kStraight_rad);
   }
 
-  /// The direction of the displacement beside the heading: a compass that is turned on the vehicle, or
-  /// that iron turns, leads it off its course.
+  /// Compares the direction of the displacement with the heading: a compass that is turned on the
+  /// vehicle, or that iron turns, leads it off its course.
   AWMR_CALLED_MEMBER void compare_with_heading() {
     if (direction_ == 0) return restart_track();
     if (!is_straight_) return;

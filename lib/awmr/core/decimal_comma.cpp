@@ -49,8 +49,8 @@ std::optional<std::string> fault_of(const DecimalCommas& seen) {
   }
   if (seen.unmistakable) return std::nullopt;
   return fmt::format(
-      "\"{}\" may have a decimal comma or part thousands, and no other cell tells "
-      "which; write numbers with a point",
+      "the comma in \"{}\" may be a decimal comma or a thousands separator; write numbers with a "
+      "point",
       text);
 }
 

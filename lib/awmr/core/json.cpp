@@ -38,7 +38,7 @@ void JsonObject::fault(std::string_view key, std::string message) {
 
 const Json* JsonObject::find(std::string_view key, bool required) {
   if (shape_ != nullptr) {
-    shape_->asked(key, required);
+    shape_->requested(key, required);
     return nullptr;
   }
   known_.emplace(key);
@@ -204,7 +204,7 @@ void JsonObject::ignore(std::string_view key) { find(key, false); }
 
 void JsonObject::schema(std::string_view expected) {
   if (shape_ != nullptr) {
-    shape_->asked("schema", false);
+    shape_->requested("schema", false);
     return shape_->type("schema", {{"const", expected}});
   }
   const auto found = optional_string("schema");

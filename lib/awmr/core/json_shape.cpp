@@ -62,7 +62,7 @@ void JsonShape::begin() {
   }
 }
 
-JsonShape::Asked& JsonShape::now() {
+JsonShape::RequestedKeys& JsonShape::now() {
   if (std::exchange(fresh_, false)) ways_.push_back({exploration_->way, {}, {}, {}});
   return ways_.back();
 }
@@ -75,17 +75,17 @@ JsonShape::Property& JsonShape::property(std::string_view key) {
   return properties_.back().second;
 }
 
-void JsonShape::asked(std::string_view key, bool required) {
+void JsonShape::requested(std::string_view key, bool required) {
   property(key);
-  Asked& asked = now();
-  asked.keys.emplace(key);
+  RequestedKeys& requested = now();
+  requested.keys.emplace(key);
   // A key whose presence is checked before it is read can be missing.
-  if (!required && !asked.required.contains(std::string(key))) asked.optional.emplace(key);
-  if (required && !asked.optional.contains(std::string(key))) asked.required.emplace(key);
+  if (!required && !requested.required.contains(std::string(key))) requested.optional.emplace(key);
+  if (required && !requested.optional.contains(std::string(key))) requested.required.emplace(key);
 }
 
 bool JsonShape::has(std::string_view key) {
-  asked(key, false);
+  requested(key, false);
   return exploration_->way.present;
 }
 
@@ -132,7 +132,7 @@ Json JsonShape::property_schema(const Property& property) const {
 JsonShape::Keys JsonShape::with_any_name(const std::string& key) const {
   const std::string place = place_ + "/" + key;
   Keys keys;
-  for (const Asked& one : ways_) {
+  for (const RequestedKeys& one : ways_) {
     auto without = one.way.picks;
     without.erase(place);
     if (without != exploration_->met.at(place).on) continue;
@@ -155,7 +155,7 @@ Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& na
   std::set<std::string> required;
   bool first = true;
   const Keys keys = with_any_name(key);
-  for (const Asked& one : ways_) {
+  for (const RequestedKeys& one : ways_) {
     if (!takes(one.way, at_least)) continue;
     if (!one.way.present && one.optional.contains(key)) {
       // This choice is not made here. Keys requested only if others are missing are allowed for all
@@ -192,9 +192,9 @@ Json JsonShape::names_of(const std::map<std::string, std::size_t>& picks) const 
 /// required, and those of other names are forbidden.
 Json JsonShape::variant_without(const std::string& key) const {
   const auto& on = exploration_->met.at(place_ + "/" + key).on;
-  const Asked* absent = nullptr;
+  const RequestedKeys* absent = nullptr;
   std::set<std::string> allowed;
-  for (const Asked& one : ways_) {
+  for (const RequestedKeys& one : ways_) {
     if (one.way.picks != on || !one.optional.contains(key)) continue;
     allowed.insert(one.keys.begin(), one.keys.end());
     if (!one.way.present && absent == nullptr) absent = &one;
@@ -236,7 +236,7 @@ void JsonShape::add_variants(Json& schema) const {
 Json JsonShape::schema() const {
   Json schema{{"type", "object"}};
   std::set<std::string> required;
-  for (const Asked& one : ways_) {
+  for (const RequestedKeys& one : ways_) {
     if (&one == &ways_.front()) required = one.required;
     std::erase_if(required, [&](const std::string& key) { return !one.required.contains(key); });
   }

@@ -39,7 +39,7 @@ class JsonShape {
   JsonShape(Exploration& exploration, std::string place);
 
   void begin();  ///< starts a new way; keys recorded on earlier ways are kept
-  void asked(std::string_view key, bool required);
+  void requested(std::string_view key, bool required);
   bool has(std::string_view key);
   void type(std::string_view key, const Json& schema);
   std::size_t choice(std::string_view key, std::span<const std::string> choices);
@@ -56,7 +56,7 @@ class JsonShape {
     std::unique_ptr<JsonShape> element;
   };
   /// Keys requested on one way.
-  struct Asked {
+  struct RequestedKeys {
     Way way;
     std::set<std::string> keys;
     std::set<std::string> required;
@@ -69,7 +69,7 @@ class JsonShape {
     std::set<std::string> required;  ///< on at least one way
   };
   Property& property(std::string_view key);
-  Asked& now();
+  RequestedKeys& now();
   Json property_schema(const Property& property) const;
   Keys with_any_name(const std::string& key) const;
   Json names_of(const std::map<std::string, std::size_t>& picks) const;
@@ -80,7 +80,7 @@ class JsonShape {
   Exploration* exploration_;
   std::string place_;
   std::vector<std::pair<std::string, Property>> properties_;  ///< in the order of the requests
-  std::vector<Asked> ways_;
+  std::vector<RequestedKeys> ways_;
   bool fresh_ = true;
   bool closed_ = false;
 };

@@ -29,11 +29,11 @@ void take_out(ParameterId id, std::string why, Model& model,
   reasons.emplace(id, std::move(why));
 }
 
-/// The reason why a value cannot stand in a model; empty where it can.
+/// Reason why a value is not allowed in a model; empty if it is.
 std::string why_not(double value, const NumberRule& rule) {
   if (!std::isfinite(value)) return "the fit left the finite numbers";
   if (value >= rule.min && value <= rule.max) return {};
-  return fmt::format("the fit gives {:.4g}, outside of what a model can hold, [{:g}, {:g}]", value,
+  return fmt::format("the fit gives {:.4g}, outside the allowed range [{:g}, {:g}]", value,
                      rule.min, rule.max);
 }
 
@@ -46,10 +46,10 @@ std::string why_open(ParameterId id, const Estimate& estimate) {
   const bool is_of_logs = estimate.method == name_in(kEstimatorNames, Estimator::kTrajectory);
   if (id != ParameterId::kMassNorm || is_of_logs || !ci || !(ci->lo > 0.0)) return {};
   if (ci->hi <= kMostOpen * ci->lo) return {};
-  return fmt::format("these trials leave it open from {:.2g} to {:.2g} (95 %)", ci->lo, ci->hi);
+  return fmt::format("these trials determine it only to {:.2g} ... {:.2g} (95 %)", ci->lo, ci->hi);
 }
 
-/// What cannot be said without the parameters that went.
+/// Also removes the parameters that depend on removed ones, with the reasons.
 void take_out_what_hangs_on_it(Model& model, std::map<ParameterId, std::string>& reasons) {
   const auto follow = [&](ParameterId first, ParameterId second) {
     if (!reasons.contains(first)) return;

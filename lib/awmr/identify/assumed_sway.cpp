@@ -15,7 +15,7 @@ namespace {
 constexpr Interval kTyreStiffness{0.5, 16.0};
 /// Half of a normal 95 % interval over the standard deviation.
 constexpr double kNormal95 = 1.959964;
-/// Of a log the speed that it keeps below but for 5 % of the time: a spike is no speed.
+/// 95 % quantile of a log's speed, which excludes spikes.
 constexpr double kFastestQuantile = 0.95;
 
 void take_fastest(const DrivingLog& log, double& fastest_mps) {
@@ -33,7 +33,7 @@ void take_fastest(const DrivingLog& log, double& fastest_mps) {
   fastest_mps = std::max(fastest_mps, speeds[place]);
 }
 
-/// 0 where no trial tells a speed.
+/// 0 if no trial has a speed.
 double fastest_mps(const TrialData& data) {
   double fastest = 0.0;
   if (data.surge) {
@@ -85,12 +85,10 @@ void assume_sway(const TrialData& data, MainValues& values) {
   model.record.findings.push_back(
       {"", 0, Severity::kWarning, "assumed-sway",
        fmt::format(
-           "no trial shows how the vehicle slides sideways: {} is assumed to be {:.3g} s/m, {:.3g} "
-           "to "
-           "{:.3g}, of common tyres ({:.1f} g m'/u) at u = {:.2g} m/s, half of the fastest that "
-           "was "
-           "driven; gains are tuned for that range, and results on sideslip are no better than "
-           "it: give sway_alpha in vehicle.json, or record a driven log with sway_mps",
+           "no trial shows the sway resistance: {} is assumed to be {:.3g} s/m ({:.3g} to {:.3g}), "
+           "that of common tyres ({:.1f} g m'/u) at u = {:.2g} m/s, half of the highest speed "
+           "driven. Gains are tuned for that range, and sideslip results have the same "
+           "uncertainty. Give sway_alpha in vehicle.json, or record a driven log with sway_mps",
            info(ParameterId::kSwayAlpha).name, value, sway.ci95->lo, sway.ci95->hi, stiffness,
            speed_mps)});
 }

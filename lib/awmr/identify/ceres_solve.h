@@ -1,4 +1,4 @@
-/// What every search with Ceres shares. Private to identify/.
+/// Settings and helpers common to all searches with Ceres. Private to identify/.
 #pragma once
 
 #include <ceres/ceres.h>

@@ -33,8 +33,8 @@ Status check_back_emf(const Vehicle& vehicle, const TrialData& data,
   if (!data.surge && !data.turning) return {};
   return input_error(
       data.surge ? data.surge->file : data.turning->file,
-      fmt::format("a table of steady runs does not tell what motors with back-EMF ({}) lose from "
-                  "what resists: identify this vehicle from logs ({}) that drive and coast",
+      fmt::format("steady runs cannot separate back-EMF ({}) from resistance; identify this "
+                  "vehicle from logs ({}) that drive and coast",
                   is_asked ? option_text(fmt::format("fit {}", info(ParameterId::kBackEmf).name))
                            : fmt::format("back_emf_s_per_m {:g} in the vehicle file",
                                          *vehicle.back_emf_s_per_m),
@@ -53,15 +53,15 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
   if (data.surge && vehicle.driven_wheels() != 4 &&
       options.surge_family.family == Family::kDeadZone) {
     return input_error(option_text("family"),
-                       fmt::format("a surge table of a vehicle of drive \"{}\" is not fitted with "
-                                   "dead-zone, which is that of four driven wheels",
+                       fmt::format("dead-zone needs four driven wheels; this vehicle's drive is "
+                                   "\"{}\"",
                                    name_in(kDriveNames, vehicle.drive)));
   }
   const bool other_family = asks_for_other_family(options);
   if (options.method == Method::kLogLinear && (other_family || options.loss != Loss::kSquared)) {
     return input_error(option_text("method"),
-                       fmt::format("log-linear knows the power law and squares only; with {} use "
-                                   "nonlinear",
+                       fmt::format("log-linear supports only the power law and least squares; with "
+                                   "{} use nonlinear",
                                    option_text(other_family ? "family" : "loss")));
   }
   if (options.method == Method::kTrajectory && data.logs.empty()) {
@@ -92,7 +92,7 @@ std::optional<ErrorModel> noise_of_tables(const IdentifyOptions& options) {
   return ErrorModel::kLogForce;
 }
 
-/// Where the logs fill the main values, the tables are still fitted, with the method that suits them.
+/// If the logs fill the main values, the tables are still fitted, with their own method.
 SubjectOptions subject_options(const IdentifyOptions& options, Method method,
                                const FamilyChoice& family) {
   const bool asks_for_noise = options.noise || options.method == Method::kNonlinear;
@@ -158,7 +158,7 @@ void identify_mass(const Vehicle& vehicle, const TrialData& data, const Identify
   reasons.curve_alone = mass.alone.has_value();
 }
 
-/// What the driving logs show, where there are any.
+/// Fits the driving logs, if there are any.
 Result<void> identify_from_logs(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options,
                                 const std::vector<ParameterId>& asked, MainValues& values,
@@ -177,7 +177,7 @@ bool is_fitted_to_logs(const Model& model, ParameterId id) {
   return model[id].method == name_in(kEstimatorNames, Estimator::kTrajectory);
 }
 
-/// Of a vehicle that also steers.
+/// Whether yaw resistance comes from differential turns only although the vehicle also steers.
 bool is_by_sides_alone(const TrialData& data, const Model& model) {
   return model.vehicle.has_steering() && data.turning && !data.turning->rows.empty() &&
          data.turning->rows.front().sides && !is_fitted_to_logs(model, ParameterId::kYawAlpha);

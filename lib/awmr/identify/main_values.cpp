@@ -143,7 +143,7 @@ void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values) 
 }
 
 void set_mass(const MassResult& mass, const std::optional<SteadyFit>& surge, MainValues& values) {
-  // Of another family than the power law, an exponent alone is no law.
+  // For another family than the power law, an exponent alone is incomplete.
   const bool power_alone = mass.alone && mass.alone->family == Family::kPower;
   if (power_alone && mass.alone->beta_variance > 0.0) set_beta_of_curve(*mass.alone, values.model);
   if (mass.joint) {

@@ -18,7 +18,7 @@ struct MainValues {
   JointCovariance covariance = {};
 };
 
-/// What vehicle.json gives: the sway resistance and the servo.
+/// Sets the values of vehicle.json: sway resistance and servo.
 void set_given(const Vehicle& vehicle, Model& model);
 
 /// A fitted resistance law with its family. Precondition: `fit` has one.
@@ -28,7 +28,7 @@ void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values);
 /// Precondition: set_law() of the surge fit, where there is one.
 void set_mass(const MassResult& mass, const std::optional<SteadyFit>& surge, MainValues& values);
 
-/// What the logs fill. `yaw_family`: of the logs' fit.
+/// Sets the values of the logs. `yaw_family`: of the logs' fit.
 void set_logs(const LogStage& logs, MainValues& values);
 
 }  // namespace awmr

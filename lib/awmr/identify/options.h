@@ -1,4 +1,4 @@
-/// What a caller of identify() can ask for.
+/// Options of identify().
 #pragma once
 
 #include <cstdint>
@@ -25,14 +25,15 @@ inline constexpr NameTable<Method, 3> kMethodNames{{{"log-linear", Method::kLogL
                                                     {"nonlinear", Method::kNonlinear},
                                                     {"trajectory", Method::kTrajectory}}};
 
-/// Where the nonlinear fit puts the error: on what was measured, not on what was set exactly.
+/// Quantity with the error in the nonlinear fit: the measured one, not the one that was set
+/// exactly.
 enum class ErrorModel {
   kForce,     ///< the force was the uncertain one, e.g. a motor whose thrust drifts
   kSpeed,     ///< the rate was read off a sensor
   kTime,      ///< a known distance or angle was timed
   kLogForce,  ///< a factor on the force: the log-linear method's assumption
 };
-/// Those that can be requested.
+/// Parameters that can be requested.
 inline constexpr NameTable<ErrorModel, 3> kErrorModelNames{
     {{"force", ErrorModel::kForce}, {"speed", ErrorModel::kSpeed}, {"time", ErrorModel::kTime}}};
 /// As in /estimates.
@@ -40,7 +41,7 @@ constexpr std::string_view name_of(ErrorModel noise) {
   return noise == ErrorModel::kLogForce ? "log force" : name_in(kErrorModelNames, noise);
 }
 
-/// What a residual costs: squares, or a robust loss that an outlier cannot dominate.
+/// Loss of a residual: squares, or a robust loss that limits the effect of outliers.
 enum class Loss {
   kSquared,  ///< default: the best where errors are normal
   kHuber,    ///< a few runs lie off the curve
@@ -62,8 +63,8 @@ inline std::string title_of(Loss loss) {
 /// with the minimum AICc, where the data are to say.
 struct FamilyChoice {
   std::optional<Family> family = Family::kPower;
-  /// Somebody chose it. Where nobody did, logs are compared with every family, and one that is
-  /// significantly better than the power law is taken.
+  /// True if the user selected the family. If false, logs are compared with every family, and one
+  /// that is significantly better than the power law is taken.
   bool asked = false;
 };
 
@@ -86,7 +87,7 @@ struct IdentifyOptions {
   bool joint = false;
   std::vector<ParameterId> asked = {};  ///< empty: those the given trials exist for
   bool asked_all =
-      false;  ///< `asked` has them all: those that the vehicle has none of are left out
+      false;  ///< `asked` contains all parameters; those that the vehicle does not have are left out
   bool fit_input_delay = false;         ///< logs: one delay of all commands, s, where it is unknown
   std::vector<LogChannel> biases = {};  ///< logs: channels with an unknown constant offset
   std::uint64_t seed = 1;               ///< of the multistart and of the bootstrap

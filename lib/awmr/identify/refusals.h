@@ -1,4 +1,4 @@
-/// What was requested, and what the data cannot show of it. Private to identify/.
+/// Requested parameters that the data do not identify. Private to identify/.
 #pragma once
 
 #include <map>
@@ -20,16 +20,16 @@ struct Reasons {
   std::string surge;         ///< why no fit of the surge rows will do, although they show a law
   std::string turning;       ///< the same of the turning rows
   std::string mass;          ///< why the coast-downs give no m'
-  bool curve_alone = false;  ///< curves without a surge law: `mass` tells of a1 too
+  bool curve_alone = false;  ///< curves without a surge law: `mass` includes a1
   /// Fitted, but not finite or outside of what a model can hold.
   std::map<ParameterId, std::string> inadmissible;
   std::map<ParameterId, std::string> logs;  ///< free in the fit of the logs, but not identifiable
 };
 
-/// Marks what has no value as not identified and says why, what is requested as an error
-/// (`not-identifiable`); what the vehicle does not have has no value, and nothing is said. A given
-/// value stands, but where a log was to show it, that it does not is
-/// said. Returns what was requested and refused.
+/// Marks parameters without a value as not identified, with the reason; for requested ones the
+/// finding is an error (`not-identifiable`). Parameters that the vehicle does not have get no
+/// finding. A given value is kept; if a log should have identified it and did not, that is
+/// reported. Returns what was requested and refused.
 std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Reasons& reasons,
                                                 const std::vector<ParameterId>& asked,
                                                 Model& model);

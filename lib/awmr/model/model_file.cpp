@@ -248,7 +248,7 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
   const Interval force = model.vehicle.wheel_force;
   const double most_m = differential_moment_m(model.vehicle.half_track_m, force.hi - force.lo);
   check(scrub.moment_m <= most_m, "moment_m",
-        fmt::format("{:g} is more than the sides of this vehicle can apply, {:.4g} m",
+        fmt::format("{:g} is more than the left and right wheels can apply, {:.4g} m",
                     scrub.moment_m, most_m));
 }
 

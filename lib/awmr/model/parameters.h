@@ -23,7 +23,7 @@ enum class ParameterId {
   kYawCoulomb,
   kYawQuadratic,
   kWheelDeadZone,
-  kBackEmf,  ///< of the motors; not part of a family: see README.md
+  kBackEmf,  ///< of the motors; not part of a family: see VEHICLES.md
 };
 inline constexpr std::size_t kParameterCount = 14;
 

@@ -1,4 +1,4 @@
-/// Valid ranges of the numbers in vehicle.json, model.json and gains.json, listed in README.md of
+/// Valid ranges of the numbers in vehicle.json, model.json and gains.json, listed in VEHICLES.md of
 /// this folder. They are wider than for any vehicle, so that a wrong unit or a damaged file is
 /// detected when it is read. Include from .cpp files only.
 #pragma once

@@ -71,18 +71,18 @@ struct Resolution {
 /// `body` is a Plant or what else has a fastest_rate() of its own (tyres.h); here and below.
 template <class Body, class T, class Rates>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
-                 const Mask<T>& asked, int halvings, Resolution<T>& resolution);
+                 const Mask<T>& requested, int halvings, Resolution<T>& resolution);
 
-/// Two steps of half the length where `asked`; unresolved where they would be one too many.
+/// Two steps of half the length where `requested`; unresolved where they would be one too many.
 template <class Body, class T, class Rates>
-AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates, Mask<T> asked,
+AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates, Mask<T> requested,
                                      int halvings, Resolution<T>& resolution) {
   using math::any;
   using math::select;
   const Mask<T> too_many =
-      asked && (Mask<T>(halvings == kMostHalvings) || resolution.halves >= T(kMostHalves));
+      requested && (Mask<T>(halvings == kMostHalvings) || resolution.halves >= T(kMostHalves));
   resolution.resolved = resolution.resolved && !too_many;
-  const Mask<T> halved = asked && resolution.resolved;
+  const Mask<T> halved = requested && resolution.resolved;
   if (!any(halved)) return from;
   resolution.halves = select(halved, T(resolution.halves + T(1.0)), resolution.halves);
   const T half = h / T(2.0);
@@ -92,10 +92,10 @@ AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates,
 }
 
 /// One step of the classical Runge-Kutta method where it resolves the rates at both of its ends,
-/// else two of half the length. What lanes hold that are not asked has no meaning.
+/// else two of half the length. Lanes outside `requested` have no meaning.
 template <class Body, class T, class Rates>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
-                 const Mask<T>& asked, int halvings, Resolution<T>& resolution) {
+                 const Mask<T>& requested, int halvings, Resolution<T>& resolution) {
   using math::all;
   using math::any;
   const T most = T(kMostRateTimesStep);
@@ -104,10 +104,10 @@ State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates
   if (any(fits)) {
     to = rk4_step(from, h, rates);
     fits = fits && fastest_rate(body, to) * h <= most;
-    if (all(fits || !asked)) return to;
+    if (all(fits || !requested)) return to;
   }
   return blend(fits, to,
-               advance_by_halves(body, from, h, rates, asked && !fits, halvings, resolution));
+               advance_by_halves(body, from, h, rates, requested && !fits, halvings, resolution));
 }
 
 /// True where every number is finite: 0 times a number is NaN else.
@@ -128,25 +128,25 @@ T settled(const T& speed) {
   return select(abs(speed) < T(1e-150), T(0.0), speed);
 }
 
-/// Moves the state on by `substeps` steps of h where `asked`, with the rates of held commands. Where
+/// Moves the state on by `substeps` steps of h where `requested`, with the rates of held commands. Where
 /// the motion is not resolved, the state stays as it was.
 template <class Body, class T, class Rates>
 void integrate(const Body& body, const T& h, const T& substeps, const Rates& rates,
-               const Mask<T>& asked, State<T>& state, Resolution<T>& resolution) {
+               const Mask<T>& requested, State<T>& state, Resolution<T>& resolution) {
   using math::all;
   using math::any;
   State<T> moved = state;
   for (int i = 0;; ++i) {
-    const Mask<T> steps = asked && resolution.resolved && T(i) < substeps;
+    const Mask<T> steps = requested && resolution.resolved && T(i) < substeps;
     if (!any(steps)) break;
     const State<T> next = advance(body, moved, h, rates, steps, 0, resolution);
     moved = all(steps) ? next : blend(steps, next, moved);
   }
-  resolution.resolved = resolution.resolved && (is_finite(moved) || !asked);
+  resolution.resolved = resolution.resolved && (is_finite(moved) || !requested);
   moved.u_mps = settled(moved.u_mps);
   moved.v_mps = settled(moved.v_mps);
   moved.r_radps = settled(moved.r_radps);
-  state = blend(asked && resolution.resolved, moved, state);
+  state = blend(requested && resolution.resolved, moved, state);
 }
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// How the delay of a sensor, and the time constant of its filter, are called where it is estimated, in /estimates.
+/// Names of a sensor's delay and filter time constant in /estimates.
 #pragma once
 
 #include <string_view>

@@ -3,7 +3,7 @@
 /// the scalar.
 ///
 /// The side force is that of the brush model, in the form of Fiala: H. B. Pacejka, "Tire and
-/// Vehicle Dynamics", 3rd ed., 3.2.1. README.md in this folder lists the parts of the 3-DOF model
+/// Vehicle Dynamics", 3rd ed., 3.2.1. VEHICLES.md in this folder lists the parts of the 3-DOF model
 /// that are kept or replaced.
 #pragma once
 

@@ -38,9 +38,9 @@ struct Draws {
 
 /// Reads noise, latency and lag used for tuning robust gains, and the samples.
 Draws take_conditions(JsonObject robust, ConstraintContext& context) {
-  JsonObject late = robust.object("latency");
-  const double latest_s =
-      std::max(late.number("heading_s", kNonNegative), late.number("yaw_rate_s", kNonNegative));
+  JsonObject latency = robust.object("latency");
+  const double latest_s = std::max(latency.number("heading_s", kNonNegative),
+                                   latency.number("yaw_rate_s", kNonNegative));
   JsonObject noise = robust.object("noise");
   context.heading_noise_rad = radians(noise.number("heading_deg", kNonNegative));
   context.yaw_rate_noise_radps = radians(noise.number("yaw_rate_degps", kNonNegative));

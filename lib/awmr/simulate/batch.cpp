@@ -60,18 +60,19 @@ void drive_by_blocks(std::span<const BatchRun> runs, const Scenario& scenario, d
 }  // namespace
 
 Result<BatchArithmetic> batch_arithmetic() {
-  const char* asked = std::getenv("AWMR_INSTRUCTIONS");
+  const char* requested = std::getenv("AWMR_INSTRUCTIONS");
   const auto kernels = lanes::supported_kernels();
-  const std::string_view name = asked ? asked : kernels.empty() ? "scalar" : kernels.front()->name;
+  const std::string_view name = requested         ? requested
+                                : kernels.empty() ? "scalar"
+                                                  : kernels.front()->name;
   if (name == "scalar") return BatchArithmetic{"scalar", "scalar"};
   std::string known = "scalar";
   for (const Kernel* kernel : kernels) {
     if (name == kernel->name) return BatchArithmetic{kernel->name, "fused"};
     known += fmt::format(", {}", kernel->name);
   }
-  return input_error(
-      "AWMR_INSTRUCTIONS",
-      fmt::format("'{}' is none that this processor and program have: {}", name, known));
+  return input_error("AWMR_INSTRUCTIONS",
+                     fmt::format("unsupported instruction set '{}'; available: {}", name, known));
 }
 
 std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,

@@ -41,12 +41,12 @@ struct BatchRun {
 struct BatchArithmetic {
   /// "avx512", "avx2", "neon"; "scalar": by simulate(), one by one.
   std::string_view instructions;
-  /// What results of different machines have to have in common to be the same bytes: "fused" (a b + c
-  /// is rounded once) for every vector instruction set, "scalar" for simulate().
+  /// Arithmetic that results of different machines must share to have the same bytes: "fused" (a b
+  /// + c is rounded once) for every vector instruction set, "scalar" for simulate().
   std::string_view rounding;
 };
 
-/// How many runs fill the registers: a multiple of it leaves no lane idle.
+/// Number of runs that fill the registers; a multiple of it leaves no lane idle.
 inline constexpr std::size_t kBatchRuns = 16;
 
 /// The widest instructions that this processor has, or those named by the environment variable
@@ -60,7 +60,7 @@ std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
                                             const Scenario& scenario, double sample_time_s,
                                             const BatchArithmetic& arithmetic);
 
-/// A run with what it is judged by.
+/// A run with its metrics.
 struct DrivenRun {
   Run run;
   Metrics metrics;

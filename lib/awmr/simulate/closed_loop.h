@@ -28,7 +28,7 @@ inline constexpr LoopSteps<double> kOneRunSteps = {
     "scalar", [](LoopRuns<double>& runs) { steps::control(OneRun{}, runs); },
     [](LoopRuns<double>& runs) { steps::measure(OneRun{}, runs); }, kOneVehicleSteps};
 
-/// How the runs are driven.
+/// Options of the closed loop.
 struct LoopOptions {
   double sample_time_s = 0.01;
   std::size_t samples = 0;           ///< the last one, counted from 0
@@ -48,7 +48,7 @@ class ClosedLoop {
   /// Drives all runs to their ends.
   void drive();
 
-  /// How a run ended, with its rows where they are kept. RunEnd::kFailed: a number was not finite, or no
+  /// End of a run, with its rows if they are kept. RunEnd::kFailed: a number was not finite, or no
   /// step was short enough.
   Run take_run(std::size_t run);
   /// None where the run failed.
@@ -308,7 +308,7 @@ Run ClosedLoop<Row>::take_run(std::size_t run) {
 template <class Row>
 std::optional<Metrics> ClosedLoop<Row>::metrics(std::size_t run) const {
   const std::optional<Ending>& end = parts_[run].end;
-  const auto sums = run_of<MeterSums<double>>(runs_->sums, run);
+  const auto sums = run_of<MetricsAccumulator<double>>(runs_->sums, run);
   if (!end || !is_finite(sums)) return std::nullopt;
   return metrics_of(sums, *end, scenario_);
 }

@@ -1,4 +1,4 @@
-/// What a controller meets on a real vehicle in addition to the model of it.
+/// Effects on a real vehicle that are not in the model: sensor noise, latency and actuator lag.
 #pragma once
 
 #include "awmr/model/vehicle.h"

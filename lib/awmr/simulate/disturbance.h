@@ -9,7 +9,7 @@
 
 namespace awmr {
 
-/// Where a run's random numbers come from: one stream per use, the same whatever else is random.
+/// Random streams of a run: one per use, independent of the others.
 struct RunSeed {
   std::uint64_t seed = 0;
   std::uint64_t sample = 0;

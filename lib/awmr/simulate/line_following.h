@@ -21,7 +21,7 @@ struct CourseFollower {
   PolylineGuidance<double> guided;  ///< of the last step
 };
 
-/// Where the line leads at one sample; call it once per sample.
+/// Reference of the line at one sample; call it once per sample.
 PolylineGuidance<double> guide_line(CourseFollower& part, const Position<double>& position_m,
                                     double sideslip_rad);
 

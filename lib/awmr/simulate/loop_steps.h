@@ -14,17 +14,17 @@ namespace awmr {
 template <class Row>
 struct LoopRuns {
   ControllerSetup control;
-  MeteredCourse course;
-  MeteredTime time;  ///< of the present sample
+  MetricsCourse course;
+  MetricsTime time;  ///< of the present sample
 
   Vehicles<Row> vehicles;
   RunController<Row> controller;
   RunControllerState<Row> controller_state;
-  MeteredVehicle<Row> metered;
-  MeterSums<Row> sums;
+  MetricsVehicle<Row> metered;
+  MetricsAccumulator<Row> sums;
 
-  // Of the present sample: measurements, references and requests of the controller; its commands are
-  // the vehicles'.
+  // Values of the present sample: measurements, references and requests of the controller; its
+  // commands are the vehicles'.
   Measurement<Row> measured;
   Reference<Row> reference;
   Row tau_speed, tau_turn_m;
@@ -71,7 +71,7 @@ AWMR_WHOLE void measure(const View& view, LoopRuns<Row>& runs) {
   const Vehicles<Row>& v = runs.vehicles;
   const State<T> state = view(v.state);
   const Resistance<T> yaw = view(runs.controller.laws.yaw);
-  MeterSums<T> sums = view(runs.sums);
+  MetricsAccumulator<T> sums = view(runs.sums);
   awmr::measure<T>(
       {state, view(v.force), acting_forces(view, v), view(v.steering_command_rad),
        yaw(state.r_radps), view(runs.goal_rad), view(runs.cross_track_m), view(runs.off_target_m),

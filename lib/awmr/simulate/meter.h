@@ -10,9 +10,9 @@
 
 namespace awmr {
 
-/// What the meter has to know of the vehicle: of its controller's limits and law.
+/// Data of the vehicle for the meter: the controller's limits and law.
 template <class T>
-struct MeteredVehicle {
+struct MetricsVehicle {
   T front_axle_m;      ///< l_f
   T half_track_m;      ///< d
   T force_max;         ///< F'max of one wheel, beyond the dead zone
@@ -24,8 +24,8 @@ struct MeteredVehicle {
   T rear_driven;       ///< 1; 0 where the front wheels alone are driven
 };
 
-/// What of the course counts; the same for all lanes.
-struct MeteredCourse {
+/// Properties of the course that enter the metrics; the same for all lanes.
+struct MetricsCourse {
   bool has_headings = false;  ///< steps of the heading, each to be settled on
   double speed_mps = 0.0;     ///< the speed that a drop is counted from
   /// Of a timed path: how far from its point the vehicle may be in the second half of the run.
@@ -33,9 +33,9 @@ struct MeteredCourse {
   bool is_on_tyres = false;  ///< tyre work is that of the tyres' side forces, not against g3
 };
 
-/// What a row tells the meter.
+/// Input of the meter per row.
 template <class T>
-struct MeteredRow {
+struct MetricsRow {
   State<T> state;
   SideForces<T> force;     ///< commanded
   WheelForces<T> acting;   ///< of the commands, over the sample that ends here: RunRow::acting
@@ -50,7 +50,7 @@ struct MeteredRow {
 };
 
 /// When a row is; the same for all lanes.
-struct MeteredTime {
+struct MetricsTime {
   double t_s = 0.0;
   double since_last_s = 0.0;  ///< from the row before; not of the first row
   bool is_first = false;
@@ -60,7 +60,7 @@ struct MeteredTime {
 
 /// Sums over the rows so far, of T alone. Flags are 0 or 1.
 template <class T>
-struct MeterSums {
+struct MetricsAccumulator {
   T rows = T(0.0);
   T effort = T(0.0);
   T sideslip_max_deg = T(0.0);
@@ -110,7 +110,7 @@ constexpr double kMovingMps = 0.05;       ///< below it the sideslip angle has n
 
 using math::larger;
 
-/// What the motors do over a sample.
+/// Power and copper loss of the motors over a sample.
 template <class T>
 struct MotorWork {
   T power_mps;  ///< that the four wheels put into the vehicle, over F_max: sum of F' w above 0
@@ -119,7 +119,7 @@ struct MotorWork {
 
 template <class T>
 MotorWork<T> motor_work(const WheelForces<T>& f, const WheelSpeeds<T>& w,
-                        const MeteredVehicle<T>& vehicle) {
+                        const MetricsVehicle<T>& vehicle) {
   using math::any;
   const auto power = [](const T& force, const T& wheel_mps) {
     return larger(T(0.0), T(force * wheel_mps));
@@ -145,7 +145,7 @@ MotorWork<T> motor_work(const WheelForces<T>& f, const WheelSpeeds<T>& w,
 }
 
 template <class T>
-Mask<T> at_a_limit(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle) {
+Mask<T> at_a_limit(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle) {
   using math::abs;
   const auto forced = [&](const T& command) {
     return command >= vehicle.command_max || command <= vehicle.command_min;
@@ -165,7 +165,7 @@ T share_of_stop(const T& steering_rad, const T& steering_max_rad) {
 
 /// The step that the rows so far were of is over.
 template <class T>
-void close_step(MeterSums<T>& m) {
+void close_step(MetricsAccumulator<T>& m) {
   using math::select;
   const Mask<T> settled = !(m.out_of_band > T(0.0));
   m.never_settled = select(settled, m.never_settled, T(1.0));
@@ -174,7 +174,7 @@ void close_step(MeterSums<T>& m) {
 
 /// Settling, overshoot, IAE and ITAE.
 template <class T>
-void measure_heading(const MeteredRow<T>& row, const MeteredTime& time, MeterSums<T>& m) {
+void measure_heading(const MetricsRow<T>& row, const MetricsTime& time, MetricsAccumulator<T>& m) {
   using math::abs;
   using math::select;
   const T error_deg = degrees(wrap_angle(T(row.goal_rad - row.state.psi_rad)));
@@ -201,7 +201,7 @@ void measure_heading(const MeteredRow<T>& row, const MeteredTime& time, MeterSum
 
 /// The least speed after the commanded one was first reached within 0.1 %.
 template <class T>
-void measure_speed(const T& u_mps, const MeteredCourse& course, MeterSums<T>& m) {
+void measure_speed(const T& u_mps, const MetricsCourse& course, MetricsAccumulator<T>& m) {
   using math::select;
   const Mask<T> was = m.speed_reached > T(0.0);
   const Mask<T> counts = was || u_mps >= T((1.0 - kReachedShare) * course.speed_mps);
@@ -212,7 +212,8 @@ void measure_speed(const T& u_mps, const MeteredCourse& course, MeterSums<T>& m)
 
 /// Integral of t |u_d - u|, by trapezoids.
 template <class T>
-void measure_speed_error(const MeteredRow<T>& row, const MeteredTime& time, MeterSums<T>& m) {
+void measure_speed_error(const MetricsRow<T>& row, const MetricsTime& time,
+                         MetricsAccumulator<T>& m) {
   using math::abs;
   const T error_m = T(time.t_s) * abs(row.speed_ref_mps - row.state.u_mps);
   if (!time.is_first) {
@@ -223,8 +224,8 @@ void measure_speed_error(const MeteredRow<T>& row, const MeteredTime& time, Mete
 
 /// Motion, and what the commands vary.
 template <class T>
-void measure_motion(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, bool is_first,
-                    MeterSums<T>& m) {
+void measure_motion(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, bool is_first,
+                    MetricsAccumulator<T>& m) {
   using math::abs;
   using math::any;
   using math::atan2;
@@ -251,8 +252,8 @@ void measure_motion(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, 
 
 /// Energy, wear and limits of the sample that ends here: forces are held over each.
 template <class T>
-void measure_work(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, bool is_on_tyres,
-                  double dt_s, MeterSums<T>& m) {
+void measure_work(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, bool is_on_tyres,
+                  double dt_s, MetricsAccumulator<T>& m) {
   using math::abs;
   using math::select;
   const MotorWork<T> work = motor_work(row.acting, m.rolling, vehicle);
@@ -272,8 +273,8 @@ void measure_work(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, bo
 
 /// Keeps what the next row asks of this one.
 template <class T>
-void remember(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, double t_s,
-              MeterSums<T>& m) {
+void remember(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, double t_s,
+              MetricsAccumulator<T>& m) {
   using math::select;
   m.t_s = T(t_s);
   m.rolling = wheel_speeds(vehicle.front_axle_m, vehicle.half_track_m, row.state);
@@ -293,8 +294,8 @@ void remember(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, double
 
 /// Takes a row into the sums; in order, from the first.
 template <class T>
-void measure(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle,
-             const MeteredCourse& course, const MeteredTime& time, MeterSums<T>& m) {
+void measure(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle,
+             const MetricsCourse& course, const MetricsTime& time, MetricsAccumulator<T>& m) {
   using math::select;
   m.rows += T(1.0);
   if (course.has_headings) meter::measure_heading(row, time, m);

@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// How a run ended.
+/// End of a run.
 struct Ending {
   RunEnd end = RunEnd::kDuration;
   double t_s = 0.0;  ///< of its last row
@@ -20,7 +20,7 @@ class MeterClock {
  public:
   /// `last`: of the rows of a run to its end, counted from 0. The scenario outlives the clock.
   MeterClock(const Scenario& scenario, std::size_t last) : scenario_(&scenario), last_(last) {}
-  MeteredTime next(double t_s);
+  MetricsTime next(double t_s);
 
  private:
   const Scenario* scenario_;
@@ -30,12 +30,12 @@ class MeterClock {
   double goal_before_rad_ = 0.0;
 };
 
-/// The parts of a run's metering (meter.h) that do not change over it, and what its sums come to.
-MeteredVehicle<double> metered_vehicle(const AllocationLimits<double>& limits);
-MeteredCourse metered_course(const Scenario& scenario);
-Metrics metrics_of(MeterSums<double> sums, const Ending& ending, const Scenario& scenario);
+/// Constants of a run's metering (meter.h), and the metrics computed from its sums.
+MetricsVehicle<double> metered_vehicle(const AllocationLimits<double>& limits);
+MetricsCourse metered_course(const Scenario& scenario);
+Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending, const Scenario& scenario);
 
 /// True where every sum is finite.
-bool is_finite(const MeterSums<double>& sums);
+bool is_finite(const MetricsAccumulator<double>& sums);
 
 }  // namespace awmr

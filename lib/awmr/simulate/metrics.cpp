@@ -17,7 +17,7 @@ double goal_rad(const RunRow& row, const Scenario& scenario) {
   return scenario.shaping || scenario.avoidance ? row.course.psi_goal_rad : row.psi_ref_rad;
 }
 
-/// Whether the guidance asks for one speed all the time, which a drop can be held against.
+/// Whether the commanded speed is constant, so that a speed drop is defined.
 bool asks_for_one_speed(const Scenario& scenario) {
   if (scenario.avoidance || std::holds_alternative<LissajousCourse>(scenario.guidance))
     return false;
@@ -28,18 +28,18 @@ bool asks_for_one_speed(const Scenario& scenario) {
 
 }  // namespace
 
-bool is_finite(const MeterSums<double>& sums) {
-  double values[sizeof(MeterSums<double>) / sizeof(double)];
+bool is_finite(const MetricsAccumulator<double>& sums) {
+  double values[sizeof(MetricsAccumulator<double>) / sizeof(double)];
   std::memcpy(values, &sums, sizeof sums);
   return std::all_of(std::begin(values), std::end(values),
                      [](double value) { return std::isfinite(value); });
 }
 
-MeteredTime MeterClock::next(double t_s) {
+MetricsTime MeterClock::next(double t_s) {
   const auto* steps = std::get_if<HeadingSteps>(&scenario_->guidance);
   const double goal_rad = steps ? heading_at(*steps, t_s) : 0.0;
   const bool is_first = row_ == 0;
-  const MeteredTime time{
+  const MetricsTime time{
       .t_s = t_s,
       .since_last_s = is_first ? 0.0 : t_s - before_s_,
       .is_first = is_first,
@@ -52,7 +52,7 @@ MeteredTime MeterClock::next(double t_s) {
   return time;
 }
 
-MeteredVehicle<double> metered_vehicle(const AllocationLimits<double>& limits) {
+MetricsVehicle<double> metered_vehicle(const AllocationLimits<double>& limits) {
   return {.front_axle_m = limits.front_axle_m,
           .half_track_m = limits.half_track_m,
           .force_max = limits.force_max,
@@ -71,7 +71,7 @@ std::optional<double> electric_work_j(const Metrics& metrics, const Vehicle& veh
          max_wheel_force_n(vehicle.mass_kg, mass_norm) * metrics.energy_mech;
 }
 
-MeteredCourse metered_course(const Scenario& scenario) {
+MetricsCourse metered_course(const Scenario& scenario) {
   const auto* timed = std::get_if<LissajousCourse>(&scenario.guidance);
   return {.has_headings = std::holds_alternative<HeadingSteps>(scenario.guidance),
           .speed_mps = scenario.speed_mps,
@@ -79,7 +79,8 @@ MeteredCourse metered_course(const Scenario& scenario) {
           .is_on_tyres = scenario.tyres.has_value()};
 }
 
-Metrics metrics_of(MeterSums<double> sums, const Ending& ending, const Scenario& scenario) {
+Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending,
+                   const Scenario& scenario) {
   const bool open = std::holds_alternative<OpenLoop>(scenario.guidance);
   Metrics m;
   m.path_length_m = sums.path_length_m;
@@ -125,10 +126,10 @@ Metrics metrics_of(MeterSums<double> sums, const Ending& ending, const Scenario&
 }
 
 Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<double>& controller) {
-  const MeteredVehicle<double> vehicle = metered_vehicle(controller.limits);
-  const MeteredCourse course = metered_course(scenario);
+  const MetricsVehicle<double> vehicle = metered_vehicle(controller.limits);
+  const MetricsCourse course = metered_course(scenario);
   MeterClock clock(scenario, run.rows.size() - 1);
-  MeterSums<double> sums;
+  MetricsAccumulator<double> sums;
   for (const RunRow& row : run.rows) {
     measure({.state = row.state,
              .force = row.force,

@@ -1,4 +1,4 @@
-/// What one run is judged by: the columns of comparison.csv. A metric without meaning for the run's
+/// Metrics of one run: the columns of comparison.csv. A metric without meaning for the run's
 /// guidance is absent, never 0.
 #pragma once
 
@@ -50,7 +50,7 @@ struct Metrics {
   /// Work against the yaw resistance, which scrubs the tyres, over F_max, m: integral of g3(r) r.
   /// On tyres (Scenario::tyres): work of their side forces, integral of RunRow::tyre_power_mps.
   double tyre_work = 0.0;
-  /// What the battery gives the motors, J; absent where the vehicle says no stall power.
+  /// Electrical work of the motors, J; absent if the vehicle has no stall power.
   std::optional<double> electric_work_j;
 };
 

@@ -8,9 +8,9 @@
 
 namespace awmr {
 
-/// What pushes the vehicle over a sample other than its wheels.
+/// External forces (disturbance, slope) over one sample.
 template <class T>
-struct Push {
+struct ExternalForces {
   BodyLoadOf<T> load;               ///< of the disturbances
   bool is_loaded = false;           ///< false: neither load nor slope
   bool is_sloped = false;           ///< the ground falls
@@ -44,8 +44,8 @@ WheelForces<T> at_all_wheels(const SideForces<T>& force, const T& rear_driven) {
   return {force.left, force.right, rear_driven * force.left, rear_driven * force.right};
 }
 
-/// What arrives of commands at motors with back-EMF: one that is commanded 0 is off at once, as it
-/// would brake for as long as a lag leaves it anything (motor_force() in dynamics.h).
+/// Commands that act on motors with back-EMF: one that is commanded 0 is off at once, as it would
+/// brake for as long as a lag leaves it anything (motor_force() in dynamics.h).
 template <class T>
 SideForces<T> switched_off(const T& back_emf_s_per_m, const SideForces<T>& command,
                            const SideForces<T>& arriving) {
@@ -62,9 +62,9 @@ SideForces<T> up_to(const SideForces<T>& force, const T& most) {
   return {math::saturate(force.left, most), math::saturate(force.right, most)};
 }
 
-/// What the voltage s of a battery that sags, over that without current, leaves of both forces. The
-/// current of motor i, over its stall current, is s c_i - k_e w_i, of which the battery carries the
-/// share c_i for which the motor is on:
+/// Scales both forces by the voltage s of a sagging battery, over that without current. The current
+/// of motor i, over its stall current, is s c_i - k_e w_i, of which the battery carries the share
+/// c_i for which the motor is on:
 ///   s = 1 - rho sum c_i (s c_i - k_e w_i)
 ///     = (1 + rho k_e sum c_i w_i) / (1 + rho sum c_i^2)
 /// c: commands F'; rho: Battery::sag; w_i = u -+ d r of the sample's start, m/s, as if the wheels were straight.
@@ -80,9 +80,10 @@ SideForces<T> under_sag(double sag, const T& motors_a_side, const T& back_emf_s_
   return {force.left * voltage, force.right * voltage};
 }
 
-/// What pushes the vehicle, added to the rates of its state.
+/// Adds the external forces to the rates of the state.
 template <class T>
-State<T> with_push(State<T> d, const Plant<T>& plant, const Push<T>& push, const State<T>& at) {
+State<T> with_push(State<T> d, const Plant<T>& plant, const ExternalForces<T>& push,
+                   const State<T>& at) {
   using math::cos;
   using math::sin;
   if (!push.is_loaded) return d;
@@ -99,15 +100,15 @@ State<T> with_push(State<T> d, const Plant<T>& plant, const Push<T>& push, const
 
 /// Rates of the state with what pushes the vehicle.
 template <class T, class Forces>
-State<T> pushed_rates(const Plant<T>& plant, const Push<T>& push, const State<T>& at,
+State<T> pushed_rates(const Plant<T>& plant, const ExternalForces<T>& push, const State<T>& at,
                       const Forces& force, const T& steering_command_rad) {
   return with_push(state_rates(plant, at, force, steering_command_rad), plant, push, at);
 }
 
 /// The same on tyres.
 template <class T, class Forces>
-State<T> pushed_rates(const FourWheels<T>& vehicle, const Push<T>& push, const State<T>& at,
-                      const Forces& force, const T& steering_command_rad) {
+State<T> pushed_rates(const FourWheels<T>& vehicle, const ExternalForces<T>& push,
+                      const State<T>& at, const Forces& force, const T& steering_command_rad) {
   return with_push(state_rates(vehicle, at, force, steering_command_rad), vehicle.body, push, at);
 }
 

@@ -24,7 +24,7 @@ ControllerSetup controller_setup(const Scenario& scenario, const Controller<doub
 RunController<double> run_controller(const Scenario& scenario, const Controller<double>& controller,
                                      YawMode mode);
 
-/// F' of a wheel at the most, over F_max: what overcomes the dead zone, and the zone.
+/// Largest F' of a wheel over F_max, including the dead zone.
 double largest_force(const Controller<double>& controller);
 
 /// From the vehicle's circle to the nearest obstacle, < 0 inside of it.

@@ -7,7 +7,7 @@
 namespace awmr {
 namespace {
 
-/// How far inside its distance from an end a disc is shrunk.
+/// Margin by which a disc is shrunk inside its distance from an end.
 constexpr double kShrunk = 1.0 - 1e-9;
 
 /// Twice the signed area of a, b, c.

@@ -41,8 +41,8 @@ class Physics {
 /// True where the two wheels of a side may have different forces.
 bool forces_differ_by_wheel(const Scenario& scenario);
 
-/// What of each wheel's force arrives: the motor's fault, and the ground under it. The rear axle is
-/// taken as far behind the centre of gravity as the front one is before it.
+/// Wheel forces that act, after motor faults and ground limits. The rear axle is taken as far
+/// behind the centre of gravity as the front one is before it.
 WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>& plant,
                                   const State<double>& state, double t_s,
                                   const SideForces<double>& force);

@@ -22,8 +22,8 @@ constexpr int kMostTries = 1000;
 /// Draws of scrub are apart from those of the other parameters, which do not depend on it.
 constexpr std::uint64_t kScrubStream = std::uint64_t{1} << 61U;
 
-/// What a negative eigenvalue may be for rounding's sake, over the largest: the file's matrix has
-/// 17 digits, a derived parameter (m' from a1, b1) makes it singular.
+/// Relative tolerance for a negative eigenvalue caused by rounding: the file's matrix has 17
+/// digits, a derived parameter (m' from a1, b1) makes it singular.
 constexpr double kSingularTolerance = 1e-9;
 
 /// A resistance does not fall with speed and does not push: b >= 0, and every term >= 0.

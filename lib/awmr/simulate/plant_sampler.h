@@ -44,12 +44,12 @@ class PlantSampler {
   /// The plant of `sample` (>= 1): depends on seed and sample alone. Errors (input): next to
   /// every draw has a negative exponent or term.
   Result<Plant<double>> draw(std::uint64_t seed, int sample) const;
-  /// The same as a model, whose intervals are still those of the identified one.
+  /// The drawn plant as a model; its intervals are those of the identified model.
   Result<Model> draw_model(std::uint64_t seed, int sample) const;
 
-  /// So many draws that are spread evenly, for few of them: a Latin hypercube. Each direction of the
-  /// covariance has one draw in each of `count` strata of equal probability, in an order and at a place
-  /// within it from the seed. One that is not admissible is draw()'s of its number.
+  /// A Latin hypercube of `count` draws, evenly spread even for few draws. Each direction of the
+  /// covariance has one draw in each of `count` strata of equal probability, in an order and at a
+  /// place within it from the seed. One that is not admissible is draw()'s of its number.
   Result<std::vector<Plant<double>>> draw_evenly(std::uint64_t seed, int count) const;
 
   /// The plant at standard normals n, one for each parameter of the covariance: z = centre + L n. None where
@@ -62,8 +62,8 @@ class PlantSampler {
   std::vector<std::vector<double>> directions_of(std::span<const ParameterId> ids) const;
 
  private:
-  /// How many standard normals make a draw: one for each parameter of the covariance and, where the grip
-  /// demands a mass, one that says whether it is taken.
+  /// Number of standard normals per draw: one for each parameter of the covariance and, where the
+  /// grip demands a mass, one that says whether it is taken.
   std::size_t normals_of_a_draw() const {
     return centre_.size() + (model_.mass_norm_by_grip ? 1 : 0);
   }

@@ -26,14 +26,14 @@ struct OneRun {
   void store(const Numbers& from, Numbers& to) const {
     to = from;
   }
-  /// Where the mask holds.
+  /// Stores the lanes in which the mask is true.
   template <class Numbers>
   void store(bool mask, const Numbers& from, Numbers& to) const {
     if (mask) to = from;
   }
 };
 
-/// How many runs have a number in a row.
+/// Number of runs with a value in a row.
 template <class Row>
 constexpr std::size_t kRunsOf = sizeof(Row) / sizeof(double);
 

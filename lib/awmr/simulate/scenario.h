@@ -55,7 +55,7 @@ struct WaypointCourse {
   std::optional<double> slow_down_m;
 };
 
-/// How a line is approached: the paper's line of sight, or a baseline.
+/// Guidance law of a line: the paper's line of sight, or a baseline.
 using AnyLineLaw = std::variant<LineLaw<double>, PurePursuit<double>, IntegralLos<double>>;
 
 /// A line or polyline to follow; the run ends past its end.
@@ -77,7 +77,7 @@ struct LissajousCourse {
 
 using Guidance = std::variant<OpenLoop, HeadingSteps, WaypointCourse, LineCourse, LissajousCourse>;
 
-/// What moves: the model's 3-DOF plant, or its rigid body on four tyres.
+/// The simulated plant: the model's 3-DOF equations, or its rigid body on four tyres.
 enum class PlantKind { kModel, kFourWheel };
 inline constexpr NameTable<PlantKind, 2> kPlantKindNames{
     {{"model", PlantKind::kModel}, {"four-wheel", PlantKind::kFourWheel}}};
@@ -122,7 +122,7 @@ struct HeadingStepsOptions {
 Scenario heading_steps(const std::vector<double>& headings_deg,
                        const HeadingStepsOptions& options = {});
 
-/// What of the scenario has no meaning on tyres, each with its key in scenario.json and what to do.
+/// Keys of the scenario that do not apply on tyres, each with the remedy.
 struct TyreConflict {
   std::string key;
   std::string message;
@@ -136,7 +136,8 @@ Status check_tyres(const Scenario& scenario);
 /// check_tyres and check_observer_rate, and an LQI law that is unstable at the sample time.
 Status check_scenario(const Scenario& scenario, const Model& model);
 
-/// The plant in words: "model", or "four-wheel, friction 0.8, ..." with the numbers of the tyres.
+/// Description of the plant: "model", or "four-wheel, friction 0.8, ..." with the numbers of the
+/// tyres.
 std::string plant_text(const Scenario& scenario);
 
 /// The model with the scenario's corner parameters at the ends of their 95 % intervals.
@@ -155,7 +156,7 @@ inline constexpr NameTable<CombinedSplit, 2> kCombinedSplitNames{
 constexpr std::string_view name_of(YawMode mode) { return name_in(kYawModeNames, mode); }
 inline constexpr YawMode kYawModes[] = {YawMode::kDifferential, YawMode::kSteering,
                                         YawMode::kCombined};
-/// Those that the vehicle has, in the order of kYawModes: without steering, differential alone.
+/// Modes of the vehicle, in the order of kYawModes; without steering, differential only.
 std::span<const YawMode> yaw_modes(const Vehicle& vehicle);
 /// Errors (input): the vehicle has no steering, which the mode is made with.
 Status check_mode(const Vehicle& vehicle, YawMode mode);

@@ -34,7 +34,7 @@ double read_speed(JsonObject& json, bool holds_thrust) {
   return json.number("speed_mps", kSpeed_mps);
 }
 
-/// What is there, but without effect.
+/// Keys without effect.
 void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
   const bool open = std::holds_alternative<OpenLoop>(scenario.guidance);
   if (scenario.avoidance && scenario.obstacles.empty()) {

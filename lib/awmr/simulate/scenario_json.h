@@ -6,8 +6,8 @@
 
 namespace awmr {
 
-// What the numbers of a scenario may be (README.md lists them): wider than any course, and within
-// what the simulator stays finite for.
+// Ranges of the numbers in a scenario (listed in SCENARIOS.md): wider than any course, and within
+// the range in which the simulator stays finite.
 inline constexpr NumberRule kDuration_s{.min = 0.0, .max = 1e6, .min_excluded = true};
 inline constexpr NumberRule kTime_s{.min = 0.0, .max = 1e6};
 inline constexpr NumberRule kCoordinate_m{.min = -1e6, .max = 1e6};

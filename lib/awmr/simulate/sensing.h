@@ -41,12 +41,12 @@ class Sensing {
     ///   n_0 = w_0,   n_k = rho n_{k-1} + sqrt(1 - rho^2) w_k,   rho = exp(-T_s/tau)
     double next_noise(std::size_t k);
     /// The sample whose truth is read at the k-th: before the first one, the first.
-    std::size_t sample_read_at(std::size_t k) const { return k > late ? k - late : 0; }
+    std::size_t sample_read_at(std::size_t k) const { return k > latency ? k - latency : 0; }
 
     Channel channel;
-    std::size_t late;    ///< samples
-    double correlation;  ///< rho
-    double noise = 0.0;  ///< n_{k-1}
+    std::size_t latency;  ///< samples
+    double correlation;   ///< rho
+    double noise = 0.0;   ///< n_{k-1}
     Random random;
     const std::vector<double>* normals;  ///< null: drawn from `random`
   };

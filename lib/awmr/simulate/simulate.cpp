@@ -165,9 +165,9 @@ Status check_work(const Plant<double>& plant, const std::string& model_file,
     const ParameterInfo& parameter = info(limit.parameter);
     return input_error(
         model_file + ":" + std::string(parameter.pointer),
-        fmt::format("its time constant asks for RK4 steps of {:.3g} s, {:.3g} of them in {:g} s "
-                    "(scenario '{}'), more than the {:g} that a run may take: check {} and what it "
-                    "is divided by, or give a shorter duration_s",
+        fmt::format("its time constant requires RK4 steps of {:.3g} s, {:.3g} of them in {:g} s "
+                    "(scenario '{}'); the limit is {:g}. Check {} and its divisor, or give a "
+                    "shorter duration_s",
                     limit.step_s, steps, scenario.duration_s, scenario.name, kMostSteps,
                     parameter.name));
   }

@@ -17,7 +17,7 @@
 
 namespace awmr {
 
-/// What a row has of the path in addition to the vehicle's state; unused in open loop.
+/// Path columns of a row, in addition to the vehicle's state; unused in open loop.
 struct CourseRow {
   double psi_goal_rad = 0.0;    ///< the guidance's heading, before avoidance and shaping
   double cross_track_m = 0.0;   ///< from the present leg, line or path; left of it is positive
@@ -49,7 +49,7 @@ struct RunRow {
   WheelForces<double> acting = {0.0, 0.0, 0.0, 0.0};
 };
 
-/// How a run ended.
+/// End of a run.
 enum class RunEnd {
   kDuration,   ///< at the scenario's duration
   kFinished,   ///< the last waypoint was reached, or the end of the line
@@ -67,7 +67,7 @@ struct Run {
   int missed_waypoints = 0;  ///< passed by, or covered by an obstacle
 };
 
-/// How a run is computed.
+/// Options of a run.
 struct SimulateOptions {
   /// T_s, s, > 0: time between two commands of the controller; the vehicle's.
   double sample_time_s = 0.01;
@@ -75,11 +75,11 @@ struct SimulateOptions {
   std::optional<int> substeps;
   /// Together with the scenario's own seed it decides everything random. Another seed: another run.
   std::uint64_t seed = 0;
-  /// The number of the draw, where one seed is to give many runs: 0, 1, 2, ...
+  /// Number of the draw (0, 1, 2, ...) for several runs with one seed.
   std::uint64_t sample = 0;
 };
 
-/// What a run may take: half a gigabyte of rows, about a minute of steps.
+/// Limits of a run: half a gigabyte of rows, about a minute of steps.
 inline constexpr double kMostRows = 2e6;
 inline constexpr double kMostSteps = 1e8;
 inline constexpr int kMostSubsteps = 100'000'000;

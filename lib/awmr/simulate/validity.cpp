@@ -26,8 +26,8 @@ void note_latency(const char* name, double late_s, double sample_time_s, const S
   if (std::abs(samples - std::round(samples)) <= kLittleOfASample) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "rounded-latency",
-       fmt::format("{}: the {} is {:g} s late, and is driven as {:.0f} samples of {:g} s: give "
-                   "whole samples, or a shorter sample_time_s",
+       fmt::format("{}: the {} is {:g} s and is rounded to {:.0f} samples of {:g} s; give whole "
+                   "samples, or a shorter sample_time_s",
                    scenario.name, name, late_s, std::round(samples), sample_time_s)});
 }
 
@@ -63,8 +63,8 @@ void note_speed(const Scenario& scenario, const Model& model, std::vector<Findin
   const double needed = plant.surge(scenario.speed_mps);
   if (!(needed > most)) return;
   findings.push_back({"", 0, Severity::kWarning, "unreachable-speed",
-                      fmt::format("{}: {:g} m/s take {:.3g} of F_max, and the wheels make {:.3g} "
-                                  "together: the speed is never reached",
+                      fmt::format("{}: {:g} m/s need {:.3g} of F_max, but the wheels make at most "
+                                  "{:.3g}; the speed is never reached",
                                   scenario.name, scenario.speed_mps, needed, std::max(most, 0.0))});
 }
 
@@ -99,9 +99,9 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
   }
   return Finding{
       model.file, 0, Severity::kWarning, "tyres-differ",
-      fmt::format("{}: a moment that turns the model at {:.3g} deg/s, where its yaw resistance was "
-                  "measured, turns it at {:.3g} on these tyres: they are not those of the trials. "
-                  "Take results on these tyres as those of another vehicle",
+      fmt::format("{}: the moment that turns the model at {:.3g} deg/s, the highest measured rate, "
+                  "turns it at {:.3g} on these tyres. The trials had other tyres, so these results "
+                  "are for another vehicle",
                   scenario.name, plain_degps, on_tyres_degps)};
 }
 
@@ -155,8 +155,8 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
       choice == kMeasuredRate ? measured_yaw_rate_degps(model) : *number_from_text(choice);
   if (!limit_degps) {
     return input_error(place,
-                       "the model does not say how fast it turned when yaw resistance was "
-                       "measured; give deg/s, or yaw_rate_max_degps in the vehicle");
+                       "the model has no highest measured yaw rate; give deg/s, or "
+                       "yaw_rate_max_degps in the vehicle");
   }
   for (Scenario& scenario : scenarios) limit_heading_rate(*limit_degps, scenario);
   return {};
@@ -165,16 +165,15 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
 std::optional<Finding> not_led(const HeadingRateChoice& said, const Model& model) {
   if (!said.empty() || measured_yaw_rate_degps(model)) return std::nullopt;
   return Finding{model.file, 0, Severity::kWarning, "not-led",
-                 fmt::format("the model does not say how fast it turned when yaw resistance was "
-                             "measured, so that headings are not led: what parts the modes may be "
-                             "the model's extrapolation. Give yaw_rate_max_degps in the vehicle, "
-                             "or {}",
+                 fmt::format("the heading rate is not limited, because the model has no highest "
+                             "measured yaw rate; differences between modes may come from "
+                             "extrapolation. Give yaw_rate_max_degps in the vehicle, or {}",
                              option_text("heading_rate_limit"))};
 }
 
 std::optional<Finding> extrapolation_finding(const std::string& file, double measured_degps,
                                              double fastest_degps, const std::string& where,
-                                             bool is_led) {
+                                             bool is_rate_limited) {
   if (fastest_degps <= kLittleFurther * measured_degps) return std::nullopt;
   return Finding{
       file, 0, Severity::kWarning, "beyond-trials",
@@ -182,18 +181,20 @@ std::optional<Finding> extrapolation_finding(const std::string& file, double mea
                   "resistance was measured (up to {:.3g} deg/s): beyond it the model is "
                   "extrapolated. {}",
                   where, fastest_degps, fastest_degps / measured_degps, measured_degps,
-                  is_led ? "The heading is led no faster than that, and the vehicle overshoots it "
-                           "or slides: record faster turning trials, or lower the limit "
-                           "(--heading-rate-limit)"
-                         : "Record faster turning trials, or limit the heading's rate (shaping in "
-                           "the scenario, or --heading-rate-limit measured)")};
+                  is_rate_limited
+                      ? "The heading rate is limited to that, but the vehicle overshoots or "
+                        "slides. Record faster turning trials, or lower the limit "
+                        "(--heading-rate-limit)"
+                      : "Record faster turning trials, or limit the heading's rate (shaping in "
+                        "the scenario, or --heading-rate-limit measured)")};
 }
 
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
-                        std::vector<Finding>& findings, bool is_led) {
+                        std::vector<Finding>& findings, bool is_rate_limited) {
   const std::optional<double> measured = measured_yaw_rate_degps(model);
   if (!measured) return;
-  if (auto finding = extrapolation_finding(model.file, *measured, fastest_degps, where, is_led)) {
+  if (auto finding =
+          extrapolation_finding(model.file, *measured, fastest_degps, where, is_rate_limited)) {
     findings.push_back(*std::move(finding));
   }
 }

@@ -14,11 +14,11 @@ struct VehicleSetup {
   double battery_sag = 0.0;  ///< Battery::sag
   bool is_by_wheel = false;  ///< each wheel has a force of its own
   bool is_on_tyres = false;
-  Tyres<double> tyres;           ///< of vehicles on tyres
-  bool has_back_emf = false;     ///< a vehicle
-  bool has_scrub = false;        ///< a vehicle
-  bool is_front_driven = false;  ///< a vehicle
-  Push<double> push{};           ///< without a load; the same for every vehicle
+  Tyres<double> tyres;            ///< of vehicles on tyres
+  bool has_back_emf = false;      ///< a vehicle
+  bool has_scrub = false;         ///< a vehicle
+  bool is_front_driven = false;   ///< a vehicle
+  ExternalForces<double> push{};  ///< without a load; the same for every vehicle
 };
 
 /// The vehicles' numbers.
@@ -33,15 +33,15 @@ struct Vehicles {
   Plant<Row> plant;  ///< with its chord at rest
   Row step_s;        ///< h
   Row substeps;
-  Row force_most;  ///< F' of a wheel at the most, with the dead zone
+  Row force_most;  ///< largest F' of a wheel, with the dead zone
 
   // As a run goes on.
   State<Row> state;
   SideForces<Row> motors;  ///< see MotorLag
   Row halves;              ///< see Resolution
 
-  // Of the present sample: the commands, what of them arrives at the ground, by side or by wheel, and
-  // the load of the disturbances.
+  // Values of the present sample: the commands, the forces that act on the ground, by side or by
+  // wheel, and the load of the disturbances.
   SideForces<Row> force;
   Row steering_command_rad;
   SideForces<Row> arriving;
@@ -55,7 +55,7 @@ template <class Row>
 struct VehicleSteps {
   /// From the commands to `tyre_power_mps`.
   void (*dissipate)(Vehicles<Row>& v);
-  /// From the commands to `arriving`, through motors and battery.
+  /// From the commands to the motor forces `arriving`, through motors and battery.
   void (*actuate)(Vehicles<Row>& v);
   /// Moves the states on. A vehicle that no step can follow, or whose numbers are no longer finite,
   /// stays, and its run is no longer active.
@@ -133,24 +133,24 @@ AWMR_WHOLE void move_by(const View& view, Vehicles<Row>& v, const Rates& rates) 
   using T = typename View::Number;
   const auto& body = body_of<kIsOnTyres>(view, v);
   const T command = view(v.steering_command_rad);
-  const Mask<T> asked = view(v.active) > T(0.0);
+  const Mask<T> requested = view(v.active) > T(0.0);
   State<T> state = view(v.state);
   Resolution<T> resolution{view(v.halves), Mask<T>(true)};
   integrate(
       body, T(view(v.step_s)), T(view(v.substeps)),
       [&](const State<T>& at) __attribute__((always_inline)) { return rates(body, at, command); },
-      asked, state, resolution);
+      requested, state, resolution);
   view.store(state, v.state);
   view.store(resolution.halves, v.halves);
-  view.store(select(asked && resolution.resolved, T(1.0), T(0.0)), v.active);
+  view.store(select(requested && resolution.resolved, T(1.0), T(0.0)), v.active);
 }
 
 template <bool kIsOnTyres, class View, class Row, class Forces>
 void move_pushed(const View& view, Vehicles<Row>& v, const Forces& force) {
   using T = typename View::Number;
-  const Push<double>& common = v.setup.push;
-  const Push<T> push{view(v.load), common.is_loaded, common.is_sloped, common.slope_accel_mps2,
-                     common.slope_downhill_rad};
+  const ExternalForces<double>& common = v.setup.push;
+  const ExternalForces<T> push{view(v.load), common.is_loaded, common.is_sloped,
+                               common.slope_accel_mps2, common.slope_downhill_rad};
   move_by<kIsOnTyres>(
       view, v,
       [&](const auto& body, const State<T>& at, const T& command)

@@ -1,6 +1,5 @@
-/// What the world does to the vehicle in addition to the equations of motion: disturbances, faults of the
-/// wheels, sensors, actuators. Everything is off unless the scenario asks for it; what is random
-/// comes from seeds.
+/// Effects in addition to the equations of motion: disturbances, wheel faults, sensors, actuators.
+/// All are off unless the scenario sets them; random numbers come from seeds.
 #pragma once
 
 #include <cmath>
@@ -105,8 +104,8 @@ inline double noise_correlation(double correlation_s, double apart_s) {
   return correlation_s > 0.0 ? std::exp(-apart_s / correlation_s) : 0.0;
 }
 
-/// A receiver that gives a position at its own rate, late. Between fixes the position is carried on
-/// by the measured heading and speed (dead reckoning).
+/// A receiver with its own rate and latency. Between fixes the position is carried on by the
+/// measured heading and speed (dead reckoning).
 struct Gps {
   double rate_hz = 0.0;    ///< > 0
   double latency_s = 0.0;  ///< >= 0
@@ -125,7 +124,7 @@ struct Sensors {
   std::optional<Gps> gps;    ///< absent: the true position
 };
 
-/// What becomes of the commands on their way to the wheels.
+/// Actuators between the commands and the wheels.
 struct Actuators {
   double steering_quantum_rad = 0.0;  ///< one step of the servo's pulse; 0: any angle
   int pwm_counts = 0;                 ///< counts for the force F'max; 0: any force
@@ -139,7 +138,7 @@ struct CornerParameter {
   bool high = true;  ///< the upper end, else the lower
 };
 
-/// How the controller is extended, in addition to the laws of control/controller.h.
+/// Extensions of the laws in control/controller.h.
 struct ControlOptions {
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< of the combined mode
   struct Observer {

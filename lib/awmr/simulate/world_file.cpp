@@ -178,8 +178,8 @@ enum class HeadingLaw { kSlidingMode, kLqi };
 constexpr NameTable<HeadingLaw, 2> kHeadingLaws{
     {{"sliding_mode", HeadingLaw::kSlidingMode}, {"lqi", HeadingLaw::kLqi}}};
 
-// The largest values that are acceptable: above what a sensor tells, and within what gains stay
-// finite for.
+// The largest values that are acceptable: above any sensor's range, and within the range in which
+// gains stay finite.
 constexpr NumberRule kLqiHeading_deg{.min = 1e-3, .max = 180.0};
 constexpr NumberRule kLqiYawRate_degps{.min = 1e-3, .max = 1e5};
 constexpr NumberRule kLqiIntegral_deg_s{.min = 1e-3, .max = 1e6};

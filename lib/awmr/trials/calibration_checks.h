@@ -34,9 +34,9 @@ struct Calibration {
 /// errors; none where a position, the heading or the speed was not measured.
 std::optional<Calibration> heading_offset_rad(const DrivingLog& log);
 
-/// `heading-offset` and `scale-mismatch` (warnings): scales that differ by more than 3 % and five standard
-/// errors, with the channel at fault where a third one tells, else with both. `mappings`: those that the log
-/// was read with.
+/// `heading-offset` and `scale-mismatch` (warnings): scales that differ by more than 3 % and five
+/// standard errors, with the channel at fault if a third one shows it, else with both. `mappings`:
+/// those that the log was read with.
 std::vector<Finding> calibration_findings(const DrivingLog& log,
                                           std::span<const ColumnMapping> mappings);
 

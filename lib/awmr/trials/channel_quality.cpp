@@ -147,8 +147,8 @@ double spike_limit(std::span<const double> value, std::span<const double> off, d
 
 /// Whether the readings on one side of `k` lead to it in a straight line, as at the sharp turn of a
 /// motion: from the two nearest that are within the limit.
-bool is_led_to(std::span<const double> value, std::span<const double> off, double limit,
-               std::size_t k, std::ptrdiff_t side) {
+bool is_reached_from(std::span<const double> value, std::span<const double> off, double limit,
+                     std::size_t k, std::ptrdiff_t side) {
   const auto rows = static_cast<std::ptrdiff_t>(value.size());
   const auto at_row = static_cast<std::ptrdiff_t>(k);
   std::ptrdiff_t near = at_row + side;
@@ -178,7 +178,8 @@ void find_spikes(std::span<const double> all, ChannelQuality& quality) {
   const double limit = spike_limit(value, off, quality.quantum);
   for (std::size_t k = 0; k < off.size(); ++k) {
     if (std::abs(off[k]) <= limit || !(limit > 0.0)) continue;
-    if (is_led_to(value, off, limit, k, -1) || is_led_to(value, off, limit, k, 1)) continue;
+    if (is_reached_from(value, off, limit, k, -1) || is_reached_from(value, off, limit, k, 1))
+      continue;
     quality.spikes.push_back(rows[k]);
     quality.fresh[rows[k]] = false;
   }

@@ -124,7 +124,7 @@ Status check_time(const CsvTable& table) {
 Status add_file(const File& file, const std::map<std::string, int>& counts,
                 const TimeMappings& times, const Wanted& wanted, CsvTopics& topics,
                 std::vector<Span>& spans) {
-  std::vector<CsvColumn> asked{kTime};
+  std::vector<CsvColumn> requested{kTime};
   std::vector<std::size_t> places;
   for (const std::string& name : file.header) {
     if (name == kTimeName) continue;
@@ -133,16 +133,16 @@ Status add_file(const File& file, const std::map<std::string, int>& counts,
     for (std::string& one : called) {
       topics.signals.header.push_back(std::move(one));
       if (!wanted(topics.signals.header.back())) continue;
-      asked.push_back({name, true, EmptyCells::kAbsent});
+      requested.push_back({name, true, EmptyCells::kAbsent});
       places.push_back(topics.signals.header.size() - 1);
     }
   }
   if (places.empty()) return {};
   AWMR_ASSIGN_OR_RETURN(const CsvTable table,
-                        read_csv_text(file.text, file.path, asked, times.mappings));
+                        read_csv_text(file.text, file.path, requested, times.mappings));
   AWMR_RETURN_IF_ERROR(check_time(table));
   for (std::size_t i = 0; i < places.size(); ++i) {
-    topics.signals.topics.push_back(topic_of(table, asked[i + 1].name, places[i]));
+    topics.signals.topics.push_back(topic_of(table, requested[i + 1].name, places[i]));
   }
   for (const std::size_t used : table.mapped()) topics.mapped.push_back(times.places[used]);
   for (const CsvNote& note : table.notes()) {

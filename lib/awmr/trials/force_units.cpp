@@ -113,14 +113,14 @@ std::string words_of(const ForceUnits& units) {
   return text;
 }
 
-std::vector<Mending> force_mendings(const ForceUnits& units, std::string_view column) {
-  std::vector<Mending> mendings;
+std::vector<UnitFix> force_unit_fixes(const ForceUnits& units, std::string_view column) {
+  std::vector<UnitFix> unit_fixes;
   for (const ForceUnit& unit : units.units) {
     if (unit.factor == 0.0) continue;
     const std::string_view name = unit.words.substr(0, unit.words.find(" ("));
-    mendings.push_back({std::string(name), column, unit.factor, unit.offset});
+    unit_fixes.push_back({std::string(name), column, unit.factor, unit.offset});
   }
-  return mendings;
+  return unit_fixes;
 }
 
 ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>& wheels,
@@ -148,20 +148,20 @@ ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>
     const bool as_one = possible.contains(unit.factor * thrust.largest + unit.offset);
     const bool as_sum = possible.contains(unit.factor * of_one.largest + unit.offset);
     if (as_one && !is_sum) {
-      found.mendings.push_back(
+      found.unit_fixes.push_back(
           {name + " of one wheel", "tau_speed", n * unit.factor, n * unit.offset});
     }
     if (as_sum) {
-      found.mendings.push_back({fmt::format("{}, the sum of {} wheels", name, n), "tau_speed",
-                                unit.factor, n * unit.offset});
+      found.unit_fixes.push_back({fmt::format("{}, the sum of {} wheels", name, n), "tau_speed",
+                                  unit.factor, n * unit.offset});
     }
   }
   return found;
 }
 
-std::string remedy_of(const ForceUnits& units, std::span<const Mending> mendings,
+std::string remedy_of(const ForceUnits& units, std::span<const UnitFix> unit_fixes,
                       std::span<const ColumnMapping> mappings) {
-  std::string mapped = mapped_by(mendings, mappings, !units.is_clear());
+  std::string mapped = mapped_by(unit_fixes, mappings, !units.is_clear());
   if (units.remedy.empty() || mapped.empty()) return mapped;
   return units.remedy + ", " + mapped;
 }

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "awmr/model/vehicle.h"
-#include "mending.h"
+#include "unit_fix.h"
 
 namespace awmr {
 
@@ -58,13 +58,13 @@ std::string words_of(const ForceUnits& units);
 
 /// Mappings that convert a column of single-wheel forces to F'; none for a unit with unknown
 /// factor.
-std::vector<Mending> force_mendings(const ForceUnits& units, std::string_view column);
+std::vector<UnitFix> force_unit_fixes(const ForceUnits& units, std::string_view column);
 
 /// Possible units of a tau_speed beyond n F'max, and the mappings to n F'. A column may contain one
 /// wheel's force or the sum of n, so each possible reading is listed.
 struct ThrustUnits {
   ForceUnits units;
-  std::vector<Mending> mendings;
+  std::vector<UnitFix> unit_fixes;
 };
 /// `thrust`: range of the column tau_speed. `wheels`: range of the other tables' forces beyond
 /// F'max, which then decides the unit.
@@ -73,7 +73,7 @@ ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>
 
 /// "map it by --column 'A' (percent) or by ...", with the remedy. Ends without a full stop, so that
 /// ", or take it as it is" can follow.
-std::string remedy_of(const ForceUnits& units, std::span<const Mending> mendings,
+std::string remedy_of(const ForceUnits& units, std::span<const UnitFix> unit_fixes,
                       std::span<const ColumnMapping> mappings);
 
 }  // namespace awmr

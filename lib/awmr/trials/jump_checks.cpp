@@ -93,8 +93,8 @@ std::optional<Contradiction> zero_fix(const DrivingLog& log, const Move& jump) {
                        ""};
 }
 
-Contradiction told(const DrivingLog& log, const Move& jump, std::string column,
-                   const std::string& how_far) {
+Contradiction described(const DrivingLog& log, const Move& jump, std::string column,
+                        const std::string& how_far) {
   return {std::move(column),
           fmt::format(
               "it jumps by {} between lines {} and {}, within {:.3g} s: this looks like two runs "
@@ -117,7 +117,7 @@ std::optional<Contradiction> jump_contradiction(const Evidence& evidence) {
     const auto jump = jump_in(moves, kVehicleLengths * evidence.vehicle.length_m, size);
     if (jump) {
       if (auto zeros = zero_fix(log, *jump)) return zeros;
-      return told(log, *jump, "x_m", fmt::format("{:.3g} m with y_m", jump->size));
+      return described(log, *jump, "x_m", fmt::format("{:.3g} m with y_m", jump->size));
     }
   }
   if (!evidence.has(LogChannel::kHeading)) return std::nullopt;
@@ -126,7 +126,7 @@ std::optional<Contradiction> jump_contradiction(const Evidence& evidence) {
   const auto moves = moves_between(log, rows_with(log, {LogChannel::kHeading}), size);
   const auto jump = jump_in(moves, kLeastTurn_rad, size);
   if (!jump) return std::nullopt;
-  return told(log, *jump, "heading_deg", fmt::format("{:.3g} deg", degrees(jump->size)));
+  return described(log, *jump, "heading_deg", fmt::format("{:.3g} deg", degrees(jump->size)));
 }
 
 }  // namespace awmr

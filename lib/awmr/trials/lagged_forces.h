@@ -27,7 +27,8 @@ class LaggedForces {
     SideForces<double> by_lag;
     SideForces<double> by_delay;
   };
-  /// Over [t, t + h], where the commands reach the motors `delay_s` late. `signals`: of the same log.
+  /// Over [t, t + h], if the commands reach the motors with the latency `delay_s`. `signals`: of
+  /// the same log.
   Mean mean(const LogSignals& signals, double t_s, double h_s, double delay_s) const;
 
  private:

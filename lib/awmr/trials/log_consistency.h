@@ -42,9 +42,9 @@ std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& 
                                           std::span<const ColumnMapping> mappings);
 
 /// Refuses such a log. Errors (input): each contradiction at `place`, the log as its user named it,
-/// with the mapping that would mend it. With `options.as_is` they are findings (`log-contradiction`,
-/// a warning) instead. A gyro bias of five standard errors and more is a finding (`gyro-bias`), and so are
-/// those of calibration_checks.h.
+/// with the mapping that corrects it. With `options.as_is` they are findings (`log-contradiction`,
+/// a warning) instead. A gyro bias of five standard errors and more is a finding (`gyro-bias`), and
+/// so are those of calibration_checks.h.
 Status check_consistency(const DrivingLog& log, const std::string& place, const Vehicle& vehicle,
                          const TrialOptions& options, std::vector<Finding>& findings);
 

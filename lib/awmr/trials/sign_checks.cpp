@@ -238,9 +238,9 @@ std::optional<Contradiction> judge_unsigned(const Evidence& evidence) {
   return Contradiction{
       "speed_mps",
       fmt::format(
-          "it is never negative, though the vehicle gathers {:.3g} m/s while its wheels push "
-          "backwards: the sensor tells no direction. Give the speed its sign, leave the "
-          "column out where positions are measured, or record forward driving alone",
+          "it is never negative, though the vehicle gains {:.3g} m/s while its wheels push "
+          "backwards: the sensor measures no direction. Add the sign to the speed, leave the "
+          "column out where positions are measured, or record forward driving only",
           gathered_mps),
       ""};
 }

@@ -118,7 +118,7 @@ struct SteadyRun {
 
 /// Returns the run in a stretch of constant commands, or nothing if it gives no resistance: never
 /// steady, at rest, or turning against its command. With steering also: driven backward or with
-/// unequal sides. Without steering the difference of the sides turns the vehicle.
+/// unequal left and right forces. Without steering the force difference turns the vehicle.
 std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicle,
                                     const SteadyRule& rule, Stretch stretch) {
   const double left = mean_of(log.force_left, stretch);

@@ -25,7 +25,7 @@ struct Table {
   std::vector<Fault>& faults;
 
   /// Reports a contradiction. `remedy`: "map it by ..."; may be empty.
-  void tell(int line, const std::string& message, const std::string& remedy) const {
+  void report(int line, const std::string& message, const std::string& remedy) const {
     if (options.as_is) {
       findings.push_back({file, line, Severity::kWarning, "table-contradiction", message});
       return;
@@ -34,10 +34,10 @@ struct Table {
                       fmt::format("{}; {}{}take it {}", message, remedy,
                                   remedy.empty() ? "" : ", or ", option_text("as-is"))});
   }
-  void tell(const std::optional<WrongUnit>& wrong) const {
+  void report(const std::optional<WrongUnit>& wrong) const {
     if (!wrong) return;
-    const std::string mapped = mapped_by(wrong->mendings, options.columns);
-    tell(wrong->line, wrong->message, mapped.empty() ? wrong->remedy : mapped);
+    const std::string mapped = mapped_by(wrong->unit_fixes, options.columns);
+    report(wrong->line, wrong->message, mapped.empty() ? wrong->remedy : mapped);
   }
 };
 
@@ -83,7 +83,7 @@ struct FolderForces {
 
   /// Range that decides the unit of a column: that of all columns, unless the column itself
   /// contains F' beyond the vehicle's limit.
-  ForceSpan beside(const ForceSpan& own) const {
+  ForceSpan with(const ForceSpan& own) const {
     return is_share_of_f_max(own) || !wheels ? own : *wheels;
   }
 };
@@ -117,12 +117,13 @@ std::string limits_text(const Interval& force) {
 void check_sides(const Table& table, const std::vector<TurningRow>& rows, const Tables& tables) {
   const auto [first, span] = beyond(rows, side_forces, side_limit(tables.vehicle));
   if (first == nullptr) return;
-  const ForceUnits units = force_units(folder_forces(tables).beside(span), tables.vehicle);
+  const ForceUnits units = force_units(folder_forces(tables).with(span), tables.vehicle);
   for (const char* column : {"force_left", "force_right"}) {
-    table.tell(first->line,
-               fmt::format("the forces of the sides go beyond {}, and reach {:.4g}: {}",
-                           limits_text(tables.vehicle.wheel_force), span.largest, words_of(units)),
-               remedy_of(units, force_mendings(units, column), table.options.columns));
+    table.report(
+        first->line,
+        fmt::format("force_left or force_right is beyond {}, and reaches {:.4g}: {}",
+                    limits_text(tables.vehicle.wheel_force), span.largest, words_of(units)),
+        remedy_of(units, force_unit_fixes(units, column), table.options.columns));
   }
 }
 
@@ -130,12 +131,12 @@ void check_wheel_force(const Table& table, const std::vector<TurningRow>& rows,
                        const Tables& tables) {
   const auto [first, span] = beyond(rows, steered_force, tables.vehicle.wheel_force.hi);
   if (first == nullptr) return;
-  const ForceUnits units = force_units(folder_forces(tables).beside(span), tables.vehicle);
-  table.tell(
+  const ForceUnits units = force_units(folder_forces(tables).with(span), tables.vehicle);
+  table.report(
       first->line,
       fmt::format("wheel_force is {:.4g}, beyond {}, and reaches {:.4g}: {}", first->wheel_force,
                   limits_text(tables.vehicle.wheel_force), span.largest, words_of(units)),
-      remedy_of(units, force_mendings(units, "wheel_force"), table.options.columns));
+      remedy_of(units, force_unit_fixes(units, "wheel_force"), table.options.columns));
 }
 
 /// tau_speed = 4 F' with the wheels straight                                        [paper (41)]
@@ -150,19 +151,20 @@ void check_thrust(const Table& table, const TrialSet<SurgeRow>& surge, const Tab
   ThrustUnits found;
   if (by_wheel) {
     const ForceSpan of_one{span.least / wheels, span.largest / wheels};
-    found.units = force_units(folder.beside(of_one), vehicle);
-    found.mendings = force_mendings(found.units, "wheel_force");
+    found.units = force_units(folder.with(of_one), vehicle);
+    found.unit_fixes = force_unit_fixes(found.units, "wheel_force");
   } else {
     found = thrust_units(span, folder.wheels, vehicle);
   }
   const std::string of_wheel =
       by_wheel ? fmt::format("{} x wheel_force {:.4g} = ", wheels, first->tau_speed / wheels) : "";
-  table.tell(first->line,
-             fmt::format("tau_speed is {}{:.4g}, beyond {} F'max = {:g} ({}), and reaches {:.4g}: "
-                         "{}",
-                         of_wheel, first->tau_speed, wheels, limit,
-                         limits_text(vehicle.wheel_force), span.largest, words_of(found.units)),
-             remedy_of(found.units, found.mendings, table.options.columns));
+  table.report(
+      first->line,
+      fmt::format("tau_speed is {}{:.4g}, beyond {} F'max = {:g} ({}), and reaches {:.4g}: "
+                  "{}",
+                  of_wheel, first->tau_speed, wheels, limit, limits_text(vehicle.wheel_force),
+                  span.largest, words_of(found.units)),
+      remedy_of(found.units, found.unit_fixes, table.options.columns));
 }
 
 /// Detects angles in radians, which are small compared with the stop in degrees. False if detected.
@@ -173,8 +175,8 @@ bool check_steering(const Table& table, const std::vector<TurningRow>& rows,
   const double steepest_deg =
       degrees(std::ranges::max_element(rows, {}, &TurningRow::steering_rad)->steering_rad);
   if (steepest_deg >= kSmall * vehicle.steering_max_deg) return true;
-  const Mending radians{"radians", "steering_deg", degrees(1.0)};
-  table.tell(
+  const UnitFix radians{"radians", "steering_deg", degrees(1.0)};
+  table.report(
       rows.front().line,
       fmt::format("steering_deg is at most {:.4g} in all runs, below 2 % of the stop at {:g}: "
                   "the angles look like radians",
@@ -206,7 +208,7 @@ void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::p
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults) {
   const Table table{path, surge.file, options, findings, faults};
-  table.tell(wrong_unit(surge, tables.vehicle));
+  table.report(wrong_unit(surge, tables.vehicle));
   check_thrust(table, surge, tables);
 }
 
@@ -217,9 +219,9 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
   const bool is_by_sides = !turning.rows.empty() && turning.rows.front().sides;
   const bool is_steered = tables.vehicle.has_steering() && !is_by_sides;
   const auto wrong = wrong_unit(turning);
-  table.tell(wrong);
+  table.report(wrong);
   const bool angles_right = !is_steered || check_steering(table, turning.rows, tables.vehicle);
-  if (!wrong && angles_right) table.tell(wrong_turn(turning, tables.surge, tables.vehicle));
+  if (!wrong && angles_right) table.report(wrong_turn(turning, tables.surge, tables.vehicle));
   std::vector<TurningRow> by_sides = is_by_sides || !is_steered ? turning.rows : turning.by_sides;
   by_sides.insert(by_sides.end(), turning.standing.begin(), turning.standing.end());
   check_sides(table, by_sides, tables);
@@ -232,7 +234,7 @@ void check_consistency(const CoastdownSet& coastdown, const std::filesystem::pat
   const auto check = [&](const std::string& file, int line, double fastest_mps,
                          const std::optional<WrongUnit>& wrong) {
     const Table table{path, file, options, findings, faults};
-    table.tell(wrong);
+    table.report(wrong);
     if (!wrong) warn_of_fast_coasts(table, line, fastest_mps, tables.surge);
   };
   if (const auto* stops = std::get_if<TrialSet<StopTimeRow>>(&coastdown)) {

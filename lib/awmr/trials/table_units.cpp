@@ -153,18 +153,18 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehic
   }
   if (kLengthsPerSecond.contains(lengths) || !tells_lengths(vehicle)) return std::nullopt;
   const bool is_timed = !ratios.empty();
-  const std::string told = lengths_text(speed_mps, vehicle);
+  const std::string described = lengths_text(speed_mps, vehicle);
   if (lengths > kLengthsPerSecond.hi) {
     const auto [factor, words] = is_timed
                                      ? smaller_unit(lengths, {1e-2, "the distance looks like cm"},
                                                     {1e-3, "the distance looks like mm"})
                                      : smaller_unit(lengths, {1e-2, "the speed looks like cm/s"},
                                                     {1e-3, "the speed looks like mm/s"});
-    return wrong(first.line, fmt::format("{}: {}", told, words),
+    return wrong(first.line, fmt::format("{}: {}", described, words),
                  is_timed ? "distance_m" : "speed_mps", factor);
   }
   if (!is_timed) return std::nullopt;
-  return wrong(first.line, told + ": the time looks like milliseconds", "elapsed_s", 1e-3);
+  return wrong(first.line, described + ": the time looks like milliseconds", "elapsed_s", 1e-3);
 }
 
 std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning) {
@@ -178,9 +178,9 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning) {
                  unit->column, unit->factor);
   }
   const double rate_radps = fastest(turning.rows, &TurningRow::yaw_rate_radps);
-  const std::string told = fmt::format("the fastest turn does {:.3g} rad/s", rate_radps);
+  const std::string described = fmt::format("the fastest turn does {:.3g} rad/s", rate_radps);
   if (rate_radps >= kSlowTable_radps || ratios.empty()) return std::nullopt;
-  return wrong(first.line, told + ": the time looks like milliseconds", "elapsed_s", 1e-3);
+  return wrong(first.line, described + ": the time looks like milliseconds", "elapsed_s", 1e-3);
 }
 
 namespace {

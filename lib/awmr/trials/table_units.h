@@ -13,16 +13,16 @@
 
 #include "awmr/model/vehicle.h"
 #include "awmr/trials/trials.h"
-#include "mending.h"
+#include "unit_fix.h"
 
 namespace awmr {
 
 /// A column in a wrong unit.
 struct WrongUnit {
-  int line = 0;                   ///< line of the first affected row
-  std::string message;            ///< the comparison, its result, the likely units
-  std::vector<Mending> mendings;  ///< the most likely first; empty if no mapping corrects it
-  std::string remedy = {};        ///< what to do if there is no mapping
+  int line = 0;                     ///< line of the first affected row
+  std::string message;              ///< the comparison, its result, the likely units
+  std::vector<UnitFix> unit_fixes;  ///< the most likely first; empty if no mapping corrects it
+  std::string remedy = {};          ///< what to do if there is no mapping
 };
 
 /// The first column whose values are implausible for its unit; empty if there is none.

@@ -77,7 +77,7 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
 
   if (*elapsed_s == 0.0) {
     // A row at rest may have a time of 0, a row with motion may not. The amount counts only if no
-    // printed value says that the vehicle stood.
+    // printed value shows a vehicle at rest.
     const double motion = printed.value_or(*amount);
     if (motion != 0.0) {
       reader.fault(row, "elapsed_s",

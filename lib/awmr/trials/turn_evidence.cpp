@@ -56,8 +56,8 @@ constexpr std::array<RateUnit, 4> kTimedUnits{
 /// Evaluation of one row: its fraction of the possible rate, and the text for the message.
 struct TurnShare {
   const TurningRow* row;
-  double share;      ///< fraction of the rolling rate, or of the acceleration that grip allows
-  std::string told;  ///< "that is more than ..."
+  double share;           ///< fraction of the rolling rate, or of the acceleration that grip allows
+  std::string described;  ///< "that is more than ..."
 };
 
 /// Speed u over tau_speed: piecewise linear through the origin and the surge runs, never
@@ -130,7 +130,7 @@ std::string turn_text(const TurningRow& row) {
     return fmt::format("{:.3g} rad/s with {:.3g} deg of steering", row.yaw_rate_radps,
                        degrees(row.steering_rad));
   }
-  return fmt::format("{:.3g} rad/s with {:.3g} between the sides", row.yaw_rate_radps,
+  return fmt::format("{:.3g} rad/s with {:.3g} between left and right", row.yaw_rate_radps,
                      row.sides->right - row.sides->left);
 }
 
@@ -212,9 +212,9 @@ std::vector<TurnJudgement> judgements(const TrialSet<TurningRow>& turning,
 }
 
 /// Units that bring a share into the possible range.
-std::vector<Mending> turn_mendings(double share, const Interval& possible, bool is_printed) {
+std::vector<UnitFix> turn_unit_fixes(double share, const Interval& possible, bool is_printed) {
   const bool is_fast = share > possible.hi;
-  std::vector<Mending> found;
+  std::vector<UnitFix> found;
   for (const RateUnit& unit : is_printed ? std::span(kPrintedUnits) : std::span(kTimedUnits)) {
     if ((unit.times > 1.0) != is_fast || !possible.contains(share / unit.times)) continue;
     found.push_back({std::string(unit.words), unit.column, unit.factor});
@@ -222,16 +222,17 @@ std::vector<Mending> turn_mendings(double share, const Interval& possible, bool 
   return found;
 }
 
-WrongUnit wrong_column(const TurnShare& told_by, const TurnJudgement& judgement, bool is_printed,
+WrongUnit wrong_column(const TurnShare& worst, const TurnJudgement& judgement, bool is_printed,
                        int line) {
-  std::vector<Mending> mendings = turn_mendings(told_by.share, judgement.possible, is_printed);
-  const std::string told = fmt::format("line {} turns at {}, {}", told_by.row->line,
-                                       turn_text(*told_by.row), told_by.told);
-  if (mendings.empty()) {
-    return {line, told, {}, "correct the yaw rates, or the values that they are compared with"};
+  std::vector<UnitFix> unit_fixes = turn_unit_fixes(worst.share, judgement.possible, is_printed);
+  const std::string described = fmt::format("line {} turns at {}, {}", worst.row->line,
+                                            turn_text(*worst.row), worst.described);
+  if (unit_fixes.empty()) {
+    return {
+        line, described, {}, "correct the yaw rates, or the values that they are compared with"};
   }
   const std::string_view what = is_printed ? "the yaw rates look like" : "this looks like";
-  return {line, fmt::format("{}: {} {}", told, what, words_of(mendings)), mendings};
+  return {line, fmt::format("{}: {} {}", described, what, words_of(unit_fixes)), unit_fixes};
 }
 
 /// Rows far from all others are wrong themselves.
@@ -244,7 +245,7 @@ WrongUnit wrong_rows(const std::vector<TurnShare>& shares, double most) {
   const TurnShare& worst = shares.back();
   return {lines.front(),
           fmt::format("line {} turns at {}, {}; most rows do not", worst.row->line,
-                      turn_text(*worst.row), worst.told),
+                      turn_text(*worst.row), worst.described),
           {},
           fmt::format("correct line{} {}", lines.size() == 1 ? "" : "s", fmt::join(lines, ", "))};
 }

@@ -140,7 +140,7 @@ Turn by_sides(const TrialReader& reader, std::size_t row, const Vehicle& vehicle
           .sides = sides};
 }
 
-/// Adds a fault if wheel_force is given together with the forces of the sides and is not their
+/// Adds a fault if wheel_force is given together with force_left and force_right and is not their
 /// mean.
 void check_mean(TrialReader& reader, std::size_t row, double left, double right) {
   const auto mean = reader.cell(row, "wheel_force");
@@ -154,7 +154,7 @@ void check_mean(TrialReader& reader, std::size_t row, double left, double right)
                            *mean, left, right, computed));
 }
 
-/// F' of a steered run without forces of the sides; a fault if it is empty or negative.
+/// F' of a steered run without force_left and force_right; a fault if it is empty or negative.
 std::optional<double> wheel_force_of(TrialReader& reader, std::size_t row) {
   if (!reader.has("wheel_force")) {
     reader.fault(row, "force_left", "no force: give both sides', or a column wheel_force");
@@ -205,9 +205,8 @@ std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
   if (*reader.cell(row, "steering_deg") == 0.0) return by_sides(reader, row, vehicle);
   reader.fault(
       row, "steering_deg",
-      fmt::format("found {} with force_left {} and force_right {}: a run that turns by its "
-                  "steering and by its sides at once shows the resistance of neither; "
-                  "keep the wheels straight, or drive both sides alike",
+      fmt::format("found {} with force_left {} and force_right {}: a run turns either by steering "
+                  "or by a force difference; keep the wheels straight, or make both forces equal",
                   *reader.cell(row, "steering_deg"), *left, *right));
   return std::nullopt;
 }
@@ -231,8 +230,8 @@ void check_sides_given(TrialReader& reader) {
   reader.fault(without.front(),
                reader.cell(without.front(), "force_left") ? "force_right" : "force_left",
                fmt::format("{} of {} rows lack force_left or force_right ({}): a vehicle without "
-                           "steering turns by its sides' forces alone; give both, take the rows "
-                           "out, or correct drive in vehicle.json",
+                           "steering turns only by left and right wheel forces; give both, remove "
+                           "the rows, or correct drive in vehicle.json",
                            without.size(), reader.table().rows(), lines_of(reader, without)));
 }
 
@@ -265,9 +264,8 @@ void take_sides_alone(TrialSet<TurningRow>& set, std::vector<Finding>& findings)
   findings.push_back(
       {set.file, set.rows.front().line, Severity::kWarning, "turned-by-sides",
        fmt::format(
-           "all {} turns are by the sides' forces, which scrub the tyres: yaw resistance is "
-           "fitted to them and holds for turns by the sides; where the vehicle also steers, "
-           "add steered turns (steering_deg, wheel_force)",
+           "all {} turns are differential, so the fitted yaw resistance includes tyre scrub; if "
+           "the vehicle also steers, add steered turns (steering_deg, wheel_force)",
            set.rows.size())});
 }
 

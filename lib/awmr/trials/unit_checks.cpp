@@ -93,12 +93,13 @@ std::optional<Contradiction> judge_force(const Evidence& evidence, std::string_v
         fmt::format("widen wheel_force in vehicle.json to {:.4g}, or correct the signs", worst)};
   }
   const ForceUnits units = force_units(of_both, evidence.vehicle);
-  const std::vector<Mending> mendings = force_mendings(units, column);
+  const std::vector<UnitFix> unit_fixes = force_unit_fixes(units, column);
   const std::string likeliest =
-      mendings.empty() ? ""
-                       : scaled_mapping(evidence, column, mendings[0].factor, mendings[0].offset);
+      unit_fixes.empty()
+          ? ""
+          : scaled_mapping(evidence, column, unit_fixes[0].factor, unit_fixes[0].offset);
   return Contradiction{std::string(column), beyond + words_of(units), likeliest,
-                       remedy_of(units, mendings, evidence.mappings)};
+                       remedy_of(units, unit_fixes, evidence.mappings)};
 }
 
 /// Range of both sides; 0 in a servo-pulse column means no reading.
@@ -471,8 +472,8 @@ std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
   if (largest_deg > 0.025 * stop_deg) return std::nullopt;
   const double degree = 180.0 / pi<double>();
   // If the angle is in radians, the vehicle turns no more sharply than its axle points; read as
-  // degrees, 57 times more. A steering moment turns it about as well as the same moment by the
-  // sides.
+  // degrees, 57 times more. A steering moment turns it about as well as the same moment of a force
+  // difference.
   constexpr double kImpossible = 8.0;
   const MomentShares shares = moment_shares(
       evidence.windows, evidence.has(LogChannel::kHeading)

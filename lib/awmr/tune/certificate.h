@@ -29,7 +29,7 @@ namespace awmr {
 Result<Certificate> certify(const Model& model, const ConstraintContext& context,
                             const OpenVehicle& open, const Gains<double>& gains);
 
-/// What the search for a minimum may miss: a share of a delay margin, and as much of damping.
+/// Tolerance of the search for a minimum: a share of a delay margin, and as much of damping.
 inline constexpr double kCertificateTolerance = 2e-3;
 
 /// A plant of the confidence set that loops are examined with.

@@ -61,19 +61,19 @@ void check_scenarios(const std::vector<Scenario>& scenarios, bool observer_is_se
                                         scenario.name)});
     }
     if (scenario.held_tau_speed()) {
-      faults.push_back({"", fmt::format("scenario '{}' holds tau_speed in place of a speed, so its "
-                                        "speed law has no target; give speed_mps in its place",
+      faults.push_back({"", fmt::format("scenario '{}' has constant tau_speed, so its speed law "
+                                        "has no target; give speed_mps instead",
                                         scenario.name)});
     }
     if (scenario.control.lqi) {
-      faults.push_back({"", fmt::format("scenario '{}' names the heading law lqi, which takes no "
-                                        "gains; those of the sliding mode are tuned",
+      faults.push_back({"", fmt::format("scenario '{}' uses the heading law lqi, which has no "
+                                        "gains to tune; use sliding_mode",
                                         scenario.name)});
     }
     if (observer_is_searched && scenario.control.observer) {
       faults.push_back(
-          {"", fmt::format("scenario '{}' has a disturbance_observer of its own, and one "
-                           "is to be tuned: leave out one of them",
+          {"", fmt::format("scenario '{}' sets a disturbance_observer and one is to be tuned; "
+                           "remove one of the two",
                            scenario.name)});
     }
     if (!names.insert(scenario.name).second) {
@@ -119,9 +119,8 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
   const OpenVehicle& open = options.open;
   if (!open.any()) return;
   if (options.nominal) {
-    faults.push_back({"",
-                      "what is open is taken by the draws, and a nominal search draws nothing: "
-                      "leave out nominal, or open"});
+    faults.push_back(
+        {"", "`open` needs sampled plants, which nominal disables; remove one of the two"});
     return;
   }
   for (const double factor : open.mass_factors) {
@@ -142,8 +141,8 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
   for (const auto& [name, count] :
        {std::pair("draws", options.draws), std::pair("judged_draws", options.judged_draws)}) {
     if (count >= fewest || (count == 0 && name == std::string_view("judged_draws"))) continue;
-    faults.push_back({"", fmt::format("{}: {} do not take all of the {} combinations of what is "
-                                      "open; give a multiple of {}",
+    faults.push_back({"", fmt::format("{}: {} does not cover all {} combinations of `open`; give a "
+                                      "multiple of {}",
                                       name, count, fewest, fewest)});
   }
 }
@@ -151,10 +150,8 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
 void check_part(const TuneOptions& options, std::vector<Fault>& faults) {
   if (!options.shard) return;
   if (options.nominal) {
-    faults.push_back(
-        {option_text("shard"),
-         "nominal gains are evaluated on no draws, so there is nothing to divide: leave out "
-         "one of them"});
+    faults.push_back({option_text("shard"),
+                      "nominal disables the draws that a shard divides; remove one of the two"});
   }
   if (auto fault =
           shard_fault(*options.shard, options.judged_draws, "fresh draws (judged_draws)")) {
@@ -166,7 +163,7 @@ void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
   std::set<std::string> figures;
   for (const auto& [figure, most] : goal.at_most) {
     if (!is_run_figure(figure) || !figures.insert(figure).second) {
-      faults.push_back({"", fmt::format("goals: {} is no figure, or there twice; there are {}",
+      faults.push_back({"", fmt::format("goals: {} is unknown or given twice; available: {}",
                                         figure, fmt::join(run_figure_names(), ", "))});
     }
     if (!(most > 0.0) || !std::isfinite(most)) {
@@ -188,8 +185,8 @@ void check_sensitivity(const TuneOptions& options, std::vector<Fault>& faults) {
   }
   if (options.nominal) {
     faults.push_back({"",
-                      "sensitivity is to what a nominal search does not assume: leave out one "
-                      "of them"});
+                      "sensitivity needs sampled plants, which nominal disables; remove one of the "
+                      "two"});
   }
 }
 
@@ -203,8 +200,8 @@ void check_mode(const TuneOptions& options, const Vehicle& vehicle, std::vector<
   }
   for (const TuningGoal& goal : options.goals) {
     if (!goal.mode || *goal.mode == *options.mode) continue;
-    faults.push_back({"", fmt::format("goals: one is for the mode {}, and gains are tuned for {} "
-                                      "alone: leave out one of them",
+    faults.push_back({"", fmt::format("goals: one is for mode {}, but gains are tuned for {} only; "
+                                      "remove one of the two",
                                       name_of(*goal.mode), name_of(*options.mode))});
   }
 }
@@ -219,12 +216,11 @@ void check_goals(const TuneOptions& options, const Vehicle& vehicle, std::vector
     }
   }
   if (options.nominal) {
-    faults.push_back({"",
-                      "goals are chances over what is drawn, and a nominal search draws "
-                      "nothing: leave out nominal, or the goals"});
+    faults.push_back(
+        {"", "goals need sampled plants, which nominal disables; remove one of the two"});
   }
   if (options.judged_draws == 0) {
-    faults.push_back({"", "goals are judged on fresh draws: judged_draws has to be above 0"});
+    faults.push_back({"", "goals are evaluated on fresh draws; judged_draws has to be above 0"});
   }
   if (options.goals.size() > kMostGoals) {
     faults.push_back(

@@ -120,7 +120,7 @@ Moments moments_m(const DrawnVehicle& vehicle, double speed_mps) {
   const Plant<double>& plant = vehicle.plant;
   const double tau_speed = plant.surge(speed_mps);
   const double wheels = driven_wheels(plant);
-  // What a wheel is commanded to hold the speed, its back-EMF made up for.
+  // Command of a wheel at constant speed, including compensation of its back-EMF.
   const double held = tau_speed / wheels + plant.back_emf_s_per_m * speed_mps;
   return {.steering = plant.front_axle_m * tau_speed *
                       std::tan(plant.steering_max_rad / (plant.rear_driven > 0.0 ? 2.0 : 1.0)),
@@ -164,16 +164,16 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
     const std::vector<ExaminedLoop> ends = at_end_rates(context);
     std::vector<ExaminedLoop> loops = at_all_rates(context.plant, context);
     loops.insert(loops.end(), ends.begin(), ends.end());
-    const auto late = static_cast<int>(std::lround(context.latency_s / context.sample_time_s));
+    const auto latency = static_cast<int>(std::lround(context.latency_s / context.sample_time_s));
     const double lag_s = context.motor_time_constant_s;
     worst.push_back(at_least(
-        "late damping", heading_damping(gains, context, loops, late, lag_s),
+        "late damping", heading_damping(gains, context, loops, latency, lag_s),
         context.limits.late_damping,
         "smallest damping ratio of the loop with latency and motor lag as well >= required"));
-    worst.push_back(
-        at_least("delay margin", heading_damping(gains, context, ends, 2 * late + 1, lag_s),
-                 context.limits.delayed_damping,
-                 "the same with readings twice as late, and a sample more >= required"));
+    worst.push_back(at_least("delay margin",
+                             heading_damping(gains, context, ends, 2 * latency + 1, lag_s),
+                             context.limits.delayed_damping,
+                             "the same at twice the latency plus one sample >= required"));
   }
   if (const auto& limit = context.limits.steering_rate_rms_degps; limit && context.steers()) {
     worst.push_back(at_most("steering rate", steering_rate_rms_degps(gains, context), *limit,

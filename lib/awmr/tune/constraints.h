@@ -1,4 +1,4 @@
-/// What gains have to meet before they are worth simulating. Private to tune/.
+/// Constraints of the gains that need no simulation. Private to tune/.
 #pragma once
 
 #include <vector>
@@ -19,24 +19,24 @@ inline constexpr double kUnmodelledShare = 0.2;
 /// mu_s/eps_s T_s at most: the sampled integrator is unstable from 2 on, so the gain margin is 4.
 inline constexpr double kSpeedGainPerSample = 0.5;
 
-/// Yaw rates at which the heading loop is examined, over the fastest that the runs reach; none is slower
-/// than kSlowest_radps, which readings do not tell from rest.
+/// Yaw rates at which the heading loop is examined, over the fastest that the runs reach; none is
+/// slower than kSlowest_radps, which sensors cannot distinguish from rest.
 inline constexpr double kRateShares[] = {1.0 / 60.0, 1.0 / 12.0, 1.0 / 3.0, 1.0};
 inline constexpr double kSlowest_radps = radians(1.0);
 
-/// What the constraints depend on other than the gains.
+/// Inputs of the constraints other than the gains.
 struct ConstraintContext {
-  ReachingForm form = ReachingForm::kStrict;   ///< the form of T2 < T1 that is required
-  double margin = 0.8;                         ///< reaching time constant <= margin T1, in (0, 1)
-  Plant<double> plant{};                       ///< the model's own values, which the laws know
-  bool has_steering = true;                    ///< false: the sides alone turn the vehicle
-  std::optional<YawMode> mode = {};            ///< the only one; absent: all that the vehicle has
-  double sample_time_s = 0.01;                 ///< T_s, > 0
-  double speed_mps = 1.0;                      ///< largest u_d of the scenarios, >= 0
-  double step_rad = radians(60.0);             ///< largest change of the commanded heading, >= 0
-  double fastest_radps = radians(60.0);        ///< yaw rate that the runs reach, > 0
-  TuningLimits limits = {};                    ///< without a steering rate: that is not limited
-  Interval wheel_force{-1.0, 1.0};             ///< F' of one wheel over F_max
+  ReachingForm form = ReachingForm::kStrict;  ///< the form of T2 < T1 that is required
+  double margin = 0.8;                        ///< reaching time constant <= margin T1, in (0, 1)
+  Plant<double> plant{};                      ///< the model's own values, which the laws know
+  bool has_steering = true;              ///< false: only wheel-force differences turn the vehicle
+  std::optional<YawMode> mode = {};      ///< the only one; absent: all that the vehicle has
+  double sample_time_s = 0.01;           ///< T_s, > 0
+  double speed_mps = 1.0;                ///< largest u_d of the scenarios, >= 0
+  double step_rad = radians(60.0);       ///< largest change of the commanded heading, >= 0
+  double fastest_radps = radians(60.0);  ///< yaw rate that the runs reach, > 0
+  TuningLimits limits = {};              ///< without a steering rate: that is not limited
+  Interval wheel_force{-1.0, 1.0};       ///< F' of one wheel over F_max
   double heading_noise_rad = radians(1.0);     ///< standard deviation of a reading, >= 0
   double yaw_rate_noise_radps = radians(0.5);  ///< the same, >= 0
   double heading_correlation = 0.0;            ///< of two readings T_s apart, [0, 1)

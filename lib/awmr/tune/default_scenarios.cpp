@@ -1,4 +1,4 @@
-// The scenarios that gains are tuned and scored on where nobody gives any: scaled by the vehicle.
+// Default scenarios for tuning and scoring gains, scaled to the vehicle.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -27,10 +27,10 @@ constexpr double kShortestHold_s = 5.0;
 constexpr double kLongestHold_s = 20.0;
 /// Time held over the time to turn.
 constexpr double kHoldOverTurn = 1.6;
-/// What a loop takes in addition to the turn, over the lags of servo and readings.
+/// Settling time in addition to the turn, in multiples of the lags of servo and sensors.
 constexpr double kSettlingOverLag = 10.0;
 
-/// To two significant digits: no more is known, and the numbers are read by people.
+/// Rounded to two significant digits for readability.
 double rounded(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
   return std::round(value / unit) * unit;

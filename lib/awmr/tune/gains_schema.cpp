@@ -81,7 +81,7 @@ void describe_quantiles(JsonObject json) {
   }
 }
 
-/// Of a search: the evaluations that were better than all before them.
+/// History of a search: the evaluations that improved on all earlier ones.
 void describe_history(JsonObject json) {
   json.number("evaluations", kNonNegative);
   json.number("global_evaluations", kNonNegative);

@@ -26,9 +26,9 @@ constexpr const char* kFigures[] = {"settling_time_s", "overshoot_deg", "heading
 
 /// One value of every input.
 struct Sample {
-  Model model;                                                ///< its parameters alone count
-  double noise_level = 1.0, lateness = 1.0, motor_lag = 1.0;  ///< over what is assumed
-  std::size_t noise = 0;                                      ///< which noise
+  Model model;                                               ///< its parameters alone count
+  double noise_level = 1.0, latency = 1.0, motor_lag = 1.0;  ///< over what is assumed
+  std::size_t noise = 0;                                     ///< which noise
 };
 
 /// An input: how a sample takes its value from another one.
@@ -72,7 +72,7 @@ std::vector<Input> inputs_of(const Model& model) {
   inputs.push_back({"level of the sensors' noise",
                     [](const Sample& from, Sample& to) { to.noise_level = from.noise_level; }});
   inputs.push_back({"latency of the sensors",
-                    [](const Sample& from, Sample& to) { to.lateness = from.lateness; }});
+                    [](const Sample& from, Sample& to) { to.latency = from.latency; }});
   inputs.push_back(
       {"lag of the motors", [](const Sample& from, Sample& to) { to.motor_lag = from.motor_lag; }});
   inputs.push_back(
@@ -96,7 +96,7 @@ Result<std::vector<Sample>> drawn_samples(const Model& model, std::uint64_t seed
     }
     sample.model.record = {};  // there are as many as samples
     Random random(seed ^ 0x736f626f6cULL, static_cast<std::uint64_t>(number));
-    for (double* level : {&sample.noise_level, &sample.lateness, &sample.motor_lag}) {
+    for (double* level : {&sample.noise_level, &sample.latency, &sample.motor_lag}) {
       *level = 2.0 * random.uniform();
     }
     samples.push_back(std::move(sample));
@@ -109,7 +109,7 @@ LoopConditions conditions_at(const Sample& sample, LoopConditions c) {
     *noise *= sample.noise_level;
   }
   for (double* late_s : {&c.heading_late_s, &c.yaw_rate_late_s, &c.speed_late_s}) {
-    *late_s *= sample.lateness;
+    *late_s *= sample.latency;
   }
   c.motor_time_constant_s *= sample.motor_lag;
   return c;

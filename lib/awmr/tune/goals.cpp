@@ -11,7 +11,7 @@
 namespace awmr {
 namespace {
 
-/// A figure by which gains are judged, the worse the larger.
+/// A metric of the gains; larger is worse.
 struct RunFigure {
   const char* name;
   double (*value)(const Metrics& metrics, const Scenario& scenario);
@@ -32,8 +32,8 @@ constexpr RunFigure kFiguresByName[kRunFigures] = {
      [](const Metrics& m, const Scenario&) { return m.steering_rate_rms_degps; }},
 };
 
-/// Of each draw the largest excess in the mode over the scenarios: they share its plant, so that their runs are
-/// no trials of their own. Outcomes are by draw, then mode, then scenario.
+/// Largest excess of each draw over the scenarios in one mode. Runs of one draw share its plant and
+/// are not independent. Outcomes are by draw, then mode, then scenario.
 std::vector<double> excesses(const GoalInMode& one, std::span<const RunOutcome> outcomes,
                              std::size_t scenarios) {
   std::vector<double> all;

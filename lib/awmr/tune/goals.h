@@ -1,4 +1,4 @@
-/// What runs have to reach, as chances: "95 % of the runs settle within 2 s and overshoot by at most
+/// Goals of tuning, as probabilities: "95 % of the runs settle within 2 s and overshoot by at most
 /// 1 deg". Private to tune/, but for TuningGoal itself (tune.h).
 ///
 /// With x_i a run's figure and l_i its limit, the run's excess is e = max_i x_i/l_i, infinite where it breaks off;
@@ -17,11 +17,11 @@
 namespace awmr {
 
 RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario);
-/// Of scores by draw, then mode, then scenario.
+/// Takes scores by draw, then mode, then scenario.
 std::vector<RunOutcome> outcomes_of(std::span<const ModeScore> scores,
                                     std::span<const Scenario> scenarios);
 
-/// Of a figure that there is.
+/// Value of a metric for a run. Precondition: the metric exists.
 double figure_of_run(std::string_view name, const RunOutcome& outcome);
 
 /// "settling_time_s <= 2, overshoot_deg <= 1 in 95 % of draws"

@@ -18,14 +18,13 @@ namespace {
 /// Runs fill registers by fours or eights: what is shared out among threads is a multiple of four.
 constexpr std::size_t kFour = 4;
 
-/// How many runs of `count` in each of so many scenarios are driven together, so that every thread has
-/// work.
+/// Number of runs driven together, out of `count` in each scenario, so that every thread has work.
 std::size_t runs_together(std::size_t count, std::size_t scenarios) {
   const std::size_t share = count * scenarios / thread_count(0) + 1;
   return std::min(kBatchRuns, (share + kFour - 1) / kFour * kFour);
 }
 
-/// Of a run that failed the metrics are those of what came before.
+/// The metrics of a failed run are those up to the failure.
 Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario,
                           const ObjectiveSetting& setting) {
   return drive_batch(std::span(&run, 1), scenario, setting.vehicle.sample_time_s,
@@ -34,7 +33,7 @@ Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario,
       .metrics;
 }
 
-/// Of the runs of a vehicle.
+/// Random-draw number for the runs of a vehicle.
 std::uint64_t number_of(const ObjectiveSetting& setting, std::size_t vehicle) {
   return setting.numbers.empty() ? vehicle : setting.numbers[vehicle];
 }
@@ -57,7 +56,7 @@ std::vector<BatchRun> runs_of(const ObjectiveSetting& setting,
   return runs;
 }
 
-/// The mean, the same bits in whatever order the values come.
+/// The mean, with the same bits for every order of the values.
 double mean_in_any_order(std::vector<double> values) {
   std::ranges::sort(values);
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());

@@ -1,4 +1,4 @@
-/// What the search makes small. Private to tune/.
+/// Objective of the search. Private to tune/.
 ///
 /// For each run, with x a figure of it and x0 the same figure with the baseline gains on the same vehicle in
 /// the same mode and scenario:
@@ -53,7 +53,7 @@ double objective_of(const ModeScore& score, const ModeScore& baseline,
 /// All modes of the vehicle, or the one of them.
 std::span<const YawMode> tuned_modes(const Vehicle& vehicle, std::optional<YawMode> mode);
 
-/// What the gains are scored on.
+/// Vehicles, modes and scenarios that the gains are scored on.
 struct ObjectiveSetting {
   std::vector<DrawnVehicle> vehicles;  ///< the controller knows the first's plant alone; not empty
   Vehicle vehicle;
@@ -69,8 +69,8 @@ struct ObjectiveSetting {
   std::span<const YawMode> modes() const { return tuned_modes(vehicle, mode); }
 };
 
-/// What the sensors' noise of all runs is made of, by scenario, then vehicle. Empty where it would take more
-/// than kMostNoiseBytes: the runs then draw it themselves.
+/// Sensor noise of all runs, by scenario, then vehicle. Empty if it would exceed kMostNoiseBytes;
+/// the runs then draw it themselves.
 using RunNoise = std::vector<std::vector<DrawnNoise>>;
 inline constexpr double kMostNoiseBytes = 64e6;
 RunNoise draw_noise(const ObjectiveSetting& setting);

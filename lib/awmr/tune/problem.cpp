@@ -13,8 +13,8 @@
 namespace awmr {
 namespace {
 
-/// What the global search sees for a point that breaks a constraint: worse than any objective that
-/// matters.
+/// Objective of the global search for a point that violates a constraint: worse than any relevant
+/// objective.
 constexpr double kRejected = 1e3;
 /// Violation of every limit by gains whose runs break off, on top of their own.
 constexpr double kInvalid = 1.0;

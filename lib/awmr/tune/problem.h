@@ -1,4 +1,4 @@
-/// What is searched: points, and what is found at them. Private to tune/.
+/// The search problem: points and their evaluations. Private to tune/.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ using Point = std::array<double, kMostDimensions>;
 /// Gives the bounds that are absent: from the least of these gains over kBoundFactor to the largest times it.
 void bound_around(std::span<const Gains<double>> gains, GainBounds& bounds);
 
-/// Where the search looks.
+/// Bounds of the search.
 class SearchSpace {
  public:
   /// All bounds and an observer's limits have to be there.
@@ -72,8 +72,8 @@ class Problem {
  public:
   Problem(const TuneOptions& options, const ConstraintContext& context, const Objective& objective);
 
-  /// Of the constraints: the required ones, then where it is limited the activity of each mode, then the
-  /// goals that are not soft.
+  /// Names of the residuals: the required constraints, then the limited activity of each mode, then
+  /// the goals that are not soft.
   const std::vector<std::string>& names() const { return names_; }
   const SearchSpace& space() const { return space_; }
   unsigned constraints() const { return static_cast<unsigned>(names_.size()); }

@@ -21,25 +21,29 @@ std::string in_words(const Gains<double>& g) {
       g.observer.is_on() ? fmt::format(", observer {:.4g} rad/s", g.observer.bandwidth_radps) : "");
 }
 
-/// What helps where a constraint leaves no gains: the limit to relax, and what of the vehicle causes it.
+/// Remedy if a constraint leaves no gains: the limit to relax, and its cause in the vehicle.
 std::string advice_on(std::string_view constraint) {
   struct Advice {
     std::string_view constraint, limit, cause;
   };
   static constexpr Advice kAdvice[] = {
-      {"late damping", "limits/late_damping", "the readings are late (latency_s of vehicle.json)"},
+      {"late damping", "limits/late_damping",
+       "the sensor latency is large (latency_s of "
+       "vehicle.json)"},
       {"delay margin", "limits/delayed_damping",
-       "the readings are late (latency_s of vehicle.json)"},
+       "the sensor latency is large (latency_s of vehicle.json)"},
       {"noise gain", "limits/noise_share",
        "heading noise uses much of the available yaw moment (noise of vehicle.json)"},
       {"steering rate", "limits/steering_rate_rms_degps",
-       "the readings are noisy for this servo (noise of vehicle.json)"},
+       "the sensor noise is large for this servo (noise of vehicle.json)"},
       {"heading damping", "limits/damping",
-       "samples or servo are slow, or the yaw resistance is uncertain"},
-      {"speed lag", "bounds of speed_mu and speed_epsilon", "servo, motors or readings are slow"},
-      {"speed gain", "bounds of speed_mu and speed_epsilon", "samples are long"},
-      {"mu dominates", "bounds of mu", "yaw resistance asks for it"},
-      {"mu_s dominates", "bounds of speed_mu", "surge resistance asks for it"}};
+       "the sample time or servo lag is long, or the yaw resistance is uncertain"},
+      {"speed lag", "bounds of speed_mu and speed_epsilon",
+       "the lag of servo, motors or sensors "
+       "is long"},
+      {"speed gain", "bounds of speed_mu and speed_epsilon", "the sample time is long"},
+      {"mu dominates", "bounds of mu", "the yaw resistance requires it"},
+      {"mu_s dominates", "bounds of speed_mu", "the surge resistance requires it"}};
   const auto* known = std::ranges::find(kAdvice, constraint, &Advice::constraint);
   if (known == std::end(kAdvice))
     return "raise the margin, choose form 'paper' or widen the bounds";
@@ -57,16 +61,16 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
     if (worst == goals.size() || e.goal_quantile[i] > e.goal_quantile[worst]) worst = i;
   }
   if (worst == goals.size()) return std::nullopt;
-  const bool is_led = std::ranges::any_of(
+  const bool is_rate_limited = std::ranges::any_of(
       scenarios, [](const Scenario& one) { return one.name.ends_with(kLedSuffix); });
   return refusal(fmt::format(
-      "no gains within the bounds reach the goal \"{}\": the nearest of {} ({}) need {:.3g} "
-      "times its limits; make it soft, raise its limits, or give more evaluations{}",
+      "no gains within the bounds reach the goal \"{}\": the nearest of {} ({}) need {:.3g} times "
+      "its limits. Make it soft, raise its limits, or give more evaluations{}",
       goals[worst].name(), found.evaluations, in_words(found.nearest.gains), e.goal_quantile[worst],
-      is_led ? "; of the default scenarios one leads the heading no faster than was measured, "
-               "which takes its time: " +
-                   option_text("heading_rate_limit") + " none leaves it out"
-             : ""));
+      is_rate_limited
+          ? "; one default scenario limits the heading rate to the measured one and is slow: " +
+                option_text("heading_rate_limit") + " none removes it"
+          : ""));
 }
 
 }  // namespace
@@ -83,8 +87,8 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
   }
   const std::string name = worst ? worst->name : "none";
   return refusal(
-      fmt::format("no gains within the bounds meet the constraints: the nearest ({}) "
-                  "break '{}', {:.4g} against a limit of {:.4g} ({}); {}",
+      fmt::format("no gains within the bounds meet the constraints: the nearest ({}) violate '{}', "
+                  "{:.4g} against a limit of {:.4g} ({}); {}",
                   in_words(nearest.gains), name, worst ? worst->value : 0.0,
                   worst ? worst->limit : 0.0, worst ? worst->meaning : "", advice_on(name)));
 }
@@ -96,14 +100,14 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
   const std::string gains = in_words(found.nearest.gains);
   if (!e.valid) {
     return refusal(fmt::format(
-        "no gains keep every run finite: runs with the nearest of {} ({}) break off; give "
-        "slower scenarios or narrower bounds",
+        "runs diverge with all gains tried, also with the nearest of {} ({}); give slower "
+        "scenarios or narrower bounds",
         found.evaluations, gains));
   }
   const bool is_activity = found.broken_most.starts_with("activity");
   return refusal(fmt::format(
-      "no gains within the bounds keep every limit: the nearest of {} ({}) break '{}' by {:.0f} %; "
-      "{}, or give more evaluations",
+      "no gains within the bounds meet every limit: the nearest of {} ({}) violate '{}' by {:.0f} "
+      "%; {}, or give more evaluations",
       found.evaluations, gains, found.broken_most, 100.0 * found.broken_by,
       is_activity ? "raise activity_max of tune.json" : advice_on(found.broken_most)));
 }

@@ -29,7 +29,7 @@ JudgedFigure figure_of(const std::string& name, std::vector<double> values, doub
   return {name, quantile(0.5), quantile(0.95), worst / static_cast<double>(tail)};
 }
 
-/// What all draws make of one set of gains in one mode.
+/// Statistics of one set of gains in one mode over all draws.
 JudgedGains judged(const JudgedRuns& runs, YawMode mode, double tail_share) {
   JudgedGains result{.gains = runs.gains, .mode = mode, .figures = {}, .scenario = {}};
   std::array<std::vector<double>, kRunFigures> values;
@@ -56,7 +56,8 @@ JudgedRuns in_scenario(const JudgedRuns& runs, std::size_t scenario, std::size_t
   return of_one;
 }
 
-/// The vehicle with what is open of it: of the draws in turn first the masses, then the forces.
+/// The vehicle with its unmodelled variation; the draws take the combinations in turn, masses
+/// first, then forces.
 void open_up(const OpenVehicle& open, int number, DrawnVehicle& vehicle) {
   const std::size_t turn = at(number - 1) % open.combinations();
   const std::size_t masses = std::max<std::size_t>(1, open.mass_factors.size());
@@ -84,8 +85,8 @@ Result<PlantSampler> sampler_of(Model model) {
   return PlantSampler::make(model);
 }
 
-/// The model's own vehicle, then the drawn plants of these numbers, with what is open of each; without
-/// plants the model's own again.
+/// The nominal vehicle, then the drawn plants of these numbers, each with its unmodelled variation;
+/// without plants the nominal one again.
 Result<std::vector<DrawnVehicle>> vehicles_with(const Model& model, std::span<const int> numbers,
                                                 const std::vector<Plant<double>>& plants,
                                                 const OpenVehicle& open) {

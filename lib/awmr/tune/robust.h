@@ -1,5 +1,6 @@
-/// Gains for more than one vehicle: plants drawn from the model's covariance, readings that are noisy
-/// and late, motors that lag; and how gains do on draws that they were not tuned on. Private to tune/.
+/// Gains for more than one vehicle: plants drawn from the model's covariance, sensor noise and
+/// latency, motor lag; and the evaluation of gains on draws that they were not tuned on. Private to
+/// tune/.
 #pragma once
 
 #include <span>
@@ -13,15 +14,14 @@
 namespace awmr {
 
 /// The model's own vehicle, then those of the numbers (from 1) from its covariance, or its own
-/// again where it has none; each of them with what is open of it. Errors (input): as
-/// PlantSampler's.
+/// again where it has none; each with its unmodelled variation. Errors (input): as PlantSampler's.
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
                                               std::uint64_t seed, const OpenVehicle& open);
-/// Those of 1 to `draws`, spread evenly (PlantSampler::draw_evenly).
+/// Draws 1 to `draws`, spread evenly (PlantSampler::draw_evenly).
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
                                               const OpenVehicle& open);
 
-/// Gains with the name that they are judged under.
+/// Gains with the name that they are evaluated under.
 struct NamedCandidate {
   const char* name;
   Gains<double> gains;
@@ -44,8 +44,8 @@ struct JudgedBy {
   double tail_share = 1.0;
   std::vector<TuningGoal> goals;
 };
-/// Of all draws, each set of gains by itself. A run that does not settle counts as having taken the
-/// whole scenario.
+/// Statistics over all draws, for each set of gains. A run that does not settle counts as the whole
+/// duration.
 Judgement judgement_of(const std::vector<JudgedRuns>& runs, const JudgedBy& by);
 
 }  // namespace awmr

@@ -42,17 +42,17 @@ Optimizer optimizer(nlopt_algorithm algorithm, const SearchSpace& space, int eva
   return opt;
 }
 
-/// What NLopt calls back: it asks for the objective and for the constraints of a point one after the
+/// Callbacks of NLopt, which evaluates the objective and the constraints of a point one after the
 /// other.
-class Asked {
+class NloptCallbacks {
  public:
-  virtual ~Asked() = default;
+  virtual ~NloptCallbacks() = default;
   virtual double objective(const Point& point) = 0;
   virtual void residuals(const Point& point, std::span<double> result) = 0;
 };
 
 /// One point at a time; the last one is kept, so that it is looked at once.
-class OneByOne : public Asked {
+class OneByOne : public NloptCallbacks {
  public:
   explicit OneByOne(Problem& problem) : problem_(problem) {}
   double objective(const Point& point) override { return at(point).value(); }
@@ -72,7 +72,7 @@ class OneByOne : public Asked {
 
 /// Goes through the points that are known, notes those of the next generation and stops there: their
 /// values are not known yet, and none of them depends on another's.
-class OneGeneration : public Asked {
+class OneGeneration : public NloptCallbacks {
  public:
   OneGeneration(const std::vector<Looked>& known, nlopt_opt search)
       : known_(known), search_(search) {}
@@ -102,15 +102,15 @@ Point point_at(unsigned dimension, const double* x) {
 }
 
 double objective_callback(unsigned dimension, const double* x, double*, void* data) {
-  return static_cast<Asked*>(data)->objective(point_at(dimension, x));
+  return static_cast<NloptCallbacks*>(data)->objective(point_at(dimension, x));
 }
 
 void constraints_callback(unsigned count, double* result, unsigned dimension, const double* x,
                           double*, void* data) {
-  static_cast<Asked*>(data)->residuals(point_at(dimension, x), {result, count});
+  static_cast<NloptCallbacks*>(data)->residuals(point_at(dimension, x), {result, count});
 }
 
-/// Why NLopt stopped, in words.
+/// Text of NLopt's stop reason.
 std::string reason(nlopt_result code) {
   switch (code) {
     case NLOPT_MAXEVAL_REACHED:
@@ -124,10 +124,11 @@ std::string reason(nlopt_result code) {
   }
 }
 
-nlopt_result run(nlopt_opt search, Asked& asked, unsigned constraints, const Point& start) {
+nlopt_result run(nlopt_opt search, NloptCallbacks& requested, unsigned constraints,
+                 const Point& start) {
   const std::vector<double> tolerances(constraints, 0.0);
-  nlopt_set_min_objective(search, objective_callback, &asked);
-  nlopt_add_inequality_mconstraint(search, constraints, constraints_callback, &asked,
+  nlopt_set_min_objective(search, objective_callback, &requested);
+  nlopt_add_inequality_mconstraint(search, constraints, constraints_callback, &requested,
                                    tolerances.data());
   Point x = start;
   double value = 0.0;
@@ -155,7 +156,7 @@ nlopt_result search_globally(Problem& problem, const TuneOptions& options, const
   }
 }
 
-/// What the callback of feasible_start() shares: it looks at the largest residual alone.
+/// Data of the callback of feasible_start(), which minimises the largest residual.
 struct Feasibility {
   SearchSpace space;
   const ConstraintContext& context;
@@ -211,9 +212,9 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
         optimizer(NLOPT_LN_COBYLA, problem.space(), budget - problem.evaluations);
     nlopt_set_initial_step1(search.get(), kFirstStep);
     nlopt_set_xtol_abs1(search.get(), kLastStep);
-    OneByOne asked(problem);
+    OneByOne requested(problem);
     const nlopt_result code =
-        run(search.get(), asked, problem.constraints(), problem.space().point_of(from));
+        run(search.get(), requested, problem.constraints(), problem.space().point_of(from));
     if (failed(code)) return program_fault("NLopt's COBYLA: " + reason(code));
     stop = fmt::format("; local, {} searches: {}", searches, reason(code));
     const Candidate& after = problem.nearest;
@@ -244,7 +245,7 @@ Candidate feasible_start(const TuneOptions& options, const ConstraintContext& co
 
 namespace {
 
-/// What the nearest gains of a problem break most.
+/// The constraint that the nearest gains violate most.
 void note_broken(Problem& problem, SearchResult& result) {
   const Point nearest[] = {problem.space().point_of(problem.nearest.gains)};
   const Looked looked = problem.look_at(nearest).front();
@@ -283,7 +284,7 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
     const Point point[] = {problem.space().point_of(start)};
     problem.look_at(point);
   }
-  // Where the nearest point leads to nothing that holds, another start may.
+  // If the search from the nearest point finds no feasible gains, another start may.
   std::vector<Gains<double>> from{problem.nearest.gains};
   from.insert(from.end(), starts.begin(), starts.end());
   const int budget = problem.evaluations + options.local_evaluations;

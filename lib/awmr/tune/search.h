@@ -38,12 +38,12 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
 Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
                          const Gains<double>& baseline);
 
-/// On `searched`: GN_ISRES from the first of `starts`, then LN_COBYLA from the best point met, the other
-/// starts among them, over ln(gains); where that leads to no gains that hold, from each of the starts as
-/// well. Then, where `all` has more draws, LN_COBYLA on them from there. All starts meet the constraints
-/// that need no run; there is at least one. Each point is kept only if it meets every constraint exactly,
-/// whatever tolerance the search itself works with.
-/// Deterministic: NLopt's generator is reseeded, and searches in one process take turns.
+/// On `searched`: GN_ISRES from the first of `starts`, then LN_COBYLA from the best point met, the
+/// other starts among them, over ln(gains); if that finds no feasible gains, from each of the
+/// starts as well. Then, where `all` has more draws, LN_COBYLA on them from there. All starts meet
+/// the constraints that need no run; there is at least one. Each point is kept only if it meets
+/// every constraint exactly, whatever tolerance the search itself works with. Deterministic:
+/// NLopt's generator is reseeded, and searches in one process take turns.
 Result<SearchResult> search(const TuneOptions& options, const ConstraintContext& context,
                             const Objective& searched, const Objective& all,
                             std::span<const Gains<double>> starts);

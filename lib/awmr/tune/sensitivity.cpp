@@ -26,7 +26,7 @@ Point scaled(Point point, const Pair& pair, double by_ln) {
   return point;
 }
 
-/// How far the logarithms of a pair can be moved together within the bounds.
+/// Range in which the logarithms of a pair can be moved together within the bounds.
 Interval room(const Point& from, const Pair& pair, const SearchSpace& space) {
   const Point lower = space.lower_corner();
   const Point upper = space.upper_corner();
@@ -34,7 +34,7 @@ Interval room(const Point& from, const Pair& pair, const SearchSpace& space) {
           std::min(upper[pair[0]] - from[pair[0]], upper[pair[1]] - from[pair[1]])};
 }
 
-/// Where the first `good` of kPoints between two ends reach, and the point behind.
+/// Interval between the last of the first `good` of kPoints between two ends, and the next point.
 Interval last_good(const Interval& ends, std::ptrdiff_t good) {
   const double step = (ends.hi - ends.lo) / kPoints;
   return {ends.lo + step * static_cast<double>(good),
@@ -117,7 +117,7 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
     if (residuals[i] > kActive) active.push_back({.name = problem.names()[i]});
   }
   if (active.empty()) return active;
-  // A search that had not come to its end would go on without any wider limit, too.
+  // A search that had not converged would also improve without a wider limit.
   AWMR_ASSIGN_OR_RETURN(const double without, searched(residuals.size()));
   for (ActiveConstraint& one : active) {
     const auto place = std::ranges::find(problem.names(), one.name) - problem.names().begin();

@@ -1,4 +1,4 @@
-/// What holds the gains where they are, and what does not. Private to tune/.
+/// Active constraints, and ranges of equally good gains. Private to tune/.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,8 @@ namespace awmr {
 /// Gains with what of them the objective leaves open.
 struct SettledGains {
   Gains<double> gains{};
-  /// Where mu and epsilon are scaled together and the objective rises by at most kIndifferent.
+  /// Range in which mu and epsilon can be scaled together while the objective rises by at most
+  /// kIndifferent.
   Interval mu;
   Interval speed_mu;  ///< the same of mu_s and epsilon_s
 };

@@ -34,7 +34,7 @@
 namespace awmr {
 namespace {
 
-/// RK4 steps of a search at the most: some hours.
+/// Maximum number of RK4 steps of a search: some hours.
 constexpr double kMostSearchSteps = 1e11;
 
 /// Each run's work is bounded, and so is that of all evaluations together.
@@ -56,9 +56,9 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
   }
   if (evaluations * steps <= kMostSearchSteps) return {};
   return input_error(
-      "", fmt::format("evaluations: {:g} of {:.3g} RK4 steps each ({} scenarios in every mode) are "
-                      "more than the {:g} steps that a search may take: give at most {:.0f} "
-                      "evaluations, global and local together, or shorter scenarios",
+      "", fmt::format("evaluations: {:g} of {:.3g} RK4 steps each ({} scenarios in every mode) "
+                      "exceed the limit of {:g} steps; give at most {:.0f} evaluations, global and "
+                      "local together, or shorter scenarios",
                       evaluations, steps, scenarios.size(), kMostSearchSteps,
                       std::floor(kMostSearchSteps / steps)));
 }
@@ -131,10 +131,9 @@ Status limit_observer(const ConstraintContext& context, std::optional<ObserverSe
   for (const auto& [name, limit, most] : limits) {
     if (!*limit) *limit = kObserverShare * most;
     if (**limit > 0.0) continue;
-    return input_error("",
-                       fmt::format("the observer's {}: at {:g} m/s the wheels have no force left "
-                                   "to take a disturbance off with: give slower scenarios",
-                                   name, context.speed_mps));
+    return input_error("", fmt::format("the observer's {}: at {:g} m/s no wheel force is left to "
+                                       "compensate a disturbance; give slower scenarios",
+                                       name, context.speed_mps));
   }
   return {};
 }
@@ -151,15 +150,16 @@ ObjectiveSetting searched(ObjectiveSetting setting, const TuneOptions& options) 
 Status check_baseline(const Objective& objective, const Baseline& baseline) {
   if (objective.baseline().valid) return {};
   return input_error(baseline.source,
-                     "runs with the baseline's gains break off, so that nothing can be measured "
-                     "by them: give other gains as baseline, or slower scenarios");
+                     "runs with the baseline gains diverge, so the objective cannot be normalised; "
+                     "give another baseline, or slower scenarios");
 }
 
-/// Where the search starts in addition to pole placement: a vehicle whose noise is large is best with slower poles.
+/// Additional start of the search: slower poles, which suit a vehicle with large noise.
 constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 
-/// Where the search starts: pole placement with wide layers, the same slowed, pole placement and the baseline, as far as
-/// they meet the constraints; else the gains nearest to the first that do. Errors (refused): none do.
+/// Starts of the search: pole placement with wide layers, the same slowed, pole placement and the
+/// baseline, as far as they meet the constraints; else the gains nearest to the first that do.
+/// Errors (refused): none do.
 Result<std::vector<Gains<double>>> starts_of(const TuneOptions& options,
                                              const ConstraintContext& context,
                                              std::span<const Gains<double>> poles) {
@@ -236,13 +236,13 @@ Status check_latency(const ConstraintContext& context, const std::string& model_
   if (samples < kMostLateSamples + 0.5) return {};
   return input_error(
       model_file + ":/vehicle/latency_s",
-      fmt::format("{:g} s are {:.0f} samples of {:g} s, more than the {} that gains are tuned for: "
-                  "give a longer sample_time_s, or tune without latency ({})",
+      fmt::format("{:g} s are {:.0f} samples of {:g} s, more than the limit of {}; give a longer "
+                  "sample_time_s, or tune without latency ({})",
                   context.latency_s, samples, context.sample_time_s, kMostLateSamples,
                   option_text("nominal")));
 }
 
-/// Draws to judge on are not those that were tuned on.
+/// Gains are evaluated on other draws than those that they were tuned on.
 constexpr std::uint64_t kJudgedSeeds = 0x6a75646765ULL;
 
 /// The numbers of the fresh draws, from 1: those of the part, or all.
@@ -255,7 +255,7 @@ std::vector<int> judged_draws_of(const TuneOptions& options) {
 
 /// The tuned gains, the baseline, the paper's gains, and the tuned ones without their observer.
 std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
-  std::vector<NamedCandidate> candidates{{"robust", tuning.gains},
+  std::vector<NamedCandidate> candidates{{kRobustGains, tuning.gains},
                                          {"baseline", tuning.baseline.gains}};
   if (tuning.baseline.source != kPaperSource) candidates.push_back({"paper", kPaperGains});
   if (tuning.gains.observer.is_on()) {
@@ -266,7 +266,7 @@ std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   return candidates;
 }
 
-/// Runs the candidates on fresh draws, and judges them where these are all of the draws.
+/// Runs the candidates on fresh draws, and evaluates them if these are all draws.
 Status judge(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
              const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
   if (options.judged_draws == 0) return {};

@@ -45,9 +45,9 @@ struct ObjectiveWeights {
   double speed_itae = 0.25;  ///< speed: integral of t |u_d - u|; without it mu_s, eps_s are free
 };
 
-/// Where the search looks. Symbols and units as in model/gains.h. Absent: kBoundFactor either side of
-/// pole placement, with the least mu that dominates and with wide layers; what is too fast for the
-/// sampled loop is cut off by the constraints.
+/// Bounds of the search. Symbols and units as in model/gains.h. Absent: kBoundFactor either side of
+/// pole placement, with the least mu that dominates and with wide layers; the constraints exclude
+/// gains that are too fast for the sampled loop.
 struct GainBounds {
   std::optional<Interval> lambda = {};         ///< 1/s
   std::optional<Interval> mu = {};             ///< rad/s^2
@@ -57,7 +57,7 @@ struct GainBounds {
 };
 inline constexpr double kBoundFactor = 10.0;
 
-/// Absolute limits that gains have to keep, whatever other gains do.
+/// Absolute limits of the gains, independent of the baseline.
 struct TuningLimits {
   /// RMS rate of the steering command, deg/s, > 0, that the readings' noise makes while a heading is
   /// held at the largest u_d in the mode that steers most. Absent: none for nominal gains; else 0.9
@@ -71,7 +71,7 @@ struct TuningLimits {
   double noise_share = 0.25;
 };
 
-/// What the constraints were examined for, by the scenarios and the vehicle.
+/// Conditions of the constraints, from the scenarios and the vehicle.
 struct ExaminedRange {
   double speed_mps = 1.0;                 ///< largest u_d, >= 0
   double step_rad = radians(60.0);        ///< largest change of the commanded heading, >= 0
@@ -101,11 +101,11 @@ inline constexpr double kObserverShare = 0.5;
 inline constexpr int kSearchedDraws = 4;
 /// A share of the objective that does not matter: what it leaves open is settled by a rule.
 inline constexpr double kIndifferent = 1e-3;
-/// How much wider an active constraint is made, to see what it costs.
+/// Relaxation of an active constraint, to measure its cost.
 inline constexpr double kWider = 0.1;
 
-/// What of a vehicle neither trials nor data sheets settle: a load, a battery that runs down, what a
-/// paper leaves out. The draws take the combinations in turn; the model's own plant has none of it.
+/// Unmodelled variation that neither trials nor data sheets determine: payload, battery voltage,
+/// values missing in a paper. The draws take the combinations in turn; the nominal plant has none.
 struct OpenVehicle {
   std::vector<double> mass_factors = {};    ///< of m' and I'z alike; empty: 1
   std::vector<Interval> wheel_forces = {};  ///< F' of one wheel over F_max; empty: the vehicle's
@@ -133,10 +133,10 @@ struct TuningGoal {
 };
 inline constexpr double kLeastShare = 0.5, kMostShare = 0.999;
 inline constexpr std::size_t kMostGoals = 20;
-/// Draws that goals are judged on where nobody says how many.
+/// Default number of draws that goals are evaluated on.
 inline constexpr int kGoalDraws = 500;
 inline constexpr int kFewestSamples = 16, kMostSamples = 100'000;
-inline constexpr std::size_t kRunFigures = 6;  ///< by which a run is judged
+inline constexpr std::size_t kRunFigures = 6;  ///< of a run
 bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 
@@ -146,10 +146,10 @@ struct TuneOptions {
   /// own, under LoopConditions. Every constraint holds for all of them.
   bool nominal = false;
   int draws = 32;         ///< 0 ... 1000
-  int judged_draws = 50;  ///< fresh ones that gains are judged on afterwards, 0 ... 100000
+  int judged_draws = 50;  ///< fresh draws for the evaluation of the gains, 0 ... 100000
   OpenVehicle open = {};  ///< of a robust search
-  /// A part of the judging, for as many machines: the search is made in whole, and of the fresh draws
-  /// those of the part are run (tune_shard.h).
+  /// A part of the evaluation, for several machines: the whole search, and the fresh draws of the
+  /// part (tune_shard.h).
   std::optional<Shard> shard = {};
   /// Share of the worst draws that count as the tail: the objective is the mean of the mean over all
   /// draws and of that over the tail (CVaR), (0, 1].
@@ -170,7 +170,7 @@ struct TuneOptions {
   int global_evaluations = 80;  ///< >= 1
   /// >= 0, of the local searches together; 0: the best of the global search is the answer.
   int local_evaluations = 80;
-  /// Of the global search. Another one shows how far the objective is flat.
+  /// Seed of the global search. Other seeds show how flat the objective is.
   std::uint64_t seed = 1;
   /// Each has to hold headings, under a name of its own; empty: default_tuning_scenarios().
   std::vector<Scenario> scenarios;
@@ -183,7 +183,7 @@ struct TuneOptions {
   Progress progress = {};  ///< by runs of the search, each plant's counted
 };
 
-/// A constraint that the gains stand at.
+/// A constraint that is active at the gains.
 struct ActiveConstraint {
   std::string name;  ///< of the constraint; "activity, MODE"; a goal
   /// The share of the objective that is gained where it may be broken by kWider, >= 0.
@@ -222,17 +222,17 @@ struct SearchStep {
   double objective = 0.0;  ///< of gains that meet every constraint
 };
 
-/// How far a search had come, in the order of its evaluations.
+/// Progress of a search, in the order of its evaluations.
 struct SearchHistory {
   std::vector<SearchStep>
       best;  ///< kMostHistorySteps at most; the last are the gains that it ended at
   int global_evaluations = 0;  ///< those of the global search; behind them the local one's
   int evaluations = 0;
 };
-/// Of more steps those at even ranks are kept, the first and the last among them.
+/// Longer histories are thinned to the steps at even positions; the first and the last are kept.
 inline constexpr std::size_t kMostHistorySteps = 200;
 
-/// What a run comes to that gains are judged by.
+/// Metrics of a run in the objective.
 struct RunOutcome {
   YawMode mode{};
   bool completed = false;  ///< settled after every step
@@ -246,7 +246,7 @@ struct JudgedRuns {
   std::vector<RunOutcome> outcomes;
 };
 
-/// A figure of the runs of one set of gains in one mode, over the judged draws.
+/// A metric of the runs of one set of gains in one mode, over the evaluation draws.
 struct JudgedFigure {
   std::string name;  ///< "heading_iae_degs"
   double median = 0.0;
@@ -254,9 +254,12 @@ struct JudgedFigure {
   double tail_mean = 0.0;  ///< over the worst tail_share of the draws (CVaR)
 };
 
-/// One set of gains in one mode, over the judged draws.
+/// JudgedGains::gains of the tuned gains.
+inline constexpr const char* kRobustGains = "robust";
+
+/// One set of gains in one mode, over the evaluation draws.
 struct JudgedGains {
-  /// "robust", "baseline", "paper" (where the baseline is another), "unobserved" (without their
+  /// kRobustGains, "baseline", "paper" (where the baseline is another), "unobserved" (without their
   /// observer)
   std::string gains;
   YawMode mode{};
@@ -265,7 +268,7 @@ struct JudgedGains {
   std::string scenario = {};  ///< empty: over all of them
 };
 
-/// What an input has to do with how far a figure varies (tune/sobol.h).
+/// Share of an input in the variance of a metric (tune/sobol.h).
 struct SobolIndex {
   double first = 0.0;  ///< first order: in [0, 1] but for what too few samples leave open
   double total = 0.0;  ///< total, >= 0: with what it does together with others
@@ -285,16 +288,16 @@ struct GlobalSensitivity {
   std::vector<SensitiveFigure> figures;  ///< by mode, then figure
 };
 
-/// What fresh draws say of a goal.
+/// Result of a goal on fresh draws.
 enum class GoalVerdict {
   kMet,     ///< all of the interval of the share is at or above that of the goal
   kMissed,  ///< all of it is below
-  kOpen,    ///< neither: more draws tell
+  kOpen,    ///< neither: more draws are needed
 };
 inline constexpr NameTable<GoalVerdict, 3> kGoalVerdictNames{
     {{"met", GoalVerdict::kMet}, {"missed", GoalVerdict::kMissed}, {"open", GoalVerdict::kOpen}}};
 
-/// A goal in one mode with one set of gains, over the judged draws.
+/// A goal in one mode with one set of gains, over the evaluation draws.
 struct JudgedGoal {
   TuningGoal goal;
   YawMode mode{};
@@ -305,7 +308,7 @@ struct JudgedGoal {
   GoalVerdict verdict = GoalVerdict::kOpen;
 };
 
-/// What robust gains were tuned under and how they do.
+/// Conditions of a robust search, and results of its gains.
 struct RobustTuning {
   LoopConditions conditions;
   bool from_covariance = false;     ///< false: the model has none, so that only noise was drawn
@@ -328,8 +331,7 @@ struct NamedTradeOff {
   TradeOffPoint point;
 };
 struct TradeOff {
-  /// Of the gains that the search met and that keep every constraint, those that no other beats in both; by
-  /// settling time.
+  /// Pareto front of the feasible gains that the search evaluated, by settling time.
   std::vector<TradeOffPoint> front;
   /// On the same runs; without those whose runs break off. "lqi": the LQI law (control/heading_lqi.h) by
   /// Bryson's rule, with a sixth of the step, the step in 1.5 s, four seconds of that error and a quarter of the
@@ -337,7 +339,7 @@ struct TradeOff {
   std::vector<NamedTradeOff> named;
 };
 
-/// Where over a model's confidence set a figure of the loop is worst.
+/// Worst case of a metric of the loop over the model's confidence set.
 struct WorstCase {
   double value = 0.0;
   double yaw_rate_radps = 0.0;

@@ -80,7 +80,7 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
   options.sensitivity =
       static_cast<int>(json.optional_integer("sensitivity", 0, kMostSamples).value_or(0));
   if (options.sensitivity > 0 && options.sensitivity < kFewestSamples) {
-    json.fault("sensitivity", fmt::format("{} samples tell nothing: 0, or at least {}",
+    json.fault("sensitivity", fmt::format("{} samples are too few; give 0, or at least {}",
                                           options.sensitivity, kFewestSamples));
   }
   options.tail_share =
@@ -134,9 +134,7 @@ void read_goals(JsonObject& json, TuneOptions& options) {
     json.fault("goals", fmt::format("{} are more than {}", options.goals.size(), kMostGoals));
   }
   if (!options.goals.empty() && options.nominal) {
-    json.fault("goals",
-               "are chances over what is drawn, and a nominal search draws nothing: leave "
-               "out one of them");
+    json.fault("goals", "need sampled plants, which nominal disables; remove one of the two");
   }
 }
 
@@ -301,8 +299,8 @@ Json objective_json(const Tuning& tuning, const TuneOptions& options) {
   json["weights"] = Json::object();
   json["formula"] =
       "exp of the mean over modes and scenarios of sum_i w_i ln((x_i + f_i)/(x0_i + f_i)) / sum_i "
-      "w_i; x0: the "
-      "baseline's figure in the same mode and scenario; f: a floor below which nothing matters";
+      "w_i; x0: the baseline's metric in the same mode and scenario; f: a floor below which "
+      "differences are irrelevant";
   if (std::ranges::any_of(options.goals, &TuningGoal::is_soft)) {
     json["formula"] = json["formula"].get<std::string>() +
                       "; and for each soft goal and mode what the quantile of the draws' largest "

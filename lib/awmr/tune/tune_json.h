@@ -1,4 +1,4 @@
-/// What gains.json and the parts of a judging (tune_shard.h) have in common. Private to tune/.
+/// Parts common to gains.json and the shards of an evaluation (tune_shard.h). Private to tune/.
 #pragma once
 
 #include <vector>
@@ -29,7 +29,7 @@ ExaminedRange read_examined(JsonObject json);
 TuningGoal read_goal(JsonObject json);
 Json goal_json(const TuningGoal& goal);
 
-/// What is open of the vehicle, as in tune.json, in both directions.
+/// Reads and writes the unmodelled variation, as in tune.json.
 OpenVehicle read_open(JsonObject json);
 Json open_json(const OpenVehicle& open);
 

@@ -15,13 +15,14 @@
 #include "awmr/core/shard_file.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/tune/robust.h"
+#include "awmr/tune/tune_findings.h"
 #include "awmr/tune/tune_json.h"
 
 namespace awmr {
 namespace {
 
 constexpr const char* kGainsHash = "gains_json_sha256";
-/// Of a judging at the most: as in tune.json, and more than are ever given.
+/// Limits of an evaluation: as in tune.json, and more than are ever given.
 constexpr long kMostJudgedDraws = 100'000;
 
 /// One directory's part; its runs lie in the table.
@@ -125,7 +126,7 @@ Result<std::vector<JudgedRuns>> judged_from_text(const TunePart& part, std::stri
                                                  const std::string& file) {
   std::string_view rest = text;
   if (take_line(rest) != head_of_table()) {
-    return input_error(file + ":1:1", "these are not the columns of a judging");
+    return input_error(file + ":1:1", "these are not the columns of judged.csv");
   }
   int line = 1;
   std::vector<JudgedRuns> runs;
@@ -272,7 +273,7 @@ Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>&
   AWMR_ASSIGN_OR_RETURN(Json json, read_part_gains(parts.front()));
   if (!json.is_object() || !json.contains("robust") || !json["robust"].is_object()) {
     return input_error((directories.front() / kTuneShardGains).string(),
-                       "holds no robust gains: run the part again");
+                       "contains no robust gains; run the part again");
   }
   Judgement judgement = judgement_of(runs, parts.front().by);
   json["robust"]["quantiles"] = quantiles_json(judgement.gains);
@@ -280,8 +281,11 @@ Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>&
     json["robust"]["by_scenario"] = by_scenario_json(judgement.by_scenario);
   }
   if (!judgement.goals.empty()) json["goals"] = goals_json(judgement.goals);
+  std::vector<Finding> findings =
+      evaluation_findings(judgement.gains, judgement.by_scenario, judgement.goals);
+  findings.insert(findings.end(), parts.front().findings.begin(), parts.front().findings.end());
   return MergedTuning{to_text(json), std::move(judgement.gains), std::move(judgement.by_scenario),
-                      std::move(judgement.goals), parts.front().findings};
+                      std::move(judgement.goals), std::move(findings)};
 }
 
 Status check_judged_csv(std::string_view text, const std::string& file,
@@ -298,7 +302,7 @@ Status check_tune_shard_text(std::string_view text, const std::string& file) {
 }
 
 std::string tune_shard_schema() {
-  return json_schema_text(kTuneShardSchema, "A part of the judging of gains",
+  return json_schema_text(kTuneShardSchema, "A part of the evaluation of gains on fresh draws",
                           [](JsonObject& json) { tune_part_from_json(json); });
 }
 

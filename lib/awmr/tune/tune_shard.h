@@ -1,6 +1,6 @@
-/// The judging of gains in parts, on as many machines: each searches the gains, which come out the
-/// same, and runs some of the fresh draws; merge_tune_shards() puts the runs together to the bytes
-/// of a single `awmr tune`.
+/// Evaluation of gains in parts, on several machines: each searches the gains, with the same
+/// result, and runs some of the fresh draws; merge_tune_shards() puts the runs together to the
+/// bytes of a single `awmr tune`.
 #pragma once
 
 #include <filesystem>
@@ -25,8 +25,8 @@ inline constexpr const char* kJudgedTable = "judged.csv";
 /// Precondition: robust gains, tuned with options.shard.
 std::string judged_csv(const Tuning& tuning, const TuneOptions& options);
 
-/// The bytes of shard.json: where the part is from, which one it is, what its runs are judged by,
-/// and the hashes of the two files next to it.
+/// The bytes of shard.json: origin and number of the part, the metrics of its runs, and the hashes
+/// of the two files next to it.
 std::string tune_shard_text(const Tuning& tuning, const TuneOptions& options,
                             const Provenance& provenance);
 
@@ -41,12 +41,12 @@ Status check_tune_shard_text(std::string_view text, const std::string& file);
 bool is_finished_tune_shard(const std::filesystem::path& directory, const Shard& shard,
                             const Provenance& provenance);
 
-/// What a single run would have come to.
+/// Result of a single run.
 struct MergedTuning {
   std::string gains_text;                               ///< the bytes of gains.json
   std::vector<JudgedGains> judged, judged_by_scenario;  ///< as in RobustTuning
   std::vector<JudgedGoal> goals;
-  std::vector<Finding> findings;  ///< of the parts: those that do not depend on the judged draws
+  std::vector<Finding> findings;  ///< those of the evaluation draws, then those of the parts
 };
 
 /// Puts the parts in the directories together, in any order. Errors (input): a directory without

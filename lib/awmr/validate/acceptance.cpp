@@ -14,7 +14,7 @@
 #include "awmr/simulate/simulate.h"
 #include "awmr/trials/replay.h"
 #include "awmr/validate/drive_series.h"
-#include "awmr/validate/suspects.h"
+#include "awmr/validate/fault_hypotheses.h"
 
 namespace awmr {
 namespace {
@@ -57,15 +57,25 @@ LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
   return c;
 }
 
+/// The logged drive, and what its prediction starts from.
+struct LoggedDrive {
+  double from_s = 0.0;      ///< time of its first row, on the log's clock
+  double duration_s = 0.0;  ///< up to the end of the log or of the scenario
+  LoopConditions conditions;
+  std::vector<DriveChannel> channels;
+  DriveStart start;
+  Scenario scenario;  ///< under the log's conditions, from its start
+};
+
 /// The compared part of a predicted drive.
-struct Foretold {
+struct PredictedDrive {
   double end_s = 0.0;                ///< of the run; later windows are invalid
   std::vector<WindowMeans> windows;  ///< by channel
 };
 
-Foretold foretold_from(const Run& run, const std::vector<DriveChannel>& channels,
-                       double sample_time_s, double duration_s, Random& random) {
-  Foretold drive{.end_s = run.rows.back().t_s, .windows = {}};
+PredictedDrive predicted_drive(const Run& run, const std::vector<DriveChannel>& channels,
+                               double sample_time_s, double duration_s, Random& random) {
+  PredictedDrive drive{.end_s = run.rows.back().t_s, .windows = {}};
   for (const DriveChannel& channel : channels) {
     drive.windows.push_back(means_of(channel, run, sample_time_s, duration_s, &random));
   }
@@ -73,19 +83,17 @@ Foretold foretold_from(const Run& run, const std::vector<DriveChannel>& channels
 }
 
 /// Simulates the predicted drives.
-Result<std::vector<Foretold>> foretold_drives(const Model& model,
-                                              const Controller<double>& controller,
-                                              const Scenario& scenario,
-                                              const LoopConditions& conditions,
-                                              const DriveStart& start,
-                                              const std::vector<DriveChannel>& channels,
-                                              double duration_s, const AcceptanceOptions& options) {
+Result<std::vector<PredictedDrive>> predicted_drives(const Model& model,
+                                                     const Controller<double>& controller,
+                                                     const Scenario& as_given,
+                                                     const LoggedDrive& logged,
+                                                     const AcceptanceOptions& options) {
   std::optional<PlantSampler> sampler;
   if (!model.covariance.parameters.empty()) {
     AWMR_ASSIGN_OR_RETURN(sampler, PlantSampler::make(model));
   }
   const double sample_s = model.vehicle.sample_time_s;
-  std::vector<Foretold> drives(at(options.draws));
+  std::vector<PredictedDrive> drives(at(options.draws));
   std::vector<Status> ended(drives.size());
   parallel_for(drives.size(), options.threads, [&](std::size_t i) {
     const auto sample = static_cast<int>(i) + 1;
@@ -95,25 +103,27 @@ Result<std::vector<Foretold>> foretold_drives(const Model& model,
       return;
     }
     Random random(options.seed, kReadingsStream + i);
-    Scenario world = under(drawn(conditions, model.vehicle, random), scenario);
-    world.initial = moved_by(start.state, start.error, random);
+    Scenario world = under(drawn(logged.conditions, model.vehicle, random), as_given);
+    world.initial = moved_by(logged.start.state, logged.start.error, random);
     const Run run = simulate(*plant, controller, world, options.mode,
                              {.sample_time_s = sample_s,
                               .substeps = {},
                               .seed = options.seed,
                               .sample = static_cast<std::uint64_t>(sample)});
     ended[i] = failure_of(run, world);
-    if (ended[i]) drives[i] = foretold_from(run, channels, sample_s, duration_s, random);
+    if (ended[i]) {
+      drives[i] = predicted_drive(run, logged.channels, sample_s, logged.duration_s, random);
+    }
   });
   for (Status& status : ended) AWMR_RETURN_IF_ERROR(std::move(status));
   return drives;
 }
 
 /// Mean and standard deviation of the predicted window means of a channel.
-ForetoldSeries foretold_of(const DriveChannel& channel, const std::vector<WindowMeans>& draws) {
+PredictedBand prediction_of(const DriveChannel& channel, const std::vector<WindowMeans>& draws) {
   const std::size_t windows = draws.front().mean.size();
   const auto n = static_cast<double>(draws.size());
-  ForetoldSeries series{std::vector<double>(windows), std::vector<double>(windows)};
+  PredictedBand series{std::vector<double>(windows), std::vector<double>(windows)};
   for (std::size_t w = 0; w < windows; ++w) {
     for (const WindowMeans& draw : draws) series.mean[w] += draw.mean[w] / n;
     double squares = 0.0;
@@ -130,18 +140,18 @@ ForetoldSeries foretold_of(const DriveChannel& channel, const std::vector<Window
 }
 
 /// Distances of a series from the prediction, by window; 0 without a measurement.
-std::vector<double> distances(const WindowMeans& windows, const ForetoldSeries& foretold) {
+std::vector<double> distances(const WindowMeans& windows, const PredictedBand& predicted) {
   std::vector<double> all(windows.mean.size());
   for (std::size_t w = 0; w < all.size(); ++w) {
     if (windows.rows[w] > 0) {
-      all[w] = std::abs(windows.mean[w] - foretold.mean[w]) / foretold.spread[w];
+      all[w] = std::abs(windows.mean[w] - predicted.mean[w]) / predicted.spread[w];
     }
   }
   return all;
 }
 
-double largest_distance(const WindowMeans& windows, const ForetoldSeries& foretold) {
-  const std::vector<double> all = distances(windows, foretold);
+double largest_distance(const WindowMeans& windows, const PredictedBand& predicted) {
+  const std::vector<double> all = distances(windows, predicted);
   return *std::max_element(all.begin(), all.end());
 }
 
@@ -153,21 +163,24 @@ int samples_in(const WindowMeans& windows) {
 struct Compared {
   DriveChannel channel;
   WindowMeans measured;
-  ForetoldSeries foretold;
+  PredictedBand predicted;
   std::vector<double> largest;  ///< by draw
   double usual = 0.0;           ///< not exceeded by 95 % of the draws in this channel
 };
 
 Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> draws,
                          double duration_s) {
-  Compared one{
-      .channel = channel, .measured = means_of(channel, duration_s), .foretold = {}, .largest = {}};
+  Compared one{.channel = channel,
+               .measured = means_of(channel, duration_s),
+               .predicted = {},
+               .largest = {}};
   for (WindowMeans& draw : draws) {
     draw.mean.resize(one.measured.mean.size());
     draw.rows.resize(one.measured.rows.size());
   }
-  one.foretold = foretold_of(channel, draws);
-  for (const WindowMeans& draw : draws) one.largest.push_back(largest_distance(draw, one.foretold));
+  one.predicted = prediction_of(channel, draws);
+  for (const WindowMeans& draw : draws)
+    one.largest.push_back(largest_distance(draw, one.predicted));
   one.usual = quantile_of(one.largest, kLevel);
   return one;
 }
@@ -191,11 +204,11 @@ ChannelAcceptance judged(const Compared& one, double factor) {
       .noise = one.channel.noise,
       .noise_from_log = one.channel.noise_from_log,
       .allowed = factor * one.usual};
-  const std::vector<double> all = distances(one.measured, one.foretold);
+  const std::vector<double> all = distances(one.measured, one.predicted);
   const auto farthest = std::max_element(all.begin(), all.end());
   const auto w = static_cast<std::size_t>(farthest - all.begin());
   result.distance = *farthest;
-  result.difference = one.measured.mean[w] - one.foretold.mean[w];
+  result.difference = one.measured.mean[w] - one.predicted.mean[w];
   result.inside = result.distance <= result.allowed;
   for (std::size_t k = 0; k < all.size() && !result.outside_since_s; ++k) {
     if (all[k] > result.allowed) result.outside_since_s = kWindow_s * static_cast<double>(k);
@@ -211,11 +224,11 @@ bool is_given(const std::string& channel, const SensorQuality& sensors) {
 }
 
 std::vector<Compared> compare(const std::vector<DriveChannel>& channels,
-                              const std::vector<Foretold>& drives, double duration_s) {
+                              const std::vector<PredictedDrive>& drives, double duration_s) {
   std::vector<Compared> all;
   for (std::size_t c = 0; c < channels.size(); ++c) {
     std::vector<WindowMeans> draws;
-    for (const Foretold& drive : drives) draws.push_back(drive.windows[c]);
+    for (const PredictedDrive& drive : drives) draws.push_back(drive.windows[c]);
     all.push_back(compare_channel(channels[c], std::move(draws), duration_s));
     if (samples_in(all.back().measured) == 0) all.pop_back();
   }
@@ -239,12 +252,32 @@ void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
   result.inside = result.p_value > 1.0 - kLevel;
 }
 
-std::vector<SuspectChannel> evidence_of(const std::vector<Compared>& channels) {
-  std::vector<SuspectChannel> evidence;
+std::vector<EvidenceChannel> evidence_of(const std::vector<Compared>& channels) {
+  std::vector<EvidenceChannel> evidence;
   for (const Compared& one : channels) {
-    evidence.push_back({&one.channel, &one.measured, &one.foretold});
+    evidence.push_back({&one.channel, &one.measured, &one.predicted});
   }
   return evidence;
+}
+
+Result<LoggedDrive> logged_drive(const DrivingLog& log, const Model& model,
+                                 const Scenario& as_given, const std::optional<double>& from_s) {
+  AWMR_ASSIGN_OR_RETURN(const std::size_t first, first_row_of(log, from_s));
+  LoggedDrive drive{.from_s = log.t_s[first],
+                    .conditions = conditions_in(log, first, model.vehicle),
+                    .channels = {},
+                    .start = {},
+                    .scenario = {}};
+  drive.scenario = under(drive.conditions, as_given);
+  drive.duration_s = std::min(drive.scenario.duration_s, log.t_s.back() - drive.from_s);
+  drive.channels = channels_of(log, first, drive.duration_s, drive.scenario);
+  for (DriveChannel& channel : drive.channels) {
+    channel.noise_from_log |=
+        channel.noise_in_run && !as_given.sensors && !is_given(channel.name, model.vehicle.sensors);
+  }
+  drive.start = start_of(log, first, drive.channels, drive.scenario);
+  drive.scenario.initial = drive.start.state;
+  return drive;
 }
 
 }  // namespace
@@ -257,47 +290,37 @@ Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_RETURN_IF_ERROR(check_work(plant, model.file, as_given, model.vehicle.sample_time_s));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
-  AWMR_ASSIGN_OR_RETURN(const std::size_t first, first_row_of(log, options.from_s));
-  const LoopConditions conditions = conditions_in(log, first, model.vehicle);
-  Scenario scenario = under(conditions, as_given);
-  const double most_s = std::min(scenario.duration_s, log.t_s.back() - log.t_s[first]);
-  std::vector<DriveChannel> drive = channels_of(log, first, most_s, scenario);
-  for (DriveChannel& channel : drive) {
-    channel.noise_from_log |=
-        channel.noise_in_run && !as_given.sensors && !is_given(channel.name, model.vehicle.sensors);
-  }
-  const DriveStart start = start_of(log, first, drive, scenario);
-  scenario.initial = start.state;
-  AWMR_ASSIGN_OR_RETURN(
-      const std::vector<Foretold> foretold,
-      foretold_drives(model, controller, as_given, conditions, start, drive, most_s, options));
+  AWMR_ASSIGN_OR_RETURN(const LoggedDrive drive,
+                        logged_drive(log, model, as_given, options.from_s));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<PredictedDrive> predicted,
+                        predicted_drives(model, controller, as_given, drive, options));
   Acceptance result{.file = log.file,
-                    .scenario = scenario.name,
+                    .scenario = drive.scenario.name,
                     .mode = options.mode,
-                    .from_s = log.t_s[first],
-                    .duration_s = most_s,
+                    .from_s = drive.from_s,
+                    .duration_s = drive.duration_s,
                     .draws = options.draws};
-  for (const Foretold& one : foretold) result.duration_s = std::min(result.duration_s, one.end_s);
+  for (const PredictedDrive& one : predicted)
+    result.duration_s = std::min(result.duration_s, one.end_s);
   if (result.duration_s < kShortest_s) {
-    return input_error(
-        log.file, fmt::format("only {:.3g} s of it can be held against scenario '{}': at least "
-                              "{:g} s are needed",
-                              result.duration_s, scenario.name, kShortest_s));
+    return input_error(log.file,
+                       fmt::format("only {:.3g} s of it overlap scenario '{}'; at least {:g} s are "
+                                   "needed",
+                                   result.duration_s, drive.scenario.name, kShortest_s));
   }
-  const std::vector<Compared> channels = compare(drive, foretold, result.duration_s);
+  const std::vector<Compared> channels = compare(drive.channels, predicted, result.duration_s);
   take_verdict(channels, result);
   if (!result.inside) {
-    result.suspects =
-        suspects_of(model, controller, scenario, options, result.duration_s, evidence_of(channels));
+    result.hypotheses = fault_hypotheses(model, controller, drive.scenario, options,
+                                         result.duration_s, evidence_of(channels));
   }
   return result;
 }
 
 std::string acceptance_table(const Acceptance& acceptance) {
   std::string text = fmt::format(
-      "{} against scenario '{}', {}, {:.4g} s from {:g} s on: {} what the model foretells (p "
-      "{:.3g} "
-      "of {} draws)\n",
+      "{} against scenario '{}', {}, {:.4g} s from {:g} s on: {} the prediction (p {:.3g}, {} "
+      "draws)\n",
       acceptance.file, acceptance.scenario, name_of(acceptance.mode), acceptance.duration_s,
       acceptance.from_s, acceptance.inside ? "within" : "outside of", acceptance.p_value,
       acceptance.draws);
@@ -314,11 +337,11 @@ std::string acceptance_table(const Acceptance& acceptance) {
   }
   text += "  * estimated from the log\n";
   if (acceptance.inside) return text;
-  text += acceptance.suspects.empty() ? "  no single change of the model explains it\n"
-                                      : "  what would explain it best, one at a time:\n";
-  for (const Suspect& suspect : acceptance.suspects) {
-    text += fmt::format("    {:<28} {:>9.3g} {:<6} explains {:.0f} %\n", suspect.what,
-                        suspect.value, suspect.unit, 100.0 * suspect.explained);
+  text += acceptance.hypotheses.empty() ? "  no single model change explains the difference\n"
+                                        : "  most likely single causes:\n";
+  for (const FaultHypothesis& hypothesis : acceptance.hypotheses) {
+    text += fmt::format("    {:<28} {:>9.3g} {:<6} explains {:.0f} %\n", hypothesis.what,
+                        hypothesis.value, hypothesis.unit, 100.0 * hypothesis.explained);
   }
   return text;
 }

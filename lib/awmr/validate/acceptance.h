@@ -43,7 +43,7 @@ struct ChannelAcceptance {
 };
 
 /// A single change of the model that reduces its distance from the drive.
-struct Suspect {
+struct FaultHypothesis {
   std::string what;    ///< "mass_norm", "gyro bias"
   double value = 0.0;  ///< best value: a factor of the model's, or in the unit
   std::string unit;    ///< "times" for a factor
@@ -62,7 +62,7 @@ struct Acceptance {
   double p_value = 0.0;
   bool inside = false;  ///< p_value > 0.05
   std::vector<ChannelAcceptance> channels = {};
-  std::vector<Suspect> suspects =
+  std::vector<FaultHypothesis> hypotheses =
       {};  ///< for a drive outside: best explanation first; at most four
 };
 

@@ -184,9 +184,9 @@ Claim yaw_rate_limited(const HeadingSetting& setting) {
           "noise",
       .why = everywhere ? "the moment that the modes have at this thrust, and g3, bound the rate"
              : in_steering
-                 ? "the stop of the front wheels bounds the moment in steering mode; the sides' "
-                   "forces turn the vehicle faster, in combined mode too, which the paper's "
-                   "conclusion says was used"
+                 ? "the stop of the front wheels bounds the moment in steering mode; left and "
+                   "right wheel forces turn the vehicle faster, in combined mode too, which the "
+                   "paper's conclusion says was used"
                  : "the moment at the stop of the front wheels turns this model faster, or the "
                    "headings are not reached in time",
       .modes = verdicts_by_mode(runs, holds)};

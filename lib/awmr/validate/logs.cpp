@@ -29,14 +29,14 @@ Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
     Error error = model.plant().error();
     error.faults.insert(error.faults.begin(),
                         Fault{fmt::format("{}:{}", log.file, log.line[*row]),
-                              "the log turns from here, and the model knows straight motion alone; "
-                              "give a log that drives straight on, or the trials named below"});
+                              "the log turns from here, but the model covers straight motion only; "
+                              "give a straight log, or record the trials named below"});
     return tl::unexpected(std::move(error));
   }
   if (!log[LogChannel::kSpeed]) {
     return input_error(log.file,
-                       "there is no speed_mps, and the model, which knows straight motion alone, "
-                       "predicts nothing else; map the column");
+                       "there is no speed_mps, the only channel that a model of straight motion "
+                       "predicts; map the column");
   }
   DrivingLog part = log;
   for (const LogChannel channel : kChannels) {

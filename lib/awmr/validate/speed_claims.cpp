@@ -55,7 +55,7 @@ Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs)
                             by_mode(runs, "m/s", overshoot), by_mode(runs, "m/s", error),
                             by_mode(runs, "m/s", later)),
       .tolerance = fmt::format("overshoot from rest and error at the end at most {} m/s each; the "
-                               "excess after a heading step is shown, not judged",
+                               "excess after a heading step is for information",
                                kAccepted_mps),
       .why = none_over && no_error
                  ? "the law is of first order in u and knows the resistance exactly here; the "
@@ -109,8 +109,8 @@ bool side_saturates(const ModeRun& run, Interval limits, double step_s) {
 }
 
 std::string why_speed_is_held_or_not(bool holds, bool saturates, bool others_drop) {
-  std::string why = holds       ? "differential: the force limits leave room for the turn beside "
-                                  "the thrust"
+  std::string why = holds       ? "differential: the force limits leave room for turn and thrust "
+                                  "together"
                     : saturates ? "differential: a side saturates in the turn, so the thrust is "
                                   "not what was commanded"
                                 : "differential: the speed loop is too slow for the turn";

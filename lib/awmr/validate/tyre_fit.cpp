@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,7 +13,7 @@
 namespace awmr::tyre_fit {
 namespace {
 
-/// Of each kind of turn.
+/// Minimum number of windows with each kind of turn.
 constexpr std::size_t kFewestTurns = 3;
 
 /// Half of the 95 % interval, in standard errors.
@@ -158,6 +159,42 @@ std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, 
   return std::nullopt;
 }
 
+/// True if a log has fewer rows than the controller has samples, so that commands between rows are lost.
+bool lose_commands(const std::vector<DrivingLog>& logs, double sample_time_s) {
+  constexpr double kLonger = 1.2;  // than the sample time: beyond jitter
+  return std::ranges::any_of(
+      logs, [&](const DrivingLog& log) { return log.median_step_s() > kLonger * sample_time_s; });
+}
+
+/// The logs with every other command, held over two rows.
+std::vector<DrivingLog> with_half_of_the_commands(std::vector<DrivingLog> logs) {
+  for (DrivingLog& log : logs) {
+    const auto hold = [&](std::vector<double>& command) {
+      for (std::size_t row = 1; row < log.rows(); row += 2) command[row] = command[row - 1];
+    };
+    hold(log.force_left);
+    hold(log.force_right);
+    if (log.steering_command_rad) hold(*log.steering_command_rad);
+  }
+  return logs;
+}
+
+/// Adds the error by commands between rows to the standard errors: half of what losing as many again changes, so
+/// that a 95 % interval reaches that far. False: that fit does not converge.
+bool add_error_of_lost_commands(const std::vector<DrivingLog>& logs, const Plant<double>& plant,
+                                double motor_lag_s, const Plants& plants, ShownFit& shown) {
+  const std::vector<DrivingLog> halved = with_half_of_the_commands(logs);
+  const std::vector<ReplayedLog> replayed = replayed_logs(halved, plant, motor_lag_s);
+  const std::vector<ReplayedWindow> all = windows_in(halved, replayed);
+  const auto again = fit(evenly_chosen(all), plants, shown.is_free, shown.fit.at);
+  if (!again || !again->converged) return false;
+  for (const Eigen::Index p : {kFriction, kCornering}) {
+    std::optional<double>& error = shown.errors[at(p)];
+    if (error) error = std::hypot(*error, 0.5 * (again->at[p] - shown.fit.at[p]));
+  }
+  return true;
+}
+
 Status check_vehicle(const Model& model) {
   if (model.vehicle.driven_wheels() == 4) return {};
   return input_error(
@@ -184,17 +221,15 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
     return std::optional<TyreFit>();
   };
   const Plants plants(plant);
-  std::vector<ReplayedLog> replayed;
-  for (const DrivingLog& log : logs) {
-    replayed.emplace_back(log, plant, model.vehicle.motor_time_constant_s.value_or(0.0));
-  }
+  const double motor_lag_s = model.vehicle.motor_time_constant_s.value_or(0.0);
+  const std::vector<ReplayedLog> replayed = replayed_logs(logs, plant, motor_lag_s);
   const std::vector<ReplayedWindow> all = windows_in(logs, replayed);
   if (auto missing = missing_turns(all, first, model.vehicle, plant)) {
     findings.push_back(*std::move(missing));
     return std::optional<TyreFit>();
   }
   const Windows windows = evenly_chosen(all);
-  const auto shown = fit_what_is_shown(windows, plants);
+  auto shown = fit_what_is_shown(windows, plants);
   if (!shown)
     return refuse("tyres-not-converged", "no step is short enough to replay these logs on tyres");
   if (!shown->is_free[kFriction] && !shown->is_free[kCornering]) {
@@ -206,6 +241,12 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   if (!shown->fit.converged) {
     return refuse("tyres-not-converged",
                   "the fit of the tyres did not converge: " + shown->fit.stop_reason);
+  }
+  if (lose_commands(logs, model.vehicle.sample_time_s) &&
+      !add_error_of_lost_commands(logs, plant, motor_lag_s, plants, *shown)) {
+    return refuse("tyres-not-converged",
+                  "the tyres cannot be fitted with half of the logged commands, so that the error "
+                  "from commands between rows is unknown: log every command of the controller");
   }
   const auto sums = held_out(windows, plants, *shown);
   if (!sums)

@@ -14,6 +14,10 @@
 ///
 ///     C = (W - 1)/W sum d_w d_w',    d_w = (H - J_w' J_w)^-1 J_w' e_w
 ///
+/// A log with fewer rows than the controller has samples lacks commands, and a friction from it may be several per
+/// cent off where the commands change fast. With x2 the fit to the logs with every other command, held over two rows,
+/// the standard errors become sqrt(C + ((x2 - x)/2)^2).
+///
 /// Which plant predicts better is judged by cross-validation: the tyres are fitted to every other window
 /// and predict the rest, and the other way round. Of each held-out window
 ///

@@ -161,7 +161,8 @@ bool is_inside(Eigen::Index parameter, double log_value) {
   return log_value > range.lo + kNear && log_value < range.hi - kNear;
 }
 
-/// Of the free parameters that the windows do not show, that with the largest error; none: all are shown.
+/// The free parameter with the largest error among those that the windows do not identify; none if
+/// all are identified.
 std::optional<Eigen::Index> least_shown(const ShownFit& shown) {
   std::optional<Eigen::Index> worst;
   double largest = 0.0;

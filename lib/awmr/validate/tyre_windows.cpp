@@ -88,6 +88,13 @@ State<double> ReplayedLog::state_before(const LogWindow& rows) const {
   return state;
 }
 
+std::vector<ReplayedLog> replayed_logs(const std::vector<DrivingLog>& logs,
+                                       const Plant<double>& plant, double motor_lag_s) {
+  std::vector<ReplayedLog> replayed;
+  for (const DrivingLog& log : logs) replayed.emplace_back(log, plant, motor_lag_s);
+  return replayed;
+}
+
 std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
                                        const std::vector<ReplayedLog>& replayed) {
   std::vector<ReplayedWindow> windows;

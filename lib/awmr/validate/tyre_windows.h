@@ -34,6 +34,10 @@ struct ReplayedLog {
   State<double> state_before(const LogWindow& rows) const;
 };
 
+/// In the order of the logs, which have to outlive them.
+std::vector<ReplayedLog> replayed_logs(const std::vector<DrivingLog>& logs,
+                                       const Plant<double>& plant, double motor_lag_s);
+
 struct ReplayedWindow {
   const ReplayedLog* log = nullptr;
   LogWindow rows;
@@ -50,7 +54,7 @@ std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
 /// All windows, or 60 over the whole of the logs: more make the fit long and little better.
 Windows evenly_chosen(const std::vector<ReplayedWindow>& all);
 
-/// Whether a window has a turn by the sides' forces, or by steering.
+/// Whether a window has a differential turn, or a steered one.
 struct Turns {
   bool by_sides = false;
   bool by_steering = false;

@@ -66,7 +66,7 @@ std::optional<double> rms_relative_error(const std::vector<TrialResidual>& trial
 void judge(Validation& validation, double tolerance) {
   if (validation.trials.empty()) {
     validation.verdict =
-        "not validated: the model carries no trials; identify it from trials, then validate";
+        "not validated: the model contains no trials; identify it from trials, then validate";
     return;
   }
   const auto unpredicted =
@@ -90,7 +90,7 @@ void judge(Validation& validation, double tolerance) {
   const auto stops =
       std::count_if(validation.trials.begin(), validation.trials.end(),
                     [](const TrialResidual& trial) { return trial.kind == TrialKind::kCoastdown; });
-  if (stops == 1) validation.verdict += "; one stop time only gives m', it cannot check it";
+  if (stops == 1) validation.verdict += "; a single stop time determines m' but cannot check it";
   if (unpredicted > 0) {
     validation.verdict += fmt::format(
         "; {} row(s) have no finite prediction: b near 0 gives no steady speed, b1 >= 1 no stop",
@@ -157,7 +157,7 @@ void add_drives(Validation& validation, std::vector<Acceptance> drives) {
   const auto inside = std::count_if(drives.begin(), drives.end(),
                                     [](const Acceptance& drive) { return drive.inside; });
   take_into_verdict(validation, inside == eigen_index(drives.size()),
-                    fmt::format("{} of {} drives of '{}' are as the model foretells", inside,
+                    fmt::format("{} of {} drives of '{}' agree with the prediction", inside,
                                 drives.size(), drives.front().scenario));
   validation.drives = std::move(drives);
 }

@@ -88,18 +88,18 @@ Json drive_json(const Acceptance& drive) {
                              {"outside_since_s", optional_json(one.outside_since_s)},
                              {"difference", one.difference}};
   }
-  Json suspects = Json::array();
-  for (const Suspect& one : drive.suspects) {
-    suspects.push_back({{"what", one.what},
-                        {"value", one.value},
-                        {"unit", one.unit},
-                        {"explained", one.explained}});
+  Json hypotheses = Json::array();
+  for (const FaultHypothesis& one : drive.hypotheses) {
+    hypotheses.push_back({{"what", one.what},
+                          {"value", one.value},
+                          {"unit", one.unit},
+                          {"explained", one.explained}});
   }
   return {
       {"file", drive.file},       {"scenario", drive.scenario},     {"mode", name_of(drive.mode)},
       {"from_s", drive.from_s},   {"duration_s", drive.duration_s}, {"draws", drive.draws},
       {"p_value", drive.p_value}, {"inside", drive.inside},         {"channels", channels},
-      {"suspects", suspects}};
+      {"suspects", hypotheses}};
 }
 
 const char* verdict_of(bool reproduced) { return reproduced ? "reproduced" : "not-reproduced"; }

@@ -108,12 +108,12 @@ void describe_drives(JsonObject& json) {
       channel.nullable_number("outside_since_s");
       channel.reject_unknown_keys();
     }
-    for (JsonObject& suspect : drive.objects("suspects")) {
-      suspect.string("what");
-      suspect.number("value");
-      suspect.string("unit");
-      suspect.number("explained", {.min = 0.0, .max = 1.0});
-      suspect.reject_unknown_keys();
+    for (JsonObject& hypothesis : drive.objects("suspects")) {
+      hypothesis.string("what");
+      hypothesis.number("value");
+      hypothesis.string("unit");
+      hypothesis.number("explained", {.min = 0.0, .max = 1.0});
+      hypothesis.reject_unknown_keys();
     }
     drive.reject_unknown_keys();
   }

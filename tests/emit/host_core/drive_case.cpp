@@ -10,7 +10,7 @@ namespace {
 /// The command that starts the drive.
 const char* start_command = "S 1.0\n";
 
-/// What is commanded once a failure is injected, and how long it is then driven.
+/// Command after an injected failure, and the duration of the drive that follows.
 struct Drive {
   const char* commands = "";
   double watch_s = 15;

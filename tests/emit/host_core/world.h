@@ -85,7 +85,8 @@ struct World {
   double force(int pwm, int direction) {
     return motor_sign * duty[pwm] / 255.0 * (level[direction] ? -1 : 1);
   }
-  // Reversed, the sides are exchanged as well: it drives the wrong way and turns the right one.
+  // Reversed, left and right are exchanged as well: it drives the wrong way and turns the right
+  // one.
   bool is_exchanged() const { return (motor_sign < 0) != sides_swapped; }
   double left() {
     if (!std::isnan(left_stuck)) return left_stuck;

@@ -79,7 +79,7 @@ LawGains least_settling(const Case& one, const std::vector<Trial>& trials, const
   const auto look = [&](const Vector& x) -> Member {
     const Controls c{one.model, gains_at(x), fed_forward};
     const Means m = means_of(one, trials, c);
-    // What is over the limits is behind all that keeps them, in its order.
+    // Points that violate the limits rank behind all that meet them, in their own order.
     const double over =
         std::max(m.variation / most_variation, m.overshoot_deg / most_overshoot_deg);
     return {x, over > 1.0 ? 1e3 * over : m.settling_s};

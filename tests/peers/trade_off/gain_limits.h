@@ -15,7 +15,7 @@ struct Limits {
   double steering_rate_degps = 0.0;  ///< RMS
 };
 
-/// What the limits are examined for.
+/// Conditions for which the limits are checked.
 struct Examined {
   double speed_mps = 0.0, fastest_radps = 0.0;
 };

@@ -103,7 +103,7 @@ struct Reference {
   double psi = 0.0, rate = 0.0, acceleration = 0.0;
 };
 
-/// The filter of led headings, 4 rad/s, critically damped, its rate limited.
+/// Filter of rate-limited heading commands, 4 rad/s, critically damped.
 void lead(double goal, double limit, double sample_s, Reference& ref) {
   constexpr double kBandwidth = 4.0;
   const double rate = std::clamp(0.5 * kBandwidth * wrapped(goal - ref.psi), -limit, limit);

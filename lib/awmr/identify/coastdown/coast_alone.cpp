@@ -15,7 +15,7 @@
 namespace awmr {
 namespace {
 
-/// Those that a curve can tell apart: motors that are off have no dead zone.
+/// Families that a curve can distinguish: with the motors off there is no dead zone.
 constexpr Family kCoastFamilies[] = {Family::kPower, Family::kCoulombLinear,
                                      Family::kCoulombLinearQuadratic, Family::kCoulombPower};
 
@@ -71,7 +71,7 @@ const CoastFit& best_of(const std::vector<CoastFit>& fits) {
   });
 }
 
-/// The numbers of a fit in words: all that it fixes.
+/// Formats all numbers that a fit determines.
 std::string ratios_in_words(const CoastFit& fit) {
   const double ratio = std::exp(fit.log_mass_norm);
   std::string words =
@@ -90,7 +90,7 @@ void hold_against_others(const std::vector<CoastFit>& fits, const std::string& f
                          MassResult& result) {
   const CoastFit& power = fits.front();
   const CoastFit& best = best_of(fits);
-  if (!power.aicc || !best.aicc || *power.aicc - *best.aicc < kPlainlyBetter) return;
+  if (!power.aicc || !best.aicc || *power.aicc - *best.aicc < kFamilyAicThreshold) return;
   result.findings.push_back(
       {file, 0, Severity::kWarning, "power-law-inadequate",
        fmt::format(

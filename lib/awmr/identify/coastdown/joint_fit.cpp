@@ -128,7 +128,7 @@ double mean_square(const Eigen::VectorXd& e) {
   return e.squaredNorm() / static_cast<double>(e.size());
 }
 
-/// What is known at this place and these noise levels, whether or not it is the last.
+/// State of the fit at these parameters and noise levels.
 void keep(const Stacked& s, const Rows& rows, CoastProblem& problem, const BySet& variance,
           const BySet& dof, JointFit& joint) {
   const Eigen::Index count = rows_of(joint.surge.free) + 1;

@@ -37,7 +37,7 @@ MassEstimate combined(const MassEstimate& a, const MassEstimate& b, const Steady
 std::vector<Finding> disagreement(const MassEstimate& a, const MassEstimate& b,
                                   const SteadyFit& surge, const std::string& file);
 
-/// An estimate as an entry of /estimates. `noise`: where the error was put, in words.
+/// An estimate as an entry of /estimates. `noise`: name of the quantity with the error.
 EstimatorReport report_of(const MassEstimate& mass, const SteadyFit& surge, Estimator estimator,
                           std::string_view noise);
 

@@ -25,7 +25,7 @@ using Covariance = Eigen::Matrix<double, 5, 5>;
 
 /// Residuals within one of these parts of a circle may go together.
 constexpr int kSectors = 36;
-/// What may be left out of the circle.
+/// Largest gap in the circle.
 constexpr double kLargestGapDeg = 30.0;
 /// Beyond this share of the field something else than hard and soft iron is there.
 constexpr double kLargeResidual = 0.05;

@@ -13,17 +13,17 @@ namespace awmr {
 namespace {
 
 /// Adds what the other families of surge resistance make of the logs; returns the advice, if any.
-std::optional<std::string> try_rivals(BestFamily rivals, const FamilyFit& chosen,
+std::optional<std::string> try_rivals(BestFamily alternatives, const FamilyFit& chosen,
                                       Adequacy& adequacy) {
-  for (EstimatorReport& report : reports_of(rivals.others, chosen)) {
-    adequacy.rivals.push_back(std::move(report));
+  for (EstimatorReport& report : reports_of(alternatives.others, chosen)) {
+    adequacy.alternatives.push_back(std::move(report));
   }
-  for (Finding& finding : rivals.findings) adequacy.findings.push_back(std::move(finding));
-  if (rivals.best.surge == Family::kPower) return std::nullopt;
-  adequacy.rivals.push_back(rivals.best.fit.report);
+  for (Finding& finding : alternatives.findings) adequacy.findings.push_back(std::move(finding));
+  if (alternatives.best.surge == Family::kPower) return std::nullopt;
+  adequacy.alternatives.push_back(alternatives.best.fit.report);
   return fmt::format("a power law does not describe these logs; {} does better by {:.0f} of AIC",
-                     option_text(fmt::format("family surge={}", name_of(rivals.best.surge))),
-                     aic_lead(rivals.best.fit, chosen.fit));
+                     option_text(fmt::format("family surge={}", name_of(alternatives.best.surge))),
+                     aic_lead(alternatives.best.fit, chosen.fit));
 }
 
 /// True for channels that show the model's errors: those of speed and of yaw rate, or where there are
@@ -75,9 +75,8 @@ Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
   for (const auto& [channel, noise] : chosen.fit.noise) {
     if (!noise.of_the_model()) continue;
     std::string advice =
-        "something that the model does not know acts on the vehicle (a steering trim or a side "
-        "that pulls, a motor driver that brakes at a command of 0, a slope, tyres that give way), "
-        "or the sensor wanders";
+        "an unmodelled effect acts on the vehicle (steering trim, unequal sides, a motor driver "
+        "that brakes at a command of 0, a slope, sliding tyres), or the sensor drifts";
     if (channel == LogChannel::kSpeed && try_families) {
       advice = try_rivals(best_family(logs, power_law, chosen, {.only_suspects = false}), chosen,
                           adequacy)
@@ -94,9 +93,8 @@ Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
                      noise.correlation_s < kWindow_s ? fmt::format("{:.2g} s", noise.correlation_s)
                                                      : fmt::format("more than {:g} s", kWindow_s),
                      noise.sensor_std, advice,
-                     withdraws
-                         ? "The intervals are withdrawn"
-                         : "The intervals hold for the model as it is, not for the vehicle")});
+                     withdraws ? "The intervals are withdrawn"
+                               : "The intervals do not include this model error")});
   }
   return adequacy;
 }

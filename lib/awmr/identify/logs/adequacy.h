@@ -12,7 +12,7 @@ namespace awmr {
 std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::string& file);
 
 struct Adequacy {
-  std::vector<EstimatorReport> rivals;  ///< other families, where they were tried
+  std::vector<EstimatorReport> alternatives;  ///< other families, where they were tried
   std::vector<Finding> findings;
   bool withdraws_intervals = false;  ///< no interval of this model holds for the vehicle
 };

@@ -46,8 +46,8 @@ std::string why_no_back_emf(const std::vector<DrivingLog>& logs) {
   for (const DrivingLog& log : logs) coasts_s += coasting_s(log);
   if (coasts_s >= kEnough_s) return {};
   return fmt::format(
-      "the motors are off (both forces 0) for {:.2g} s of rolling, and while they drive a linear "
-      "part of the resistance looks the same",
+      "the vehicle coasts (both forces 0) for only {:.2g} s, and under power back-EMF is "
+      "indistinguishable from linear resistance",
       coasts_s);
 }
 
@@ -63,11 +63,12 @@ bool frees_back_emf(const LogFitOptions& options) {
   return std::ranges::find(options.free, ParameterId::kBackEmf) != options.free.end();
 }
 
-bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& suspects) {
+bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms) {
   constexpr double kWorthATry = 4.0;  // of -2 ln L
-  const auto suspect = std::ranges::find(suspects, ParameterId::kBackEmf);
-  if (suspect == suspects.end()) return false;
-  if (!fit.usable || fit.suspect_gain[at(suspect - suspects.begin())] > kWorthATry) return true;
+  const auto candidate_term = std::ranges::find(candidate_terms, ParameterId::kBackEmf);
+  if (candidate_term == candidate_terms.end()) return false;
+  if (!fit.usable || fit.suspect_gain[at(candidate_term - candidate_terms.begin())] > kWorthATry)
+    return true;
   return std::ranges::any_of(fit.noise,
                              [](const auto& channel) { return channel.second.has_slow_drift(); });
 }
@@ -78,7 +79,7 @@ bool shows_back_emf(const FamilyFit& with, const FamilyFit& without) {
     const bool is_open = !with.fit.why_not[i].empty();
     if (with.fit.quantities[i].is(ParameterId::kBackEmf) && is_open) return false;
   }
-  return aic_lead(with.fit, without.fit) > kPlainlyBetter;
+  return aic_lead(with.fit, without.fit) > kFamilyAicThreshold;
 }
 
 Finding back_emf_finding(const std::string& file, const FamilyFit& with, const FamilyFit& without) {

@@ -2,7 +2,7 @@
 ///
 /// While the motors drive, what they lose and a linear part of the resistance are one: straight ahead
 ///     m' du/dt = 4 (F' - k_e u) - g1(u)
-/// and only with the motors off is g1 alone. So k_e is asked of logs that hold both.
+/// and only with the motors off is g1 alone. So k_e is requested of logs that hold both.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@
 
 namespace awmr {
 
-/// Why these logs cannot tell k_e from resistance; empty: they roll with the motors off for a second
-/// or more, shortly after they were driven.
+/// Reason why these logs cannot separate k_e from resistance; empty: they roll with the motors off
+/// for a second or more, shortly after they were driven.
 std::string why_no_back_emf(const std::vector<DrivingLog>& logs);
 
 /// The options with k_e free, from a guess of its own where it has none.
@@ -22,11 +22,11 @@ LogFitOptions with_back_emf(LogFitOptions options);
 /// Whether k_e is free in a fit with these options.
 bool frees_back_emf(const LogFitOptions& options);
 
-/// Whether a fit that has k_e among its suspects may be likelier with it: by a score test, or as its
-/// errors have a memory, behind which it can hide.
-bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& suspects);
+/// Whether k_e may improve a fit that has it among its candidate terms: by a score test, or because
+/// its errors are correlated, which can hide the effect.
+bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms);
 
-/// Whether a fit with k_e free is plainly better than one without, and shows it.
+/// Whether a fit with k_e free is significantly better than one without, and identifies k_e.
 bool shows_back_emf(const FamilyFit& with, const FamilyFit& without);
 
 /// `back-emf`: what was taken, and how much better it describes the logs.

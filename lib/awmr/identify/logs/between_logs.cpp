@@ -21,7 +21,7 @@ struct ByLog {
   std::vector<double> weights;  ///< 1/variance
 };
 
-/// Where a fit has a quantity that it shows.
+/// Index of a quantity in a fit; none if the fit does not identify it.
 std::optional<std::size_t> place_in(const LogFit& fit, const std::string& name) {
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     if (fit.quantities[i].name() == name && fit.why_not[i].empty()) return i;
@@ -43,7 +43,7 @@ ByLog collect(const std::vector<DrivingLog>& logs, const std::vector<LogFit>& fi
   return found;
 }
 
-/// What the logs' values of one quantity say of its being one.
+/// Tests whether the logs' values of one quantity agree.
 struct Heterogeneity {
   double p_value = 1.0;
   double widening = 1.0;  ///< of the standard error, for the mean of such vehicles

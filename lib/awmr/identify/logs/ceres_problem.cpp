@@ -22,7 +22,7 @@ double prior_residual(const LogProblem& problem, std::size_t i, double x) {
   return (x - problem.initial[i]) / prior_std(problem, i);
 }
 
-/// Of one evaluation of every window with its derivatives.
+/// Work of one evaluation of every window with its derivatives.
 std::int64_t numbers_integrated(const LogProblem& problem) {
   double steps = 0.0;
   for (const FitWindow& window : problem.windows) {
@@ -225,7 +225,7 @@ void tell_end(const ceres::Solver::Summary& summary, bool at_limit, Solved& solv
                                 : stop_reason(summary);
 }
 
-/// Where a step would leave the finite numbers.
+/// Treatment of steps that would give non-finite numbers.
 enum class LineSearch {
   /// Steps are cut at the bounds and halved where they cannot be simulated. Evaluates a jacobian a step.
   kOff,

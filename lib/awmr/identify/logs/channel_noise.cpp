@@ -79,8 +79,8 @@ ChannelNoise unit_noise(double logit, double correlation_s) {
           .correlation_s = correlation_s};
 }
 
-/// At most about this many errors of a channel, whole windows spread over the logs: they tell the
-/// levels to a hundredth.
+/// Upper limit of errors of a channel, in whole windows spread over the logs. They determine the
+/// levels to 1 %.
 std::vector<ErrorSeries> some_of(std::span<const ErrorSeries> series) {
   constexpr std::size_t kEnough = 20'000;
   std::size_t total = 0;
@@ -172,8 +172,8 @@ struct SecondOrder {
   }
 };
 
-/// Where the search for a drift of second order may go: swings from two windows to two samples long,
-/// and almost no white noise.
+/// Bounds of the search for a second-order drift: periods from two windows to two samples, and
+/// almost no white noise.
 struct SecondOrderRange {
   SecondOrder lowest;
   SecondOrder highest;
@@ -208,7 +208,7 @@ SecondOrder likeliest_of_grid(std::span<const ErrorSeries> series, const SecondO
   return best;
 }
 
-/// What the search hands on through NLopt, and the best of what it tried.
+/// Data of the search, passed through NLopt, and the best point tried.
 struct SecondOrderSearch {
   std::span<const ErrorSeries> series;
   Drift best = {};
@@ -223,7 +223,7 @@ double second_order_cost(unsigned, const double* x, double*, void* data) {
 }
 
 /// Nelder and Mead's simplex from there. Where it fails, the best of what it tried, if any, is what
-/// there is: it is held against the other noises in any case. [NLopt, LN_NELDERMEAD]
+/// there is: it is compared with the other noise models in any case. [NLopt, LN_NELDERMEAD]
 Drift likeliest_from(std::span<const ErrorSeries> series, const SecondOrder& from,
                      const SecondOrderRange& range) {
   constexpr int kMostEvaluations = 150;

@@ -70,10 +70,10 @@ using ErrorsByChannel = std::map<LogChannel, std::vector<ErrorSeries>>;
 /// -2 ln L of errors with this noise, but for a constant: sum ln S_k + nu_k^2/S_k.
 double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
 
-/// The likeliest noise of these errors: white, or with a drift where that is plainly likelier (ten
-/// of -2 ln L), of second order where that is plainly likelier again. `free_share`, in (0, 1]: of
-/// the errors' squares, what the fit has not taken for itself. The search begins at `before`, whose
-/// sensor_std stays.
+/// The likeliest noise of these errors: white, or with a drift if that is significantly likelier
+/// (10 of -2 ln L), of second order if that is significantly likelier again. `free_share`, in (0,
+/// 1]: of the errors' squares, what the fit has not taken for itself. The search begins at
+/// `before`, whose sensor_std stays.
 ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_share,
                              const ChannelNoise& before);
 

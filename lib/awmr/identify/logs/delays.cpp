@@ -52,25 +52,25 @@ std::vector<FreeQuantity> candidates(const LogProblem& problem) {
 }
 
 /// A delay worth a try, with where one step would put it.
-struct Suspect {
+struct CandidateTerm {
   FreeQuantity delay;
   double value_s;
   double significance;  ///< |value| over standard error, by the noise alone
 };
 
 /// The likeliest first.
-std::vector<Suspect> suspects(const NoiseIteration& settled) {
+std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   constexpr double kWorthATry = 3.0;
   const std::vector<FreeQuantity> channels = candidates(settled.problem);
   const std::vector<ScoreTest> tests = score_test(settled.problem, settled.point, channels);
-  std::vector<Suspect> found;
+  std::vector<CandidateTerm> found;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const double value_s = tests[i].value;
     if (channels[i].may_be_zero() && !(value_s > 0.0)) continue;
     const double significance = std::abs(value_s) / tests[i].noise_error;
     if (significance > kWorthATry) found.push_back({channels[i], value_s, significance});
   }
-  std::ranges::stable_sort(found, std::greater{}, &Suspect::significance);
+  std::ranges::stable_sort(found, std::greater{}, &CandidateTerm::significance);
   return found;
 }
 
@@ -92,11 +92,12 @@ bool may_be_smoothed(LogChannel channel) {
   return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate;
 }
 
-/// The likeliest fit with one more delay or lag free, of the commands, of the steering alone or of one
-/// sensor, after one round; none where no suspect makes the fit likelier.
+/// The likeliest fit with one more delay or lag free, of the commands, of the steering alone or of
+/// one sensor, after one round; none if no candidate term improves the fit.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
-  // A filter of the speed looks like a lag of the motors, which more vehicles have, where no other channel
-  // tells them apart; both give the same mass then. Else it has to be likelier by this much of AIC.
+  // A filter of the speed looks like a lag of the motors, which more vehicles have, where no other
+  // channel separates them; both give the same mass then. Else it has to be likelier by this much
+  // of AIC.
   constexpr double kLikelierFilter = 10.0;
   const bool tells_filters = settled.problem.model.noise.size() > 1;
   std::optional<NoiseIteration> best;
@@ -111,13 +112,13 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   const bool is_lag_given = settled.problem.model.vehicle.motor_time_constant_s.has_value();
   bool has_sensor = false;
   std::vector<std::pair<LogChannel, double>> filters;
-  for (const Suspect& suspect : suspects(settled)) {
-    const FreeQuantity& delay = suspect.delay;
+  for (const CandidateTerm& candidate_term : candidate_terms(settled)) {
+    const FreeQuantity& delay = candidate_term.delay;
     const bool is_sensor = delay.kind == FreeQuantity::Kind::kSensorDelay;
     if (is_sensor && has_sensor) continue;
-    NoiseIteration late = tried(settled, delay, suspect.value_s, loss);
-    const double found_s = late.point.coordinates.back();
-    has_sensor |= consider(std::move(late)) && is_sensor;
+    NoiseIteration delayed_fit = tried(settled, delay, candidate_term.value_s, loss);
+    const double found_s = delayed_fit.point.coordinates.back();
+    has_sensor |= consider(std::move(delayed_fit)) && is_sensor;
     if (!(found_s > 0.0)) continue;
     // Also where a sensor's delay does as well as one of the commands: a lag may do better than both.
     if (is_of_commands(delay) && !is_lag_given)

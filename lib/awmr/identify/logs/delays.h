@@ -1,18 +1,19 @@
-/// Sensors that are read late or smoothed, commands that act late or were logged late, steering that acts
-/// later than the forces, motors that lag. Private to identify/.
+/// Latency and filters of sensors, latency of commands or of their time stamps, dead time of the
+/// steering, motor lag. Private to identify/.
 #pragma once
 
 #include "awmr/identify/logs/noise_iteration.h"
 
 namespace awmr {
 
-/// Frees delays one after the other: of those that a score test suspects, the one that lowers AIC most
-/// after one round of its fit, if it lowers it by more than ten in the end. A late speed would otherwise
-/// pass for a heavy vehicle. A delay of all commands may be negative, where they were logged late; where
-/// it is positive, the lag of the motors takes its place if that is likelier (unless the vehicle
-/// file gives that lag); in the same way a filter takes the place of a late speed or yaw rate. The steering
-/// alone may be later than the forces: a dead time that would pass for a slow servo. Of the commands and all
-/// channels, one stays without a delay: the others are late against it.
+/// Frees delays one after the other: of the candidates of a score test, the one that lowers AIC
+/// most after one round of its fit, if it lowers it by more than ten in the end. Without it,
+/// latency of the speed would bias the mass upwards. A delay of all commands may be negative, where
+/// they were logged late; where it is positive, the lag of the motors takes its place if that is
+/// likelier (unless the vehicle file gives that lag); in the same way a filter takes the place of a
+/// late speed or yaw rate. The steering alone may be later than the forces: a dead time that would
+/// pass for a slow servo. Of the commands and all channels, one stays without a delay: the others
+/// are late against it.
 NoiseIteration allow_for_delays(NoiseIteration settled, Loss loss);
 
 }  // namespace awmr

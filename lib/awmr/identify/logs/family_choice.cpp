@@ -118,25 +118,26 @@ bool is_of_yaw(ParameterId term) {
   return term == ParameterId::kYawCoulomb || term == ParameterId::kYawQuadratic;
 }
 
-/// The largest gain of the suspects of an axis; 0 for a fit without suspects.
-double largest_gain(const LogFit& fit, const std::vector<ParameterId>& suspects, bool of_yaw) {
+/// Largest score-test gain of an axis' candidate terms; 0 without any.
+double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate_terms,
+                    bool of_yaw) {
   double most = 0.0;
-  for (std::size_t i = 0; i < std::min(suspects.size(), fit.suspect_gain.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(candidate_terms.size(), fit.suspect_gain.size()); ++i) {
     const bool is_of_axis =
-        suspects[i] != ParameterId::kBackEmf && is_of_yaw(suspects[i]) == of_yaw;
+        candidate_terms[i] != ParameterId::kBackEmf && is_of_yaw(candidate_terms[i]) == of_yaw;
     if (is_of_axis) most = std::max(most, fit.suspect_gain[i]);
   }
   return most;
 }
 
-/// Whether a family with more terms may do better: a suspect that a score test finds worth freeing, or
-/// errors with a memory, behind which a missing term can hide.
-bool suspicious(const LogFit& fit, const std::vector<ParameterId>& suspects, bool of_yaw) {
+/// Whether a family with more terms may do better: a score test finds a candidate term worth
+/// freeing, or errors are correlated, which can hide a missing term.
+bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // of -2 ln L
   if (!fit.usable) return true;
-  for (std::size_t i = 0; i < suspects.size(); ++i) {
-    if (suspects[i] == ParameterId::kBackEmf) continue;  // no family has it
-    if (is_of_yaw(suspects[i]) == of_yaw && fit.suspect_gain[i] > kWorthATry) return true;
+  for (std::size_t i = 0; i < candidate_terms.size(); ++i) {
+    if (candidate_terms[i] == ParameterId::kBackEmf) continue;  // no family has it
+    if (is_of_yaw(candidate_terms[i]) == of_yaw && fit.suspect_gain[i] > kWorthATry) return true;
   }
   const auto drifts = [&](LogChannel channel) {
     const auto noise = fit.noise.find(channel);
@@ -171,20 +172,21 @@ Finding taken(const std::string& file, const FamilyFit& best, const LogFit& powe
           "a power law does not describe these logs: " + why};
 }
 
-/// A rival ahead of the family taken, though not plainly, under which a parameter is another.
+/// An alternative family that is better than the selected one, but not significantly, and changes a
+/// parameter.
 std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
-                                 const FamilyFit& rival) {
+                                 const FamilyFit& alternative) {
   constexpr double kApart = 2.0;
-  const double gain = aic_lead(rival.fit, best.fit);
-  const auto [apart, name] = largest_difference(best.fit, rival.fit);
-  if (!rival.fit.usable || !(gain > 0.0) || !(apart > kApart)) return std::nullopt;
+  const double gain = aic_lead(alternative.fit, best.fit);
+  const auto [apart, name] = largest_difference(best.fit, alternative.fit);
+  if (!alternative.fit.usable || !(gain > 0.0) || !(apart > kApart)) return std::nullopt;
   return Finding{
       file, 0, Severity::kWarning, "family-undecided",
       fmt::format("these logs do not decide between {} and {} (better by {:.1f} of AIC, "
                   "too little to take it): under it {} is {:.1f} standard errors away; the "
                   "intervals hold for {} only",
                   families_in_words(best.surge, best.yaw),
-                  families_in_words(rival.surge, rival.yaw), gain, name, apart,
+                  families_in_words(alternative.surge, alternative.yaw), gain, name, apart,
                   families_in_words(best.surge, best.yaw))};
 }
 
@@ -213,35 +215,36 @@ std::vector<Contender> contenders(const FamilyFit& first, bool of_yaw) {
 }
 
 /// Fits the contenders and leaves the best of them and of `result.best` there; the fit of the first
-/// families is the result. A rival that is ahead shows where these may have to be searched from.
+/// families is the result. A better alternative is a possible starting point for these.
 LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                const std::vector<Contender>& others, double lead, BestFamily& result) {
   FamilyFit first = std::move(result.best);
-  std::vector<FamilyFit> rivals;
+  std::vector<FamilyFit> alternatives;
   std::size_t best = 0;
   for (const Contender& other : others) {
     if (is_over(power_law)) {
       result.is_out_of_time = true;
       break;
     }
-    const FamilyFit& from = rivals.empty() ? first : rivals[best];
-    rivals.push_back(fit_from(logs, power_law, from, other.surge, other.yaw));
-    if (aic_lead(rivals.back().fit, rivals[best].fit) > 0.0) best = rivals.size() - 1;
+    const FamilyFit& from = alternatives.empty() ? first : alternatives[best];
+    alternatives.push_back(fit_from(logs, power_law, from, other.surge, other.yaw));
+    if (aic_lead(alternatives.back().fit, alternatives[best].fit) > 0.0)
+      best = alternatives.size() - 1;
   }
   if (result.is_out_of_time) result.findings.push_back(not_compared(logs.front().file, first));
-  if (rivals.empty()) {
+  if (alternatives.empty()) {
     result.best = std::move(first);
     return result.best.fit;
   }
-  first = searched_again(logs, power_law, std::move(first), rivals[best]);
+  first = searched_again(logs, power_law, std::move(first), alternatives[best]);
   const LogFit of_first = first.fit;
-  if (aic_lead(rivals[best].fit, first.fit) > lead) {
-    std::swap(first, rivals[best]);
-  } else if (const auto finding = undecided(logs.front().file, first, rivals[best])) {
+  if (aic_lead(alternatives[best].fit, first.fit) > lead) {
+    std::swap(first, alternatives[best]);
+  } else if (const auto finding = undecided(logs.front().file, first, alternatives[best])) {
     result.findings.push_back(*finding);
   }
   result.best = std::move(first);
-  for (FamilyFit& rival : rivals) result.others.push_back(std::move(rival));
+  for (FamilyFit& alternative : alternatives) result.others.push_back(std::move(alternative));
   return of_first;
 }
 
@@ -257,7 +260,7 @@ FamilyFit with_delays_of_its_own(const std::vector<DrivingLog>& logs,
   options.motor_lag_s = power_law.motor_lag_s;
   options.sensor_delays = power_law.sensor_delays;
   options.sensor_lags = power_law.sensor_lags;
-  options.suspects = power_law.suspects;
+  options.candidate_terms = power_law.candidate_terms;
   FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
   return aic_lead(own.fit, best.fit) > 0.0 ? std::move(own) : std::move(best);
 }
@@ -266,7 +269,7 @@ FamilyFit with_delays_of_its_own(const std::vector<DrivingLog>& logs,
 bool is_contested(const LogFitOptions& power_law, const FamilyFit& first,
                   const FamilyContest& contest, bool of_yaw) {
   if (!(of_yaw ? contest.yaw : contest.surge)) return false;
-  return !contest.only_suspects || suspicious(first.fit, power_law.suspects, of_yaw);
+  return !contest.only_suspects || suspicious(first.fit, power_law.candidate_terms, of_yaw);
 }
 
 }  // namespace
@@ -286,7 +289,7 @@ LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit) {
   options.initial_guess = fitted_values(fit.options, fit.fit);
   options.guessed.clear();
   options.also_from.clear();
-  options.suspects.clear();
+  options.candidate_terms.clear();
   options.finds_delays = false;
   return options;
 }
@@ -308,9 +311,9 @@ FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
 }
 
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                         FamilyFit first, const FamilyFit& rival) {
-  if (!(aic_lead(rival.fit, first.fit) > 0.0)) return first;
-  FamilyFit again = fit_from(logs, power_law, rival, first.surge, first.yaw);
+                         FamilyFit first, const FamilyFit& alternative) {
+  if (!(aic_lead(alternative.fit, first.fit) > 0.0)) return first;
+  FamilyFit again = fit_from(logs, power_law, alternative, first.surge, first.yaw);
   return aic_lead(again.fit, first.fit) > 0.0 ? std::move(again) : std::move(first);
 }
 
@@ -340,8 +343,8 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
   const bool surge = is_contested(power_law, first, contest, false);
   const bool yaw = is_contested(power_law, first, contest, true);
   // A wrong law of one axis leaves errors in the other, whose families are then slow to fit.
-  const bool yaw_first = largest_gain(first.fit, power_law.suspects, true) >
-                         largest_gain(first.fit, power_law.suspects, false);
+  const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
+                         largest_gain(first.fit, power_law.candidate_terms, false);
   LogFit power_fit = first.fit;
   const auto [first_surge, first_yaw] = std::pair(first.surge, first.yaw);
   BestFamily result;
@@ -354,7 +357,7 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
   }
   const bool other = result.best.surge != Family::kPower || result.best.yaw != Family::kPower;
   if (other) result.best = with_delays_of_its_own(logs, power_law, std::move(result.best));
-  if (other && aic_lead(result.best.fit, power_fit) > kPlainlyBetter) {
+  if (other && aic_lead(result.best.fit, power_fit) > kFamilyAicThreshold) {
     result.findings.push_back(taken(logs.front().file, result.best, power_fit));
   }
   return result;

@@ -32,17 +32,17 @@ FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& p
 FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const FamilyFit& inner, Family surge, Family yaw);
 
-/// `first`, or where `rival` is ahead of it and shows where to search from, what another search for
-/// the families of `first` finds there: no family is to win by another's bad luck.
+/// Returns `first`, or, if `alternative` is better, the result of another search for the families of
+/// `first` from its optimum: a family must not win because another search failed.
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                         FamilyFit first, const FamilyFit& rival);
+                         FamilyFit first, const FamilyFit& alternative);
 
-/// How families are compared.
+/// Options of the comparison of families.
 struct FamilyContest {
   bool surge = true;  ///< every family of surge resistance, otherwise power
   bool yaw = false;   ///< and of yaw resistance, given the best of surge
   double lead = 0.0;  ///< by which a family's AIC has to be below the power law's to be taken
-  bool only_suspects = true;  ///< where no term would help the power law, it stands uncontested
+  bool only_suspects = true;  ///< if no term improves the power law, it has no alternatives
 };
 
 struct BestFamily {
@@ -57,7 +57,7 @@ struct BestFamily {
 std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference);
 
-/// How many fits of other families best_family() makes, unless its limit ends them.
+/// Number of fits of other families that best_family() makes, unless it reaches its limit.
 std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
                             const FamilyContest& contest);
 

@@ -28,8 +28,8 @@ double unknown_from(const FreeQuantity& q) {
 /// In words, how little is known of a quantity; `std` is its standard error over its large change, which
 /// would be of use up to `unknown`.
 std::string how_open(double std, double unknown = kUnknown) {
-  if (!std::isfinite(std) || std > 1e3) return "nothing measured depends on it";
-  return fmt::format("its standard error is {:.2g} times what would be of use", std / unknown);
+  if (!std::isfinite(std) || std > 1e3) return "no measurement depends on it";
+  return fmt::format("its standard error is {:.2g} times the useful limit", std / unknown);
 }
 
 /// Says of every quantity with a part in an open direction (of length 1) why it is open.
@@ -45,7 +45,7 @@ void refuse_direction(const Eigen::VectorXd& direction, double std,
     names.push_back(quantities[at(i)].name());
   }
   const std::string why = names.size() == 1
-                              ? "these logs leave it open: " + how_open(std)
+                              ? "these logs do not determine it: " + how_open(std)
                               : fmt::format("these logs show only a combination of {}: {}",
                                             fmt::join(names, ", "), how_open(std));
   for (const std::size_t i : parts) why_not[i] = why;
@@ -115,8 +115,7 @@ void refuse_what_hangs_on(Eigen::Index stopped, const std::vector<FreeQuantity>&
     if (i == stopped || !found.why_not[at(i)].empty() || !(std::abs(correlation) > kHangs))
       continue;
     found.why_not[at(i)] = fmt::format(
-        "it hangs on {} (correlation {:.2f}), which the search left at the end of its "
-        "range",
+        "it depends on {} (correlation {:.2f}), which the search left at the end of its range",
         quantities[at(stopped)].name(), correlation);
   }
 }
@@ -166,7 +165,7 @@ Identifiability identifiability(const Eigen::MatrixXd& information, const Scores
     std::string& why_not = found.why_not[at(i)];
     const double unknown = unknown_from(quantities[at(i)]);
     if (why_not.empty() && std > unknown) {
-      why_not = "these logs leave it open: " + how_open(std, unknown);
+      why_not = "these logs do not determine it: " + how_open(std, unknown);
     }
   }
   return found;
@@ -187,7 +186,7 @@ Identifiability without_stopped(Identifiability found, const LogProblem& problem
     if (!factor || !exponent) continue;
     if (found.why_not[*factor].empty() || !found.why_not[*exponent].empty()) continue;
     found.why_not[*exponent] =
-        fmt::format("{} is open, and an exponent says nothing without it", info(alpha).name);
+        fmt::format("{} is not determined, and the exponent needs it", info(alpha).name);
   }
   return found;
 }

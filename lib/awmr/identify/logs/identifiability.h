@@ -16,8 +16,8 @@ namespace awmr {
 inline constexpr double kUnknown = 0.5;
 
 struct Identifiability {
-  /// n x n, of the coordinates. What is open has a large variance here and a part in the variance of
-  /// all that hangs on it: nothing is taken as known that the logs do not show.
+  /// n x n, of the coordinates. Non-identifiable coordinates have a large variance, which
+  /// propagates to all correlated coordinates.
   Eigen::MatrixXd covariance;
   std::vector<double> degrees_of_freedom;  ///< of the standard errors, by quantity
   std::vector<std::string> why_not;        ///< by quantity; empty where the logs show it
@@ -30,7 +30,7 @@ struct Identifiability {
   double widened() const { return factor.empty() ? 1.0 : std::ranges::max(factor); }
 };
 
-/// The covariance from the information H (n x n) and, as a judge of its noise model, the scores s_b
+/// The covariance from the information H (n x n) and, as a check of its noise model, the scores s_b
 /// of m parts of the logs. With coordinates over their large changes and a weak prior P,
 ///
 ///     C = (H + P)^-1,   V = m/(m - 1) C (sum s_b s_b^T) C,   covariance = D C D,
@@ -43,9 +43,8 @@ struct Identifiability {
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities);
 
-/// Refuses a coordinate that the search left at an end of its range: it was stopped there, not found.
-/// What is correlated with it hangs on it and is refused too; and an exponent without its factor says
-/// nothing.
+/// Refuses a coordinate that the search left at an end of its range: it was stopped there, not
+/// found. Coordinates correlated with it are refused too, and an exponent without its factor.
 Identifiability without_stopped(Identifiability found, const LogProblem& problem,
                                 const std::vector<double>& coordinates);
 

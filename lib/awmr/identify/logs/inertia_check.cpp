@@ -46,7 +46,8 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
   if (mass == nullptr) {
     return stage.reasons.contains(ParameterId::kMassNorm) &&
                    std::ranges::none_of(logs, pushes_apart)
-               ? "m' is open, and only the steering turned the vehicle: with it I'z is open too"
+               ? "m' is not determined and only the steering turned the vehicle, so I'z is not "
+                 "determined either"
                : "";
   }
   if (!inertia->ci95 || !mass->ci95) return {};

@@ -19,8 +19,8 @@ struct FitEvidence {
 };
 FitEvidence fit_evidence(const std::vector<WindowSums>& sums, Eigen::Index n);
 
-/// The scores of parts b of the logs (n: g_t - J_t^T J_s (J_s^T J_s)^-1 g_s of the gradients g = J_b^T r_b).
-/// How they scatter tells how much the fit can be off, whatever the noise is.
+/// The scores of parts b of the logs (n: g_t - J_t^T J_s (J_s^T J_s)^-1 g_s of the gradients g =
+/// J_b^T r_b). Their scatter gives the possible error of the fit, whatever the noise is.
 struct Scores {
   std::vector<Eigen::VectorXd> blocks;  ///< of some seconds within a window
   std::vector<Eigen::VectorXd> logs;    ///< of whole logs: the sums of their blocks

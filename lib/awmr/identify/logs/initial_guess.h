@@ -1,4 +1,4 @@
-/// Where a fit of logs begins when nothing else is known. Private to identify/.
+/// Initial guess of a log fit without other trials. Private to identify/.
 #pragma once
 
 #include <vector>

@@ -81,8 +81,8 @@ void add_product(double share, const Vector3& a, const Vector3& b, std::array<Ve
   }
 }
 
-/// What back-EMF takes from the wheels that are driven. A wheel rolls at w = J (u, v, r) and pushes
-/// with J^T F', and each loses k_e w of its force:
+/// Adds the back-EMF of the driven wheels. A wheel rolls at w = J (u, v, r) and pushes with J^T F',
+/// and each loses k_e w of its force:
 ///     (X, Y, N) -= k_e D (u, v, r),   D = sum J^T J over the wheels whose motor is on
 ///     J_rear = (1, 0, -+d),   J_front = (cos d_r, sin d_r, l_f sin d_r -+ d cos d_r)
 struct Braking {
@@ -190,7 +190,7 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
   const Plant<double>& p = plant.plant;
   const double sin_d = std::sin(s.steering_rad);
   const double cos_d = std::cos(s.steering_rad);
-  const double reach = cos_d + p.rear_driven;  // of the sides' forces: front and rear wheel
+  const double reach = cos_d + p.rear_driven;  // of left and right forces: front and rear wheel
   const WheelForce left = wheel_force(command.force.left, p.wheel_dead_zone);
   const WheelForce right = wheel_force(command.force.right, p.wheel_dead_zone);
   const double sum = left.value + right.value;
@@ -256,7 +256,7 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
 
 namespace {
 
-/// Of one rate: w_dot -= s c/inertia. `inertia` is m' or I'z.
+/// Coulomb friction of one rate: w_dot -= s c/inertia. `inertia` is m' or I'z.
 template <double DrivenSlopes::*kRate>
 void brake(double way, double friction, double per_inertia, ParameterId coulomb,
            ParameterId inertia, double& rate, LinearRates& out) {

@@ -1,7 +1,8 @@
 /// The rates of the state with their partial derivatives. Private to identify/.
 ///
-/// The equations are those of model/dynamics.h for two side forces; here they are differentiated by
-/// hand, which costs a tenth of what a number with derivatives costs. A test holds both together.
+/// The equations are those of model/dynamics.h for left and right wheel forces; here they are
+/// differentiated by hand, which costs a tenth of what a number with derivatives costs. A test
+/// holds both together.
 #pragma once
 
 #include <algorithm>
@@ -41,10 +42,10 @@ class LinearResistance {
   ResistanceSlopes at_rest_speed_;
 };
 
-/// The plant whose rates are asked for again and again, with the reciprocals that they need. Coulomb
-/// friction is no part of its rates: add_friction().
+/// A plant with precomputed reciprocals for repeated evaluation of its rates. Coulomb friction is
+/// no part of its rates: add_friction().
 struct LinearPlant {
-  /// `by_back_emf`: its derivatives are asked for, even where the motors have none. `longest_step_s`: of
+  /// `by_back_emf`: its derivatives are computed even if the motors have none. `longest_step_s`: of
   /// the Runge-Kutta steps to come; 0: short enough for sway.
   explicit LinearPlant(const Plant<double>& p, bool by_back_emf = false,
                        double longest_step_s = 0.0)
@@ -69,7 +70,7 @@ struct LinearPlant {
   bool has_back_emf;
 };
 
-/// What drives the vehicle at a moment.
+/// Forces and steering at a moment.
 struct HeldCommand {
   SideForces<double> force{};
   double steering_rad = 0.0;

@@ -99,14 +99,14 @@ double* LinearMotion::row(LogChannel channel, std::size_t columns) {
 
 LinearStepper::LinearStepper(const Plant<double>& plant, std::size_t columns,
                              const std::vector<ParameterColumn>& parameters,
-                             const LateColumns& late, double longest_step_s)
+                             const LateColumns& latency, double longest_step_s)
     : plant_(
           plant,
           std::ranges::any_of(
               parameters, [](const ParameterColumn& p) { return p.id == ParameterId::kBackEmf; }),
           longest_step_s),
       columns_(columns),
-      late_(late),
+      late_(latency),
       driven_(kStages * kDrivenSize * columns, 0.0) {
   if (columns == 0) return;
   for (const ParameterColumn& p : parameters) {

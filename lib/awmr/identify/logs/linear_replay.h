@@ -13,8 +13,8 @@
 
 namespace awmr {
 
-/// The state at a moment and its derivatives by the columns of a fit, [kStateSize][columns]; none of
-/// them where only the state is asked for.
+/// The state at a moment and its derivatives by the columns of a fit, [kStateSize][columns]; none
+/// if only the state is requested.
 struct LinearMotion {
   State<double> state{};
   std::vector<double> by_column;
@@ -36,13 +36,13 @@ struct DelayColumn {
   std::size_t column;
 };
 
-/// How the logged commands reach the wheels: at once, after delays, or through motors that lag.
+/// Path of the logged commands to the wheels: direct, delayed, or through motor lag.
 struct CommandPath {
-  std::optional<DelayColumn> delay = {};  ///< of all commands; negative: they were logged late
+  std::optional<DelayColumn> delay = {};  ///< of all commands; negative: their time stamps are late
   std::optional<DelayColumn> steering_delay = {};  ///< of the steering, on top of that
   std::optional<LaggedForces> lag = {};
   std::optional<std::size_t> lag_column = {};  ///< where the lag is free
-  /// A motor is off as soon as its command is 0, whatever its lag: as of motors with back-EMF.
+  /// A motor is off as soon as its command is 0, whatever its lag, like motors with back-EMF.
   bool switches_off = false;
 };
 
@@ -65,13 +65,13 @@ struct DelayedCommand {
 /// Moves the state and its derivatives on.
 class LinearStepper {
  public:
-  /// `columns`: 0 for the state alone. `late`: of the command path. `longest_step_s`: of LinearPlant.
+  /// `columns`: 0 for the state alone. `latency`: of the command path. `longest_step_s`: of LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
-                const std::vector<ParameterColumn>& parameters, const LateColumns& late,
+                const std::vector<ParameterColumn>& parameters, const LateColumns& latency,
                 double longest_step_s = 0.0);
   /// One classical Runge-Kutta step of h seconds with friction, as rk4_step_with_friction().
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
-  /// One step along the rates where it stands, which are returned; h of either sign.
+  /// Makes one step along the rates at the present state, which are returned; h of either sign.
   State<double> step_along_tangent(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// The state's rates there.
   State<double> rates(const DelayedCommand& command, LinearMotion& motion);
@@ -97,7 +97,7 @@ class LinearStepper {
   State<double> state_after(const DelayedCommand& command, double h_s, const State<double>& from);
   /// Moves the state to `next`, that of the last state_after(), and its derivatives with it.
   void move_to(const State<double>& next, double h_s, LinearMotion& motion);
-  /// Takes a speed that has come to 0 to rest, or on the other way.
+  /// Keeps a speed that has reached 0 at rest, or continues in the other direction.
   void stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion);
 
   LinearPlant plant_;
@@ -123,7 +123,7 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
   const DrivingLog& log = *signals.log;
   const bool servo = log.steering_command_rad.has_value();
   const std::size_t columns = stepper.columns();
-  // A logged angle is what it is, whatever the parameters are.
+  // A logged angle does not depend on the parameters.
   const auto steer = [&](std::size_t row, double share) {
     const std::vector<double>& angle = log[LogChannel::kSteering]->value;
     motion.state.steering_rad =

@@ -24,8 +24,8 @@ namespace {
 /// samples, the last step is shorter than a hundredth of a standard error.
 constexpr double kFine = 1e-9;
 
-/// So many of the places that the rough searches ended at are tried, until the logs can be replayed
-/// where the fit from there ends.
+/// Maximum number of optima of the rough searches to refine, until the logs can be replayed at the
+/// refined one.
 constexpr std::size_t kTries = 3;
 
 LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
@@ -35,12 +35,12 @@ LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
   return fit;
 }
 
-/// By how much -2 ln L would fall with each suspect free.
+/// Score-test estimate of the decrease of -2 ln L with each candidate term free.
 std::vector<double> suspect_gains(const LogProblem& problem, const SearchPoint& point,
-                                  const std::vector<ParameterId>& suspects) {
+                                  const std::vector<ParameterId>& candidate_terms) {
   std::vector<FreeQuantity> terms;
-  terms.reserve(suspects.size());
-  for (const ParameterId id : suspects) terms.push_back(free_parameter(id));
+  terms.reserve(candidate_terms.size());
+  for (const ParameterId id : candidate_terms) terms.push_back(free_parameter(id));
   std::vector<double> gains;
   for (const ScoreTest& test : score_test(problem, point, terms)) {
     // A term is not negative: where it would have to be, it brings nothing.
@@ -49,7 +49,7 @@ std::vector<double> suspect_gains(const LogProblem& problem, const SearchPoint& 
   return gains;
 }
 
-/// What a search that ended at `solved` amounts to; `sums` are those there, all finite.
+/// Makes the result of a search that ended at `solved`; `sums` are those there, all finite.
 LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector<WindowSums>& sums,
               const LogFitOptions& options) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
@@ -67,7 +67,7 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .why_not = found.why_not,
           .noise = problem.model.noise,
           .errors = errors_by_channel(problem, errors_at(problem, solved.point), options.loss),
-          .suspect_gain = suspect_gains(problem, solved.point, options.suspects),
+          .suspect_gain = suspect_gains(problem, solved.point, options.candidate_terms),
           .widened = found.widened(),
           .report = log_report({problem, solved, found, bootstrap95}),
           .usable = solved.usable && solved.converged};
@@ -94,7 +94,7 @@ std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
   const LogProblem guess = log_problem(logs, options);
   if (guess.windows.empty() || guess.initial.empty()) {
-    return without_solution("nothing measured, or nothing asked for", {});
+    return without_solution("no measurements, or no parameters requested", {});
   }
   int readings = 0;
   for (const auto& [channel, noise] : guess.model.noise) readings += noise.count;
@@ -108,8 +108,7 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   }
   Multistart search = multistart(guess, options);
   if (search.ends.empty()) {
-    return without_solution("no start led anywhere: every one left the finite numbers",
-                            search.starts);
+    return without_solution("all initial guesses diverged (non-finite residuals)", search.starts);
   }
   std::optional<LogFit> fit;
   for (std::size_t i = 0; i < std::min(kTries, search.ends.size()) && !fit; ++i) {

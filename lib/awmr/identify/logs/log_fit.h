@@ -17,12 +17,12 @@ namespace awmr {
 
 struct LogFit {
   std::vector<FreeQuantity> quantities;
-  std::vector<double> coordinates;   ///< by quantity
-  Eigen::MatrixXd covariance;        ///< of the coordinates; what is open has a large variance
+  std::vector<double> coordinates;  ///< by quantity
+  Eigen::MatrixXd covariance;  ///< of the coordinates; non-identifiable ones have a large variance
   std::vector<std::string> why_not;  ///< by quantity; empty where the logs show it
   NoiseLevels noise;
   ErrorsByChannel errors;  ///< raw, at the optimum
-  /// By suspect of the options: by how much -2 ln L would fall with the term free (a score test).
+  /// By candidate term of the options: decrease of -2 ln L with the term free (score test).
   std::vector<double> suspect_gain;
   double widened = 1.0;    ///< largest of Identifiability's factors
   EstimatorReport report;  ///< parameters by quantity

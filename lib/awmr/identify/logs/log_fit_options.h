@@ -1,4 +1,4 @@
-/// What a caller of fit_logs() can ask for. Private to identify/.
+/// Options of fit_logs(). Private to identify/.
 #pragma once
 
 #include <algorithm>
@@ -15,14 +15,14 @@
 
 namespace awmr {
 
-/// A channel that is read late: what it shows at t was so at t - delay_s.
+/// A channel with latency: its reading at t is the value at t - delay_s.
 struct SensorDelay {
   LogChannel channel = LogChannel::kSpeed;  ///< kX: the position
   double delay_s = 0.0;
 };
 
-/// Work of all searches of one identification: numbers integrated, each state and each derivative at
-/// each step. Unlike a time, it is the same on every machine, whatever else that does.
+/// Work of all searches of one identification: numbers integrated, each state and each derivative
+/// at each step. Unlike a time, it does not depend on the machine or its load.
 class Effort {
  public:
   explicit Effort(std::int64_t limit) : limit_(limit) {}
@@ -45,8 +45,8 @@ struct LogFitOptions {
   std::vector<ParameterId> guessed;
   std::vector<ParameterId> free;
   /// Terms held at 0 whose worth the fit estimates without freeing them.
-  std::vector<ParameterId> suspects;
-  /// A delay of all commands is free, with where the search begins; negative: they were logged late.
+  std::vector<ParameterId> candidate_terms;
+  /// A delay of all commands is free, with its initial guess; negative: their time stamps are late.
   std::optional<double> input_delay_s;
   /// A delay of the steering on top of that is free, with where the search begins, s >= 0.
   std::optional<double> steering_delay_s;
@@ -59,11 +59,11 @@ struct LogFitOptions {
   /// Time constants of filters that smooth a channel, in the same way.
   std::vector<SensorDelay> sensor_lags;
   bool finds_delays = true;  ///< the fit adds the delays and the lag that its residuals show
-  /// Further places to search from, beside the initial guess: the optimum of a family inside this one.
+  /// Further initial guesses: the optimum of a family inside this one.
   std::vector<ParameterValues<double>> also_from;
   Loss loss = Loss::kSquared;  ///< a robust one where a sensor has outliers
   std::uint64_t seed = 1;      ///< of the multistart and of the bootstrap
-  int multistart = 6;          ///< random initial guesses beside the given one
+  int multistart = 6;          ///< random initial guesses in addition to the given one
   int bootstrap = 0;           ///< resamples of the block bootstrap; 0: none
   int threads = 0;             ///< 0: every core; the result does not depend on it
   /// Counts the work of the searches; once it is over, no further model is tried. Absent: no limit.

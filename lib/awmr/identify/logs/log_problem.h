@@ -18,7 +18,7 @@ inline constexpr double kPriorStd = 5.0;
 ///
 ///     (x_i - initial_i) / (kPriorStd large_change_i)
 ///
-/// so weak that data of any use outweigh it, and what no data show stays put.
+/// so weak that informative data outweigh it, while coordinates without data keep their guess.
 struct LogProblem {
   LogModel model;
   std::vector<FitWindow> windows;
@@ -52,8 +52,7 @@ LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions&
 /// The coordinates with every window's initial state as it was measured.
 SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates);
 
-/// Searches from the initial guesses only have to tell good ones from bad ones: they integrate with
-/// steps that are longer by this factor.
+/// Searches that only rank the initial guesses integrate with steps longer by this factor.
 inline constexpr double kRoughStep = 2.0;
 
 /// The errors and the sums of every window, in parallel, each on its own, so that the result does not

@@ -9,12 +9,12 @@
 
 namespace awmr {
 
-/// What the report is made of.
+/// Input of the report.
 struct LogReportInput {
   const LogProblem& problem;
   const Solved& solved;
   const Identifiability& found;
-  const std::vector<Interval>& bootstrap95;  ///< of the value, by quantity; empty: not asked for
+  const std::vector<Interval>& bootstrap95;  ///< of the value, by quantity; empty: not requested
 };
 
 /// Values of all quantities, errors of those that the logs show, and tests whether the standardised

@@ -43,7 +43,7 @@ bool any_has(const std::vector<DrivingLog>& logs, std::initializer_list<LogChann
   });
 }
 
-/// Whether the servo is told to go anywhere.
+/// Whether the steering command ever changes.
 bool moves_steering(const DrivingLog& log) {
   constexpr double kLittle_rad = 1e-3;
   if (!log.steering_command_rad) return false;
@@ -58,7 +58,7 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
     case ParameterId::kSteeringTimeConstant: {
       const bool any_servo = std::ranges::any_of(
           logs, [](const DrivingLog& log) { return log.steering_command_rad.has_value(); });
-      if (!any_servo) return "the logs hold the steering angle as it was, not its command";
+      if (!any_servo) return "the logs contain the measured steering angle, not its command";
       return std::ranges::any_of(logs, moves_steering) ? "" : "the steering command never changes";
     }
     case ParameterId::kSurgeAlpha:
@@ -85,7 +85,7 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
   }
 }
 
-/// Whether the vehicle is told to turn anywhere in the logs.
+/// Whether any command of the logs turns the vehicle.
 bool turns(const std::vector<DrivingLog>& logs) {
   constexpr double kMuch_rad = 0.01;
   return std::ranges::any_of(logs, [](const DrivingLog& log) {
@@ -95,8 +95,8 @@ bool turns(const std::vector<DrivingLog>& logs) {
   });
 }
 
-/// Channels with an offset: those asked for, a yaw rate whose bias the heading shows, and a heading that the
-/// course over ground shows to be turned.
+/// Channels with an offset: the requested ones, a yaw rate whose bias the heading shows, and a
+/// heading that the course over ground shows to be turned.
 std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
                                         std::vector<LogChannel> asked) {
   const auto add = [&](LogChannel channel, bool is_biased) {
@@ -125,9 +125,9 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
   LogFitOptions fit;
   fit.vehicle = vehicle;
   if (options.fit_input_delay) fit.input_delay_s = 0.0;
-  fit.suspects = {ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic,
-                  ParameterId::kWheelDeadZone, ParameterId::kYawCoulomb,
-                  ParameterId::kYawQuadratic};
+  fit.candidate_terms = {ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic,
+                         ParameterId::kWheelDeadZone, ParameterId::kYawCoulomb,
+                         ParameterId::kYawQuadratic};
   fit.biases = biased_channels(logs, options.biases);
   fit.loss = options.loss;
   fit.seed = options.seed;
@@ -143,7 +143,7 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
   return fit;
 }
 
-/// Frees the parameters that are asked for or have no value; these have to be guessed. Reasons: of
+/// Frees the parameters that are requested or have no value; these have to be guessed. Reasons: of
 /// those that the logs cannot show.
 void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
                      const std::vector<ParameterId>& asked, const Model& model,
@@ -165,8 +165,8 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
   if (frees_back_emf(fit)) fit = with_back_emf(std::move(fit));
 }
 
-/// Back-EMF is looked for where nobody speaks of it, nor of what to fit, and no table has put what it
-/// takes into the resistance already.
+/// Whether to test for back-EMF: it is neither given nor requested, no parameters were requested,
+/// and no table fit has absorbed it into the resistance.
 bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                         const IdentifyOptions& options, const Model& model) {
   return options.asked.empty() && !vehicle.back_emf_s_per_m &&
@@ -178,11 +178,11 @@ bool is_open(const FamilyChoice& choice) {
   return !choice.family || (!choice.asked && choice.family == Family::kPower);
 }
 
-void tell(const IdentifyOptions& options, std::string_view what) {
+void report(const IdentifyOptions& options, std::string_view what) {
   if (options.doing) options.doing(what);
 }
 
-/// The families that were asked for, or the best ones.
+/// Returns the requested families, or the best ones.
 struct Chosen {
   BestFamily found;
   bool may_have_back_emf = false;  ///< by the fit of the first family
@@ -200,8 +200,8 @@ void announce(const IdentifyOptions& options, double numbers, const std::string&
       about_s, option_text("from S")));
 }
 
-/// Of the first fit: an evaluation integrates each row in a step or more, the state and a derivative by
-/// each free number and initial component.
+/// Work of the first fit: an evaluation integrates each row in a step or more, the state and a
+/// derivative by each free number and initial component.
 double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
   constexpr double kEvaluations = 40.0;
   constexpr double kStepsOfRow = 2.0;
@@ -218,47 +218,47 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   const FamilyChoice& yaw = options.yaw_family;
   const bool surge_open = is_open(surge);
   const bool yaw_open = is_open(yaw) && contains(power_law.free, ParameterId::kYawAlpha);
-  tell(options, "fitting the logs");
+  report(options, "fitting the logs");
   announce(options, numbers_of_first_fit(logs, power_law), "fitting logs of this length");
   Chosen chosen{{.best = fit_family(logs, power_law, surge.family.value_or(Family::kPower),
                                     yaw.family.value_or(Family::kPower)),
                  .others = {},
                  .findings = {}}};
-  chosen.may_have_back_emf = suspects_back_emf(chosen.found.best.fit, power_law.suspects);
+  chosen.may_have_back_emf = suspects_back_emf(chosen.found.best.fit, power_law.candidate_terms);
   if (!surge_open && !yaw_open) return chosen;
-  // Where nobody asked, another family than the paper's has to be plainly better.
-  tell(options, "trying families of resistance");
+  // Without a request, another family has to be significantly better than the paper's.
+  report(options, "trying families of resistance");
   const bool somebody_asked = !surge.family || !yaw.family;
   const FamilyContest contest{.surge = surge_open,
                               .yaw = yaw_open,
-                              .lead = somebody_asked ? 0.0 : kPlainlyBetter,
+                              .lead = somebody_asked ? 0.0 : kFamilyAicThreshold,
                               .only_suspects = !somebody_asked};
   const auto contenders =
       static_cast<double>(contender_count(power_law, chosen.found.best, contest));
   announce(options,
            std::min(contenders * static_cast<double>(power_law.effort->spent()),
                     static_cast<double>(power_law.effort->left())),
-           "comparing other families of resistance, as the first one leaves errors,");
+           "comparing other families of resistance, as the first one fits poorly,");
   chosen.found = best_family(logs, power_law, std::move(chosen.found.best), contest);
   return chosen;
 }
 
-/// The best families with back-EMF where those without, in `ideal`, are plainly better with it; what
-/// was not taken is reported.
+/// Refits the best families of `ideal` with back-EMF and keeps the result if it is significantly
+/// better. The rejected fit is reported.
 BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
                             const IdentifyOptions& options, BestFamily ideal) {
-  tell(options, "trying back-EMF of the motors");
+  report(options, "trying back-EMF of the motors");
   LogFitOptions freed = with_back_emf(power_law);
-  std::erase(freed.suspects, ParameterId::kBackEmf);
+  std::erase(freed.candidate_terms, ParameterId::kBackEmf);
   const FamilyFit same = fit_from(logs, freed, ideal.best, ideal.best.surge, ideal.best.yaw);
   if (shows_back_emf(same, ideal.best)) {
     ideal.best = searched_again(logs, power_law, std::move(ideal.best), same);
   }
   if (!shows_back_emf(same, ideal.best)) {
     if (!same.fit.usable) {
-      ideal.findings.push_back({logs.front().file, 0, Severity::kWarning, "families-not-compared",
-                                "these logs were not held against motors with back-EMF: " +
-                                    same.fit.report.stop_reason});
+      ideal.findings.push_back(
+          {logs.front().file, 0, Severity::kWarning, "families-not-compared",
+           "the back-EMF model was not compared on these logs: " + same.fit.report.stop_reason});
     }
     ideal.others.push_back(same);
     return ideal;
@@ -271,8 +271,8 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
   return braked;
 }
 
-/// The families that were asked for, or the best ones, and back-EMF where the logs show it. Also fits
-/// what is reported only: rivals.
+/// Fits the requested or the best families, with back-EMF if the logs show it. Also fits the
+/// alternatives for the report.
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                        const IdentifyOptions& options, LogStage& stage) {
   const FamilyChoice& surge = options.surge_family;
@@ -287,10 +287,10 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   stage.chosen_report = stage.reports.size();
   stage.reports.push_back(chosen.fit.report);
   append(stage.findings, autocorrelation_findings(chosen.fit, logs.front().file));
-  tell(options, "judging the fit");
+  report(options, "checking the fit");
   const bool try_families = surge.asked && surge.family == Family::kPower;
   const Adequacy adequacy = judge_adequacy(logs, power_law, chosen, try_families);
-  append(stage.reports, adequacy.rivals);
+  append(stage.reports, adequacy.alternatives);
   append(stage.findings, adequacy.findings);
   stage.withdraws_intervals = adequacy.withdraws_intervals || found.is_out_of_time;
   return chosen;
@@ -325,48 +325,48 @@ std::vector<FoundDelay> found_delays(const LogFit& fit, FreeQuantity::Kind kind)
   return found;
 }
 
-/// The commands act late, by a dead time or by motors that lag, or were logged late. Or two or more
-/// channels that show the motion at once are all late: a cause that they share.
+/// Reports latency of the commands (dead time or motor lag) or of their time stamps, or equal
+/// latency of two or more motion channels, which has a common cause.
 std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWhy =
-      "motors that lag, commands that arrive late or pass a ramp before they arrive. m', I'z and "
-      "the "
-      "sway resistance may take a part of it. Log what reaches the motors, or record slower steps";
+      "actuator lag, command latency or a slew-rate limit. m', I'z and the sway resistance may be "
+      "biased. Log the commands that reach the motors, or record slower steps";
   for (const FoundDelay& lag : found_delays(fit, FreeQuantity::Kind::kMotorLag)) {
     return {
         {file, 0, Severity::kWarning, "actuator-lag",
-         fmt::format("the motors lag by a time constant of {:.3f} +- {:.3f} s; the fit allows for "
-                     "it. Give it to the simulator (motor.time_constant_s in the vehicle file)",
+         fmt::format("the motors have a lag with a time constant of {:.3f} +- {:.3f} s; the fit "
+                     "compensates. Set motor.time_constant_s in the vehicle file",
                      lag.value_s, lag.error_s)}};
   }
   for (const FoundDelay& input : found_delays(fit, FreeQuantity::Kind::kDelay)) {
     if (input.value_s < 0.0) {
       return {{file, 0, Severity::kWarning, "late-commands",
-               fmt::format("the vehicle answers {:.3f} +- {:.3f} s before its commands: they were "
-                           "logged late, or all sensors early; the fit allows for it",
+               fmt::format("the vehicle responds {:.3f} +- {:.3f} s before its commands: the "
+                           "commands' time stamps are late, or all sensors' are early; the fit "
+                           "compensates",
                            -input.value_s, input.error_s)}};
     }
     return {
         {file, 0, Severity::kWarning, "actuator-lag",
-         fmt::format("the vehicle answers {:.3f} +- {:.3f} s after its commands, rather by a dead "
-                     "time than by motors that lag; the fit allows for it, a controller has to "
-                     "as well",
+         fmt::format("the vehicle responds {:.3f} +- {:.3f} s after its commands, more likely by a "
+                     "dead time than by motor lag; the fit compensates, a controller has to allow "
+                     "for it",
                      input.value_s, input.error_s)}};
   }
-  const std::vector<FoundDelay> late = found_delays(fit, FreeQuantity::Kind::kSensorDelay);
+  const std::vector<FoundDelay> latency = found_delays(fit, FreeQuantity::Kind::kSensorDelay);
   std::set<LogChannel> channels;
   for (const auto& [channel, noise] : fit.noise) {
     channels.insert(channel == LogChannel::kY ? LogChannel::kX : channel);
   }
-  if (channels.size() < 2 || late.size() < channels.size()) return {};
-  const auto [least, most] = std::ranges::minmax(late, {}, &FoundDelay::value_s);
+  if (channels.size() < 2 || latency.size() < channels.size()) return {};
+  const auto [least, most] = std::ranges::minmax(latency, {}, &FoundDelay::value_s);
   return {{file, 0, Severity::kWarning, "actuator-lag",
-           fmt::format("every sensor seems late, by {:.3f} to {:.3f} s, which is rather one cause "
-                       "than many: {}",
+           fmt::format("all sensors appear delayed by {:.3f} to {:.3f} s, which indicates a common "
+                       "cause: {}",
                        least.value_s, most.value_s, kWhy)}};
 }
 
-/// `sensor-delay` for every sensor that the fit found late.
+/// `sensor-delay` for every sensor with an estimated latency.
 std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const auto& [quantity, value_s, error_s] :
@@ -375,8 +375,8 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
     findings.push_back(
         {file, 0, Severity::kWarning, "sensor-delay",
          fmt::format(
-             "{} {} late by {:.3f} +- {:.3f} s against the commands; the fit allows for it, a "
-             "controller that reads it has to as well",
+             "{} {} delayed by {:.3f} +- {:.3f} s relative to the commands; the fit compensates, a "
+             "controller that uses it has to allow for it",
              channel == LogChannel::kX ? "the position" : info(channel).name,
              channel == LogChannel::kX ? "comes" : "is read", value_s, error_s)});
   }
@@ -384,10 +384,9 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
        found_delays(fit, FreeQuantity::Kind::kSensorLag)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "sensor-lag",
-         fmt::format(
-             "{} is smoothed by a filter with a time constant of {:.3f} +- {:.3f} s; the fit "
-             "allows for it. Log the unfiltered reading, or make the filter faster",
-             info(quantity.channel).name, value_s, error_s)});
+         fmt::format("{} is low-pass filtered with a time constant of {:.3f} +- {:.3f} s; the fit "
+                     "compensates. Log the unfiltered reading, or make the filter faster",
+                     info(quantity.channel).name, value_s, error_s)});
   }
   return findings;
 }
@@ -395,14 +394,14 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
 /// `steering-delay`: the steering acts later than the forces, by more than the servo's lag.
 std::vector<Finding> steering_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
-  for (const FoundDelay& late : found_delays(fit, FreeQuantity::Kind::kSteeringDelay)) {
+  for (const FoundDelay& latency : found_delays(fit, FreeQuantity::Kind::kSteeringDelay)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "steering-delay",
          fmt::format(
-             "the steering begins to move {:.3f} +- {:.3f} s after its command, in addition "
-             "to the servo's time constant; the fit allows for it. Shorten the servo's frame "
-             "or its bus cycle, or tune with that much more latency",
-             late.value_s, late.error_s)});
+             "the steering begins to move {:.3f} +- {:.3f} s after its command, in addition to the "
+             "servo's time constant; the fit compensates. Shorten the servo's frame or bus cycle, "
+             "or add that latency in tuning",
+             latency.value_s, latency.error_s)});
   }
   return findings;
 }
@@ -418,9 +417,8 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements)
     findings.push_back(
         {one.files.front(), 0, Severity::kWarning, "logs-disagree",
          fmt::format(
-             "the logs disagree on {}: {} (p = {:.2g} for one vehicle, surface and battery); "
-             "its interval is widened to hold for the mean of such logs, not for any one of "
-             "them",
+             "the logs disagree on {}: {} (p = {:.2g} for one vehicle, surface and battery); its "
+             "interval is widened and covers the mean over such logs, not an individual log",
              one.name, each, one.p_value)});
   }
   return findings;
@@ -469,9 +467,9 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
   }
 }
 
-/// `speed-controlled`, a warning: resistance that is linear in surge and yaw, and in yaw by d^2 of that in
-/// surge, is what every wheel by itself makes of its command: the drag of its motor, or a loop that holds its
-/// speed at a set-point which stands in the place of the force.
+/// `speed-controlled`, a warning: resistance that is linear in surge and yaw, and in yaw by d^2 of
+/// that in surge, is what every wheel by itself makes of its command: the drag of its motor, or a
+/// speed loop whose set-point was logged instead of the force.
 ///
 ///     tau_speed = a1 u,   tau_turn = a3 r = d^2 a1 r
 std::vector<Finding> speed_findings(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
@@ -522,10 +520,10 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   free_parameters(power_law, logs, asked, model, stage.reasons);
   AWMR_RETURN_IF_ERROR(check_replay(plant_of(vehicle, power_law.initial_guess), logs.front().file));
   if (looks_for_back_emf(vehicle, logs, options, model)) {
-    power_law.suspects.push_back(ParameterId::kBackEmf);
+    power_law.candidate_terms.push_back(ParameterId::kBackEmf);
   }
   FamilyFit chosen = fit_families(logs, power_law, options, stage);
-  tell(options, "comparing the logs with each other");
+  report(options, "comparing the logs with each other");
   const LogComparison compared = compare_logs(logs, chosen);
   append(stage.findings, in_words(compared.disagreements));
   if (compared.missed) {
@@ -543,7 +541,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   append(stage.findings, speed_findings(vehicle, logs, stage));
   check_inertia(vehicle, logs, model, stage);
   if (options.cross_validate && logs.size() > 1) {
-    tell(options, "predicting each log from the others");
+    report(options, "predicting each log from the others");
     const CrossValidation held_out = leave_one_log_out(logs, from_optimum(chosen.options, chosen));
     append(stage.reports[stage.chosen_report].leave_one_out, held_out.leave_one_out);
     append(stage.findings, held_out.findings);

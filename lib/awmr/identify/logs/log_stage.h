@@ -1,5 +1,5 @@
-/// What driving logs add to a model: which parameters they fill, and what they say of those that
-/// other trials filled. Private to identify/.
+/// Fit of driving logs into a model: the parameters that they fill, and the comparison with those
+/// of other trials. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>

@@ -18,8 +18,7 @@ std::vector<FitWindow> spread(const std::vector<FitWindow>& windows, std::size_t
   return some;
 }
 
-/// At most half a minute, spread over all logs: enough to tell a good initial guess from a bad one.
-/// Steps are long.
+/// At most half a minute, spread over all logs: enough to rank the initial guesses. Steps are long.
 LogProblem rough_problem(const LogProblem& problem) {
   constexpr std::size_t kParts = 12;
   constexpr double kPart_s = 2.5;
@@ -89,15 +88,15 @@ Multistart multistart(const LogProblem& problem, const LogFitOptions& options) {
     solved[i] = solve(rough, from_measured(rough, from[i]), kRough);
   });
   Multistart result;
-  std::vector<std::size_t> led;  // somewhere
+  std::vector<std::size_t> converged;  // somewhere
   for (std::size_t i = 0; i < from.size(); ++i) {
     result.starts.push_back({values_at(quantities, from[i]), solved[i].cost, false,
                              solved[i].stop_reason.substr(0, kReasonLength)});
-    if (solved[i].usable) led.push_back(i);
+    if (solved[i].usable) converged.push_back(i);
   }
-  std::ranges::stable_sort(led, {}, [&](std::size_t i) { return solved[i].cost; });
-  for (const std::size_t i : led) result.ends.push_back(solved[i].point.coordinates);
-  if (!led.empty()) result.starts[led.front()].chosen = true;
+  std::ranges::stable_sort(converged, {}, [&](std::size_t i) { return solved[i].cost; });
+  for (const std::size_t i : converged) result.ends.push_back(solved[i].point.coordinates);
+  if (!converged.empty()) result.starts[converged.front()].chosen = true;
   return result;
 }
 

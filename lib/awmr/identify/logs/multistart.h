@@ -9,15 +9,15 @@
 namespace awmr {
 
 struct Multistart {
-  /// Coordinates where the searches ended that led anywhere, the least cost first.
+  /// End points of the searches that converged or stopped at a finite cost, smallest cost first.
   std::vector<std::vector<double>> ends;
   std::vector<SearchStart> starts;  ///< the initial guess, the other places, the random ones
 };
 
-/// Where other trials gave the initial guess: that. Otherwise a rough search from the guess, from
-/// each other place given and, where some of the guess is an order of magnitude, from several random
-/// ones, on short parts of some of the windows: over a long one, what a wrong guess does adds up, and
-/// the search ends where the motion is nothing like the log.
+/// Uses the initial guess of other trials if there is one. Otherwise makes a rough search from the
+/// guess, from each other place given and, where some of the guess is an order of magnitude, from
+/// several random ones, on short parts of some of the windows: over a long one, the effect of a
+/// wrong guess accumulates, and the search ends where the motion is nothing like the log.
 Multistart multistart(const LogProblem& problem, const LogFitOptions& options);
 
 }  // namespace awmr

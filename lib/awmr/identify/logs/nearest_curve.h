@@ -1,4 +1,4 @@
-/// Where a search for another family of resistance begins. Private to identify/.
+/// Initial guess of the search for another resistance family. Private to identify/.
 #pragma once
 
 #include "awmr/model/family.h"

@@ -1,4 +1,4 @@
-/// Sums of products of rows, and a triangular matrix that stands for the rows. Private to identify/.
+/// Sums of products of rows, and a triangular matrix equivalent to the rows. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>

@@ -89,8 +89,8 @@ std::vector<FreeQuantity> free_quantities(const LogFitOptions& options) {
   for (const LogChannel channel : options.biases) {
     quantities.push_back({.kind = FreeQuantity::Kind::kBias, .channel = channel});
   }
-  for (const SensorDelay& late : options.sensor_delays) {
-    quantities.push_back(sensor_delay_of(late.channel));
+  for (const SensorDelay& latency : options.sensor_delays) {
+    quantities.push_back(sensor_delay_of(latency.channel));
   }
   for (const SensorDelay& smooth : options.sensor_lags) {
     quantities.push_back(sensor_lag_of(smooth.channel));
@@ -123,7 +123,7 @@ std::vector<double> initial_coordinates(const std::vector<FreeQuantity>& quantit
         break;
     }
   }
-  for (const SensorDelay& late : options.sensor_delays) coordinates.push_back(late.delay_s);
+  for (const SensorDelay& latency : options.sensor_delays) coordinates.push_back(latency.delay_s);
   for (const SensorDelay& smooth : options.sensor_lags) coordinates.push_back(smooth.delay_s);
   return coordinates;
 }

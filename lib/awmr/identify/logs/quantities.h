@@ -45,7 +45,7 @@ struct FreeQuantity {
 /// A parameter with its scale.
 FreeQuantity free_parameter(ParameterId id);
 
-/// The time by which all commands act late, s; negative: they were logged late.
+/// Latency of all commands, s; negative: their time stamps are late.
 FreeQuantity input_delay();
 
 /// The time by which the steering acts later than the forces, s: a servo's frame, a slower bus.
@@ -57,7 +57,7 @@ FreeQuantity motor_lag();
 /// The time constant of a first-order filter that smooths a channel, s.
 FreeQuantity sensor_lag_of(LogChannel channel);
 
-/// The time by which a channel is read late, s.
+/// Latency of a channel, s.
 FreeQuantity sensor_delay_of(LogChannel channel);
 
 /// Free quantities of a fit, in this order: the parameters, the delays and the lag of the commands,

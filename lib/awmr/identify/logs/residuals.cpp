@@ -93,7 +93,7 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
   return u;
 }
 
-/// Where the derivatives by the initial state begin: 1 for the component itself.
+/// Initial derivatives by the initial state: 1 for the component itself.
 LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t columns) {
   LinearMotion motion{u.initial, std::vector<double>(kStateSize * columns, 0.0)};
   for (std::size_t i = 0; columns > 0 && i < model.initial.size(); ++i) {
@@ -102,7 +102,7 @@ LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t 
   return motion;
 }
 
-/// Those of a window, by channel.
+/// Readings of a window, by channel.
 using SmoothedChannels = std::array<std::optional<SmoothedChannel>, kChannelCount>;
 
 SmoothedChannels smoothed_channels(const FitWindow& window, const Unpacked& u,
@@ -116,9 +116,9 @@ SmoothedChannels smoothed_channels(const FitWindow& window, const Unpacked& u,
   return smoothed;
 }
 
-/// Calls visit(i, error, row) for every sample, in order: model + bias - measured, and its derivatives
-/// by column, a vector for the visitor to use; empty without columns. A late sensor is compared with what
-/// was so its delay before, a smoothed one with what its filter shows.
+/// Calls visit(i, error, row) for every sample, in order: model + bias - measured, and its
+/// derivatives by column, a vector for the visitor to use; empty without columns. A sensor with
+/// latency is compared with the state one delay earlier, a filtered one with the filter's output.
 template <class Visit>
 void for_each_error(const LogModel& model, const FitWindow& window, const Unpacked& u,
                     std::size_t columns, Visit visit) {
@@ -129,7 +129,7 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
   LinearStepper stepper(u.plant, columns, u.parameters, late_columns, h);
   LinearStepper back(u.plant, columns, u.parameters, late_columns, h);
   const bool any_late = u.any_late();
-  std::vector<LinearMotion> motions;  // by row, where a sensor is late
+  std::vector<LinearMotion> motions;  // by row, if a sensor has latency
   std::vector<double> row(columns);
   std::size_t next = 0;
   SmoothedChannels smoothed = smoothed_channels(window, u, columns);
@@ -151,21 +151,21 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
     }
     visit(next, error, row);
   };
-  replay_linear(*window.signals, window.rows.begin, window.rows.end, u.path, stepper, h,
-                first_motion(model, u, columns), [&](std::size_t at_row, const LinearMotion& now) {
-                  if (any_late) motions.push_back(now);
-                  follow(at_row, now);
-                  for (; next < samples.size() && samples[next].row == at_row; ++next) {
-                    const auto& late = u.sensor_delay[at(samples[next].channel)];
-                    if (!late) {
-                      compare(now, samples[next]);
-                      continue;
-                    }
-                    compare(
-                        earlier_motion(*window.signals, window.rows.begin, motions, back, *late, h),
-                        samples[next]);
-                  }
-                });
+  replay_linear(
+      *window.signals, window.rows.begin, window.rows.end, u.path, stepper, h,
+      first_motion(model, u, columns), [&](std::size_t at_row, const LinearMotion& now) {
+        if (any_late) motions.push_back(now);
+        follow(at_row, now);
+        for (; next < samples.size() && samples[next].row == at_row; ++next) {
+          const auto& latency = u.sensor_delay[at(samples[next].channel)];
+          if (!latency) {
+            compare(now, samples[next]);
+            continue;
+          }
+          compare(earlier_motion(*window.signals, window.rows.begin, motions, back, *latency, h),
+                  samples[next]);
+        }
+      });
 }
 
 /// The weak pull of a component of the initial state to what was measured.

@@ -14,7 +14,7 @@
 
 namespace awmr {
 
-/// What all windows have in common: the plant, the free quantities and the noise.
+/// Data shared by all windows: the plant, the free quantities and the noise.
 struct LogModel {
   Vehicle vehicle;
   ParameterValues<double> held;  ///< all parameters; those among the quantities are overridden
@@ -42,7 +42,7 @@ WindowErrors errors_of(const LogModel& model, const FitWindow& window, const dou
 /// components of the initial state.
 struct WindowSums {
   Eigen::MatrixXd products;  ///< (q + k + 1) square: [J r]^T [J r]
-  /// q + k each: J^T r of the samples of each block, without the pulls; none unless asked for.
+  /// q + k each: J^T r of the samples of each block, without the pulls; none unless requested.
   std::vector<Eigen::VectorXd> block_gradients;
   bool finite = false;  ///< false where the model or its derivatives leave the finite numbers
 

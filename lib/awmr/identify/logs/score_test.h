@@ -1,4 +1,4 @@
-/// What a further free number would be worth to a fit, without fitting it. Private to identify/.
+/// Rao score test for adding one parameter to a fit. Private to identify/.
 #pragma once
 
 #include <vector>

@@ -32,7 +32,7 @@ void step_sensitivities(const std::array<StateSlopes, kStages>& stages, const do
 /// Rows to sum up come in whole vectors of so many columns.
 inline constexpr std::size_t kRowVector = 4;
 
-/// sums += rows^T rows, where it stands on or above the diagonal. `rows`: [count][columns]; `sums`:
+/// sums += rows^T rows, on and above the diagonal. `rows`: [count][columns]; `sums`:
 /// [columns][columns]; columns is a multiple of kRowVector.
 void add_products(const double* rows, std::size_t count, std::size_t columns, double* sums);
 

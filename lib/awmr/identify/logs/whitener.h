@@ -1,4 +1,4 @@
-/// What is new in the errors of a channel. Private to identify/.
+/// Innovations of the residuals of a channel. Private to identify/.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 
 namespace awmr {
 
-/// How a drift goes on over a time h: x <- F x + noise with the covariance (P - F P F^T), where
+/// Propagation of a drift over a time h: x <- F x + noise with the covariance (P - F P F^T), where
 /// x = (d, d'/omega) and P = sigma_d^2 I is what it has in the long run, so that F = e^(-h/tau) for
-/// the first order, of which only f[0][0] counts, and for the second, with s = zeta omega and
-/// nu = omega sqrt(1 - zeta^2),
+/// the first order, of which only f[0][0] counts, and for the second, with s = zeta omega and nu =
+/// omega sqrt(1 - zeta^2),
 ///
 ///     F = e^(-s h) ( cos(nu h) + (s/nu) sin(nu h)        (omega/nu) sin(nu h)
 ///                    -(omega/nu) sin(nu h)               cos(nu h) - (s/nu) sin(nu h) )
@@ -51,8 +51,7 @@ struct DriftStep {
   }
 };
 
-/// What is new in each error of a channel, after all that the errors before it told of the drift: a
-/// Kalman filter of one state or two,
+/// Innovations of the residuals of one channel: a Kalman filter of one state or two,
 ///
 ///     x = F x,   P = F P F^T + sigma_d^2 (I - F F^T)
 ///     nu = e - x_0,   S = P_00 + sigma_w^2,   x += (P_.0/S) nu,   P -= P_.0 P_.0^T/S
@@ -120,7 +119,7 @@ class WhitenerGains {
     const double a1 = f[0][0] * p01_ + f[0][1] * q11;
     const double b0 = f[1][0] * q00 + f[1][1] * p01_;
     const double b1 = f[1][0] * p01_ + f[1][1] * q11;
-    // What is left of the drift is never below 0 but for rounding.
+    // The remaining variance of the drift is negative only by rounding.
     p00_ = std::max(drift + a0 * f[0][0] + a1 * f[0][1], 0.0);
     p01_ = a0 * f[1][0] + a1 * f[1][1];
     p11_ = std::max(drift + b0 * f[1][0] + b1 * f[1][1], 0.0);

@@ -14,7 +14,7 @@ namespace awmr {
 /// The length of a window.
 inline constexpr double kWindow_s = 10.0;
 
-/// One measured value: where it stands. Long logs have millions.
+/// Position of one measured value. Long logs have millions.
 struct Sample {
   std::uint32_t row;
   LogChannel channel;

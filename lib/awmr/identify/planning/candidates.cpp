@@ -148,8 +148,8 @@ void add_coastdowns(const Vehicle& vehicle, const Plant<double>& plant,
 void add_logs(const Vehicle& vehicle, Motion motion, const SensorNoise& sensors,
               std::vector<CandidateTrial>& candidates) {
   const char* steps = vehicle.has_steering()
-                          ? "thrust and steering steps, both sides apart at times"
-                          : "thrust steps, both sides apart at times";
+                          ? "thrust and steering steps, at times unequal left and right"
+                          : "thrust steps, at times unequal left and right";
   candidates.push_back(log_candidate("straight starts and stops", vehicle,
                                      {.duration_s = 30.0, .straight = true}, sensors));
   if (motion != Motion::kPlanar) return;
@@ -192,7 +192,7 @@ void add_turning_runs(const Model& model, const SuggestOptions& options,
 
 std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptions& options) {
   std::vector<CandidateTrial> candidates;
-  // Of motors with back-EMF steady runs show no more than the sum of its loss and resistance.
+  // With back-EMF, steady runs show only the sum of its loss and resistance.
   const bool tables = !(model[ParameterId::kBackEmf].value.value_or(0.0) > 0.0);
   if (tables && model.plant(Motion::kSteadySurge)) add_surge_runs(model, options, candidates);
   if (tables && model.plant(Motion::kSteadyTurn)) add_turning_runs(model, options, candidates);
@@ -227,18 +227,18 @@ std::optional<SideForces<double>> forces_for(double moment_m, double straight,
   return force;
 }
 
-/// What is to be turned with steering where every turn was by the sides.
+/// Steered turns to record if all turns were differential.
 std::string steered_turns_instead(const Vehicle& vehicle) {
   const double stop = vehicle.steering_max_deg;
   const double force = 0.5 * vehicle.wheel_force.hi;
   return fmt::format(
-      "all turns were by the sides' forces, whose scrub is in yaw resistance: drive at least three "
-      "steered ones, as rows of the turning table: steering {:.3g}, {:.3g} and {:.3g} deg, "
-      "wheel_force {:.3g} or what the course allows",
+      "all turns were differential, so yaw resistance includes their scrub. Record at least three "
+      "steered turns in the turning table: steering {:.3g}, {:.3g} and {:.3g} deg, wheel_force "
+      "{:.3g} or what the space allows",
       stop / 3.0, 2.0 * stop / 3.0, stop, force);
 }
 
-/// Of the surge trials, > 0; none without.
+/// Highest speed of the surge trials, > 0; none without.
 std::optional<double> fastest_surge_mps(const Model& model) {
   std::optional<double> fastest_mps;
   for (const TrialPoint& trial : model.record.trials) {
@@ -251,12 +251,12 @@ std::optional<double> fastest_surge_mps(const Model& model) {
 std::string purpose_of(const Model& model) {
   if (const auto& scrub = model.yaw_scrub) {
     return fmt::format(
-        "{} turns have shown {:.3g} to {:.3g} m of scrub; four times as many halve "
-        "that. compare --break-even says whether it takes more",
+        "{} turns give {:.3g} to {:.3g} m of scrub; four times as many halve the interval. compare "
+        "--break-even shows whether more are needed",
         scrub->rows, scrub->ci95_m.lo, scrub->ci95_m.hi);
   }
-  return model.yaw_held_m ? fmt::format("so far the tyres held {:.3g} m", *model.yaw_held_m)
-                          : std::string("how much the tyres' scrub takes is not known yet");
+  return model.yaw_held_m ? fmt::format("the scrub is at least {:.3g} m", *model.yaw_held_m)
+                          : std::string("the tyre scrub is not known yet");
 }
 
 }  // namespace
@@ -270,8 +270,8 @@ ScrubPlan scrub_plan(const Model& model) {
   const std::optional<double> fastest_degps = measured_yaw_rate_degps(model);
   if (!yaw || !surge || !fastest_degps) {
     return {{},
-            "turns by the sides' forces are named once surge and yaw resistance are known, and how "
-            "fast they were measured (turning trials, or yaw_rate_max_degps in the vehicle)"};
+            "differential turns are suggested once surge and yaw resistance are known, and the "
+            "range of yaw rates (turning trials, or yaw_rate_max_degps in the vehicle)"};
   }
   const std::optional<double> fastest_mps = fastest_surge_mps(model);
   const double straight = fastest_mps ? surge->surge(0.5 * *fastest_mps) / vehicle.driven_wheels()
@@ -319,12 +319,12 @@ std::optional<CoastingTurn> coasting_turn(const Model& model) {
 
 std::vector<std::string> assumptions_of(const Model& model, const SuggestOptions& options) {
   const SensorNoise& sensors = options.sensors;
-  return {fmt::format("steady speeds scatter by {:.2g} of their value, yaw rates by {:.2g}: what "
-                      "this model's own rows do, or 0.05",
+  return {fmt::format("relative scatter of steady speeds {:.2g}, of yaw rates {:.2g} (from this "
+                      "model's trials, else 0.05)",
                       relative_scatter(model, TrialKind::kSurge),
                       relative_scatter(model, TrialKind::kTurning)),
-          fmt::format("logs and curves at 100 Hz with {:g} m/s, {:.2g} rad/s, {:.2g} rad; position "
-                      "{:g} m at {:g} Hz",
+          fmt::format("sensor noise of logs and curves {:g} m/s, {:.2g} rad/s, {:.2g} rad at 100 "
+                      "Hz; position {:g} m at {:g} Hz",
                       sensors.speed_mps, sensors.yaw_rate_radps, sensors.heading_rad,
                       sensors.position_m, sensors.position_rate_hz),
           fmt::format("{} runs of each", options.repeats)};

@@ -1,4 +1,4 @@
-/// How surely a model knows its parameters: when enough was recorded.
+/// Precision of a model's parameters, and whether enough was recorded.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace awmr {
 
-/// How surely one parameter is known.
+/// Precision of one parameter.
 struct Precision {
   ParameterId id{};
   /// Half of the 95 % interval over the value, dimensionless, >= 0; of an exponent half of the
@@ -17,8 +17,9 @@ struct Precision {
   std::optional<double> half_width;
 };
 
-/// Of those in `asked`; where that is empty, of every parameter that the vehicle has and that is not
-/// given. Terms that only some families have are left out: they may be 0 and have no relative width.
+/// Precision of the parameters in `asked`; if that is empty, of every parameter that the vehicle
+/// has and that is not given. Terms that only some families have are left out: they may be 0 and
+/// have no relative width.
 std::vector<Precision> precision_of(const Model& model, std::span<const ParameterId> asked);
 
 /// Every half width is there and at most `limit`, > 0. False for an empty list.

@@ -18,7 +18,7 @@
 namespace awmr {
 namespace {
 
-/// Where the estimator under test assumes the error of a row.
+/// Quantity that has the error according to the estimator under test.
 ErrorModel error_of(const IdentifyOptions& options) {
   if (options.method != Method::kNonlinear) return ErrorModel::kLogForce;
   return options.noise.value_or(ErrorModel::kTime);
@@ -35,8 +35,8 @@ double scatter(const Model& model, FitSubject subject, ErrorModel error) {
   return 0.0;
 }
 
-/// The sides' forces that make this yaw moment, m, without steering: on the spot, or with as little
-/// to the rear as the wheels can push.
+/// Left and right wheel forces for this yaw moment, m, without steering: on the spot, or with as
+/// little rearward force as possible.
 ///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
 SideForces<double> sides_for(const Vehicle& vehicle, double tau_turn_m) {
   const double difference = tau_turn_m / (2.0 * vehicle.half_track_m);
@@ -92,7 +92,7 @@ RowNoise noise_of(const Model& model, const RecoverOptions& options) {
           .stop_time_s = kStopWatch_s};
 }
 
-/// What all runs have in common.
+/// Data shared by all runs.
 struct Experiment {
   Plant<double> truth{};
   Vehicle vehicle;
@@ -125,14 +125,14 @@ TrialData simulated_trials(const Experiment& experiment, const RecoverOptions& o
   return data;
 }
 
-/// What one run found, and said.
+/// Estimates and findings of one run.
 struct OneRun {
   RecoverRun found;
   std::string why;             ///< the first of what was refused
   std::optional<Error> error;  ///< why the run gave no model at all
 };
 
-/// What is shown of a parameter that was fitted, with its interval; of no other.
+/// Estimate of a fitted parameter with its interval; empty for all others.
 std::optional<RecoverEstimate> interval_of(const Estimate& estimate) {
   if (!estimate.value || !estimate.ci95 || estimate.source == Source::kGiven) return std::nullopt;
   // An interval without an end is none, as in model.json.
@@ -162,22 +162,22 @@ OneRun identified_again(const Vehicle& vehicle, const TrialData& data, IdentifyO
   }
   for (std::size_t i = 0; i < truths.size(); ++i) {
     const Estimate& estimate = identified->model[truths[i].id];
-    // What is assumed was not found in the trials.
+    // Assumed values were not fitted to the trials.
     if (estimate.method != kAssumedSwayMethod) run.found.estimates[i] = interval_of(estimate);
   }
   return run;
 }
 
-/// Those of a part, in order. Progress is reported on this thread; its last call has them all.
+/// Runs of a part, in order. Progress is reported on this thread; the last call has all runs.
 std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOptions& options,
                                    const Shard& shard, const std::vector<RecoverTruth>& truths,
                                    const std::function<void(int)>& progress) {
   const int count = shard.share_of(options.runs);
   std::vector<OneRun> runs(at(count));
   std::atomic<int> done = 0;
-  int told = 0;
+  int described = 0;
   LoopControl control;
-  if (progress) control.progress = [&] { progress(told = done); };
+  if (progress) control.progress = [&] { progress(described = done); };
   parallel_for(
       runs.size(), options.threads,
       [&](std::size_t i) {
@@ -189,11 +189,11 @@ std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOp
         ++done;
       },
       control);
-  if (progress && told < count) progress(count);
+  if (progress && described < count) progress(count);
   return runs;
 }
 
-/// The parameters that are judged: those requested, or all, where the model has a value.
+/// The parameters to evaluate: those requested, or all, where the model has a value.
 std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<ParameterId>& asked) {
   std::vector<RecoverTruth> truths;
   for (const ParameterInfo& parameter : parameter_table()) {
@@ -204,7 +204,7 @@ std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<Parame
   return truths;
 }
 
-/// Puts the runs into the part, with the first of what they said.
+/// Puts the runs into the part, with the first reason for a refusal.
 void put_runs(std::vector<OneRun> runs, RecoverPart& part) {
   if (std::ranges::all_of(runs, [](const OneRun& run) { return run.error.has_value(); })) {
     part.error = runs.front().error;

@@ -21,17 +21,17 @@ enum class RecoverPlan {
 struct RecoverOptions {
   /// The trials that are to be recorded, or were.
   RecoverPlan plan = RecoverPlan::kTables;
-  /// >= 2. The coverage errs by 0.22/sqrt(runs): 200 tell 95 % to 1.5 %.
+  /// >= 2. The coverage errs by 0.22/sqrt(runs): 200 runs give 95 % to 1.5 %.
   int runs = 200;
   std::uint64_t seed = 1;
   /// >= 0; 0: one per core. Fewer leave cores to other work; the result does not depend on it.
   int threads = 0;
   /// The estimator under test.
   IdentifyOptions identify;
-  /// Where the simulated error lies; absent: where the estimator assumes it. Another place shows
-  /// what a wrong assumption costs.
+  /// Quantity with the simulated error; absent: as the estimator assumes. Another one shows the
+  /// cost of a wrong assumption.
   std::optional<ErrorModel> error;
-  /// Of curves and logs. Give the robot's own where they are known.
+  /// Sensor noise of curves and logs. Use the robot's own values if they are known.
   SensorNoise sensors;
   /// Length and rate of a coast-down curve, > 0.
   double curve_s = 2.0;
@@ -46,7 +46,7 @@ struct RecoveredParameter {
   double truth = 0.0;
   double bias = 0.0;            ///< mean of estimate - truth
   double rmse = 0.0;            ///< root mean square of that
-  double mean_std_error = 0.0;  ///< what the fits said of themselves
+  double mean_std_error = 0.0;  ///< reported by the fits
   double coverage95 = 0.0;      ///< share of runs whose interval holds the truth
   double worst_error = 0.0;     ///< largest |estimate/truth - 1|; 0 where the truth is 0
   int runs = 0;                 ///< that gave an estimate with an interval
@@ -60,10 +60,10 @@ struct Recovery {
 };
 
 /// `progress` is called with the runs done so far, on the thread that called recover(), and last
-/// with all of them. A log of a model that knows straight motion alone drives straight, and is asked
-/// for what that shows. Errors (input): the model lacks a parameter that a trial of the plan needs,
-/// or has no trials for the plan; fewer than 2 runs. (refused): no run gives what is requested, or
-/// anything.
+/// with all of them. The log of a model of straight motion drives straight, and only the parameters
+/// of straight motion are fitted. Errors (input): the model lacks a parameter that a trial of the
+/// plan needs, or has no trials for the plan; fewer than 2 runs. (refused): no run gives what is
+/// requested, or anything.
 Result<Recovery> recover(const Model& model, const RecoverOptions& options,
                          const std::function<void(int)>& progress);
 

@@ -1,5 +1,5 @@
-/// A recovery in two steps, so that machines can share it: the runs of a part, each as it came out,
-/// and what all runs together come to.
+/// A recovery in two steps, so that machines can share it: the results of the runs of a part, and
+/// the statistics of all runs.
 #pragma once
 
 #include <functional>
@@ -22,7 +22,7 @@ struct RecoverTruth {
   bool operator==(const RecoverTruth&) const = default;
 };
 
-/// What a run found of one parameter, in its unit.
+/// Estimate of one parameter in one run, in its unit.
 struct RecoverEstimate {
   double value = 0.0;
   std::optional<double> std_error;
@@ -37,7 +37,7 @@ struct RecoverRun {
   std::vector<std::optional<RecoverEstimate>> estimates;
 };
 
-/// The first run that said why something was refused.
+/// The first run with a reason for a refusal.
 struct RecoverRefusal {
   int run = 0;
   std::string message;
@@ -47,8 +47,8 @@ struct RecoverRefusal {
 struct RecoverPart {
   int all_runs = 0;                  ///< of all parts
   std::string noise_text;            ///< as simulated
-  std::vector<ParameterId> asked;    ///< empty: whatever the trials show
-  std::vector<RecoverTruth> truths;  ///< of the parameters that are judged
+  std::vector<ParameterId> asked;    ///< empty: all that the trials identify
+  std::vector<RecoverTruth> truths;  ///< of the evaluated parameters
   std::vector<RecoverRun> runs;      ///< by index
   std::optional<RecoverRefusal> refusal;
   std::optional<Error> error;  ///< why no run gave a model at all: that of the first
@@ -60,8 +60,8 @@ struct RecoverPart {
 Result<RecoverPart> recover_part(const Model& model, const RecoverOptions& options,
                                  const Shard& shard, const std::function<void(int)>& progress);
 
-/// What the runs come to. Precondition: `whole` has all of them. Errors: those of the runs, where all
-/// have one; (refused) no run gives what is requested, or anything.
+/// Computes the statistics of the runs. Precondition: `whole` has all of them. Errors: those of the
+/// runs, if all have one; (refused) no run gives a requested parameter, or any.
 Result<Recovery> recovery_of(const RecoverPart& whole);
 
 }  // namespace awmr

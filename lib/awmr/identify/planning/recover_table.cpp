@@ -53,7 +53,7 @@ std::optional<std::vector<std::size_t>> places_of(const std::vector<std::string>
   return line == expected ? std::optional(places) : std::nullopt;
 }
 
-/// What four cells that are not all empty say; none where they say nothing that a run can give.
+/// Reads four cells that are not all empty; none if no run can have them.
 std::optional<RecoverEstimate> estimate_in(std::span<const std::string> cells) {
   const auto value = number_from_text(cells[0]);
   const auto std_error = number_from_text(cells[1].empty() ? "0" : cells[1]);

@@ -1,4 +1,4 @@
-// What the runs of a recovery come to.
+// Statistics of the runs of a recovery.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,8 +10,8 @@
 namespace awmr {
 namespace {
 
-/// Of the `place`th truth. Sums are taken in the order of the runs, so that neither threads nor parts
-/// matter.
+/// Statistics of the `place`th true value. Sums are in the order of the runs, so they do not depend
+/// on threads or parts.
 RecoveredParameter recovered_parameter(const RecoverTruth& truth, std::size_t place,
                                        const std::vector<RecoverRun>& runs) {
   RecoveredParameter p{.id = truth.id, .truth = truth.value};

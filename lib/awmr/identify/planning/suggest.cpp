@@ -15,11 +15,11 @@
 namespace awmr {
 namespace {
 
-/// How little is known of a parameter that the model has no error for: a factor of e^2, so that a
-/// trial which shows it counts.
+/// Assumed uncertainty of a parameter without a standard error: a factor of e^2, so that a trial
+/// which measures it is credited.
 constexpr double kUnknownStd = 2.0;
 
-/// What is not known exactly: n parameters in the coordinates z of model/transform.h, with
+/// The uncertain parameters: n of them in the coordinates z of model/transform.h, with
 ///   Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q).
 struct Uncertainty {
   std::vector<ParameterId> parameters;
@@ -48,13 +48,13 @@ Uncertainty uncertainty_of(const Model& model) {
     covariance(eigen_index(i), eigen_index(i)) = kUnknownStd * kUnknownStd;
   }
   // From one coast-down, I'z is m' times a constant, and C would be singular. A small independent
-  // error of each keeps C invertible, and lets a trial that measures I'z tell the two apart.
+  // error of each keeps C invertible, and lets a trial that measures I'z separate the two.
   constexpr double kIndependentStd = 1e-4;
   covariance.diagonal().array() += kIndependentStd * kIndependentStd;
   return {std::move(ids), std::move(covariance)};
 }
 
-/// What the model has no value of.
+/// Parameters without a value.
 std::vector<MissingParameter> missing_of(const Model& model) {
   std::vector<MissingParameter> missing;
   for (const ParameterInfo& parameter : parameter_table()) {
@@ -90,7 +90,7 @@ Eigen::MatrixXd jacobian_of(const Model& model, const std::vector<ParameterId>& 
   return result;
 }
 
-/// What is to become surer: the rows of `gradient` are combinations of the coordinates, and the
+/// The target of the ranking: the rows of `gradient` are combinations of the coordinates, and the
 /// error is the root sum of their variances, times `scale` to have its unit.
 struct Target {
   Eigen::MatrixXd gradient;  ///< m x n
@@ -130,8 +130,7 @@ tl::unexpected<Error> unknown_target(const std::vector<ParameterId>& ids,
   for (const ParameterId known : ids) names += fmt::format("{} ", info(known).name);
   for (const SuggestTarget& metric : options.metrics) names += metric.name + " ";
   return input_error(option_text("parameter"),
-                     fmt::format("'{}' is nothing that this model is unsure of; "
-                                 "there are: {}",
+                     fmt::format("'{}' has no uncertainty in this model; choose one of: {}",
                                  options.parameter, names));
 }
 
@@ -149,7 +148,8 @@ Result<Target> target_of(const Model& model, const Plant<double>& plant,
   const auto id = parameter_by_name(options.parameter);
   if (id && !model[*id].value) {
     return input_error(fmt::format("{}:{}", model.file, info(*id).pointer),
-                       fmt::format("no value for {} yet, so there is nothing to rank by; record {}",
+                       fmt::format("{} has no value yet, so trials cannot be ranked by it; record "
+                                   "{}",
                                    options.parameter, trial_of(model.vehicle, *id)));
   }
   const auto place = id ? std::find(ids.begin(), ids.end(), *id) : ids.end();
@@ -201,7 +201,7 @@ Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
   std::vector<MissingParameter> missing = missing_of(model);
   if (uncertainty.parameters.empty() && missing.empty()) {
     return input_error(model.file + ":/covariance",
-                       "no parameter has an uncertainty that a trial could shrink");
+                       "no parameter has an uncertainty that a trial could reduce");
   }
   AWMR_ASSIGN_OR_RETURN(const Target target,
                         target_of(model, model.plant_as_known(), uncertainty.parameters, options));
@@ -225,8 +225,8 @@ Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
       continue;
     }
     return input_error(model.file,
-                       fmt::format("what '{}' would show is no finite number at this model's "
-                                   "values: an exponent, a mass or a resistance of it is extreme",
+                       fmt::format("the information of trial '{}' is not finite at this model's "
+                                   "values; check its exponents, mass and resistance",
                                    trial.settings));
   }
   sort_by_promise(suggestion.trials);

@@ -18,12 +18,11 @@ struct SuggestTarget {
 };
 
 struct SuggestOptions {
-  /// What the trials are ranked by: the name of a parameter or of one of `metrics`, where that is
-  /// what has to become surer. Empty: A-optimal, the root sum of the squared relative errors of all
-  /// parameters (an exponent's error as it is, a family's term relative to the whole resistance at
-  /// 1 m/s or 1 rad/s).
+  /// Target of the ranking: the name of a parameter or of one of `metrics`. Empty: A-optimal, the
+  /// root sum of the squared relative errors of all parameters (an exponent's error as it is, a
+  /// family's term relative to the whole resistance at 1 m/s or 1 rad/s).
   std::string parameter = {};
-  /// Of the curves and logs to come. Give the robot's own where they are known.
+  /// Sensor noise of future curves and logs. Use the robot's own values if they are known.
   SensorNoise sensors = {};
   /// Runs of one candidate, >= 1: as many as there is time for in the field.
   int repeats = 3;
@@ -34,7 +33,7 @@ struct SuggestOptions {
 /// A trial that could be recorded.
 struct SuggestedTrial {
   TrialKind kind = TrialKind::kSurge;
-  std::string settings;                                 ///< in words, for the field sheet
+  std::string settings;                                 ///< text for the field sheet
   std::vector<std::pair<std::string, double>> numbers;  ///< the same, units in the names
   std::string parameter = {};                           ///< what it is ranked by
   double std_error_before = 0.0;                        ///< of that, in its unit, >= 0
@@ -45,11 +44,11 @@ struct SuggestedTrial {
 /// A parameter without a value.
 struct MissingParameter {
   ParameterId id{};
-  std::string trial;  ///< that shows it, in words
+  std::string trial;  ///< description of the trial that measures it
 };
 
-/// Turns by the sides' forces, wheels straight, that tell what the tyres' scrub takes from them: what the
-/// choice between differential, steering and combined depends on (compare --break-even).
+/// Differential turns with straight wheels that measure the tyre scrub, on which the choice between
+/// differential, steering and combined depends (compare --break-even).
 struct ScrubTurn {
   double yaw_rate_degps = 0.0;  ///< to turn at, > 0
   /// F' of each left and each right wheel, over F_max, that turn so if the tyres take as little as they
@@ -57,8 +56,9 @@ struct ScrubTurn {
   SideForces<double> least, most;
 };
 
-/// A turn that tells the 3-DOF model from tyres: in (41) the front wheels turn the vehicle by the motors'
-/// thrust alone, wheels that roll turn it whether or not the motors push.
+/// A turn that shows whether the 3-DOF model or the tyre model is right: in (41) the front wheels
+/// turn the vehicle by the motors' thrust alone, wheels that roll turn it whether or not the motors
+/// push.
 struct CoastingTurn {
   double speed_mps = 0.0;     ///< to let go at, > 0
   double steering_deg = 0.0;  ///< to steer once the motors are off, > 0

@@ -59,12 +59,15 @@ std::string missing_sheet(const std::vector<MissingParameter>& missing) {
       if (!has_its_trial(*other)) continue;
       names += fmt::format("{}{}", names.empty() ? "" : ", ", info(other->id).name);
     }
-    text += fmt::format("[ ] for {}, of no value yet:\n       {}\n", names, one->trial);
+    text += fmt::format(
+        "[ ] for {}, not identified yet:\n"
+        "       {}\n",
+        names, one->trial);
   }
   return text;
 }
 
-/// The turns that tell whether the sides or the steering should turn the vehicle.
+/// Turns that decide between differential and steering mode.
 std::string scrub_sheet(const Suggestion& suggestion) {
   if (suggestion.about_scrub.empty()) return {};
   std::string text =
@@ -72,9 +75,10 @@ std::string scrub_sheet(const Suggestion& suggestion) {
                   suggestion.about_scrub);
   if (suggestion.scrub_turns.empty()) return text;
   text +=
-      "  steady circles by the sides' forces alone, wheels straight, as rows of the turning table\n"
-      "  (steering_deg 0). Raise the difference from the first forces towards the second until it\n"
-      "  turns about so fast:\n";
+      "  Drive steady differential turns with straight wheels (rows of the turning table, "
+      "steering_deg 0).\n"
+      "  Raise the force difference from the first pair towards the second until the vehicle turns "
+      "at:\n";
   for (const ScrubTurn& turn : suggestion.scrub_turns) {
     text += fmt::format(
         "[ ]    turning   {:.3g} deg/s: force_left {:.3g}, force_right {:.3g} to {:.3g}, {:.3g}\n",
@@ -83,15 +87,17 @@ std::string scrub_sheet(const Suggestion& suggestion) {
   return text;
 }
 
-/// The turn that tells the two plants of compare apart.
+/// The turn that shows which plant of compare is right.
 std::string coasting_sheet(const Suggestion& suggestion) {
   const auto& coasting = suggestion.coasting;
   if (!coasting) return {};
   return fmt::format(
-      "\nfor the choice between the model and the four-wheel plant (compare, simulate --plant):\n"
+      "\n"
+      "for the choice between the model and the four-wheel plant (compare, simulate --plant):\n"
       "[ ]    steer while coasting: at {:.3g} m/s motors off, at once steer {:.3g} deg, log yaw "
-      "rate "
-      "and\n       speed. The model says 0 deg/s, wheels that roll without slip {:.3g} deg/s\n",
+      "rate and\n"
+      "       speed. Predicted yaw rate: model 0 deg/s, wheels that roll without slip {:.3g} "
+      "deg/s\n",
       coasting->speed_mps, coasting->steering_deg, coasting->rolling_yaw_rate_degps);
 }
 

@@ -176,7 +176,7 @@ CoastCurve simulate_coastdown(const Plant<double>& plant, double speed_mps, doub
 
 namespace {
 
-/// Commands of thrust, difference of the sides and steering, each held for hold_s.
+/// Commands of thrust, left/right force difference and steering, each held for hold_s.
 void command_drive(const Vehicle& vehicle, const DrivePlan& plan, DrivingLog& log) {
   Random random(plan.drive, 7);
   const auto rows = static_cast<int>(std::lround(plan.duration_s * plan.rate_hz));

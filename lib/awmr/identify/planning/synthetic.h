@@ -9,7 +9,7 @@
 
 namespace awmr {
 
-/// What a log's sensors do to the truth: standard deviations, all >= 0.
+/// Sensor noise of a log: standard deviations, all >= 0.
 struct SensorNoise {
   double speed_mps = 0.02;          ///< of wheel encoders
   double yaw_rate_radps = 0.00873;  ///< 0.5 deg/s, of a gyroscope
@@ -30,12 +30,12 @@ struct TablePlan {
   std::vector<double> stop_from_mps;  ///< initial speeds of the coast-downs, > 0
 };
 
-/// Where the error of a table's rows lies, and its standard deviations in that unit, all >= 0.
+/// Quantity with the error of a table's rows, and its standard deviations, all >= 0.
 struct RowNoise {
   ErrorModel error = ErrorModel::kLogForce;
   double surge = 0.0;        ///< by `error`: 1 (of ln tau_speed), tau_speed, m/s or s
   double turning = 0.0;      ///< by `error`: 1 (of ln tau_turn), m, rad/s or s
-  double stop_time_s = 0.0;  ///< of the stop watch, whatever `error` is
+  double stop_time_s = 0.0;  ///< of the stop watch, for every `error`
 };
 
 /// Rows at the plant's own steady rates. Rows whose force does not move the vehicle are left out.

@@ -12,8 +12,8 @@
 namespace awmr {
 namespace {
 
-/// So many runs show the curvature of the cost at its minimum, and the profile tells nothing more;
-/// it costs some hundred fits.
+/// Above this number of runs the profile interval equals the curvature interval, and its some
+/// hundred fits are skipped.
 constexpr Eigen::Index kMaximumProfileRows = kExactRows;
 
 /// The profile's interval of every coordinate that has a standard error, in the parameter's scale. An

@@ -30,7 +30,7 @@ struct FamilyCandidate {
 
 bool all_timed(const std::vector<SteadyPoint>& points);
 
-/// Where the nonlinear fit that is to be used puts the error.
+/// Quantity with the error in the nonlinear fit.
 ErrorModel wanted_noise(const Subject& subject, const SubjectOptions& options);
 
 /// Side by side: the power law under every noise model, the other families under the wanted one.
@@ -48,7 +48,8 @@ const FamilyCandidate* candidate_of(const std::vector<FamilyCandidate>& candidat
 const FamilyCandidate* best_candidate(const std::vector<FamilyCandidate>& candidates,
                                       ErrorModel noise);
 
-/// A fit in words, by noise, family and loss: "nonlinear, noise on time, coulomb-power, Huber".
+/// Description of a fit by noise, family and loss: "nonlinear, noise on time, coulomb-power,
+/// Huber".
 std::string method_in_words(const SteadyProblem& problem);
 
 }  // namespace awmr

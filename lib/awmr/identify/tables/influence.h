@@ -1,4 +1,4 @@
-/// What a fit becomes without one of its runs. Private to identify/.
+/// Leave-one-out influence of runs on a fit. Private to identify/.
 #pragma once
 
 #include <vector>

@@ -12,9 +12,9 @@ namespace awmr {
 double profile_cost(const SteadyProblem& problem, const TransformedParameters& initial_guess,
                     TransformedParameter held, double value);
 
-/// Where the profile of the sum of squares rises by t^2 s^2 on either side, as an interval of the
-/// coordinate; an end that a bound cuts off lies on the bound.
-/// Precondition: squared loss, degrees of freedom, `c` free.
+/// Profile-likelihood interval of a coordinate: the profile of the sum of squares rises by t^2 s^2
+/// on either side; an end that a bound cuts off lies on the bound. Precondition: squared loss,
+/// degrees of freedom, `c` free.
 Interval profile_interval(const SteadyProblem& problem, const SteadyFit& fit,
                           TransformedParameter c);
 

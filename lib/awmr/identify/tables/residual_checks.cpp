@@ -37,7 +37,7 @@ Finding held_exponent(const Subject& subject, const SteadyFit& fit) {
   return {
       subject.file, 0, Severity::kError, "exponent-at-bound",
       fmt::format("the search for {} ended at {:.4g}, the end of the accepted range [{:g}, {:g}]: "
-                  "that is the range's value, not the runs', and the others hang on it; {}",
+                  "the data do not determine it, and the other estimates are conditional on it; {}",
                   info(subject.beta).name, beta, range.lo, range.hi, remedy)};
 }
 
@@ -59,7 +59,7 @@ std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit
     if (c == TransformedParameter::kBeta) continue;
     findings.push_back(
         {subject.file, 0, Severity::kNote, "term-at-zero",
-         fmt::format("{} came out as 0, the end of its range: these runs do not need this term",
+         fmt::format("{} is 0, the end of its range: these runs do not need this term",
                      info(parameter_of(subject, c)).name)});
   }
   return findings;

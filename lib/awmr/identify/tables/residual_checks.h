@@ -1,5 +1,5 @@
-/// What is doubtful about a fit of steady runs: bounds it runs into, residuals that are not what
-/// the method assumes, single runs. Private to identify/.
+/// Checks of a fit of steady runs: active bounds, residuals that violate the method's assumptions,
+/// influential runs. Private to identify/.
 #pragma once
 
 #include <vector>

@@ -85,15 +85,15 @@ bool is_sloped(const std::vector<double>& x, const std::vector<double>& y,
   return std::abs(line.slope) > t_quantile_95(line.count - 2.0) * std::sqrt(variance);
 }
 
-/// What each turn by the sides met, in the order of the rows.
-struct Met {
+/// Scrub moments of the differential turns, in the order of the rows.
+struct ScrubMoments {
   std::vector<double> applied_m;  ///< tau_i
   std::vector<double> rates_radps;
   std::vector<double> moments_m;  ///< c_i
 };
 
-Met met_by(const std::vector<SteadyPoint>& turns, const Resistance<double>& law) {
-  Met met;
+ScrubMoments met_by(const std::vector<SteadyPoint>& turns, const Resistance<double>& law) {
+  ScrubMoments met;
   for (const SteadyPoint& turn : turns) {
     met.applied_m.push_back(turn.force);
     met.rates_radps.push_back(turn.rate);
@@ -103,7 +103,7 @@ Met met_by(const std::vector<SteadyPoint>& turns, const Resistance<double>& law)
 }
 
 /// The mean of the c_i; absent where nothing scatters and nothing is open.
-std::optional<YawScrub> mean_scrub(const Met& met, double of_law, double degrees_of_law) {
+std::optional<YawScrub> mean_scrub(const ScrubMoments& met, double of_law, double degrees_of_law) {
   const auto n = static_cast<double>(met.moments_m.size());
   const double mean = std::accumulate(met.moments_m.begin(), met.moments_m.end(), 0.0) / n;
   double squares = 0.0;
@@ -123,10 +123,10 @@ std::optional<YawScrub> mean_scrub(const Met& met, double of_law, double degrees
                   .yaw_rate_radps = range_of(met.rates_radps)};
 }
 
-/// What the c_i are between the slowest and the fastest turn where they change with the rate: the
-/// intervals of a straight line at both ends, in one. Noise of r alone makes c fall with r, and noise
-/// of tau alone makes it rise with tau; only a change shows over both.
-std::optional<Interval> changing_scrub(const Met& met, const Model& model) {
+/// Range of the c_i between the slowest and the fastest turn if they change with the rate: the
+/// union of a straight line's intervals at both ends. Noise of r alone makes c fall with r, and
+/// noise of tau alone makes it rise with tau; only a change shows over both.
+std::optional<Interval> changing_scrub(const ScrubMoments& met, const Model& model) {
   for (const auto* over : {&met.rates_radps, &met.applied_m}) {
     if (!is_sloped(*over, met.moments_m, met.rates_radps, model)) return std::nullopt;
   }
@@ -143,7 +143,7 @@ std::optional<Interval> changing_scrub(const Met& met, const Model& model) {
   return range_of(ends);
 }
 
-/// Moments of the turns that stood still, less what the motors' dead zone takes.
+/// Moments, beyond the motors' dead zone, at which the vehicle did not turn.
 std::vector<SteadyPoint> standing_turns(const TrialSet<TurningRow>& turning, const Model& model) {
   return turning_points(turning.standing, *model[ParameterId::kWheelDeadZone].value);
 }
@@ -168,17 +168,16 @@ void note_standing(Model& model, const TrialSet<TurningRow>& turning,
   for (const SteadyPoint& turn : standing) {
     lines += fmt::format("{}{}", lines.empty() ? "" : ", ", turn.line);
   }
-  note(
-      model, turning, "scrub-holds",
-      fmt::format("{} of {} turns by the sides' forces stood still (line{} {}), the strongest "
-                  "under {:.3g} m: the tyres hold at least that. Turn with more; awmr suggest says "
-                  "with which forces",
-                  standing.size(), standing.size() + turning.by_sides.size(),
-                  standing.size() == 1 ? "" : "s", lines, *model.yaw_held_m));
+  note(model, turning, "scrub-holds",
+       fmt::format("the vehicle did not turn in {} of {} differential turns (line{} {}), the "
+                   "strongest with {:.3g} m, so the scrub is at least that. Use a larger force "
+                   "difference; awmr suggest lists forces",
+                   standing.size(), standing.size() + turning.by_sides.size(),
+                   standing.size() == 1 ? "" : "s", lines, *model.yaw_held_m));
 }
 
-/// What a constant scrub does not tell.
-void note_limits(Model& model, const TrialSet<TurningRow>& turning, const Met& met) {
+/// Findings on a scrub that is not constant.
+void note_limits(Model& model, const TrialSet<TurningRow>& turning, const ScrubMoments& met) {
   const YawScrub& scrub = *model.yaw_scrub;
   const Interval rates = scrub.yaw_rate_radps;
   const auto range = fitted_rates(turning);
@@ -192,10 +191,9 @@ void note_limits(Model& model, const TrialSet<TurningRow>& turning, const Met& m
   if (scrub.changing_m) {
     const Interval moments = range_of(met.moments_m);
     note(model, turning, "scrub-grows",
-         fmt::format("the scrub of the differential turns changes with the yaw rate, from "
-                     "{:.3g} to {:.3g} m: its mean {:.3g} m holds for the middle of {:.3g} to "
-                     "{:.3g} deg/s, and decisions that depend on it use the whole range {:.3g} to "
-                     "{:.3g} m",
+         fmt::format("the scrub of the differential turns changes with the yaw rate, from {:.3g} "
+                     "to {:.3g} m: its mean {:.3g} m is valid in the middle of {:.3g} to {:.3g} "
+                     "deg/s only; decisions use the whole range {:.3g} to {:.3g} m",
                      moments.lo, moments.hi, scrub.moment_m, degrees(rates.lo), degrees(rates.hi),
                      scrub.changing_m->lo, scrub.changing_m->hi));
   }
@@ -213,12 +211,12 @@ void measure_scrub(const TrialSet<TurningRow>& turning, Model& model) {
       turning_points(turning.by_sides, *model[ParameterId::kWheelDeadZone].value);
   if (turns.size() < kFewestScrubRows) {
     note(model, turning, "few-scrub-rows",
-         fmt::format("{} turns by the sides' forces happened, too few for an interval of what the "
-                     "tyres' scrub takes: drive at least {}",
+         fmt::format("{} differential turns are too few for an interval of the tyre scrub; record "
+                     "at least {}",
                      turns.size(), kFewestScrubRows));
     return;
   }
-  const Met met = met_by(turns, *law);
+  const ScrubMoments met = met_by(turns, *law);
   const double of_law = variance_of_law(model, TrialKind::kTurning, met.rates_radps);
   std::optional<YawScrub> scrub = mean_scrub(met, of_law, degrees_of_law(model));
   if (!scrub) return;

@@ -1,8 +1,8 @@
 /// The moment that differential turns need in addition to the resistance of steered turns. Private
 /// to identify/.
 ///
-/// A turn by the sides drags the tyres sideways, which g3 of steered turns knows nothing of. Of each
-/// such turn i, at r_i under tau_i = 2 d (F'R - F'L), the moment in addition to g3 is
+/// A differential turn drags the tyres sideways, which g3 of steered turns does not include. Of
+/// each such turn i, at r_i under tau_i = 2 d (F'R - F'L), the moment in addition to g3 is
 ///
 ///     c_i = tau_i - g3(r_i),    c = mean c_i,    var c = s^2/n + h' C h
 ///
@@ -17,7 +17,7 @@
 
 namespace awmr {
 
-/// Fewer turns by the sides tell no scatter.
+/// Fewer differential turns give no estimate of scatter.
 inline constexpr std::size_t kFewestScrubRows = 3;
 
 /// Sets model.yaw_scrub where the model knows g3 and there are enough turns, which then have to lie

@@ -30,7 +30,7 @@ struct SteadyPoint {
 /// is then one step of the fit, not another fit, and an interval comes from the standard error.
 inline constexpr Eigen::Index kExactRows = 200;
 
-/// What is fitted: the points, the family of the curve, and where the error lies.
+/// Input of a fit: the points, the family of the curve, and the quantity with the error.
 struct SteadyProblem {
   std::vector<SteadyPoint> points;  ///< at least one
   Family family = Family::kPower;

@@ -64,7 +64,7 @@ struct SteadyResidual {
 
 using SteadyCost = ceres::AutoDiffCostFunction<SteadyResidual, 1, 1, 1, 1, 1, 1>;
 
-/// Ends a search in which the same coordinates have stood at their bounds for some iterations.
+/// Ends a search in which the same coordinates have been at their bounds for some iterations.
 class StopAtBound : public ceres::IterationCallback {
  public:
   explicit StopAtBound(std::function<std::vector<TransformedParameter>()> at_bound)
@@ -139,7 +139,7 @@ bool SteadySearch::is_at_bound(TransformedParameter c) const {
   return theta_[at(c)] <= bounds.lo || theta_[at(c)] >= bounds.hi;
 }
 
-/// The coordinates that have come to rest at a bound; the search has then not ended.
+/// Coordinates that stopped at a bound; the search then continues.
 std::vector<TransformedParameter> SteadySearch::search_until_at_bound() {
   StopAtBound stop([this] {
     std::vector<TransformedParameter> at_bound;

@@ -22,8 +22,8 @@ class SteadySearch {
   SteadySearch(const SteadySearch&) = delete;
   SteadySearch& operator=(const SteadySearch&) = delete;
 
-  /// Down to where nothing moves any more. A coordinate that comes to rest at a bound is held there
-  /// while the others are found, and freed again if the cost falls inwards.
+  /// Down to where nothing moves any more. A coordinate that stops at a bound is fixed there while
+  /// the others are found, and freed again if the cost falls inwards.
   void solve();
   /// The loss takes its scale from the residuals, which it changes: a few rounds settle both.
   void solve_robustly();

@@ -1,5 +1,5 @@
-/// What is to be identified from which runs, surge or yaw, and how a fit of it is written down.
-/// Private to identify/.
+/// Subject of a fit of steady runs, surge or yaw, and its entry in /estimates. Private to
+/// identify/.
 #pragma once
 
 #include <optional>
@@ -31,8 +31,8 @@ Subject surge_subject(const Vehicle& vehicle, const TrialSet<SurgeRow>& runs);
 /// g3: tau_turn = g3(r), from the turning runs less the wheels' dead zone F'0.  [paper (61)-(63)]
 Subject yaw_subject(const Vehicle& vehicle, const TrialSet<TurningRow>& runs, double dead_zone);
 
-/// Of each F' the dead zone takes F'0, and with it the same share of tau_turn. Rows within it are
-/// left out: they turned nothing.
+/// Subtracts the dead zone F'0 from each F', and the same share from tau_turn. Rows within it are
+/// left out.
 std::vector<SteadyPoint> turning_points(const std::vector<TurningRow>& rows, double dead_zone);
 
 /// The parameter of the model that a coordinate of the fit belongs to.
@@ -42,7 +42,7 @@ ParameterId parameter_of(const Subject& subject, TransformedParameter c);
 Estimate estimate_of(const SteadyFit& fit, TransformedParameter c,
                      const std::optional<Interval>& interval, const std::string& method);
 
-/// A fit as an entry of /estimates. `noise`: where the error was put, in words.
+/// A fit as an entry of /estimates. `noise`: name of the quantity with the error.
 EstimatorReport report_of(const Subject& subject, const SteadyFit& fit, Family family,
                           Estimator estimator, std::string_view noise);
 

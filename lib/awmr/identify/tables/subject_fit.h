@@ -14,7 +14,7 @@ struct SubjectFit {
   std::string why_not;              ///< why none will do; empty where the rows cannot show the law
   SteadyProblem problem;            ///< of the chosen fit
   bool log_linear = false;          ///< how it was made
-  std::string method;               ///< in words
+  std::string method;               ///< as text
   /// The chosen fit first, then the others that the runs' errors allow; empty without a chosen one.
   std::vector<NoiseAlternative> alternatives;
   std::vector<EstimatorReport> reports;

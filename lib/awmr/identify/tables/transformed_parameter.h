@@ -1,5 +1,5 @@
-/// The numbers in which a resistance curve is fitted, and the parameters of the model they stand
-/// for. Private to identify/.
+/// The numbers in which a resistance curve is fitted, and the corresponding parameters of the
+/// model. Private to identify/.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace awmr {
 
-/// f = alpha w^beta + c + q w^2 at the force f + z. alpha goes by its logarithm: it is positive,
-/// and its error is a factor.
+/// f = alpha w^beta + c + q w^2 at the force f + z. The coordinate of alpha is its logarithm: alpha
+/// is positive, and its error is a factor.
 enum class TransformedParameter {
   kLogAlpha,   ///< ln alpha, without bounds
   kBeta,       ///< beta, 1, within the accepted range
@@ -23,7 +23,7 @@ inline constexpr std::size_t kTransformedParameterCount = 5;
 /// One number for each TransformedParameter, in its order.
 using TransformedParameters = std::array<double, kTransformedParameterCount>;
 
-/// Those that a family frees, in the order of TransformedParameter.
+/// Parameters that a family frees, in the order of TransformedParameter.
 std::vector<TransformedParameter> coordinates_of(Family family);
 
 /// The parameter's value: alpha from its logarithm, F'0 = z/4, the others as they are.

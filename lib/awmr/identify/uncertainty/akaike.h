@@ -6,13 +6,13 @@
 
 namespace awmr {
 
-/// By how much the criterion of another family than the paper's has to be below the power law's for
-/// it to be taken unasked, where errors are correlated: twice what is commonly called decisive, since
-/// the chord at rest, an approximation of every family, costs some.
-inline constexpr double kPlainlyBetter = 20.0;
+/// AIC threshold: another family replaces the power law without a request if its AIC is lower by
+/// this much. For correlated errors: twice what is commonly called decisive, since the chord at
+/// rest, an approximation of every family, costs some.
+inline constexpr double kFamilyAicThreshold = 20.0;
 
 /// AICc of n normal errors of unknown deviation with the sum of squares SSE, `free` numbers fitted
-/// beside the deviation, k = free + 1:
+/// in addition to the deviation, k = free + 1:
 ///
 ///     AICc = n ln(SSE/n) + 2 k + 2 k (k + 1)/(n - k - 1)
 ///

@@ -110,7 +110,8 @@ std::optional<Diagnostic> curvature(std::span<const double> forces,
   const double p = normal_cdf((ratio - 2.0) / deviation);
   return Diagnostic{"curvature", ratio, p,
                     verdict(p, "the residuals scatter about the curve",
-                            "neighbouring forces err alike: the curve bends otherwise")};
+                            "residuals of neighbouring forces are correlated: the curve has "
+                            "another shape")};
 }
 
 std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
@@ -134,7 +135,7 @@ std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
   const double p = fisher_f_tail(f, between_dof, pure_dof);
   return Diagnostic{"lack of fit", f, p,
                     verdict(p, "the curve misses the runs no more than repeats differ",
-                            "the curve misses the runs by more than repeats differ")};
+                            "lack of fit: the curve misses the runs by more than repeats differ")};
 }
 
 Eigen::VectorXd studentised(const Eigen::VectorXd& residuals, const Eigen::VectorXd& leverages,
@@ -146,7 +147,7 @@ Eigen::VectorXd studentised(const Eigen::VectorXd& residuals, const Eigen::Vecto
     const double free = 1.0 - leverages(i);
     const double e = residuals(i);
     const double without = (sse - e * e / free) / (degrees_of_freedom - 1.0);
-    // A point that alone decides a parameter has no residual to judge.
+    // A point that alone decides a parameter has no residual to test.
     const double judged = free > 1e-12 && without > 0.0 ? e / std::sqrt(without * free) : 0.0;
     t(i) = std::isfinite(judged) ? judged : 0.0;
   }

@@ -85,7 +85,7 @@ void set_uncertainty(const Posterior& posterior, Eigen::Index i, double slope,
   for (std::size_t q = 0; q < kQuantiles.size(); ++q) {
     quantiles[q] = to_value(posterior.quantile(i, kQuantiles[q].probability));
   }
-  // Rounding apart the value lies between them: README.md, "Noise and intervals".
+  // Rounding apart the value lies between them: METHODS.md, "Noise and intervals".
   estimate.ci95 = Interval{std::min(quantiles.front(), *estimate.value),
                            std::max(quantiles.back(), *estimate.value)};
   estimate.quantiles = quantiles;

@@ -1,4 +1,4 @@
-/// How many standard errors an interval is wide. Private to identify/.
+/// Quantiles for intervals. Private to identify/.
 #pragma once
 
 namespace awmr {
@@ -9,7 +9,7 @@ inline constexpr double kNormalQuantile995 = 2.576;  ///< two-sided 99 % of the 
 /// Precondition: degrees_of_freedom > 0.
 double t_quantile_95(double degrees_of_freedom);
 
-/// What a chi-squared variable stays below 19 times in 20. Precondition: degrees_of_freedom > 0.
+/// 95 % quantile of the chi-squared distribution. Precondition: degrees_of_freedom > 0.
 double chi_squared_quantile_95(double degrees_of_freedom);
 
 }  // namespace awmr

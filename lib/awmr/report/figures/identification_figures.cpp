@@ -79,7 +79,7 @@ Figure residual_figure(const Model& model, const DrawnFit& fit, const KindWords&
               .low = {-bound, -bound},
               .high = {bound, bound}};
   return {.name = fmt::format("{}_residuals", words.name),
-          .meaning = fmt::format("What is left over of the {} runs, measured over predicted less 1",
+          .meaning = fmt::format("Relative residuals of the {} runs (measured/predicted - 1)",
                                  words.resistance),
           .x = words.rate,
           .panels = {{.y = {.quantity = "residual", .unit = "% of the prediction", .zero = true},

@@ -5,7 +5,8 @@
 namespace awmr {
 namespace lanes {
 
-/// Runs of a block, whatever the instruction set: one, two or four steps of a kernel.
+/// Number of runs in a block, the same for every instruction set: one, two or four steps of a
+/// kernel.
 constexpr int kLanes = 16;
 
 struct alignas(64) Row {

@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-struct Fleet {
+struct SampledPlants {
   Plant<double> nominal{};              ///< the model's own values: what the controller knows
   std::vector<Plant<double>> vehicles;  ///< samples 0, 1, ... of one scenario, then of another
   std::vector<std::size_t> first;       ///< by scenario: where its sample 0 is in `vehicles`
@@ -21,7 +21,7 @@ struct Fleet {
 /// Sample 0 is the model itself, samples 1 ... options.samples are drawn from it (simulate/plant_sampler.h), and each
 /// scenario moves them to its corner, where it has one. Errors (input): the model lacks a
 /// parameter, a covariance to draw from, or an interval that a corner needs.
-Result<Fleet> fleet_of(const Model& model, const std::vector<Scenario>& scenarios,
-                       const CompareOptions& options);
+Result<SampledPlants> sample_plants(const Model& model, const std::vector<Scenario>& scenarios,
+                                    const CompareOptions& options);
 
 }  // namespace awmr

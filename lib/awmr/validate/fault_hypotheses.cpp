@@ -1,4 +1,4 @@
-#include "awmr/validate/suspects.h"
+#include "awmr/validate/fault_hypotheses.h"
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
@@ -15,7 +15,7 @@ namespace awmr {
 namespace {
 
 /// Model and scenario as changed by a fault hypothesis.
-struct Altered {
+struct PerturbedModel {
   Model model;
   Scenario scenario;
 };
@@ -26,7 +26,7 @@ struct Change {
   std::string unit;
   Interval range;  ///< of the value; for a factor, above 0 and searched in its logarithm
   double none;     ///< value without effect
-  std::function<void(Altered&, double value)> apply;
+  std::function<void(PerturbedModel&, double value)> apply;
   bool is_factor() const { return unit == "times"; }
 };
 
@@ -43,7 +43,7 @@ void add_parameters(const Model& model, std::vector<Change>& changes) {
     const bool exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
     if (exponent || !model[id].value || *model[id].value <= 0.0) continue;
     changes.push_back({std::string(parameter.name), "times", kFactor, 1.0,
-                       [id](Altered& v, double f) { *v.model[id].value *= f; }});
+                       [id](PerturbedModel& v, double f) { *v.model[id].value *= f; }});
   }
 }
 
@@ -53,7 +53,7 @@ WheelFault all_the_time(std::vector<Wheel> wheels, double share) {
 
 void add_motors(std::vector<Change>& changes) {
   const auto add = [&](const char* what, std::vector<Wheel> wheels) {
-    changes.push_back({what, "times", {0.3, 1.5}, 1.0, [wheels](Altered& v, double share) {
+    changes.push_back({what, "times", {0.3, 1.5}, 1.0, [wheels](PerturbedModel& v, double share) {
                          v.scenario.faults.push_back(all_the_time(wheels, share));
                        }});
   };
@@ -61,25 +61,27 @@ void add_motors(std::vector<Change>& changes) {
       {Wheel::kFrontLeft, Wheel::kFrontRight, Wheel::kRearLeft, Wheel::kRearRight});
   add("force of the left motors", {Wheel::kFrontLeft, Wheel::kRearLeft});
   add("force of the right motors", {Wheel::kFrontRight, Wheel::kRearRight});
-  changes.push_back({"lag of the motors", "s", {0.0, 0.5}, 0.0, [](Altered& v, double lag_s) {
-                       if (lag_s > 0.0) v.scenario.actuators->motor_time_constant_s = lag_s;
-                     }});
+  changes.push_back(
+      {"lag of the motors", "s", {0.0, 0.5}, 0.0, [](PerturbedModel& v, double lag_s) {
+         if (lag_s > 0.0) v.scenario.actuators->motor_time_constant_s = lag_s;
+       }});
 }
 
 void add_sensors(std::vector<Change>& changes) {
   const auto add = [&](const char* sensor, Channel Sensors::*which, const char* unit,
                        double to_unit, double most) {
-    changes.push_back(
-        {std::string("bias of the ") + sensor,
-         unit,
-         {-most, most},
-         0.0,
-         [=](Altered& v, double bias) { ((*v.scenario.sensors).*which).bias += bias / to_unit; }});
+    changes.push_back({std::string("bias of the ") + sensor,
+                       unit,
+                       {-most, most},
+                       0.0,
+                       [=](PerturbedModel& v, double bias) {
+                         ((*v.scenario.sensors).*which).bias += bias / to_unit;
+                       }});
     changes.push_back({std::string("lateness of the ") + sensor,
                        "s",
                        {0.0, 0.5},
                        0.0,
-                       [=](Altered& v, double late_s) {
+                       [=](PerturbedModel& v, double late_s) {
                          if (late_s > 0.0) ((*v.scenario.sensors).*which).late_s = late_s;
                        }});
   };
@@ -90,12 +92,12 @@ void add_sensors(std::vector<Change>& changes) {
 
 void add_pushes(const Model& model, std::vector<Change>& changes) {
   changes.push_back(
-      {"push along the vehicle", "F_max", {-1.0, 1.0}, 0.0, [](Altered& v, double value) {
+      {"push along the vehicle", "F_max", {-1.0, 1.0}, 0.0, [](PerturbedModel& v, double value) {
          v.scenario.disturbance.surge.push_back({.value = value, .window = {}, .phase_rad = {}});
        }});
   const double most_m = model.vehicle.half_track_m;
   changes.push_back(
-      {"moment that turns it", "m", {-most_m, most_m}, 0.0, [](Altered& v, double value) {
+      {"moment that turns it", "m", {-most_m, most_m}, 0.0, [](PerturbedModel& v, double value) {
          v.scenario.disturbance.yaw.push_back({.value = value, .window = {}, .phase_rad = {}});
        }});
 }
@@ -124,12 +126,12 @@ struct Search {
   Scenario scenario;  ///< without noise
   const AcceptanceOptions& options;
   double duration_s;
-  const std::vector<SuspectChannel>& evidence;
+  const std::vector<EvidenceChannel>& evidence;
 
   /// Mean squared distance of the drive from the changed vehicle's run, summed over channels.
   double distance(const Change& change, double value) const {
     constexpr double kNever = std::numeric_limits<double>::max();
-    Altered changed{model, scenario};
+    PerturbedModel changed{model, scenario};
     change.apply(changed, value);
     const auto plant = changed.model.plant();
     if (!plant) return kNever;
@@ -138,13 +140,13 @@ struct Search {
                              {.sample_time_s = sample_s, .substeps = {}, .seed = options.seed});
     if (run.end == RunEnd::kFailed) return kNever;
     double sum = 0.0;
-    for (const SuspectChannel& one : evidence) {
+    for (const EvidenceChannel& one : evidence) {
       const WindowMeans windows = means_of(*one.channel, run, sample_s, duration_s, nullptr);
       for (std::size_t w = 0; w < windows.mean.size(); ++w) {
         if (windows.rows[w] == 0) continue;
         const double apart = one.measured->mean[w] - windows.mean[w];
-        sum +=
-            std::pow(apart / one.foretold->spread[w], 2) / static_cast<double>(windows.mean.size());
+        sum += std::pow(apart / one.predicted->spread[w], 2) /
+               static_cast<double>(windows.mean.size());
       }
     }
     return std::isfinite(sum) ? sum : kNever;
@@ -152,7 +154,7 @@ struct Search {
 
   /// The best value: first on a grid, because there can be several minima, then between its
   /// neighbours.
-  Suspect best(const Change& change, double unchanged) const {
+  FaultHypothesis best(const Change& change, double unchanged) const {
     const auto to = [&](double value) { return change.is_factor() ? std::log(value) : value; };
     const auto from = [&](double z) { return change.is_factor() ? std::exp(z) : z; };
     const double lo = to(change.range.lo);
@@ -176,20 +178,24 @@ struct Search {
 
 }  // namespace
 
-std::vector<Suspect> suspects_of(const Model& model, const Controller<double>& controller,
-                                 const Scenario& scenario, const AcceptanceOptions& options,
-                                 double duration_s, const std::vector<SuspectChannel>& evidence) {
+std::vector<FaultHypothesis> fault_hypotheses(const Model& model,
+                                              const Controller<double>& controller,
+                                              const Scenario& scenario,
+                                              const AcceptanceOptions& options, double duration_s,
+                                              const std::vector<EvidenceChannel>& evidence) {
   const Search search{model, controller, without_noise(scenario), options, duration_s, evidence};
   const std::vector<Change> changes = changes_of(model);
   const double unchanged = search.distance(changes.front(), changes.front().none);
-  std::vector<Suspect> suspects(changes.size());
+  std::vector<FaultHypothesis> hypotheses(changes.size());
   parallel_for(changes.size(), options.threads,
-               [&](std::size_t i) { suspects[i] = search.best(changes[i], unchanged); });
-  std::stable_sort(suspects.begin(), suspects.end(),
-                   [](const Suspect& a, const Suspect& b) { return a.explained > b.explained; });
-  std::erase_if(suspects, [](const Suspect& one) { return one.explained < kWorthNaming; });
-  if (suspects.size() > kMostNamed) suspects.resize(kMostNamed);
-  return suspects;
+               [&](std::size_t i) { hypotheses[i] = search.best(changes[i], unchanged); });
+  std::stable_sort(
+      hypotheses.begin(), hypotheses.end(),
+      [](const FaultHypothesis& a, const FaultHypothesis& b) { return a.explained > b.explained; });
+  std::erase_if(hypotheses,
+                [](const FaultHypothesis& one) { return one.explained < kWorthNaming; });
+  if (hypotheses.size() > kMostNamed) hypotheses.resize(kMostNamed);
+  return hypotheses;
 }
 
 }  // namespace awmr

@@ -10,24 +10,26 @@
 namespace awmr {
 
 /// Mean and standard deviation of the predictions of a channel, by window.
-struct ForetoldSeries {
+struct PredictedBand {
   std::vector<double> mean;
   std::vector<double> spread;
 };
 
 /// A channel of the drive, measured and predicted.
-struct SuspectChannel {
+struct EvidenceChannel {
   const DriveChannel* channel;
   const WindowMeans* measured;
-  const ForetoldSeries* foretold;
+  const PredictedBand* predicted;
 };
 
 /// Fault hypotheses: each parameter, the motors, the sensors' biases and latencies, constant
 /// external forces. For each, finds the value that alone minimises the distance of the run from the
 /// drive. Returns those that explain at least 30 %, the best first, at most four. Only the vehicle
 /// changes; the controller stays the same.
-std::vector<Suspect> suspects_of(const Model& model, const Controller<double>& controller,
-                                 const Scenario& scenario, const AcceptanceOptions& options,
-                                 double duration_s, const std::vector<SuspectChannel>& evidence);
+std::vector<FaultHypothesis> fault_hypotheses(const Model& model,
+                                              const Controller<double>& controller,
+                                              const Scenario& scenario,
+                                              const AcceptanceOptions& options, double duration_s,
+                                              const std::vector<EvidenceChannel>& evidence);
 
 }  // namespace awmr

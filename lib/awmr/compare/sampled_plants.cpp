@@ -1,4 +1,4 @@
-#include "awmr/compare/fleet.h"
+#include "awmr/compare/sampled_plants.h"
 
 #include <optional>
 
@@ -29,15 +29,15 @@ std::vector<const Scenario*> apart(const std::vector<Scenario>& scenarios, std::
 
 }  // namespace
 
-Result<Fleet> fleet_of(const Model& model, const std::vector<Scenario>& scenarios,
-                       const CompareOptions& options) {
+Result<SampledPlants> sample_plants(const Model& model, const std::vector<Scenario>& scenarios,
+                                    const CompareOptions& options) {
   const std::size_t samples = at(options.samples) + 1;
   // The controller has the model's own values in every sample.
   for (const Scenario& scenario : scenarios) AWMR_RETURN_IF_ERROR(check_scenario(scenario, model));
-  Fleet fleet;
-  AWMR_ASSIGN_OR_RETURN(fleet.nominal, model.plant());
-  const std::vector<const Scenario*> own = apart(scenarios, samples, fleet.first);
-  fleet.vehicles.resize(own.size() * samples);
+  SampledPlants plants;
+  AWMR_ASSIGN_OR_RETURN(plants.nominal, model.plant());
+  const std::vector<const Scenario*> own = apart(scenarios, samples, plants.first);
+  plants.vehicles.resize(own.size() * samples);
   std::optional<PlantSampler> sampler;
   if (options.samples > 0) {
     AWMR_ASSIGN_OR_RETURN(sampler, PlantSampler::make(model));
@@ -49,14 +49,14 @@ Result<Fleet> fleet_of(const Model& model, const std::vector<Scenario>& scenario
     }
     for (std::size_t i = 0; i < own.size(); ++i) {
       AWMR_ASSIGN_OR_RETURN(const Model corner, model_at_corner(drawn, *own[i]));
-      AWMR_ASSIGN_OR_RETURN(fleet.vehicles[i * samples + sample], corner.plant());
+      AWMR_ASSIGN_OR_RETURN(plants.vehicles[i * samples + sample], corner.plant());
     }
     for (std::size_t i = 0; i < scenarios.size(); ++i) {
-      AWMR_RETURN_IF_ERROR(check_work(fleet.vehicle(i, sample), model.file, scenarios[i],
+      AWMR_RETURN_IF_ERROR(check_work(plants.vehicle(i, sample), model.file, scenarios[i],
                                       model.vehicle.sample_time_s));
     }
   }
-  return fleet;
+  return plants;
 }
 
 }  // namespace awmr

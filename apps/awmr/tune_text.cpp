@@ -1,0 +1,179 @@
+#include "tune_text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+#include <string_view>
+
+namespace awmr::cli {
+namespace {
+
+std::string gains_line(const char* name, const Gains<double>& gains, double objective) {
+  return fmt::format(
+      "  {:<14} {:>8.4g} {:>8.4g} {:>8.4g} {:>8.4g} {:>8.4g} {:>8.4f} {:>8.4f} {:>10.4f}\n", name,
+      gains.heading.lambda, gains.heading.mu, gains.heading.epsilon, gains.speed.mu,
+      gains.speed.epsilon, gains.heading.sliding_time_constant_s(),
+      gains.heading.reaching_time_constant_s(), objective);
+}
+
+/// Lists for each metric the inputs with the largest effect on it.
+std::string sensitivity_text(const RobustTuning& robust) {
+  if (!robust.sensitivity) return {};
+  constexpr std::size_t kMostInputs = 3;
+  std::string text = fmt::format(
+      "  sensitivity of the tuned loop: total Sobol indices (95 % interval), {} samples of the "
+      "assumed values\n",
+      robust.sensitivity->samples);
+  for (const SensitiveFigure& figure : robust.sensitivity->figures) {
+    std::vector<std::size_t> order(figure.by_input.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+      return figure.by_input[a].total > figure.by_input[b].total;
+    });
+    text += fmt::format("  {:<13} {:<17} {:.3g} +- {:.2g}:", name_of(figure.mode), figure.name,
+                        figure.mean, figure.deviation);
+    for (std::size_t i = 0; i < std::min(kMostInputs, order.size()); ++i) {
+      const SobolIndex& index = figure.by_input[order[i]];
+      text += fmt::format("{} {} {:.2f} ({:.2f} to {:.2f})", i == 0 ? "" : ";",
+                          robust.sensitivity->inputs[order[i]], index.total, index.total_ci95.lo,
+                          index.total_ci95.hi);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+/// Describes the active constraints and the range of equivalent gains.
+std::string active_text(const Tuning& tuning) {
+  std::string held;
+  for (const ActiveConstraint& one : tuning.active) {
+    held += fmt::format("{}{} (limit 10 % wider: objective {:.1f} % lower)",
+                        held.empty() ? "" : "; ", one.name, 100.0 * one.wider_gains);
+  }
+  return fmt::format(
+      "  active limits  {}\n"
+      "  equally good   mu {:.4g} to {:.4g} at the same mu/epsilon, mu_s {:.4g} to {:.4g} at the "
+      "same mu_s/eps_s (smallest used)\n",
+      held.empty() ? "none" : held, tuning.mu_as_good.lo, tuning.mu_as_good.hi,
+      tuning.speed_mu_as_good.lo, tuning.speed_mu_as_good.hi);
+}
+
+/// Describes the unmodelled variation that the gains account for; empty without any.
+std::string open_text(const OpenVehicle& open) {
+  if (!open.any()) return {};
+  std::string text = "  variation     ";
+  if (!open.mass_factors.empty()) {
+    text += fmt::format(" m' and I'z times {:g}", fmt::join(open.mass_factors, ", "));
+  }
+  for (const Interval& force : open.wheel_forces) {
+    const bool first = &force == &open.wheel_forces.front();
+    const char* joint = !first ? "," : open.mass_factors.empty() ? " F'" : "; F'";
+    text += fmt::format("{} {:g} to {:g}", joint, force.lo, force.hi);
+  }
+  return text + '\n';
+}
+
+/// Worst damping and delay margin of the heading loop, over the confidence set.
+std::string certificate_text(const Certificate& certificate) {
+  std::string by_mode;
+  for (const ModeCertificate& one : certificate.modes) {
+    by_mode += fmt::format("{}{} {:.3g}, {:.3g} s", by_mode.empty() ? "" : "; ", name_of(one.mode),
+                           one.damping.value, one.delay_margin_s.value);
+  }
+  return fmt::format(
+      "  worst case     damping {:.3g}, delay margin {:.3g} s over {}, with {:g} s latency ({})\n",
+      certificate.damping_min(), certificate.delay_margin_s(),
+      certificate.parameters > 0 ? "the 95 % region of the parameters" : "the model's own values",
+      certificate.latency_s, by_mode);
+}
+
+}  // namespace
+
+std::string gains_table(const Tuning& tuning) {
+  std::string text =
+      fmt::format("  {:<14} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "gains", "lambda",
+                  "mu", "epsilon", "mu_s", "eps_s", "T1 s", "T2 s", "objective");
+  const bool is_known =
+      tuning.baseline.source == kPolePlacement || tuning.baseline.source == kPaperSource;
+  text += gains_line(is_known ? tuning.baseline.source.c_str() : "baseline", tuning.baseline.gains,
+                     tuning.baseline_objective);
+  text += gains_line("tuned", tuning.gains, tuning.objective);
+  if (const ObserverGains<double>& observer = tuning.gains.observer; observer.is_on()) {
+    text += fmt::format("  observer       {:.4g} rad/s, at most {:.4g} m and {:.4g} of F_max\n",
+                        observer.bandwidth_radps, observer.yaw_max_m, observer.surge_max);
+  }
+  return text;
+}
+
+std::string judged_table(const std::vector<JudgedGains>& all,
+                         const std::vector<JudgedGains>& by_scenario) {
+  if (all.empty()) return {};
+  const std::vector<JudgedGains>& rows = by_scenario.empty() ? all : by_scenario;
+  std::string text =
+      fmt::format("  {:<13} {:<9} {:>8} {:>10} {:>10} {:>10} {:>11}\n", "fresh draws", "gains",
+                  "settled", "settling s", "overs. deg", "IAE deg s", "steer deg/s");
+  text += fmt::format("  {:<13} {:<9} {:>8} {:>10} {:>10} {:>10} {:>11}\n", "", "", "%", "95 %",
+                      "95 %", "95 %", "RMS, 95 %");
+  std::string_view scenario;
+  for (const JudgedGains& judged : rows) {
+    if (judged.scenario != scenario) text += fmt::format("  {}\n", judged.scenario);
+    scenario = judged.scenario;
+    const auto q95 = [&](std::string_view name) {
+      const auto figure = std::find_if(judged.figures.begin(), judged.figures.end(),
+                                       [&](const JudgedFigure& f) { return f.name == name; });
+      return figure->q95;
+    };
+    text += fmt::format("  {:<13} {:<9} {:>8.0f} {:>10.2f} {:>10.2f} {:>10.1f} {:>11.1f}\n",
+                        name_of(judged.mode), judged.gains, 100.0 * judged.completed_share,
+                        q95("settling_time_s"), q95("overshoot_deg"), q95("heading_iae_degs"),
+                        q95("steering_rate_rms_degps"));
+  }
+  return text;
+}
+
+std::string goals_text(const std::vector<JudgedGoal>& all) {
+  std::string text;
+  for (const JudgedGoal& judged : all) {
+    if (judged.gains != kRobustGains) continue;
+    std::string limits;
+    for (const GoalLimit& limit : judged.goal.at_most) {
+      limits += fmt::format("{}{} <= {:g}", limits.empty() ? "" : ", ", limit.figure, limit.most);
+    }
+    text += fmt::format(
+        "  {:<6} {}, {}{}: {:.1f} % of {} draws ({:.1f} to {:.1f}), required {:g} %\n",
+        name_in(kGoalVerdictNames, judged.verdict), limits, name_of(judged.mode),
+        judged.goal.is_soft ? ", soft" : "", 100.0 * judged.held / judged.runs, judged.runs,
+        100.0 * judged.ci95.lo, 100.0 * judged.ci95.hi, 100.0 * judged.goal.share);
+  }
+  return text.empty() ? text : "  goals, on fresh draws\n" + text;
+}
+
+std::string tuning_summary(const Tuning& tuning, const TuneOptions& options) {
+  std::string text = gains_table(tuning) + active_text(tuning) +
+                     certificate_text(*tuning.certificate) + open_text(options.open);
+  if (tuning.robust) {
+    text += judged_table(tuning.robust->judged, tuning.robust->judged_by_scenario) +
+            goals_text(tuning.robust->goals) + sensitivity_text(*tuning.robust);
+  }
+  return text;
+}
+
+std::string tuning_details(const Tuning& tuning) {
+  std::string text = "objective by scenario and mode\n";
+  for (const ModeScore& score : tuning.scores) {
+    text += fmt::format("  {:<22} {:<13} {:.4f} of the baseline's\n", score.scenario,
+                        name_of(score.mode), score.objective);
+  }
+  text += "constraints\n";
+  for (const ConstraintReport& constraint : tuning.constraints) {
+    text += fmt::format(
+        "  {:<38} {:.4g} {} {:.4g}, margin {:.4g}\n", constraint.name, constraint.value,
+        constraint.sense == Sense::kAtMost ? "<=" : ">=", constraint.limit, constraint.margin);
+  }
+  return text + fmt::format("search\n  {} after {} evaluations: {}\n", tuning.algorithm,
+                            tuning.evaluations, tuning.stop_reason);
+}
+
+}  // namespace awmr::cli

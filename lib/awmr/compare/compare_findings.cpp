@@ -1,0 +1,78 @@
+#include "awmr/compare/compare_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace awmr {
+namespace {
+
+void note_samples(const CompareOptions& options, const Comparison& comparison,
+                  std::vector<Finding>& findings) {
+  const int samples = options.shard.count > 1 ? options.samples : comparison.whole_samples - 1;
+  if (samples < 2 || samples >= kFewSamples) return;
+  findings.push_back(
+      {"", 0, Severity::kWarning, "few-samples",
+       fmt::format("intervals of {} samples have a coverage of at most {:.0f} %, not 95; give {} "
+                   "samples or more",
+                   samples, 100.0 * (1.0 - std::pow(0.5, samples - 1)), kFewSamples)});
+}
+
+/// Adds the finding on the simulated scrub, or a warning if yaw resistance includes scrub that
+/// steered turns do not have.
+void note_scrub(const Model& model, std::vector<Finding>& findings) {
+  if (model.yaw_by_sides_alone) {
+    findings.push_back(
+        {model.file, 0, Severity::kWarning, "turned-by-sides",
+         "yaw resistance was identified from differential turns and includes their tyre scrub, so "
+         "steering and combined appear worse than they are. Add steered turns to the turning table "
+         "(awmr suggest lists them)"});
+  }
+  if (!model.yaw_scrub || !(model.yaw_scrub->moment_m > 0.0)) return;
+  findings.push_back(
+      {model.file, 0, Severity::kNote, "scrub-simulated",
+       fmt::format("the simulated plant adds the measured tyre scrub, {:.3g} m (95 %: {:.3g} to "
+                   "{:.3g}), to differential and combined turns; the controller does not "
+                   "compensate it. --break-even gives the scrub that changes each ranking",
+                   model.yaw_scrub->moment_m, model.yaw_scrub->ci95_m.lo,
+                   model.yaw_scrub->ci95_m.hi)});
+}
+
+}  // namespace
+
+std::vector<Finding> compare_findings(const Model& model, const std::vector<Scenario>& scenarios,
+                                      const CompareOptions& options, const Comparison& comparison,
+                                      const HeadingRateChoice& rate) {
+  std::vector<Finding> findings;
+  for (const Scenario& scenario : scenarios) {
+    std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
+    if (auto finding = tyres_differ(scenario, model)) findings.push_back(*std::move(finding));
+  }
+  note_samples(options, comparison, findings);
+  if (auto finding = not_led(rate, model)) findings.push_back(*std::move(finding));
+  note_scrub(model, findings);
+  return findings;
+}
+
+std::vector<Finding> extrapolation_findings(const Comparison& comparison,
+                                            const Provenance& provenance) {
+  if (!comparison.measured_yaw_rate_degps || comparison.rows.empty()) return {};
+  const auto fastest = std::ranges::max_element(
+      comparison.rows, {}, [](const ComparisonRow& row) { return row.metrics.yaw_rate_max_degps; });
+  const bool is_rate_limited =
+      std::ranges::find(provenance.options,
+                        std::pair(std::string(kRateName), std::string(kMeasuredRate))) !=
+      provenance.options.end();
+  const std::string model = provenance.inputs.empty() ? "" : provenance.inputs.front().name;
+  auto finding = extrapolation_finding(
+      model, *comparison.measured_yaw_rate_degps, fastest->metrics.yaw_rate_max_degps,
+      fmt::format("{}, {}, sample {}", fastest->scenario, name_of(fastest->mode), fastest->sample),
+      is_rate_limited);
+  if (!finding) return {};
+  return {*std::move(finding)};
+}
+
+}  // namespace awmr

@@ -1,0 +1,153 @@
+#include "awmr/tune/tune_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "awmr/core/units.h"
+#include "awmr/simulate/conditions.h"
+#include "awmr/simulate/validity.h"
+
+namespace awmr {
+namespace {
+
+void note_goal(const JudgedGoal& judged, std::vector<Finding>& findings) {
+  if (judged.verdict == GoalVerdict::kMet) return;
+  const bool is_missed = judged.verdict == GoalVerdict::kMissed;
+  findings.push_back(
+      {"", 0, Severity::kWarning, is_missed ? "goal-missed" : "goal-open",
+       fmt::format("{} of {} fresh draws in {} meet the goal ({:.1f} to {:.1f} %), {:g} % are "
+                   "required: {}",
+                   judged.held, judged.runs, name_of(judged.mode), 100.0 * judged.ci95.lo,
+                   100.0 * judged.ci95.hi, 100.0 * judged.goal.share,
+                   is_missed ? "tune on more draws (--draws), raise the limits or accept less"
+                             : "increase judged_draws")});
+}
+
+void note_unsettled(const std::string& scenario, YawMode mode, double completed_share,
+                    std::vector<Finding>& findings) {
+  constexpr double kMinShare = 0.95;
+  if (completed_share >= kMinShare) return;
+  findings.push_back(
+      {"", 0, Severity::kWarning, "unsettled",
+       fmt::format("{}{}: only {:.0f} % of the runs with the tuned gains settle after every step; "
+                   "the metrics of the others are of unsettled runs. Give more time or a higher "
+                   "heading-rate limit, or add an observer (--observer) against constant "
+                   "disturbances",
+                   scenario.empty() ? "" : scenario + ", ", name_of(mode),
+                   100.0 * completed_share)});
+}
+
+/// A note if too few samples leave the most influential input of a metric undetermined.
+void note_sensitivity(const Tuning& tuning, std::vector<Finding>& findings) {
+  if (!tuning.robust || !tuning.robust->sensitivity) return;
+  constexpr double kWide = 0.5;  // an index with a 95 % interval of 0.2 to 0.7 is uninformative
+  const auto width = [](const SobolIndex& index) {
+    return index.total_ci95.hi - index.total_ci95.lo;
+  };
+  const std::vector<SensitiveFigure>& figures = tuning.robust->sensitivity->figures;
+  const auto open = std::ranges::count_if(figures, [&](const SensitiveFigure& figure) {
+    return width(*std::ranges::max_element(figure.by_input, {}, width)) > kWide;
+  });
+  if (open == 0) return;
+  findings.push_back(
+      {"", 0, Severity::kNote, "sensitivity-open",
+       fmt::format("{} samples do not show which input affects {} of {} metrics most; increase "
+                   "--sensitivity",
+                   tuning.robust->sensitivity->samples, open, figures.size())});
+}
+
+/// A warning if some parameters of the confidence set make the loop unstable.
+void note_certificate(const ModeCertificate& certificate, std::vector<Finding>& findings) {
+  if (certificate.damping.value > 0.0) return;
+  std::string where;
+  for (const auto& [id, value] : certificate.damping.parameters) {
+    where += fmt::format("{}{} = {:.4g}", where.empty() ? "" : ", ", info(id).name, value);
+  }
+  findings.push_back(
+      {"", 0, Severity::kWarning, "not-certified",
+       fmt::format("{}: the heading loop is unstable for parameters within the model's 95 % set "
+                   "(damping {:.3g} at {}, {:.3g} deg/s). Record the trials that `awmr suggest` "
+                   "names, or raise limits/late_damping",
+                   name_of(certificate.mode), certificate.damping.value, where,
+                   degrees(certificate.damping.yaw_rate_radps))});
+}
+
+/// A warning if an observer is tuned on runs without disturbance.
+void note_observer(const TuneOptions& options, std::vector<Finding>& findings) {
+  const bool is_pushed = std::ranges::any_of(
+      options.scenarios, [](const Scenario& scenario) { return scenario.disturbance.any(); });
+  if (!options.observer || is_pushed) return;
+  findings.push_back(
+      {"", 0, Severity::kWarning, "observer-unpushed",
+       "no scenario has a disturbance, so the observer was tuned on noise alone. Give a scenario "
+       "with a disturbance, or no scenarios to use the default ones"});
+}
+
+/// Requests that the vehicle cannot meet, in the scenarios and in the conditions of the draws.
+void note_scenarios(const Model& model, const TuneOptions& options, const Tuning& tuning,
+                    std::vector<Finding>& findings) {
+  std::vector<Scenario> scenarios = options.scenarios;
+  if (tuning.robust) {
+    scenarios.push_back(
+        under(tuning.robust->conditions, {.name = "the vehicle", .guidance = OpenLoop{}}));
+  }
+  for (const Scenario& scenario : scenarios) {
+    std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
+  }
+}
+
+/// Findings of nominal gains, or without fresh draws: of the runs that were tuned on.
+std::vector<Finding> nominal_findings(const Tuning& tuning) {
+  std::vector<Finding> findings;
+  for (const ModeScore& score : tuning.scores) {
+    note_unsettled(score.scenario, score.mode, score.metrics.completed ? 1.0 : 0.0, findings);
+  }
+  return findings;
+}
+
+}  // namespace
+
+std::vector<Finding> evaluation_findings(const std::vector<JudgedGains>& judged,
+                                         const std::vector<JudgedGains>& judged_by_scenario,
+                                         const std::vector<JudgedGoal>& goals) {
+  std::vector<Finding> findings;
+  for (const JudgedGoal& goal : goals) {
+    if (goal.gains == kRobustGains) note_goal(goal, findings);
+  }
+  for (const JudgedGains& one : judged_by_scenario.empty() ? judged : judged_by_scenario) {
+    if (one.gains == kRobustGains) {
+      note_unsettled(one.scenario, one.mode, one.completed_share, findings);
+    }
+  }
+  return findings;
+}
+
+std::vector<Finding> tune_findings(const Model& model, const TuneOptions& options,
+                                   const Tuning& tuning) {
+  std::vector<Finding> findings;
+  if (!options.shard) {
+    findings = tuning.robust && !tuning.robust->judged.empty()
+                   ? evaluation_findings(tuning.robust->judged, tuning.robust->judged_by_scenario,
+                                         tuning.robust->goals)
+                   : nominal_findings(tuning);
+  }
+  note_sensitivity(tuning, findings);
+  for (const ModeCertificate& one : tuning.certificate->modes) note_certificate(one, findings);
+  note_observer(options, findings);
+  if (const auto plant = model.plant()) {
+    auto finding = unsigned_speed_finding(*plant, tuning.gains, model.vehicle.wheel_force.hi, "");
+    if (finding) findings.push_back(*std::move(finding));
+  }
+  note_scenarios(model, options, tuning, findings);
+  const auto name = [](const ModeScore& score) {
+    return fmt::format("{}, {}", score.scenario, name_of(score.mode));
+  };
+  std::ranges::move(extrapolation_in(model, tuning.scores, name), std::back_inserter(findings));
+  return findings;
+}
+
+}  // namespace awmr
