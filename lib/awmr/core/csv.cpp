@@ -192,7 +192,7 @@ double CsvParser::value_of(const CsvCell& cell, const UsedColumn& used) {
                       used.name, shortened(cell.text, 40)));
     return kFaultyCell;
   }
-  const auto value = number_from_text(cell.text);
+  const auto value = cell.number ? *cell.number : number_from_text(cell.text);
   if (value) {
     if (header_.delimiter != ',') note_point(cell, commas_);
     return *value;

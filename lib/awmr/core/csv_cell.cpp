@@ -7,7 +7,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 
 #include "awmr/core/csv.h"
@@ -68,37 +67,6 @@ bool is_clock_time(std::string_view text) {
          count_digits(text.substr(hours + 1)) == 2;
 }
 
-constexpr std::array<double, 16> kPowersOfTen{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                              1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
-
-/// A number like `-12.5` of at most 15 digits. It is an integer over a power of ten, both exact in
-/// double, so that one division rounds as std::from_chars does, which takes several times longer.
-/// [Clinger, How to Read Floating Point Numbers Accurately, 1990]
-std::optional<double> short_number(std::string_view text) {
-  constexpr std::size_t kMaxDigits = kPowersOfTen.size() - 1;
-  const bool is_negative = text.starts_with('-');
-  if (is_negative) text.remove_prefix(1);
-  if (text.size() > kMaxDigits + 1) return std::nullopt;
-  std::int64_t number = 0;
-  std::size_t digits = 0;
-  std::size_t decimals = 0;
-  bool has_point = false;
-  for (const char c : text) {
-    if (is_digit(c)) {
-      number = 10 * number + (c - '0');
-      ++digits;
-      decimals += has_point ? 1U : 0U;
-    } else if (c == '.' && !has_point) {
-      has_point = true;
-    } else {
-      return std::nullopt;
-    }
-  }
-  if (digits == 0 || digits > kMaxDigits) return std::nullopt;
-  const double size = static_cast<double>(number) / kPowersOfTen[decimals];
-  return is_negative ? -size : size;
-}
-
 /// U+2212, which spreadsheets and typesetters use for '-'.
 constexpr std::string_view kMinusSign = "\xE2\x88\x92";
 
@@ -151,7 +119,6 @@ tl::expected<double, std::string> number_from_text(std::string_view text) {
   if (digits.size() > 1 && digits[0] == '+' && (is_digit(digits[1]) || digits[1] == '.')) {
     digits.remove_prefix(1);
   }
-  if (const auto number = short_number(digits)) return *number;
   double value = 0.0;
   const char* end = digits.data() + digits.size();
   const auto [stop, error] = std::from_chars(digits.data(), end, value);

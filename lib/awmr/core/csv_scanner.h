@@ -1,6 +1,7 @@
 /// Splits the bytes of a CSV file into records of cells.
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +13,7 @@ struct CsvCell {
   int line = 1;
   int character = 1;
   bool is_quoted = false;
+  std::optional<double> number = {};  ///< of most numbers; number_from_text() parses the others
 };
 
 class CsvScanner {
