@@ -121,7 +121,6 @@ CsvScanner::Outcome CsvScanner::cell(std::vector<CsvCell>& cells) {
   if (is_at('"')) return quoted_cell(cells);
   CsvCell& cell = cells.emplace_back();
   cell.line = line_;
-  cell.character = character_;
   const std::size_t number_length = parse_plain_number(rest_, cell.number);
   std::size_t length = number_length;
   int characters = static_cast<int>(number_length);
@@ -132,7 +131,7 @@ CsvScanner::Outcome CsvScanner::cell(std::vector<CsvCell>& cells) {
   }
   if (length > number_length) cell.number.reset();
   cell.text = trimmed(rest_.substr(0, length));
-  if (cell.text.empty()) cell.character = start;
+  cell.character = cell.text.empty() ? start : character_;
   rest_.remove_prefix(length);
   character_ += characters;
   return Outcome::kRecord;
