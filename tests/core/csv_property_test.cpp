@@ -6,8 +6,10 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "awmr/core/csv_cell.h"
+#include "awmr/core/csv_text.h"
 #include "core/any_finite.h"
 #include "core/csv_text.h"
 
@@ -35,6 +37,46 @@ RC_GTEST_PROP(FormatNumber, NoShorterTextReadsBackTheSame, ()) {
       const auto back = number_from_text(shorter);
       RC_ASSERT(!back.has_value() || *back != value || shorter.size() >= text.size());
     }
+  }
+}
+
+/// The number in a table of one cell; none if it is a fault.
+std::optional<double> number_in_table(const std::string& cell) {
+  const auto table = read_csv_text("x,y\n0," + cell + "\n", "a.csv", std::vector<CsvColumn>{{"y"}});
+  return table ? std::optional(table->column("y")[0]) : std::nullopt;
+}
+
+/// Decimal numbers of all lengths, as from std::from_chars bit for bit.
+RC_GTEST_PROP(CsvNumber, IsThatOfFromChars, ()) {
+  const auto digits = *rc::gen::container<std::string>(rc::gen::inRange('0', ':'));
+  std::string text = *rc::gen::element<std::string>("", "-", "00") + digits;
+  text.insert(text.size() - *rc::gen::inRange<std::size_t>(0, digits.size() + 1),
+              *rc::gen::element<std::string>("", "."));
+  text += *rc::gen::element<std::string>("", "", "", "e-3", "E+12");
+  double expected = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), expected);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  const auto value = number_in_table(text);
+  RC_ASSERT(value.has_value() == is_number);
+  if (!is_number) return;
+  RC_ASSERT(std::bit_cast<std::uint64_t>(*value) == std::bit_cast<std::uint64_t>(expected));
+}
+
+TEST(CsvNumber, OfFifteenAndMoreDigitsIsThatOfFromChars) {
+  for (const std::string text :
+       {"-0", "-0.0", "00.500", ".5", "5.", "999999999999999", "9999999999999999",
+        "-.999999999999999", "9007199254740993", "9007199254740993.0", "9007199254740992",
+        "900719925474099.3", "1844674407370955161", "18446744073709551616",
+        "0.1000000000000000055511151231257827", "123456789.012345", "123456789.0123456",
+        "0.000000000000001", "0.0000000000000001"}) {
+    double expected = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), expected);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(number_in_table(text).value()),
+              std::bit_cast<std::uint64_t>(expected))
+        << text;
+  }
+  for (const std::string text : {"", "-", ".", "-.", "--1", "1..2", "1-2", "1.2.3"}) {
+    EXPECT_FALSE(number_in_table(text).has_value()) << text;
   }
 }
 

@@ -1,11 +1,8 @@
-/// A CSV table is read with finite values or refused with a readable fault. Reading in blocks gives
-/// the same table.
+/// A CSV table is read with finite values or refused with a readable fault.
 #include <cmath>
 
-#include "awmr/core/csv_blocks.h"
 #include "awmr/core/csv_text.h"
 #include "fuzz/target.h"
-#include "support/same_table.h"
 
 using awmr::fuzz::require;
 
@@ -14,16 +11,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const awmr::ColumnMapping mappings[] = {{"speed_mps", "V (m/s)", 2.0, 1.0}};
   const auto table =
       awmr::read_csv_text(awmr::fuzz::text_of(data, size), "a.csv", columns, mappings);
-  const auto bytes = std::make_shared<const awmr::InputBytes>(
-      "a.csv", std::string(awmr::fuzz::text_of(data, size)));
-  const auto in_blocks =
-      awmr::read_csv_blocks(bytes, columns, mappings, {.bytes = 1 + size % 61, .threads = 1});
-  require(in_blocks.has_value(), "a text in memory can be read");
-  if (*in_blocks) {
-    require(table.has_value(), "what is wrong is left to the reader of whole texts");
-    require(awmr::testing::difference(**in_blocks, *table, columns).empty(),
-            "blocks do not change the table");
-  }
   if (!table) {
     require(!table.error().faults.empty(), "an error names a fault");
     require(awmr::to_text(table.error()).size() < 100'000, "an error can be read");

@@ -3,29 +3,53 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <memory>
 #include <optional>
 #include <utility>
 
 #include "awmr/core/column_sources.h"
-#include "awmr/core/csv_blocks.h"
 #include "awmr/core/csv_cell.h"
-#include "awmr/core/csv_columns.h"
 #include "awmr/core/csv_header.h"
 #include "awmr/core/csv_scanner.h"
 #include "awmr/core/csv_text.h"
 #include "awmr/core/decimal_comma.h"
+#include "awmr/core/foreign_format.h"
+#include "awmr/core/input_file.h"
 #include "awmr/core/raw_table.h"
 #include "awmr/core/text.h"
 
 namespace awmr {
 namespace {
 
+/// A column of the file that is read.
+struct UsedColumn {
+  std::size_t index;         ///< into the header
+  std::string name;          ///< name in error messages
+  bool may_be_empty = true;  ///< for every column derived from it
+  bool is_date = false;      ///< a date of ISO 8601
+};
+
+/// Each file column once, however many requested columns use it.
+std::vector<UsedColumn> used_columns(const ColumnSources& sources, const CsvHeader& header) {
+  std::vector<UsedColumn> used;
+  for (const ColumnSource& source : sources.found) {
+    for (const std::size_t index : source.indices) {
+      auto column = std::find_if(used.begin(), used.end(),
+                                 [&](const UsedColumn& other) { return other.index == index; });
+      if (column == used.end()) {
+        const std::string& name = source.expression ? header.names[index] : source.column.name;
+        column = used.insert(column, {.index = index, .name = name});
+      }
+      if (source.time && source.time->is_date) column->is_date = true;
+      if (source.column.empty == EmptyCells::kFault) column->may_be_empty = false;
+    }
+  }
+  return used;
+}
+
 /// Parses the header, then the rows. Collects faults up to a maximum.
 class CsvParser {
  public:
-  CsvParser(std::string file, std::string_view bytes) : scanner_(bytes) {
+  CsvParser(std::string file, std::string_view text) : text_(text), scanner_(text) {
     raw_.file = std::move(file);
   }
 
@@ -41,18 +65,20 @@ class CsvParser {
 
   ColumnSources find_sources(std::span<const CsvColumn> columns,
                              std::span<const ColumnMapping> mappings);
+  void reserve();
   void check_commas();
   bool scan();
   bool read_row();
   bool has_decimal_commas() const;
   void report_ragged();
   void read_cells();
-  double value_of(const CsvCell& cell, const CsvUsedColumn& used);
+  double value_of(const CsvCell& cell, const UsedColumn& used);
 
+  std::string_view text_;
   CsvScanner scanner_;
   std::vector<CsvCell> cells_ = {};
   CsvHeader header_ = {};
-  std::vector<CsvUsedColumn> used_ = {};
+  std::vector<UsedColumn> used_ = {};
   std::vector<Fault> faults_ = {};
   DecimalCommas commas_ = {};
   RawTable raw_ = {};
@@ -75,12 +101,23 @@ Result<CsvTable> CsvParser::parse(std::span<const CsvColumn> columns,
   raw_.header_line = header_.line;
   raw_.columns.resize(header_.names.size());
   ColumnSources sources = find_sources(columns, mappings);
-  used_ = used_columns(sources, header_.names);
+  used_ = used_columns(sources, header_);
+  reserve();
   while (faults_.size() < kMaxFaults && read_row()) {
   }
   check_commas();
   raw_.notes = format_notes(header_, commas_.comma.has_value());
   return table_of(std::move(raw_), std::move(sources), mappings, std::move(faults_));
+}
+
+/// Reserves memory for as many rows as there are if all are as long as the first.
+void CsvParser::reserve() {
+  std::size_t row_bytes = 1;
+  for (const std::string& sample : header_.samples) row_bytes += sample.size() + 1;
+  for (const UsedColumn& used : used_) {
+    raw_.columns[used.index].value.reserve(text_.size() / row_bytes);
+    raw_.columns[used.index].character.reserve(text_.size() / row_bytes);
+  }
 }
 
 /// Fills `cells_` with the next record. False at the end of the text and after an unterminated
@@ -145,7 +182,7 @@ void CsvParser::report_ragged() {
 }
 
 /// Faulty cells and permitted empty cells have marker values.
-double CsvParser::value_of(const CsvCell& cell, const CsvUsedColumn& used) {
+double CsvParser::value_of(const CsvCell& cell, const UsedColumn& used) {
   if (used.may_be_empty && cell.text.empty()) return kEmptyCell;
   if (used.is_date) {
     if (const auto seconds = seconds_of_date(cell.text)) return *seconds;
@@ -155,7 +192,7 @@ double CsvParser::value_of(const CsvCell& cell, const CsvUsedColumn& used) {
                       used.name, shortened(cell.text, 40)));
     return kFaultyCell;
   }
-  const auto value = number_from_text(cell.text);
+  const auto value = cell.number ? *cell.number : number_from_text(cell.text);
   if (value) {
     if (header_.delimiter != ',') note_point(cell, commas_);
     return *value;
@@ -176,40 +213,11 @@ void CsvParser::check_commas() {
 
 void CsvParser::read_cells() {
   raw_.lines.push_back(cells_.front().line);
-  for (const CsvUsedColumn& used : used_) {
+  for (const UsedColumn& used : used_) {
     const CsvCell& cell = cells_[used.index];
     raw_.columns[used.index].value.push_back(value_of(cell, used));
     raw_.columns[used.index].character.push_back(cell.character);
   }
-}
-
-/// Non-text file formats, by their first bytes.
-struct KnownFile {
-  std::string_view begin;
-  std::string_view words;
-};
-constexpr std::array<KnownFile, 5> kKnownFiles{
-    {{"PK\x03\x04", "a ZIP archive or an Excel workbook; export the sheet as CSV"},
-     {"\xD0\xCF\x11\xE0", "an old Excel workbook; export the sheet as CSV"},
-     {"\x1F\x8B", "compressed by gzip; unpack it"},
-     {"%PDF-", "a PDF; export the table as CSV"},
-     {"\x89MCAP", "an MCAP bag; convert it by ros2 bag convert to sqlite3"}}};
-
-/// The text without its byte order mark. Errors: it is empty or is not text.
-Result<std::string_view> text_of(std::string_view bytes, const std::string& file) {
-  if (bytes.empty()) {
-    return input_error(file, "the file is empty; expected a header row and rows");
-  }
-  for (const KnownFile& known : kKnownFiles) {
-    if (bytes.starts_with(known.begin)) {
-      return input_error(file, fmt::format("this file is no CSV but {}", known.words));
-    }
-  }
-  if (bytes.find('\0') != std::string_view::npos) {
-    return input_error(file, "this is not UTF-8 text (UTF-16?); save it as UTF-8");
-  }
-  if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
-  return bytes;
 }
 
 }  // namespace
@@ -228,19 +236,10 @@ Result<CsvHead> csv_head(std::string_view bytes, const std::string& file,
   return CsvParser(file, text).head(columns, mappings, most_rows);
 }
 
-Result<CsvTable> read_csv(std::shared_ptr<const InputBytes> bytes,
-                          std::span<const CsvColumn> columns,
-                          std::span<const ColumnMapping> mappings) {
-  AWMR_ASSIGN_OR_RETURN(std::optional<CsvTable> table, read_csv_blocks(bytes, columns, mappings));
-  if (table) return std::move(*table);
-  AWMR_ASSIGN_OR_RETURN(const std::shared_ptr<const std::string> text, bytes->whole());
-  return read_csv_text(*text, bytes->name(), columns, mappings);
-}
-
 Result<CsvTable> read_csv(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                           std::span<const ColumnMapping> mappings) {
-  AWMR_ASSIGN_OR_RETURN(std::shared_ptr<const InputBytes> bytes, InputBytes::open(path));
-  return read_csv(std::move(bytes), columns, mappings);
+  AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));
+  return read_csv_text(bytes, path.string(), columns, mappings);
 }
 
 }  // namespace awmr

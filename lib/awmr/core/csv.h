@@ -4,8 +4,6 @@
 
 #include <filesystem>
 #include <map>
-#include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,17 +40,13 @@ struct CsvNote {
   std::string message;
 };
 
-/// Finds the position of a cell in the file.
-class CellPlaces;
-
 /// The requested numeric columns, and the position of each cell.
 class CsvTable {
  public:
   struct Column {
     std::vector<double> values;
-    std::vector<int> character;      ///< column in the file, from 1, by row; empty: see `cell`
+    std::vector<int> character;      ///< column in the file, from 1, by row; empty: unknown
     std::vector<bool> present = {};  ///< by row: has its own value; empty: all have
-    std::optional<std::size_t> cell = {};  ///< index, from 0, whose position `places` finds
   };
   struct Parts {
     std::string file;
@@ -62,7 +56,6 @@ class CsvTable {
     std::vector<CsvNote> notes = {};
     std::vector<std::size_t> mapped = {};
     double clock_s = 0.0;
-    std::shared_ptr<const CellPlaces> places = {};  ///< null: unknown `character` is reported as 1
   };
   /// Precondition: every column has a value for every line.
   explicit CsvTable(Parts parts) : parts_(std::move(parts)) {}
@@ -79,7 +72,7 @@ class CsvTable {
   const std::vector<bool>& present(std::string_view column) const;
   /// Line in the file, from 1.
   int line(std::size_t row) const { return parts_.lines[row]; }
-  /// `FILE:LINE:COLUMN` of a cell; a column that is absent gives `FILE:LINE:1`.
+  /// `FILE:LINE:COLUMN` of a cell; `FILE:LINE:1` if the column is absent or its place unknown.
   std::string place(std::size_t row, std::string_view column) const;
   /// `FILE:LINE:1` of the header.
   std::string header_place() const;

@@ -112,12 +112,6 @@ std::optional<double> number_with_minus_sign(std::string_view text) {
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 tl::expected<double, std::string> number_from_text(std::string_view text) {
   text = trimmed(text);
   if (text.empty()) return tl::unexpected(std::string("the cell is empty; expected a number"));

@@ -9,7 +9,12 @@
 namespace awmr {
 
 /// Removes leading and trailing spaces and tabs.
-std::string_view trimmed(std::string_view text);
+inline std::string_view trimmed(std::string_view text) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
 
 /// Parses a finite decimal number; a leading '+' is allowed. Errors say what was found and what to
 /// do: an empty cell, NaN, infinity, a hexadecimal number, a decimal comma, a unit behind the

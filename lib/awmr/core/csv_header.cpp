@@ -8,6 +8,7 @@
 
 #include "awmr/core/column_sources.h"
 #include "awmr/core/csv_cell.h"
+#include "awmr/core/foreign_format.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/text.h"
 
@@ -28,21 +29,15 @@ std::string name_of(const CsvCell& cell) {
 
 struct Delimiter {
   char character = ',';
-  int found = 0;        ///< requested columns that it separates
-  bool is_cut = false;  ///< as in CsvHeader
+  int found = 0;  ///< requested columns that it separates
 };
 
 /// The delimiter that finds most requested columns; of equal ones, the one that gives most cells.
 Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& wanted) {
   int best = 0;
   Delimiter chosen;
-  bool is_cut = false;
   for (const char delimiter : {',', ';', '\t', '|'}) {
-    CsvScanner copy = scanner;
-    copy.set_delimiter(delimiter);
-    std::vector<CsvCell> cells;
-    copy.next(cells);  // up to the first fault
-    is_cut = is_cut || copy.ran_out();
+    const std::vector<CsvCell> cells = scanner.peek_cells(delimiter);
     const auto found =
         static_cast<int>(std::count_if(cells.begin(), cells.end(), [&](const CsvCell& cell) {
           return wanted.count(name_of(cell)) != 0;
@@ -53,7 +48,6 @@ Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& w
       chosen = {.character = delimiter, .found = found};
     }
   }
-  chosen.is_cut = is_cut;
   return chosen;
 }
 
@@ -70,7 +64,6 @@ bool take_comment(CsvScanner& scanner, const std::set<std::string>& wanted, CsvH
   std::vector<CsvCell> first_row;
   const bool are_records =
       comment.next(names) == Outcome::kRecord && row.next(first_row) == Outcome::kRecord;
-  header.is_cut = header.is_cut || row.ran_out();
   if (!are_records || names.size() != first_row.size()) return false;
   header.cells = std::move(names);
   header.line = scanner.comment_line();
@@ -103,7 +96,6 @@ bool take_positions(CsvScanner& scanner, const std::set<std::string>& wanted, Cs
     row.set_delimiter(delimiter);
     std::vector<CsvCell> cells;
     const bool is_record = row.next(cells) == Outcome::kRecord;
-    header.is_cut = header.is_cut || row.ran_out();
     const bool are_numbers = std::all_of(cells.begin(), cells.end(), [&](const CsvCell& cell) {
       return is_number(cell, delimiter != ',');
     });
@@ -129,14 +121,6 @@ bool is_mark(std::string_view line) {
   return text.size() == kSeparatorMark && (text.starts_with("sep=") || text.starts_with("SEP="));
 }
 
-/// Cells of the next line, up to the first fault.
-std::vector<CsvCell> cells_of_line(CsvScanner scanner, char delimiter) {
-  scanner.set_delimiter(delimiter);
-  std::vector<CsvCell> cells;
-  scanner.next(cells);
-  return cells;
-}
-
 bool has_number(const std::vector<CsvCell>& cells, char delimiter) {
   return std::any_of(cells.begin(), cells.end(),
                      [&](const CsvCell& cell) { return is_number(cell, delimiter != ','); });
@@ -145,12 +129,12 @@ bool has_number(const std::vector<CsvCell>& cells, char delimiter) {
 /// True if `scanner` is at a header: it has requested columns, or names above a row of as many
 /// cells.
 bool is_above_rows(CsvScanner scanner, const Delimiter& chosen) {
-  const std::vector<CsvCell> names = cells_of_line(scanner, chosen.character);
+  const std::vector<CsvCell> names = scanner.peek_cells(chosen.character);
   if (chosen.found >= 2) return true;
   if (names.size() < 2 || has_number(names, chosen.character)) return false;
   scanner.skip_line();
   scanner.peek_line();
-  const std::vector<CsvCell> row = cells_of_line(scanner, chosen.character);
+  const std::vector<CsvCell> row = scanner.peek_cells(chosen.character);
   return row.size() == names.size() && has_number(row, chosen.character);
 }
 
@@ -170,7 +154,7 @@ void skip_titles(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHe
   std::size_t most_cells = 0;
   for (int skipped = 0; skipped <= kMaxTitleLines && !ahead.peek_line().empty(); ++skipped) {
     const Delimiter chosen = delimiter_of(ahead, wanted);
-    const std::vector<CsvCell> cells = cells_of_line(ahead, chosen.character);
+    const std::vector<CsvCell> cells = ahead.peek_cells(chosen.character);
     if (skipped == 0 && (chosen.found > 0 || has_number(cells, chosen.character))) return;
     const bool may_be_header = most_cells == 1 || chosen.found >= 2;
     if (skipped > 0 && cells.size() > most_cells && may_be_header && is_above_rows(ahead, chosen)) {
@@ -181,69 +165,6 @@ void skip_titles(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHe
     most_cells = std::max(most_cells, cells.size());
     ahead.skip_line();
   }
-  header.is_cut = header.is_cut || ahead.ran_out();
-}
-
-/// File format recognised from the first line; empty: it can be a header.
-std::string_view format_of(std::string_view line) {
-  const std::string_view text = trimmed(line);
-  const std::string_view next = trimmed(text.substr(std::min<std::size_t>(1, text.size())));
-  const char after = next.empty() ? '"' : next[0];
-  if (text.starts_with('{') && (after == '"' || after == '}')) return "JSON";
-  const bool is_value = after == '"' || after == '{' || after == '[' || after == ']';
-  if (text.starts_with('[') && is_value) return "JSON";
-  const bool is_tag = after == '!' || after == '?' || (after >= 'a' && after <= 'z') ||
-                      (after >= 'A' && after <= 'Z');
-  if (text.starts_with('<') && is_tag && !next.empty()) return "HTML or XML";
-  return {};
-}
-
-/// Splits a line at spaces.
-std::vector<std::string_view> words_in(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (std::size_t begin = 0; (begin = line.find_first_not_of(" \t", begin)) != line.npos;) {
-    const std::size_t end = std::min(line.find_first_of(" \t", begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = end;
-  }
-  return words;
-}
-
-/// True for names separated by spaces: one is a requested column, or the next row has as many
-/// words, one of them a number.
-bool is_between_spaces(CsvScanner scanner, const std::set<std::string>& wanted) {
-  const std::vector<std::string_view> words = words_in(scanner.peek_line());
-  if (words.size() < 2) return false;
-  const auto is_wanted = [&](std::string_view word) { return wanted.count(std::string(word)) > 0; };
-  if (std::any_of(words.begin(), words.end(), is_wanted)) return true;
-  scanner.skip_line();
-  const std::vector<std::string_view> row = words_in(scanner.peek_line());
-  return row.size() == words.size() &&
-         std::all_of(row.begin(), row.end(),
-                     [](std::string_view word) { return number_from_text(word).has_value(); });
-}
-
-/// Errors: the text is of another format.
-Status check_format(CsvScanner scanner, const std::string& file) {
-  const std::string_view format = format_of(scanner.peek_line());
-  if (format.empty()) return {};
-  return input_error(fmt::format("{}:{}:1", file, scanner.line()),
-                     fmt::format("this file is {}, expected CSV; export it as CSV: a row of names, "
-                                 "then rows of numbers",
-                                 format));
-}
-
-/// Errors: cells are separated by spaces.
-Status check_spaces(CsvScanner scanner, const std::string& file,
-                    const std::set<std::string>& wanted) {
-  scanner.peek_line();
-  for (const char delimiter : {',', ';', '\t', '|'}) {
-    if (cells_of_line(scanner, delimiter).size() != 1) return {};
-  }
-  if (!is_between_spaces(scanner, wanted)) return {};
-  return input_error(fmt::format("{}:{}:1", file, scanner.line()),
-                     "the cells are separated by spaces; separate them by commas, semicolons or "
-                     "tabs");
 }
 
 /// Errors: a name is not UTF-8.
@@ -280,15 +201,6 @@ Status take_first_line(CsvScanner& scanner, const std::string& file, CsvHeader& 
                   option_text("column t_s=column_1")));
 }
 
-/// Stores the texts of the first row.
-void take_samples(CsvScanner scanner, CsvHeader& header) {
-  std::vector<CsvCell> cells;
-  scanner.next(cells);
-  header.is_cut = header.is_cut || scanner.ran_out();
-  header.samples.reserve(cells.size());
-  for (const CsvCell& cell : cells) header.samples.emplace_back(cell.text);
-}
-
 }  // namespace
 
 Result<CsvHeader> find_header(CsvScanner& scanner, const std::string& file,
@@ -304,7 +216,6 @@ Result<CsvHeader> find_header(CsvScanner& scanner, const std::string& file,
   AWMR_RETURN_IF_ERROR(check_spaces(scanner, file, wanted));
   const Delimiter chosen = delimiter_of(scanner, wanted);
   header.delimiter = chosen.character;
-  header.is_cut = header.is_cut || chosen.is_cut;
   const bool is_found = chosen.found == 0 && (take_comment(scanner, wanted, header) ||
                                               take_positions(scanner, wanted, header));
   if (!is_found) AWMR_RETURN_IF_ERROR(take_first_line(scanner, file, header));
@@ -312,7 +223,9 @@ Result<CsvHeader> find_header(CsvScanner& scanner, const std::string& file,
   if (!header.is_positional) {
     for (const CsvCell& cell : header.cells) header.names.push_back(name_of(cell));
   }
-  take_samples(scanner, header);
+  for (const CsvCell& cell : scanner.peek_cells(header.delimiter)) {
+    header.samples.emplace_back(cell.text);
+  }
   return header;
 }
 

@@ -19,9 +19,8 @@ struct CsvHeader {
   char delimiter = ',';
   int skipped_lines = 0;    ///< lines above it that are neither header nor comments
   bool is_comment = false;  ///< the names follow a '#'
-  bool is_positional =
-      false;            ///< no header: the names are `column_1`, ..., `cells` are the first row's
-  bool is_cut = false;  ///< the decision used all of the text; more text could change it
+  /// No header: the names are `column_1`, ..., `cells` are the first row's.
+  bool is_positional = false;
 };
 
 /// Finds the header and leaves `scanner` at the first row. `scanner` starts at the text's first

@@ -1,7 +1,7 @@
 /// Splits the bytes of a CSV file into records of cells.
 #pragma once
 
-#include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +13,7 @@ struct CsvCell {
   int line = 1;
   int character = 1;
   bool is_quoted = false;
+  std::optional<double> number = {};  ///< of most numbers; number_from_text() parses the others
 };
 
 class CsvScanner {
@@ -32,17 +33,18 @@ class CsvScanner {
 
   /// Reads the next record. On a fault, the last cell is the faulty one.
   Outcome next(std::vector<CsvCell>& cells);
+  /// Cells of the next record, up to the first fault, for another delimiter; reads nothing.
+  std::vector<CsvCell> peek_cells(char delimiter) const;
 
   /// Skips the rest of the line after a fault.
   void skip_line();
 
-  /// Bytes not scanned yet.
-  std::size_t left() const { return rest_.size(); }
-  /// All bytes were read: if the text was cut off, the last record can be incomplete.
-  bool ran_out() const { return has_open_quote_ || rest_.empty(); }
-
  private:
-  void advance(std::size_t bytes);
+  bool is_at(char c) const { return !rest_.empty() && rest_.front() == c; }
+  bool is_at_end_of_line() const { return rest_.empty() || is_at('\n') || is_at('\r'); }
+  bool is_at_blank() const { return is_at(' ') || (is_at('\t') && delimiter_ != '\t'); }
+  bool find_record();
+  void step();
   void skip_spaces();
   void end_line();
   Outcome cell(std::vector<CsvCell>& cells);
@@ -54,7 +56,6 @@ class CsvScanner {
   char delimiter_ = ',';
   int line_ = 1;
   int character_ = 1;
-  bool has_open_quote_ = false;
 };
 
 }  // namespace awmr

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "awmr/core/cell_places.h"
 #include "awmr/core/csv.h"
 #include "awmr/core/csv_text.h"
 
@@ -27,13 +26,9 @@ const std::vector<bool>& CsvTable::present(std::string_view column) const {
 
 std::string CsvTable::place(std::size_t row, std::string_view column) const {
   const auto found = parts_.columns.find(column);
-  int character = 1;
-  if (found != parts_.columns.end() && !found->second.character.empty()) {
-    character = found->second.character[row];
-  } else if (found != parts_.columns.end() && found->second.cell && parts_.places) {
-    character = parts_.places->character(line(row), *found->second.cell);
-  }
-  return fmt::format("{}:{}:{}", parts_.file, line(row), character);
+  const bool is_known = found != parts_.columns.end() && !found->second.character.empty();
+  return fmt::format("{}:{}:{}", parts_.file, line(row),
+                     is_known ? found->second.character[row] : 1);
 }
 
 std::string CsvTable::header_place() const {

@@ -1,24 +1,14 @@
-/// Reads CSV from an open input or from memory.
+/// Reads CSV from memory.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "awmr/core/csv.h"
-#include "awmr/core/input_bytes.h"
 
 namespace awmr {
-
-/// UTF-8 byte order mark, which some programs write at the beginning of a file.
-inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-/// As read_csv, from an open input.
-Result<CsvTable> read_csv(std::shared_ptr<const InputBytes> bytes,
-                          std::span<const CsvColumn> columns,
-                          std::span<const ColumnMapping> mappings = {});
 
 /// As read_csv, from text; `file` names it in errors.
 Result<CsvTable> read_csv_text(std::string_view bytes, const std::string& file,

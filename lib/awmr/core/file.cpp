@@ -30,9 +30,11 @@ tl::unexpected<Error> write_error(const fs::path& path, const std::string& why) 
   return input_error(path.string(), "cannot write the file: " + why);
 }
 
+/// Bytes of one read.
+constexpr std::size_t kBlock = std::size_t{1} << 18U;
+
 /// Appends up to the end, at most one byte more than `max_bytes`; false if reading fails.
 bool read_all(int descriptor, std::size_t max_bytes, std::string& bytes) {
-  constexpr std::size_t kBlock = std::size_t{1} << 18U;
   while (bytes.size() <= max_bytes) {
     const std::size_t before = bytes.size();
     bytes.resize(before + std::min(kBlock, max_bytes + 1 - before));
@@ -201,7 +203,7 @@ Status finish(std::vector<Staged> files) {
 Result<std::string> read_file(const fs::path& path, std::size_t max_bytes) {
   AWMR_ASSIGN_OR_RETURN(const OpenedFile file, OpenedFile::open(path));
   std::string bytes;
-  bytes.reserve(std::min(file.size(), max_bytes) + 1);
+  bytes.reserve(std::min(file.size(), max_bytes) + kBlock);
   if (file.size() <= max_bytes && !read_all(file.descriptor(), max_bytes, bytes)) {
     return input_error(file.name(), "cannot read the file: " + reason());
   }

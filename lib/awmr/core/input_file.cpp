@@ -41,10 +41,6 @@ Result<std::string> read_input(const std::filesystem::path& path, std::size_t ma
   return bytes;
 }
 
-void note_input(const std::filesystem::path& path, std::string sha256) {
-  notes().put(path.string(), std::move(sha256));
-}
-
 Result<InputFile> input_file(const std::filesystem::path& path) {
   if (auto hash = notes().find(path.string())) {
     return InputFile{path.filename().string(), std::move(*hash)};

@@ -17,9 +17,6 @@ namespace awmr {
 Result<std::string> read_input(const std::filesystem::path& path,
                                std::size_t max_bytes = kMaxFileBytes);
 
-/// Records the hash of an input that was read in pieces.
-void note_input(const std::filesystem::path& path, std::string sha256);
-
 /// The file's name and the hash of the bytes last read from it. Reads the file if it was not read
 /// yet. Errors: as read_file.
 Result<InputFile> input_file(const std::filesystem::path& path);

@@ -32,7 +32,6 @@ bool has_own_rate(const ColumnSource& source) {
 
 bool is_sparse(const RawTable& raw, const ColumnSources& sources) {
   if (raw.joined) return true;
-  if (!raw.may_have_empty) return false;
   const double rows = static_cast<double>(raw.lines.size());
   for (const ColumnSource& source : sources.found) {
     if (!has_own_rate(source)) continue;
@@ -155,10 +154,7 @@ CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, b
   const bool keeps_previous = sparse && source.column.empty != EmptyCells::kOptional;
   const std::size_t rows = raw.lines.size();
   CsvTable::Column column;
-  if (!source.indices.empty()) {
-    column.cell = source.indices.front();
-    column.character = raw.columns[*column.cell].character;
-  }
+  if (!source.indices.empty()) column.character = raw.columns[source.indices.front()].character;
   if (sparse) column.present.resize(rows, true);
   const std::size_t driver = sparse ? fastest(raw, source) : 0;
   std::vector<std::span<const double>> cells;
@@ -210,7 +206,6 @@ void settle_time(const ColumnSource& source, CsvTable::Parts& parts) {
 /// Reports empty cells of a column that permits none, and of any column in a table that is not
 /// sparse.
 void find_empty_cells(const ColumnSource& source, FaultList& faults) {
-  if (!faults.raw.may_have_empty) return;
   for (const std::size_t index : source.indices) {
     const RawColumn& column = faults.raw.columns[index];
     for (std::size_t row = 0; row < column.value.size() && !faults.full(); ++row) {
@@ -262,13 +257,11 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
     RawColumn& column = raw.columns[source.indices.front()];
     parts.columns.emplace(source.column.name,
                           CsvTable::Column{.values = std::move(column.value),
-                                           .character = std::move(column.character),
-                                           .cell = source.indices.front()});
+                                           .character = std::move(column.character)});
   }
   drop_void_columns(parts, sources);
   parts.lines = std::move(raw.lines);
   parts.notes = std::move(raw.notes);
-  parts.places = std::move(raw.places);
   for (const ColumnSource& source : sources.found) {
     settle_time(source, parts);
   }

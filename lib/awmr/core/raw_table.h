@@ -3,7 +3,6 @@
 #pragma once
 
 #include <limits>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,7 @@ inline constexpr double kFaultyCell = std::numeric_limits<double>::infinity();
 
 struct RawColumn {
   std::vector<double> value = {};
-  std::vector<int> character = {};  ///< position in the line, from 1; empty: not stored
+  std::vector<int> character = {};  ///< position in the line, from 1; empty: unknown
 };
 
 struct RawTable {
@@ -28,9 +27,7 @@ struct RawTable {
   RowLines lines = {};
   std::vector<RawColumn> columns = {};  ///< as in the header; unused ones are empty
   std::vector<CsvNote> notes = {};
-  std::vector<std::size_t> mapped = {};           ///< mappings used to read it
-  std::shared_ptr<const CellPlaces> places = {};  ///< finds positions that are not stored
-  bool may_have_empty = true;                     ///< false: every cell has a value
+  std::vector<std::size_t> mapped = {};  ///< mappings used to read it
   bool joined = false;  ///< made of signals with different sample times: cells can be empty
 };
 

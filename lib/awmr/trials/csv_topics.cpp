@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <utility>
 
 #include "awmr/core/csv_text.h"
-#include "awmr/core/input_bytes.h"
 #include "awmr/core/input_file.h"
 #include "awmr/core/time_column.h"
 
@@ -20,7 +18,7 @@ namespace {
 struct File {
   std::string path;
   std::string stem;
-  std::shared_ptr<const InputBytes> bytes;
+  std::string text;
   std::vector<std::string> header;
 };
 
@@ -46,11 +44,10 @@ Result<std::vector<File>> read_files(std::span<const std::filesystem::path> path
                                      const TimeMappings& times) {
   std::vector<File> files;
   for (const std::filesystem::path& path : paths) {
-    File file{.path = path.string(), .stem = path.stem().string(), .bytes = {}, .header = {}};
-    AWMR_ASSIGN_OR_RETURN(std::string text, read_input(path));
+    File file{.path = path.string(), .stem = path.stem().string(), .text = {}, .header = {}};
+    AWMR_ASSIGN_OR_RETURN(file.text, read_input(path));
     AWMR_ASSIGN_OR_RETURN(CsvHead head,
-                          csv_head(text, file.path, std::span(&kTime, 1), times.mappings, 0));
-    file.bytes = std::make_shared<const InputBytes>(file.path, std::move(text));
+                          csv_head(file.text, file.path, std::span(&kTime, 1), times.mappings, 0));
     file.header = std::move(head.names);
     files.push_back(std::move(file));
   }
@@ -141,7 +138,8 @@ Status add_file(const File& file, const std::map<std::string, int>& counts,
     }
   }
   if (places.empty()) return {};
-  AWMR_ASSIGN_OR_RETURN(const CsvTable table, read_csv(file.bytes, requested, times.mappings));
+  AWMR_ASSIGN_OR_RETURN(const CsvTable table,
+                        read_csv_text(file.text, file.path, requested, times.mappings));
   AWMR_RETURN_IF_ERROR(check_time(table));
   for (std::size_t i = 0; i < places.size(); ++i) {
     topics.signals.topics.push_back(topic_of(table, requested[i + 1].name, places[i]));

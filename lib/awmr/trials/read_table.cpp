@@ -1,7 +1,6 @@
 #include "read_table.h"
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -9,7 +8,6 @@
 
 #include "awmr/core/column_sources.h"
 #include "awmr/core/csv_text.h"
-#include "awmr/core/input_bytes.h"
 #include "awmr/core/input_file.h"
 #include "awmr/core/raw_table.h"
 #include "awmr/core/time_column.h"
@@ -27,9 +25,6 @@ namespace awmr {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// First bytes of a file used to detect its format; is_awl() needs the most.
-constexpr std::size_t kSampleBytes = std::size_t{1} << 14U;
 
 /// Converts signals with their own times to a table.
 Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
@@ -119,14 +114,6 @@ Result<Signals> read_bags(std::span<const fs::path> paths, const Wanted& wanted)
   return all;
 }
 
-/// True if the first bytes match none of the recorders' formats.
-Result<bool> begins_as_text(const InputBytes& file) {
-  std::string first(std::min(kSampleBytes, file.size()), '\0');
-  AWMR_RETURN_IF_ERROR(file.read(0, first));
-  return !is_awl(first) && !is_ulog(first) && !is_dataflash(first) && !is_dataflash_text(first) &&
-         !is_rosbag(first) && !is_sysid(first);
-}
-
 }  // namespace
 
 std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::string& file,
@@ -159,14 +146,11 @@ Result<CsvTable> read_table(const fs::path& path, std::span<const CsvColumn> col
     }
     return table_of_signals(std::move(topics), file, columns, options.columns);
   }
-  AWMR_ASSIGN_OR_RETURN(std::shared_ptr<const InputBytes> bytes, InputBytes::open(path));
-  AWMR_ASSIGN_OR_RETURN(const bool is_text, begins_as_text(*bytes));
-  if (is_text) return read_csv(std::move(bytes), columns, options.columns);
-  AWMR_ASSIGN_OR_RETURN(const std::shared_ptr<const std::string> whole, bytes->whole());
-  if (is_awl(*whole)) return table_of_awl(*whole, file, columns, options.columns);
-  if (is_sysid(*whole)) return table_of_sysid(*whole, file, columns, options.columns);
-  auto signals = read_signals(*whole, file, wanted);
-  if (!signals) return read_csv_text(*whole, file, columns, options.columns);
+  AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));
+  if (is_awl(bytes)) return table_of_awl(bytes, file, columns, options.columns);
+  if (is_sysid(bytes)) return table_of_sysid(bytes, file, columns, options.columns);
+  auto signals = read_signals(bytes, file, wanted);
+  if (!signals) return read_csv_text(bytes, file, columns, options.columns);
   if (!*signals) return tl::unexpected(std::move(*signals).error());
   return table_of_signals({.signals = std::move(**signals), .mapped = {}}, file, columns,
                           options.columns);
