@@ -71,7 +71,7 @@ TEST(Goal, IsEvaluatedByTheQuantileOfItsShare) {
 TEST(Goal, IsMetMissedOrOpenByTheExactIntervalOfItsShare) {
   const TuningGoal goal = quick_and_calm(0.9);
   const GoalInMode one{&goal, YawMode::kCombined};
-  const auto evaluated = [&](int held, int runs) {
+  const auto evaluate = [&](int held, int runs) {
     std::vector<ModeScore> scores;
     for (int i = 0; i < runs; ++i) scores.push_back(run_with(i < held ? 1.0 : 3.0, 0.0));
     return evaluate_goal(one, {"robust", outcomes_of(scores, {&kScenario, 1})}, 1);
