@@ -227,8 +227,8 @@ std::string table_of(const CompareCommand& command, const ComparedInputs& inputs
 
 Result<Outcome> part_outcome(const CompareCommand& command, const Comparison& part,
                              const Provenance& provenance, std::vector<Finding> findings) {
-  return written_part(comparison_shards(), *command.shard, command.output,
-                      comparison_part(part, command.compare, provenance, findings),
+  const PartText text = comparison_part(part, command.compare, provenance, findings);
+  return written_part(comparison_shards(), *command.shard, command.output, text,
                       fmt::format("{} runs", part.rows.size()), std::move(findings));
 }
 

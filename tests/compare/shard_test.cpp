@@ -137,7 +137,7 @@ TEST_F(Shards, PartWithoutSamplesIsRefused) {
   nominal_only.shard = {2, 2};
   ASSERT_TRUE(
       write_part(comparison_shards(), b, comparison_part(run({2, 2}), nominal_only, kProvenance)));
-  EXPECT_THAT(fault({a, b}), HasSubstr("2/2 is no part"));
+  EXPECT_THAT(fault({a, b}), HasSubstr("/2 is no part: I/N"));
 }
 
 }  // namespace
