@@ -111,22 +111,35 @@ std::vector<Finding> steering_findings(const LogFit& fit, const std::string& fil
              "or add that latency in tuning",
              latency.value, latency.error)});
   }
+  // Only one of them is free where the commands do not show the other.
+  const auto is_free = [&](FreeQuantity::Kind kind) {
+    return std::ranges::any_of(fit.quantities,
+                               [&](const FreeQuantity& q) { return q.kind == kind; });
+  };
   for (const FoundTerm& trim : found_terms(fit, FreeQuantity::Kind::kSteeringTrim)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "steering-trim",
-         fmt::format("the front wheels point {:.2f} +- {:.2f} deg to the {} at a steering angle of "
-                     "0; the fit compensates. Centre the linkage, or correct the servo's centre",
+         fmt::format("the vehicle turns as if the front wheels pointed {:.2f} +- {:.2f} deg to the "
+                     "{} at a steering angle of 0; the fit compensates. Centre the linkage or the "
+                     "servo{}",
                      degrees(std::abs(trim.value)), degrees(trim.error),
-                     trim.value > 0.0 ? "left" : "right")});
+                     trim.value > 0.0 ? "left" : "right",
+                     is_free(FreeQuantity::Kind::kForceImbalance)
+                         ? ""
+                         : "; motors that push more on one side look the same where the forces of "
+                           "both sides are equal")});
   }
   for (const FoundTerm& imbalance : found_terms(fit, FreeQuantity::Kind::kForceImbalance)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "force-imbalance",
          fmt::format(
              "at equal commands the {} wheels push {:.1f} +- {:.1f} % more than the mean of "
-             "both sides; the fit compensates. Calibrate the motors of each side",
+             "both sides; the fit compensates. Calibrate the motors of each side{}",
              imbalance.value > 0.0 ? "right" : "left", 100.0 * std::abs(imbalance.value),
-             100.0 * imbalance.error)});
+             100.0 * imbalance.error,
+             is_free(FreeQuantity::Kind::kSteeringTrim)
+                 ? ""
+                 : "; wheels of unequal size look the same")});
   }
   return findings;
 }

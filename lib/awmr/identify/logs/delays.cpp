@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -151,12 +152,30 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   return best;
 }
 
+bool is_of_turning(const FreeQuantity& q) {
+  return q.kind == FreeQuantity::Kind::kSteeringTrim ||
+         q.kind == FreeQuantity::Kind::kForceImbalance;
+}
+
+/// Where the trim or the imbalance is free, with the other free as well, if the commands show both:
+/// each turns the vehicle almost as the other does, and only their joint covariance is honest.
+Extended with_both_of_turning(NoiseIteration fit) {
+  const std::vector<FreeQuantity>& quantities = fit.problem.model.quantities;
+  std::vector<FreeQuantity> other;
+  if (std::ranges::any_of(quantities, is_of_turning)) {
+    std::ranges::copy_if(candidates(fit.problem), std::back_inserter(other), is_of_turning);
+  }
+  return extended(std::move(fit.problem), std::move(fit.point), other,
+                  std::vector<double>(other.size(), 0.0));
+}
+
 /// The fit with one more of them free, where that lowers AIC enough.
 std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss loss) {
   constexpr double kPlainly = 10.0;  // of AIC
   std::optional<NoiseIteration> more = likeliest_with_one_more(settled, loss);
   if (!more) return std::nullopt;
-  *more = settle_noise(std::move(more->problem), std::move(more->point), loss);
+  Extended from = with_both_of_turning(*std::move(more));
+  more = settle_noise(std::move(from.problem), std::move(from.point), loss);
   if (!(akaike_of(settled) - akaike_of(*more) > kPlainly)) return std::nullopt;
   return more;
 }

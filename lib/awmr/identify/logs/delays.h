@@ -14,7 +14,8 @@ namespace awmr {
 /// late speed or yaw rate. The steering alone may be later than the forces: a dead time that would
 /// pass for a slow servo. Of the commands and all channels, one stays without a delay: the others
 /// are late against it. A steering trim needs steering that moves, an imbalance of the motors needs
-/// forces that differ: otherwise each is a constant moment.
+/// forces that differ: otherwise each is a constant moment. Where
+/// the commands show both, they become free together.
 NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss);
 
 }  // namespace awmr
