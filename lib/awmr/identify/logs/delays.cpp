@@ -109,7 +109,7 @@ bool may_be_smoothed(LogChannel channel) {
 }
 
 /// The likeliest fit with one more delay, lag or error free, of the commands, of the steering alone or
-/// of one sensor, after one round; none if no candidate term improves the fit.
+/// of one sensor, after one round; the strongest candidate if none improves the fit by then, or none.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
   // A filter of the speed looks like a lag of the motors, which more vehicles have, where no other
   // channel separates them; both give the same mass then. Else it has to be likelier by this much
@@ -117,7 +117,9 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   constexpr double kLikelierFilter = 10.0;
   constexpr double kComparable = 0.2;  // of the strongest candidate's significance
   const bool tells_filters = settled.problem.model.noise.size() > 1;
+  constexpr double kBeyondDoubt = 20.0;
   std::optional<NoiseIteration> best;
+  std::optional<NoiseIteration> strongest;  // if its significance is beyond doubt
   double least = akaike_of(settled);
   const auto consider = [&](NoiseIteration fit, double by = 0.0) {
     const double criterion = akaike_of(fit);
@@ -138,6 +140,9 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     if (is_sensor && has_sensor) continue;
     NoiseIteration fit = tried(settled, more, candidate_term.value, loss);
     const double found_s = fit.point.coordinates.back();
+    if (&candidate_term == &terms.front() && candidate_term.significance > kBeyondDoubt) {
+      strongest = fit;
+    }
     has_sensor |= consider(std::move(fit)) && is_sensor;
     if (!(found_s > 0.0)) continue;
     // Also where a sensor's delay does as well as one of the commands: a lag may do better than both.
@@ -149,7 +154,8 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   for (const auto& [channel, found_s] : filters) {
     consider(tried(settled, sensor_lag_of(channel), found_s, loss), kLikelierFilter);
   }
-  return best;
+  // One round may be too few where the model was far off and a drift passed for its error.
+  return best ? std::move(best) : std::move(strongest);
 }
 
 bool is_of_turning(const FreeQuantity& q) {
