@@ -97,19 +97,16 @@ TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
                     force_imbalance()};
   fit.coordinates = {0.1, 0.2, 0.3, 0.4, 0.05, -0.1};
   LogFitOptions before;
-  before.sensor_lags = {{LogChannel::kYawRate, 0.5}};
-  const LogFitOptions options = with_delays_of(fit, before);
-  EXPECT_FALSE(options.input_delay_s);
-  EXPECT_EQ(options.steering_delay_s, 0.1);
-  EXPECT_EQ(options.motor_lag_s, 0.2);
-  ASSERT_EQ(options.sensor_delays.size(), 1U);
-  EXPECT_EQ(options.sensor_delays[0].channel, LogChannel::kX);
-  EXPECT_EQ(options.sensor_delays[0].delay_s, 0.3);
-  ASSERT_EQ(options.sensor_lags.size(), 1U);
-  EXPECT_EQ(options.sensor_lags[0].channel, LogChannel::kSpeed);
-  EXPECT_EQ(options.sensor_lags[0].delay_s, 0.4);
-  EXPECT_EQ(options.steering_trim_rad, 0.05);
-  EXPECT_EQ(options.force_imbalance, -0.1);
+  before.terms = {{sensor_lag_of(LogChannel::kYawRate), 0.5}};
+  const LogFitOptions options = with_terms_of(fit, before);
+  const std::vector<FreeTerm>& terms = options.terms;
+  ASSERT_EQ(terms.size(), fit.quantities.size());
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    EXPECT_EQ(terms[i].quantity.name(), fit.quantities[i].name());
+    EXPECT_EQ(terms[i].begin, fit.coordinates[i]);
+  }
+  // In a fit, the terms of the commands come before those of the sensors.
+  EXPECT_EQ(initial_coordinates(options), (std::vector{0.1, 0.2, 0.05, -0.1, 0.3, 0.4}));
 }
 
 /// A fit of a log whose motors and steering have an error finds it, with its finding, and the truth.

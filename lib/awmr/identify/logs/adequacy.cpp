@@ -75,8 +75,8 @@ Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
   for (const auto& [channel, noise] : chosen.fit.noise) {
     if (!noise.of_the_model()) continue;
     std::string advice =
-        "an unmodelled effect acts on the vehicle (a motor driver "
-        "that brakes at a command of 0, a slope, sliding tyres), or the sensor drifts";
+        "an unmodelled effect acts on the vehicle (a motor driver that brakes at a command of 0, a "
+        "slope, sliding tyres), or the sensor drifts";
     if (channel == LogChannel::kSpeed && try_families) {
       advice = try_rivals(best_family(logs, power_law, chosen, {.only_suspects = false}), chosen,
                           adequacy)

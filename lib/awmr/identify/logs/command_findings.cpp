@@ -112,10 +112,6 @@ std::vector<Finding> steering_findings(const LogFit& fit, const std::string& fil
              latency.value, latency.error)});
   }
   // Only one of them is free where the commands do not show the other.
-  const auto is_free = [&](FreeQuantity::Kind kind) {
-    return std::ranges::any_of(fit.quantities,
-                               [&](const FreeQuantity& q) { return q.kind == kind; });
-  };
   for (const FoundTerm& trim : found_terms(fit, FreeQuantity::Kind::kSteeringTrim)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "steering-trim",
@@ -124,7 +120,7 @@ std::vector<Finding> steering_findings(const LogFit& fit, const std::string& fil
                      "servo{}",
                      degrees(std::abs(trim.value)), degrees(trim.error),
                      trim.value > 0.0 ? "left" : "right",
-                     is_free(FreeQuantity::Kind::kForceImbalance)
+                     has_kind(fit.quantities, FreeQuantity::Kind::kForceImbalance)
                          ? ""
                          : "; motors that push more on one side look the same where the forces of "
                            "both sides are equal")});
@@ -137,7 +133,7 @@ std::vector<Finding> steering_findings(const LogFit& fit, const std::string& fil
              "both sides; the fit compensates. Calibrate the motors of each side{}",
              imbalance.value > 0.0 ? "right" : "left", 100.0 * std::abs(imbalance.value),
              100.0 * imbalance.error,
-             is_free(FreeQuantity::Kind::kSteeringTrim)
+             has_kind(fit.quantities, FreeQuantity::Kind::kSteeringTrim)
                  ? ""
                  : "; wheels of unequal size look the same")});
   }

@@ -22,10 +22,6 @@ bool has_delay(const std::vector<FreeQuantity>& quantities, LogChannel channel) 
   });
 }
 
-bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind) {
-  return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.kind == kind; });
-}
-
 bool is_of_commands(const FreeQuantity& q) {
   return q.kind == FreeQuantity::Kind::kDelay || q.kind == FreeQuantity::Kind::kMotorLag;
 }

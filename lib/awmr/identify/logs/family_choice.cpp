@@ -255,13 +255,7 @@ FamilyFit with_delays_of_its_own(const std::vector<DrivingLog>& logs,
   if (!best.fit.usable || is_over(power_law)) return best;
   LogFitOptions options = from_optimum(best.options, best);
   options.finds_delays = true;
-  options.input_delay_s = power_law.input_delay_s;
-  options.steering_delay_s = power_law.steering_delay_s;
-  options.motor_lag_s = power_law.motor_lag_s;
-  options.steering_trim_rad = power_law.steering_trim_rad;
-  options.force_imbalance = power_law.force_imbalance;
-  options.sensor_delays = power_law.sensor_delays;
-  options.sensor_lags = power_law.sensor_lags;
+  options.terms = power_law.terms;
   options.candidate_terms = power_law.candidate_terms;
   FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
   return aic_lead(own.fit, best.fit) > 0.0 ? std::move(own) : std::move(best);
@@ -287,7 +281,7 @@ std::string families_in_words(Family surge, Family yaw) {
 }
 
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit) {
-  options = with_delays_of(fit.fit, std::move(options));
+  options = with_terms_of(fit.fit, std::move(options));
   options.initial_guess = fitted_values(fit.options, fit.fit);
   options.guessed.clear();
   options.also_from.clear();

@@ -122,23 +122,14 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   return *std::move(fit);
 }
 
-LogFitOptions with_delays_of(const LogFit& fit, LogFitOptions options) {
-  options.sensor_delays.clear();
-  options.sensor_lags.clear();
+LogFitOptions with_terms_of(const LogFit& fit, LogFitOptions options) {
+  using Kind = FreeQuantity::Kind;
+  if (fit.quantities.empty()) return options;
+  options.terms.clear();
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
-    const double found = fit.coordinates[i];
-    if (q.kind == FreeQuantity::Kind::kDelay) options.input_delay_s = found;
-    if (q.kind == FreeQuantity::Kind::kSteeringDelay) options.steering_delay_s = found;
-    if (q.kind == FreeQuantity::Kind::kMotorLag) options.motor_lag_s = found;
-    if (q.kind == FreeQuantity::Kind::kSteeringTrim) options.steering_trim_rad = found;
-    if (q.kind == FreeQuantity::Kind::kForceImbalance) options.force_imbalance = found;
-    if (q.kind == FreeQuantity::Kind::kSensorDelay) {
-      options.sensor_delays.push_back({q.channel, found});
-    }
-    if (q.kind == FreeQuantity::Kind::kSensorLag) {
-      options.sensor_lags.push_back({q.channel, found});
-    }
+    if (q.kind == Kind::kParameter || q.kind == Kind::kBias) continue;
+    options.terms.push_back({q, fit.coordinates[i]});
   }
   return options;
 }

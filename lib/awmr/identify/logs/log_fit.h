@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "awmr/identify/logs/channel_noise.h"
-#include "awmr/identify/logs/quantities.h"
+#include "awmr/identify/logs/log_fit_options.h"
 #include "awmr/model/record.h"
 
 namespace awmr {
@@ -34,8 +34,9 @@ struct LogFit {
 /// has no quantities, and its report says why.
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
-/// Returns the options with every delay and lag that is free in the fit, from where it found them.
-LogFitOptions with_delays_of(const LogFit& fit, LogFitOptions options);
+/// The options with the terms of the fit free and no others, from where it found them; as they are
+/// where the fit has no quantities.
+LogFitOptions with_terms_of(const LogFit& fit, LogFitOptions options);
 
 /// All parameters as the fit leaves them: the free ones fitted, the rest as they were held.
 ParameterValues<double> fitted_values(const LogFitOptions& options, const LogFit& fit);

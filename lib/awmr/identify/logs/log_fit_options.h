@@ -9,17 +9,12 @@
 #include <optional>
 #include <vector>
 
+#include "awmr/identify/logs/quantities.h"
 #include "awmr/identify/options.h"
 #include "awmr/model/plant_of.h"
 #include "awmr/model/vehicle.h"
 
 namespace awmr {
-
-/// A channel with latency: its reading at t is the value at t - delay_s.
-struct SensorDelay {
-  LogChannel channel = LogChannel::kSpeed;  ///< kX: the position
-  double delay_s = 0.0;
-};
 
 /// Work of all searches of one identification: numbers integrated, each state and each derivative
 /// at each step. Unlike a time, it does not depend on the machine or its load.
@@ -46,22 +41,11 @@ struct LogFitOptions {
   std::vector<ParameterId> free;
   /// Terms held at 0 whose worth the fit estimates without freeing them.
   std::vector<ParameterId> candidate_terms;
-  /// A delay of all commands is free, with its initial guess; negative: their time stamps are late.
-  std::optional<double> input_delay_s;
-  /// A delay of the steering on top of that is free, with where the search begins, s >= 0.
-  std::optional<double> steering_delay_s;
-  /// The time constant of the motors is free, with where the search begins; never where the vehicle file
-  /// gives it: it is held there then.
-  std::optional<double> motor_lag_s;
-  std::optional<double>
-      steering_trim_rad;                  ///< steering_trim() is free, with where the search begins
-  std::optional<double> force_imbalance;  ///< force_imbalance() is free, in the same way
-  std::vector<LogChannel> biases;         ///< channels whose constant offset is free
-  /// Sensor delays that are free, with where the search begins.
-  std::vector<SensorDelay> sensor_delays;
-  /// Time constants of filters that smooth a channel, in the same way.
-  std::vector<SensorDelay> sensor_lags;
-  bool finds_delays = true;  ///< the fit adds the delays and the lag that its residuals show
+  /// Delays, lags and errors that are free. No lag of the motors where the vehicle file gives it: it is
+  /// held there then.
+  std::vector<FreeTerm> terms;
+  std::vector<LogChannel> biases;  ///< channels whose constant offset is free
+  bool finds_delays = true;        ///< the fit adds the terms that its residuals show
   /// Further initial guesses: the optimum of a family inside this one.
   std::vector<ParameterValues<double>> also_from;
   Loss loss = Loss::kSquared;  ///< a robust one where a sensor has outliers

@@ -44,7 +44,7 @@ LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions&
                    .initial = initial_components(logs),
                    .noise = sensor_noise(problem.windows),
                    .row_spacing_s = shortest_spacing_s(logs)};
-  problem.initial = initial_coordinates(problem.model.quantities, options);
+  problem.initial = initial_coordinates(options);
   problem.model.longest_step_s = step_s_at(problem.model, problem.initial);
   problem.bounds = coordinate_bounds(problem.model.quantities, problem.initial, options.vehicle);
   problem.threads = options.threads;

@@ -119,7 +119,7 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
                           const IdentifyOptions& options) {
   LogFitOptions fit;
   fit.vehicle = vehicle;
-  if (options.fit_input_delay) fit.input_delay_s = 0.0;
+  if (options.fit_input_delay) fit.terms = {{input_delay(), 0.0}};
   fit.candidate_terms = {ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic,
                          ParameterId::kWheelDeadZone, ParameterId::kYawCoulomb,
                          ParameterId::kYawQuadratic};
@@ -270,7 +270,9 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
   if (place->value(first.fit.coordinates[i]) > kOfRow * logs.front().median_step_s()) return false;
   LogFitOptions from = from_optimum(std::move(power_law), first);
   std::erase(from.free, ParameterId::kSteeringTimeConstant);
-  from.steering_delay_s.reset();
+  std::erase_if(from.terms, [](const FreeTerm& term) {
+    return term.quantity.kind == FreeQuantity::Kind::kSteeringDelay;
+  });
   const FamilyFit follows = fit_first_family(with_measured_steering(logs), from, options);
   return follows.fit.usable && aic_lead(follows.fit, first.fit) > kFamilyAicThreshold;
 }

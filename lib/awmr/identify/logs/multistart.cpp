@@ -61,7 +61,7 @@ std::vector<std::vector<double>> places(const LogProblem& problem, const LogFitO
   for (const ParameterValues<double>& values : options.also_from) {
     LogFitOptions other = options;
     other.initial_guess = values;
-    from.push_back(initial_coordinates(problem.model.quantities, other));
+    from.push_back(initial_coordinates(other));
   }
   if (options.guessed.empty()) return from;
   Random random(options.seed, 1);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/logs/log_fit_options.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/model/sensor_delay_name.h"
 
@@ -100,59 +101,35 @@ FreeQuantity sensor_lag_of(LogChannel channel) {
   return {.kind = FreeQuantity::Kind::kSensorLag, .channel = channel, .large_change = 0.1};
 }
 
+bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind) {
+  return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.kind == kind; });
+}
+
+namespace {
+
+std::vector<FreeTerm> all_free(const LogFitOptions& options) {
+  std::vector<FreeTerm> free = options.terms;
+  for (const ParameterId id : options.free) {
+    free.push_back({free_parameter(id), to_coordinate(id, options.initial_guess[at(id)])});
+  }
+  for (const LogChannel channel : options.biases) {
+    free.push_back({{.kind = FreeQuantity::Kind::kBias, .channel = channel}, 0.0});
+  }
+  std::ranges::stable_sort(free, {}, [](const FreeTerm& term) { return term.quantity.kind; });
+  return free;
+}
+
+}  // namespace
+
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options) {
   std::vector<FreeQuantity> quantities;
-  for (const ParameterId id : options.free) quantities.push_back(free_parameter(id));
-  if (options.input_delay_s) quantities.push_back(input_delay());
-  if (options.steering_delay_s) quantities.push_back(steering_delay());
-  if (options.motor_lag_s) quantities.push_back(motor_lag());
-  if (options.steering_trim_rad) quantities.push_back(steering_trim());
-  if (options.force_imbalance) quantities.push_back(force_imbalance());
-  for (const LogChannel channel : options.biases) {
-    quantities.push_back({.kind = FreeQuantity::Kind::kBias, .channel = channel});
-  }
-  for (const SensorDelay& latency : options.sensor_delays) {
-    quantities.push_back(sensor_delay_of(latency.channel));
-  }
-  for (const SensorDelay& smooth : options.sensor_lags) {
-    quantities.push_back(sensor_lag_of(smooth.channel));
-  }
+  for (const FreeTerm& term : all_free(options)) quantities.push_back(term.quantity);
   return quantities;
 }
 
-std::vector<double> initial_coordinates(const std::vector<FreeQuantity>& quantities,
-                                        const LogFitOptions& options) {
+std::vector<double> initial_coordinates(const LogFitOptions& options) {
   std::vector<double> coordinates;
-  for (const FreeQuantity& q : quantities) {
-    switch (q.kind) {
-      case FreeQuantity::Kind::kParameter:
-        coordinates.push_back(to_coordinate(q.id, options.initial_guess[at(q.id)]));
-        break;
-      case FreeQuantity::Kind::kDelay:
-        coordinates.push_back(*options.input_delay_s);
-        break;
-      case FreeQuantity::Kind::kSteeringDelay:
-        coordinates.push_back(*options.steering_delay_s);
-        break;
-      case FreeQuantity::Kind::kMotorLag:
-        coordinates.push_back(*options.motor_lag_s);
-        break;
-      case FreeQuantity::Kind::kSteeringTrim:
-        coordinates.push_back(*options.steering_trim_rad);
-        break;
-      case FreeQuantity::Kind::kForceImbalance:
-        coordinates.push_back(*options.force_imbalance);
-        break;
-      case FreeQuantity::Kind::kBias:
-        coordinates.push_back(0.0);
-        break;
-      case FreeQuantity::Kind::kSensorDelay:
-      case FreeQuantity::Kind::kSensorLag:
-        break;
-    }
-  }
-  for (const SensorDelay& latency : options.sensor_delays) coordinates.push_back(latency.delay_s);
-  for (const SensorDelay& smooth : options.sensor_lags) coordinates.push_back(smooth.delay_s);
+  for (const FreeTerm& term : all_free(options)) coordinates.push_back(term.begin);
   return coordinates;
 }
 

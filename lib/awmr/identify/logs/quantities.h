@@ -6,16 +6,21 @@
 #include <vector>
 
 #include "awmr/core/interval.h"
-#include "awmr/identify/logs/log_fit_options.h"
+#include "awmr/model/plant_of.h"
 #include "awmr/model/transform.h"
+#include "awmr/model/vehicle.h"
+#include "awmr/trials/log.h"
 
 namespace awmr {
+
+struct LogFitOptions;
 
 /// One free number. The search moves its coordinate, which is the value or its logarithm.
 struct FreeQuantity {
   /// kDelay: of all commands; kSteeringDelay: of the steering alone, on top of that; kMotorLag: the time
   /// constant of the motors; kSensorLag: that of a filter which smooths a channel; kSteeringTrim: the
   /// steering angle at a command of 0; kForceImbalance: half the relative difference of right and left.
+  /// The order is that of the columns of a fit.
   enum class Kind {
     kParameter,
     kDelay,
@@ -23,9 +28,9 @@ struct FreeQuantity {
     kMotorLag,
     kSteeringTrim,
     kForceImbalance,
+    kBias,
     kSensorDelay,
-    kSensorLag,
-    kBias
+    kSensorLag
   };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< of kParameter
@@ -70,13 +75,20 @@ FreeQuantity sensor_lag_of(LogChannel channel);
 /// Latency of a channel, s.
 FreeQuantity sensor_delay_of(LogChannel channel);
 
-/// Free quantities of a fit, in this order: the parameters, the delays, the lag and the errors of the
-/// commands, the biases, the sensors' delays, their lags.
+/// A free delay, lag or error of commands or sensors, with where its search begins.
+struct FreeTerm {
+  FreeQuantity quantity;
+  double begin;
+};
+
+bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind);
+
+/// Free quantities of a fit, by kind: the parameters, the terms of the commands, the biases, those of
+/// the sensors.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);
 
-/// By quantity: the coordinate at the initial guess; a bias begins at zero.
-std::vector<double> initial_coordinates(const std::vector<FreeQuantity>& quantities,
-                                        const LogFitOptions& options);
+/// By quantity: the coordinate where the search begins; 0 for a bias.
+std::vector<double> initial_coordinates(const LogFitOptions& options);
 
 /// By quantity: where the search may move the coordinate from its initial guess.
 std::vector<Interval> coordinate_bounds(const std::vector<FreeQuantity>& quantities,
