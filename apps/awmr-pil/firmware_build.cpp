@@ -59,7 +59,7 @@ Status check_no_link(const fs::path& kept, const fs::path& file) {
     place /= part;
     std::error_code ignored;
     if (fs::is_symlink(fs::symlink_status(place, ignored))) {
-      return input_error(place.string(),
+      return input_error(ErrorCode::kWouldOverwrite, place.string(),
                          "is a symbolic link in the folder of --build-dir, and what it points to "
                          "would be overwritten: remove it, or give another folder");
     }
@@ -80,7 +80,7 @@ Result<fs::path> build_firmware(const fs::path& directory, const std::vector<Emi
   AWMR_RETURN_IF_ERROR(put(directory / "pil" / "mission.h", kind.mission));
   const auto compiler = find_program("avr-g++");
   if (!compiler) {
-    return input_error("avr-g++",
+    return input_error(ErrorCode::kNotInstalled, "avr-g++",
                        "is not installed; it builds the firmware: "
                        "apt-get install gcc-avr avr-libc binutils-avr");
   }
@@ -108,15 +108,17 @@ Result<fs::path> build_firmware(const fs::path& directory, const std::vector<Emi
 
 Status prepare_to_keep(const fs::path& kept) {
   const std::string name = kept.string();
-  if (name.empty()) return input_error("--build-dir", "the folder's name is empty: give one");
+  if (name.empty())
+    return input_error(ErrorCode::kBadName, "--build-dir", "the folder's name is empty: give one");
   if (name.starts_with('-')) {
     return input_error(
-        "--build-dir",
+        ErrorCode::kBadName, "--build-dir",
         fmt::format("'{0}' looks like an option; a folder of that name is './{0}'", name));
   }
   AWMR_RETURN_IF_ERROR(make_directory(kept));
   if (::access(kept.c_str(), W_OK | X_OK) != 0) {
-    return input_error(name, fmt::format("cannot write to the folder: {}", std::strerror(errno)));
+    return input_error(ErrorCode::kCannotWrite, name,
+                       fmt::format("cannot write to the folder: {}", std::strerror(errno)));
   }
   return {};
 }

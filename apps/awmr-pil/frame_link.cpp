@@ -43,8 +43,9 @@ class FrameLink : public Chip {
     writer.put(points.acceptance_m);
     for (const Position<float>& point : points.points_m) writer.put(point.x_m).put(point.y_m);
     if (writer.bytes().size() > 4 + 16 * 8) {
-      return input_error("", fmt::format("the firmware has room for 16 waypoints, there are {}",
-                                         points.points_m.size()));
+      return input_error(ErrorCode::kTooLarge, "",
+                         fmt::format("the firmware has room for 16 waypoints, there are {}",
+                                     points.points_m.size()));
     }
     return ask(::pil::kFollow, writer.bytes(), 0);
   }
@@ -79,7 +80,7 @@ class FrameLink : public Chip {
     const auto crc = reader.get<std::uint32_t>();
     if (crc != parameters_crc_) {
       return input_error(
-          "--port",
+          ErrorCode::kStaleResult, "--port",
           fmt::format("the board holds other parameters (check sum {:08X}) than this model "
                       "and these gains give ({:08X}): flash pil_uart.elf of --build-dir",
                       crc, parameters_crc_));
@@ -97,10 +98,10 @@ class FrameLink : public Chip {
   Status ask(std::uint8_t type, std::span<const std::uint8_t> bytes, std::size_t length) {
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(type, bytes, length));
     if (answered) return {};
-    return refusal(
-        fmt::format("the chip gave no whole answer to {} requests '{}' in a row: is it "
-                    "flashed with this firmware, the baud right, the line too noisy?",
-                    attempts_for(type), static_cast<char>(type)));
+    return refusal(ErrorCode::kNoAnswer,
+                   fmt::format("the chip gave no whole answer to {} requests '{}' in a row: is it "
+                               "flashed with this firmware, the baud right, the line too noisy?",
+                               attempts_for(type), static_cast<char>(type)));
   }
 
   /// Sends a request, repeats it if the line stays silent, and waits for the answer of `length`

@@ -110,7 +110,7 @@ Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) 
   physics.step(row.t_s, row.force, row.steering_command_rad);
   if (physics.resolved()) return {};
   return input_error(
-      fmt::format("scenario '{}'", scenario),
+      ErrorCode::kDiverges, fmt::format("scenario '{}'", scenario),
       fmt::format("the simulated vehicle cannot go on after {:g} s: resistance is too stiff there "
                   "for any step, or a number is no longer finite",
                   row.t_s));
@@ -125,31 +125,32 @@ bool has_unsigned_speed(const Scenario& scenario) {
 Status check_scenario(const Scenario& scenario, const std::string& file) {
   std::vector<Fault> faults;
   if (std::holds_alternative<OpenLoop>(scenario.guidance)) {
-    faults.push_back({file + ":/guidance",
+    faults.push_back({ErrorCode::kUnsupported, file + ":/guidance",
                       "is open loop, which uses no controller; give heading, waypoints, line or "
                       "lissajous"});
   }
   if (scenario.held_tau_speed()) {
-    faults.push_back({file + ":/guidance/tau_speed",
+    faults.push_back({ErrorCode::kUnsupported, file + ":/guidance/tau_speed",
                       "the firmware holds a speed, not a thrust: give speed_mps in its place"});
   }
   if (scenario.control.allocation.value_or(AllocationForm::kExact) != AllocationForm::kExact) {
-    faults.push_back({file + ":/control/allocation", "the firmware's is exact: remove"});
+    faults.push_back({ErrorCode::kUnsupported, file + ":/control/allocation",
+                      "the firmware's is exact: remove"});
   }
   if (scenario.control.lqi) {
-    faults.push_back({file + ":/control/heading_law",
+    faults.push_back({ErrorCode::kUnsupported, file + ":/control/heading_law",
                       "the firmware's heading law is the sliding mode: remove, or give its type as "
                       "sliding_mode"});
   }
   const auto* line = std::get_if<LineCourse>(&scenario.guidance);
   if (line != nullptr && !std::holds_alternative<LineLaw<double>>(line->law)) {
-    faults.push_back({file + ":/guidance/law",
+    faults.push_back({ErrorCode::kUnsupported, file + ":/guidance/law",
                       "the firmware follows lines by los alone: give los, delta_deg and width_m"});
   }
   const std::size_t points = mission_of(scenario).points.points_m.size();
   if (points > kMaxPoints) {
     faults.push_back(
-        {file + ":/guidance/points_m",
+        {ErrorCode::kTooLarge, file + ":/guidance/points_m",
          fmt::format("the firmware has room for {} points, there are {}", kMaxPoints, points)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));

@@ -50,7 +50,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "error: %s\n", error.what());
+    std::fprintf(stderr, "error: %s [usage]\n", error.what());
     return 2;
   }
   if (serve->parsed()) {
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const std::exception& error) {
     awmr::pil::end_if_told_to();
-    std::fprintf(stderr, "error: a fault of the program: %s\n", error.what());
+    std::fprintf(stderr, "error: a fault of the program: %s [internal]\n", error.what());
     return 3;
   }
 }

@@ -36,8 +36,9 @@ class MemoryLink : public Chip {
 
   Status follow(const Points& points) override {
     if (points.points_m.size() > kMaxPoints) {
-      return input_error("", fmt::format("the firmware has room for {} waypoints, there are {}",
-                                         kMaxPoints, points.points_m.size()));
+      return input_error(ErrorCode::kTooLarge, "",
+                         fmt::format("the firmware has room for {} waypoints, there are {}",
+                                     kMaxPoints, points.points_m.size()));
     }
     Writer writer;
     for (const Position<float>& point : points.points_m) writer.put(point.x_m).put(point.y_m);
@@ -77,7 +78,7 @@ class MemoryLink : public Chip {
     const std::uint64_t begin = emulator_->cycles();
     const Status asleep = emulator_->run_to_sleep(kStartCycles);
     if (asleep || emulator_->cycles() - begin <= kStartCycles) return asleep;
-    return input_error("",
+    return input_error(ErrorCode::kTooLarge, "",
                        fmt::format("a control step does not fit in the sample time: the chip was "
                                    "busy for {} cycles ({:.1f} s) without a pause. Give "
                                    "vehicle.json a longer sample_time_s and identify again",

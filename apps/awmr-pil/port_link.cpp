@@ -36,13 +36,15 @@ class Port : public Line {
   }
 
   Status reset() override {
-    return input_error("--inject", "reset: only on the emulated chip; press the board's button");
+    return input_error(ErrorCode::kConflict, "--inject",
+                       "reset: only on the emulated chip; press the board's button");
   }
 
   Status send(std::span<const std::uint8_t> bytes) override {
     while (!bytes.empty()) {
       const ssize_t count = ::write(file_->number(), bytes.data(), bytes.size());
-      if (count < 0 && errno != EINTR) return input_error(path_.string(), std::strerror(errno));
+      if (count < 0 && errno != EINTR)
+        return input_error(ErrorCode::kCannotRead, path_.string(), std::strerror(errno));
       if (count > 0) bytes = bytes.subspan(static_cast<std::size_t>(count));
     }
     return {};
@@ -54,7 +56,7 @@ class Port : public Line {
       const int timeout_ms = patience == Patience::kStart ? kStartTimeout_ms : kAnswerTimeout_ms;
       if (::poll(&waiting, 1, timeout_ms) <= 0) return std::optional<std::uint8_t>();
       const ssize_t count = ::read(file_->number(), buffer_, sizeof buffer_);
-      if (count <= 0) return input_error(path_.string(), "was closed");
+      if (count <= 0) return input_error(ErrorCode::kCannotRead, path_.string(), "was closed");
       at_ = 0;
       count_ = static_cast<std::size_t>(count);
     }

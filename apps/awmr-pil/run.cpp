@@ -47,7 +47,7 @@ Status check_sample_time(const Model& model) {
   const float counts = static_cast<float>(model.vehicle.sample_time_s) * 2e6F + 0.5F;
   if (counts >= 2.0F && counts < 65537.0F) return {};
   return input_error(
-      model.file + ":/vehicle/sample_time_s",
+      ErrorCode::kOutOfRange, model.file + ":/vehicle/sample_time_s",
       fmt::format("the emulated chip's timer starts a step every 1 us to {:.6g} ms, found {:.6g} "
                   "ms; identify the vehicle with a sample time that the firmware can hold, or use "
                   "--link uart",
@@ -137,13 +137,16 @@ Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& i
                                       const fs::path& elf) {
   const bool damage = options.injection == Injection::kParameters;
   if (options.line_noise > 0.0 && (options.port || options.link != cli::PilLink::kUart)) {
-    return input_error("--line-noise", "is for --link uart on the emulated chip");
+    return input_error(ErrorCode::kConflict, "--line-noise",
+                       "is for --link uart on the emulated chip");
   }
   if (options.port) {
     if (options.link != cli::PilLink::kUart) {
-      return input_error("--port", "is for --link uart: memory is the emulated chip's only");
+      return input_error(ErrorCode::kConflict, "--port",
+                         "is for --link uart: memory is the emulated chip's only");
     }
-    if (damage) return input_error("--inject", "parameters: only on the emulated chip");
+    if (damage)
+      return input_error(ErrorCode::kConflict, "--inject", "parameters: only on the emulated chip");
     return port_link(*options.port, options.baud, elf,
                      in.parameters.crc ^ mission_crc(in.setup.mission));
   }

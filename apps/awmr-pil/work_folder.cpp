@@ -138,9 +138,10 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::make() {
   const char* given = ::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe): nothing sets it
   const fs::path directory = given != nullptr && *given != '\0' ? given : "/tmp";
   const auto failed = [&](const std::string& why) {
-    return input_error("TMPDIR", fmt::format("no folder can be made in '{}': {}; set TMPDIR to "
-                                             "a folder that can be written to",
-                                             directory.string(), why));
+    return input_error(ErrorCode::kCannotWrite, "TMPDIR",
+                       fmt::format("no folder can be made in '{}': {}; set TMPDIR to "
+                                   "a folder that can be written to",
+                                   directory.string(), why));
   };
   if (!directory.is_absolute()) return failed("it is not an absolute path");
   remove_left_overs(directory);

@@ -150,7 +150,7 @@ void add_mapping_hint(const fs::path& path, TrialKind kind, const TrialOptions& 
     pairs.push_back(fmt::format("\"{}\": \"{}\"", guess.column, guess.expression));
   }
   if (pairs.empty()) return;
-  faults.push_back({path.string() + ":1:1",
+  faults.push_back({ErrorCode::kMissing, path.string() + ":1:1",
                     fmt::format("suggested entry for project.json's trials, from the column names: "
                                 "\"columns\": {{\"{}\": {{{}}}}}; awmr map {} --trial {} gives the "
                                 "reasons",

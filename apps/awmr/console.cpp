@@ -42,7 +42,8 @@ struct Manner {
 
 int to_stdout(const std::string& text, int exit_code) {
   if (print(stdout, text)) return exit_code;
-  print(stderr, fmt::format("error: cannot write to standard output: {}\n", std::strerror(errno)));
+  print(stderr, fmt::format("error: cannot write to standard output: {} [cannot-write]\n",
+                            std::strerror(errno)));
   return 2;
 }
 

@@ -15,7 +15,7 @@
 namespace awmr::cli {
 namespace {
 
-/// A finding code, as explained by FINDINGS.md.
+/// A code of a finding or an error, as explained by FINDINGS.md.
 struct Explanation {
   std::string code;
   std::string group;     ///< heading of its table
@@ -130,10 +130,11 @@ std::vector<std::string> near_codes(const std::string& code, std::vector<std::st
 
 tl::unexpected<Error> unknown_code(const std::string& code, const std::vector<std::string>& codes) {
   const std::vector<std::string> near = near_codes(code, codes);
-  return input_error("CODE", fmt::format("no finding has the code '{}'; {}", shortened(code),
-                                         near.empty() ? "awmr explain lists all codes"
-                                                      : fmt::format("did you mean '{}'?",
-                                                                    fmt::join(near, "', '"))));
+  return input_error(
+      ErrorCode::kUnknownName, "CODE",
+      fmt::format("no finding or error has the code '{}'; {}", shortened(code),
+                  near.empty() ? "awmr explain lists all codes"
+                               : fmt::format("did you mean '{}'?", fmt::join(near, "', '"))));
 }
 
 Json to_json(const std::vector<Explanation>& all) {
@@ -166,11 +167,12 @@ Result<Outcome> execute(const ExplainCommand& command) {
 
 void add_explain(CLI::App& app, Session& session) {
   auto command = std::make_shared<ExplainCommand>();
-  CLI::App* sub =
-      add_command(app, session, "explain", "Print what a finding's code means and what to do",
-                  "awmr explain not-identifiable", [command] { return execute(*command); });
-  sub->add_option("CODE", command->code,
-                  "Code of a finding, printed in brackets; without it, all codes are listed");
+  CLI::App* sub = add_command(
+      app, session, "explain", "Print what the code of a finding or an error means and what to do",
+      "awmr explain not-identifiable", [command] { return execute(*command); });
+  sub->add_option(
+      "CODE", command->code,
+      "Code of a finding or an error, printed in brackets; without it, all codes are listed");
 }
 
 }  // namespace awmr::cli

@@ -95,11 +95,11 @@ std::string estimators_of(const Model& model) {
 
 Result<Outcome> execute(const IdentifyCommand& command) {
   if (!command.surge && command.coastdowns.empty() && !command.turning && command.logs.empty()) {
-    return input_error("",
+    return input_error(ErrorCode::kMissing, "",
                        "no trials: give at least one of --surge, --coastdown, --turning, --log");
   }
   if (command.steady_from_logs && command.logs.empty()) {
-    return input_error("--steady-from-log", "needs a log (--log)");
+    return input_error(ErrorCode::kMissing, "--steady-from-log", "needs a log (--log)");
   }
   AWMR_RETURN_IF_ERROR(check_output(command.output, inputs_of(command)));
   AWMR_ASSIGN_OR_RETURN(Vehicle vehicle, read_vehicle(command.vehicle));

@@ -22,16 +22,18 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
   if (name != "auto") {
     choice.family = value_in(kFamilyNames, name);
     if (!choice.family) {
-      return input_error("--family", fmt::format("no family is called '{}'; the names are {}, auto",
-                                                 name, fmt::join(names_in(kFamilyNames), ", ")));
+      return input_error(ErrorCode::kUnknownName, "--family",
+                         fmt::format("no family is called '{}'; the names are {}, auto", name,
+                                     fmt::join(names_in(kFamilyNames), ", ")));
     }
   }
   const bool again = (subject != "yaw" && options.surge_family.requested) ||
                      (subject != "surge" && options.yaw_family.requested);
   if (again) {
-    return input_error("--family", fmt::format("'{}' gives a family a second time; give each of "
-                                               "surge and yaw one",
-                                               text));
+    return input_error(ErrorCode::kGivenTwice, "--family",
+                       fmt::format("'{}' gives a family a second time; give each of "
+                                   "surge and yaw one",
+                                   text));
   }
   if (subject.empty()) {
     options.surge_family = options.yaw_family = choice;
@@ -39,13 +41,14 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
     options.surge_family = choice;
   } else if (subject == "yaw") {
     if (choice.family == Family::kDeadZone) {
-      return input_error("--family",
+      return input_error(ErrorCode::kConflict, "--family",
                          "a dead zone belongs to the wheels: ask for it as "
                          "surge=dead-zone, the turning runs are freed of it too");
     }
     options.yaw_family = choice;
   } else {
-    return input_error("--family", fmt::format("'{}' is neither surge nor yaw", subject));
+    return input_error(ErrorCode::kUnknownName, "--family",
+                       fmt::format("'{}' is neither surge nor yaw", subject));
   }
   return {};
 }
@@ -78,8 +81,9 @@ Status add_requested(std::string_view name, IdentifyOptions& options) {
   }
   const auto id = parameter_by_name(name);
   if (!id || !can_be_requested(info(*id))) {
-    return input_error("--fit", fmt::format("no parameter is called '{}'; the names are {}", name,
-                                            fmt::join(names, ", ")));
+    return input_error(
+        ErrorCode::kUnknownName, "--fit",
+        fmt::format("no parameter is called '{}'; the names are {}", name, fmt::join(names, ", ")));
   }
   options.requested.push_back(*id);
   return {};

@@ -49,12 +49,13 @@ Result<std::vector<OutputFile>> files_to_write(const InitCommand& command) {
     std::error_code error;
     const fs::file_type type = fs::symlink_status(path, error).type();
     if (type == fs::file_type::none) {
-      return input_error(path.string(), "cannot look up this path: " + error.message() +
-                                            "; give another directory");
+      return input_error(
+          ErrorCode::kCannotRead, path.string(),
+          "cannot look up this path: " + error.message() + "; give another directory");
     }
     if (type != fs::file_type::not_found) {
-      faults.push_back(
-          {path.string(), "already exists; choose another directory, or move it away"});
+      faults.push_back({ErrorCode::kWouldOverwrite, path.string(),
+                        "already exists; choose another directory, or move it away"});
     }
     files.push_back(
         {path, command.example ? std::string(file.bytes) : for_drive(file.bytes, command.drive)});

@@ -32,7 +32,9 @@ std::string error_text(const Error& error) {
   json["errors"] = Json::array();
   const auto plain = [](const std::string& text) { return printable(spell_options(text, "--")); };
   for (const Fault& fault : shown_faults(error.faults)) {
-    json["errors"].push_back({{"place", plain(fault.place)}, {"message", plain(fault.message)}});
+    json["errors"].push_back({{"code", name_in(kErrorCodeNames, fault.code)},
+                              {"place", plain(fault.place)},
+                              {"message", plain(fault.message)}});
   }
   return awmr::to_text(json);
 }
@@ -57,6 +59,7 @@ std::string error_schema() {
                             json.string("version");
                             json.integer("exit_code", 1, 3);
                             for (JsonObject& fault : json.objects("errors")) {
+                              fault.choice("code", kErrorCodeNames);
                               fault.string("place");
                               fault.string("message");
                               fault.reject_unknown_keys();

@@ -55,23 +55,25 @@ Result<fs::path> record_of(const LiveCommand& command) {
       command.record.value_or(fs::path(command.identify.output).replace_extension("csv"));
   std::error_code error;
   if (!command.record && fs::exists(record, error)) {
-    return input_error(record.string(),
+    return input_error(ErrorCode::kWouldOverwrite, record.string(),
                        "there is a recording already; name another with --record FILE");
   }
   if (fs::exists(record, error) && !fs::is_regular_file(record, error)) {
-    return input_error("--record", record.string() +
-                                       " is no ordinary file, from which the recording could be "
-                                       "read back; name another");
+    return input_error(ErrorCode::kWrongFile, "--record",
+                       record.string() +
+                           " is no ordinary file, from which the recording could be "
+                           "read back; name another");
   }
   if (record.lexically_normal() == command.identify.output.lexically_normal()) {
-    return input_error("--record", "it is the model's file; give another name");
+    return input_error(ErrorCode::kConflict, "--record",
+                       "it is the model's file; give another name");
   }
   return record;
 }
 
 Status check(const LiveCommand& command) {
   if (command.source.port.has_value() == command.source.log.has_value()) {
-    return input_error("",
+    return input_error(ErrorCode::kMissing, "",
                        "give one of --port PORT, --log FILE, --log -: where the log comes from");
   }
   return check_output(command.identify.output, inputs_of(command));
@@ -219,6 +221,7 @@ Result<Outcome> execute(const LiveCommand& requested) {
       follow(command, fit, std::move(source), Recording(options.columns), screen);
   if (followed.recording.text().empty()) {
     return input_error(
+        ErrorCode::kTooFewData,
         command.source.port.value_or(command.source.log.value_or("")).string(),
         fmt::format("{} before anything came", name_in(kLiveEndWords, followed.end)));
   }

@@ -51,7 +51,9 @@ std::string progress_text(const LiveUpdate& update) {
 
 std::string text_of(const Fault& fault) {
   const std::string place = fault.place.empty() ? "" : fault.place + ": ";
-  return "error: " + printable(shortened(spell_options(place + fault.message, "--")));
+  return fmt::format("error: {} [{}]",
+                     printable(shortened(spell_options(place + fault.message, "--"))),
+                     name_in(kErrorCodeNames, fault.code));
 }
 
 /// Appends the text split into lines that fit the terminal width.

@@ -52,17 +52,20 @@ Result<OpenStream> open_stream(const StreamSource& source) {
   const std::string name = source.log->string();
   if (name == "-") {
     Descriptor input(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0));
-    if (input.number() < 0) return input_error("--log -", "standard input is closed");
+    if (input.number() < 0)
+      return input_error(ErrorCode::kCannotRead, "--log -", "standard input is closed");
     return OpenStream{std::move(input)};
   }
   // With O_NONBLOCK a pipe opens at once, so waiting for its writer can be interrupted.
   Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.number() < 0) {
-    return input_error(name, std::string("cannot open the file: ") + std::strerror(errno));
+    return input_error(ErrorCode::kCannotRead, name,
+                       std::string("cannot open the file: ") + std::strerror(errno));
   }
   std::error_code error;
   if (std::filesystem::is_directory(name, error)) {
-    return input_error(name, "this is a directory; give the file that the recorder writes");
+    return input_error(ErrorCode::kWrongFile, name,
+                       "this is a directory; give the file that the recorder writes");
   }
   const bool may_grow = is_regular(file.number());
   return OpenStream{std::move(file), may_grow};

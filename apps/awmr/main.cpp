@@ -61,12 +61,14 @@ int end_of_parsing(const CLI::App& app, const CLI::ParseError& error, int argc, 
   // an empty variable then fails.
   const std::string what = awmr::printable(awmr::cli::what_is_wrong(app, error, argc, argv));
   if (awmr::cli::asks_for_json(argc, argv)) {
-    std::fputs(awmr::cli::error_text(awmr::input_error("", what).value()).c_str(), stderr);
+    std::fputs(
+        awmr::cli::error_text(awmr::input_error(awmr::ErrorCode::kUsage, "", what).value()).c_str(),
+        stderr);
     return 2;
   }
   const std::string help = argc > 1 ? "" : app.help() + "\n";
-  std::fprintf(stderr, "%serror: %s\nRun `awmr --help` or `awmr COMMAND --help`.\n", help.c_str(),
-               what.c_str());
+  std::fprintf(stderr, "%serror: %s [usage]\nRun `awmr --help` or `awmr COMMAND --help`.\n",
+               help.c_str(), what.c_str());
   return 2;
 }
 
@@ -103,7 +105,7 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {
-    return fail(awmr::input_error("",
+    return fail(awmr::input_error(awmr::ErrorCode::kTooLarge, "",
                                   "not enough memory for this input; use fewer samples, runs or "
                                   "rows, or a machine with more memory")
                     .value(),

@@ -43,7 +43,7 @@ Result<Outcome> show_page(const std::vector<CommandInfo>& commands, const std::s
   if (found != commands.end()) return text_outcome(man_page(*found, commands));
   std::vector<std::string> names;
   for (const CommandInfo& info : commands) names.push_back(info.name);
-  return input_error("",
+  return input_error(ErrorCode::kUnknownName, "",
                      fmt::format("no command is called '{}'{}", name, did_you_mean(name, names)));
 }
 

@@ -51,7 +51,7 @@ Result<Outcome> become_awmr_pil(std::vector<std::string> arguments) {
     reason = errno;
   }
   return input_error(
-      "awmr-pil",
+      ErrorCode::kNotInstalled, "awmr-pil",
       fmt::format("cannot be started ({}); it runs the firmware on an emulated chip, and "
                   "a demo build does not have it. Build it: scripts/setup test && "
                   "scripts/build release, then use build/release/bin/awmr",

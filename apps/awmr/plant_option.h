@@ -96,7 +96,8 @@ inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
     if (!scenario.tyres) scenario.tyres = tyres;
     for (const TyreConflict& conflict : tyre_conflicts(scenario)) {
       faults.push_back(
-          {fmt::format("{} {}", kPlantOption, name_in(kPlantKindNames, *choice.kind)),
+          {ErrorCode::kConflict,
+           fmt::format("{} {}", kPlantOption, name_in(kPlantKindNames, *choice.kind)),
            fmt::format("scenario '{}', /{}: {}", scenario.name, conflict.key, conflict.message)});
     }
   }
@@ -104,7 +105,7 @@ inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
   const bool has_tyres =
       std::ranges::any_of(scenarios, [](const Scenario& s) { return s.tyres.has_value(); });
   if (choice.tyres_file && !has_tyres && !choice.runs_other()) {
-    return input_error(kTyresOption,
+    return input_error(ErrorCode::kConflict, kTyresOption,
                        fmt::format("nothing runs on the four-wheel plant: leave it out, or give "
                                    "{} {}",
                                    kPlantOption, name_in(kPlantKindNames, PlantKind::kFourWheel)));

@@ -26,7 +26,8 @@ class FileNames {
   fs::path at(JsonObject& json, const char* key) const {
     const std::size_t before = faults_.size();
     const std::string name = json.string(key);
-    if (name.empty() && faults_.size() == before) json.fault(key, "is empty: give a file");
+    if (name.empty() && faults_.size() == before)
+      json.fault(ErrorCode::kBadName, key, "is empty: give a file");
     return resolved(project_, name);
   }
   std::optional<fs::path> maybe_at(JsonObject& json, const char* key) const {
@@ -35,8 +36,9 @@ class FileNames {
   std::vector<fs::path> all_at(JsonObject& json, const char* key) const {
     std::vector<fs::path> paths;
     for (const std::string& name : json.strings(key)) {
-      if (name.empty()) json.fault(key, "has an empty name: give files");
-      if (name.find('\0') != std::string::npos) json.fault(key, "has a name with a NUL: remove it");
+      if (name.empty()) json.fault(ErrorCode::kBadName, key, "has an empty name: give files");
+      if (name.find('\0') != std::string::npos)
+        json.fault(ErrorCode::kBadName, key, "has a name with a NUL: remove it");
       paths.push_back(resolved(project_, name));
     }
     return paths;
@@ -56,7 +58,7 @@ void read_columns(JsonObject json, const std::string& file, Project& project) {
       if (!file.empty()) mapping->file = file;
       project.trials.columns.push_back(*mapping);
     } else {
-      json.fault(name, mapping.error().faults.front().message);
+      json.fault(mapping.error().faults.front().code, name, mapping.error().faults.front().message);
     }
   }
 }
@@ -95,7 +97,7 @@ void read_identify(JsonObject json, Project& project) {
     if (!json.has(key)) return;
     for (const std::string& text : json.strings(key)) {
       if (const auto added = add(text); !added)
-        json.fault(key, added.error().faults.front().message);
+        json.fault(added.error().faults.front().code, key, added.error().faults.front().message);
     }
   };
   each("family", [&](const std::string& text) { return add_family(text, options); });
@@ -117,14 +119,14 @@ void read_heading_rate(JsonObject& json, Project& project) {
   if (!rate) return;
   project.heading_rate_limit = *rate;
   if (const std::string why = fault_of_rate(*rate); !why.empty()) {
-    json.fault("heading_rate_limit", why);
+    json.fault(ErrorCode::kOutOfRange, "heading_rate_limit", why);
   }
 }
 
 void read_compare(JsonObject json, const FileNames& files, Project& project) {
   project.scenarios = files.all_at(json, "scenarios");
   if (json.has("scenarios") && project.scenarios.empty())
-    json.fault("scenarios", "none given; name at least one");
+    json.fault(ErrorCode::kMissing, "scenarios", "none given; name at least one");
   project.compare.samples =
       static_cast<int>(json.optional_integer("samples", 0, 1000000).value_or(0));
   project.compare.seed =
@@ -144,7 +146,8 @@ Project project_from_json(JsonObject& json, const fs::path& path,
   project.vehicle = files.at(json, "vehicle");
   read_trials(json.object("trials"), files, project);
   if (faults.empty() && !has_trials(project)) {
-    json.fault("trials", "no trials: give at least one of surge, coastdown, turning, logs");
+    json.fault(ErrorCode::kMissing, "trials",
+               "no trials: give at least one of surge, coastdown, turning, logs");
   }
   if (auto columns = json.optional_object("columns")) read_columns(*columns, "", project);
   if (auto identify = json.optional_object("identify")) read_identify(*identify, project);

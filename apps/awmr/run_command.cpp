@@ -119,7 +119,7 @@ Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Pr
   for (const fs::path& path : project.scenarios) {
     add_faults(read_scenario(path), faults);
     if (stems.insert(path.stem().string()).second) continue;
-    faults.push_back({command.project.string() + ":/compare/scenarios",
+    faults.push_back({ErrorCode::kGivenTwice, command.project.string() + ":/compare/scenarios",
                       fmt::format("two scenarios have the file name {}, by which their runs are "
                                   "named; rename one",
                                   path.filename().string())});

@@ -111,7 +111,7 @@ Status check_own_results(const fs::path& directory) {
     if (!exists) continue;
     const auto json = read_json_file(path);
     if (json && json->is_object() && json->contains("command")) continue;
-    faults.push_back({path.string(),
+    faults.push_back({ErrorCode::kWouldOverwrite, path.string(),
                       "is not a result that awmr wrote, and run would replace it. Choose another "
                       "directory, or move the file away"});
   }

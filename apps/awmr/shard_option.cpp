@@ -18,7 +18,8 @@ Result<ShardChoice> shard_of(const std::optional<std::string>& text) {
     const auto [rest, second] = std::from_chars(slash + 1, end, shard.count);
     if (second == std::errc{} && rest == end) return shard;
   }
-  return input_error("--shard", fmt::format("'{}' is no part: give I/N, as 1/4", *text));
+  return input_error(ErrorCode::kWrongType, "--shard",
+                     fmt::format("'{}' is no part: give I/N, as 1/4", *text));
 }
 
 Result<Outcome> finished_part(const Shard& shard, const std::filesystem::path& directory) {

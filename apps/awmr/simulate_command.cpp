@@ -136,7 +136,8 @@ Result<Outcome> execute(const SimulateCommand& command) {
   if (command.gains) {
     AWMR_ASSIGN_OR_RETURN(gains, read_gains_for(*command.gains, model.vehicle.sample_time_s));
   } else if (!std::holds_alternative<OpenLoop>(scenario.guidance)) {
-    return input_error("--gains", "this scenario closes the loop: give --gains GAINS.json");
+    return input_error(ErrorCode::kMissing, "--gains",
+                       "this scenario closes the loop: give --gains GAINS.json");
   }
   AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, command.mode));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));

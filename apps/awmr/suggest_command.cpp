@@ -33,7 +33,7 @@ constexpr LoopMetric kLoopMetrics[] = {{"heading_iae_degs", &Metrics::heading_ia
 Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOptions& options) {
   if (!command.gains && !command.scenario) return {};
   if (!command.gains || !command.scenario) {
-    return input_error("--gains",
+    return input_error(ErrorCode::kMissing, "--gains",
                        "--gains and --scenario go together: they define the closed loop of the "
                        "metric");
   }
@@ -49,7 +49,7 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
   for (const LoopMetric& metric : kLoopMetrics) {
     if (!(of_own.*metric.value)) {
       if (command.parameter != metric.name) continue;
-      return input_error("--parameter",
+      return input_error(ErrorCode::kUnknownName, "--parameter",
                          fmt::format("the run of {} in {} has no {}; choose another parameter",
                                      scenario.name, name_of(command.mode), metric.name));
     }

@@ -43,7 +43,7 @@ Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
   if (command.nominal) options.nominal = true;
   if (command.mode) options.mode = command.mode;
   if (command.draws && options.nominal) {
-    return input_error("--draws",
+    return input_error(ErrorCode::kConflict, "--draws",
                        "the configuration sets nominal, which uses no draws; remove --draws or "
                        "nominal");
   }

@@ -45,7 +45,8 @@ Value value_of(const NameTable<Value, N>& names, const std::string& name, const 
   if (const auto value = value_in(names, name)) return *value;
   std::string known;
   for (const auto& one : names_in(names)) known += " " + std::string(one);
-  throw Raised(input_error(what, "'" + name + "' is none of" + known).value());
+  throw Raised(
+      input_error(ErrorCode::kUnknownName, what, "'" + name + "' is none of" + known).value());
 }
 
 /// Copies the numbers into a NumPy array.

@@ -1,12 +1,15 @@
+#include <fmt/format.h>
+
 #include "awmr/core/option_text.h"
 #include "bindings.h"
 
 namespace awmr::python {
 namespace {
 
-/// "PLACE: MESSAGE", as on the command line.
+/// "PLACE: MESSAGE [CODE]", as on the command line.
 std::string text_of(const Fault& fault) {
-  const std::string message = spell_options(fault.message, "--");
+  const std::string message = fmt::format("{} [{}]", spell_options(fault.message, "--"),
+                                          name_in(kErrorCodeNames, fault.code));
   return fault.place.empty() ? message : spell_options(fault.place, "--") + ": " + message;
 }
 
@@ -32,15 +35,17 @@ py::object new_class(py::module_& module, const char* name, const char* doc, py:
 
 void raise(const Error& error, const Classes& classes) {
   std::string text;
-  py::list faults;
+  py::list faults, codes;
   for (const Fault& fault : error.faults) {
     text += (text.empty() ? "" : "\n") + text_of(fault);
+    codes.append(std::string(name_in(kErrorCodeNames, fault.code)));
     faults.append(
         py::make_tuple(spell_options(fault.place, "--"), spell_options(fault.message, "--")));
   }
   const py::object& type = classes.of(error.kind);
   const py::object raised = type(text);
   raised.attr("faults") = faults;
+  raised.attr("codes") = codes;
   raised.attr("exit_code") = exit_code(error);
   PyErr_SetObject(type.ptr(), raised.ptr());
 }
@@ -53,8 +58,8 @@ void bind_errors(py::module_& module) {
   classes->base = new_class(
       module, "Error",
       "What went wrong, in the command line's words: a line for each fault. `faults` is a list of "
-      "(place, message), the place FILE:LINE:COLUMN, FILE:/json/pointer or an option; `exit_code` "
-      "is the command line's.",
+      "(place, message), the place FILE:LINE:COLUMN, FILE:/json/pointer or an option; `codes` "
+      "has each fault's code (awmr explain CODE), `exit_code` is the command line's.",
       PyExc_Exception);
   classes->input =
       new_class(module, "InputError", "A file or a value is wrong (exit code 2).", classes->base);

@@ -14,9 +14,9 @@ using Words = std::vector<std::string>;
 /// Raises InputError outside the range of the command-line option.
 void check_within(const char* name, double value, double least, double most) {
   if (value >= least && value <= most) return;
-  throw Raised(
-      input_error(name, fmt::format("expected {:g} to {:g}, found {:g}", least, most, value))
-          .value());
+  throw Raised(input_error(ErrorCode::kOutOfRange, name,
+                           fmt::format("expected {:g} to {:g}, found {:g}", least, most, value))
+                   .value());
 }
 
 Identification fit(const TrialsOfFiles& trials, const std::optional<std::string>& method,

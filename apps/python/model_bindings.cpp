@@ -149,14 +149,14 @@ void bind_gains(py::module_& module) {
                        double surge_max) {
              for (const double gain : {lambda, mu, epsilon, speed_mu, speed_epsilon}) {
                if (gain > 0.0 && gain < 1e9) continue;
-               throw Raised(
-                   input_error("gains", fmt::format("expected numbers above 0, found {}", gain))
-                       .value());
+               throw Raised(input_error(ErrorCode::kOutOfRange, "gains",
+                                        fmt::format("expected numbers above 0, found {}", gain))
+                                .value());
              }
              const ObserverGains<double> observer{bandwidth_radps, yaw_max_m, surge_max};
              for (const double one : {bandwidth_radps, yaw_max_m, surge_max}) {
                if (one >= 0.0 && one < 1e9 && (one > 0.0) == observer.is_on()) continue;
-               throw Raised(input_error("gains",
+               throw Raised(input_error(ErrorCode::kOutOfRange, "gains",
                                         "an observer has a bandwidth, yaw_max_m and "
                                         "surge_max above 0, or none of them")
                                 .value());

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that apps/awmr/FINDINGS.md lists exactly the codes of all findings, each with its severities.
+"""Checks that apps/awmr/FINDINGS.md lists exactly the codes of all findings and errors, each with its severities.
 
 usage: findings.py SOURCE
 """
@@ -19,6 +19,10 @@ for first, second, other, code in MADE.findall(text):
     for name in filter(None, (other, code)):
         made.setdefault(name, set()).update(severity.lower() for severity in (first, second) if severity)
 assert len(made) > 80, made
+errors = re.findall(CODE + r", ErrorCode::k", text)
+assert len(errors) > 30, errors
+for name in errors:
+    made.setdefault(name, set()).add("error")
 told = {}
 for line in (SOURCE / "apps/awmr/FINDINGS.md").read_text(encoding="utf-8").splitlines():
     if not line.startswith("| `"):

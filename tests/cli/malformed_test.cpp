@@ -1,10 +1,11 @@
-/// Malformed input, one case per line of malformed.txt: exit code 2, the place, the message,
-/// nothing written, bounded time and memory.
+/// Malformed input, one case per line of malformed.txt: exit code 2, the place, the code, nothing
+/// written, bounded time and memory.
 #include <gmock/gmock.h>
 
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,14 +18,19 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 struct Case {
   int line = 0;       ///< line in malformed.txt
   std::string kind;   ///< malformed input: a file of this kind, or the command line
   std::string edit;   ///< change of a valid file; a complete command line
   std::string place;  ///< place in the error, after the file's name
-  std::string words;  ///< expected text in the message
+  std::string code;   ///< the error's
+  std::string text;   ///< of the message: a number, a name or a suggestion; empty: any
 };
 
 std::vector<std::string> split(const std::string& line) {
@@ -45,11 +51,21 @@ std::vector<Case> cases_of(const std::string& kind) {
     ++number;
     if (line.empty() || line[0] == '#') continue;
     const std::vector<std::string> fields = split(line);
-    if (fields.size() != 4) throw std::runtime_error("malformed.txt:" + std::to_string(number));
+    if (fields.size() < 4 || fields.size() > 5) {
+      throw std::runtime_error("malformed.txt:" + std::to_string(number));
+    }
     if (fields[0] != kind) continue;
-    cases.push_back({number, fields[0], fields[1], fields[2], fields[3]});
+    cases.push_back(
+        {number, fields[0], fields[1], fields[2], fields[3], fields.size() == 5 ? fields[4] : ""});
   }
   return cases;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
 }
 
 /// Replaces the escapes \n, \r, \t, \\ and \xHH.
@@ -206,7 +222,7 @@ class Malformed : public ::testing::TestWithParam<Kind> {
   std::map<std::string, std::string> good_;
 };
 
-TEST_P(Malformed, InputIsRefusedByPlaceAndWords) {
+TEST_P(Malformed, InputIsRefusedByPlaceAndCode) {
   const Kind& kind = GetParam();
   const std::vector<Case> cases = cases_of(kind.name);
   ASSERT_FALSE(cases.empty());
@@ -220,8 +236,10 @@ TEST_P(Malformed, InputIsRefusedByPlaceAndWords) {
     }
     const ProcessResult result = run_bounded(with_paths(command, bad));
     EXPECT_EQ(result.exit_code, 2) << result.err;
-    EXPECT_THAT(result.err, HasSubstr("error: " + (c.place.empty() ? "" : bad + c.place)));
-    EXPECT_THAT(result.err, HasSubstr(c.words));
+    EXPECT_THAT(lines_of(result.err),
+                Contains(AllOf(StartsWith("error: " + (c.place.empty() ? "" : bad + c.place)),
+                               EndsWith(" [" + c.code + "]"), HasSubstr(c.text))))
+        << result.err;
     EXPECT_LT(result.err.size(), 20'000U);
     expect_nothing_written();
   }

@@ -138,7 +138,7 @@ TEST_F(FileTest, AnOutputThatItsReaderRefusesIsAFaultAndLeavesTheOldFile) {
   ASSERT_TRUE(write_file(path("a.txt"), "precious"));
   const ReadBack refuse = [](std::string_view bytes, const std::string& file) -> Status {
     if (bytes == "good") return {};
-    return input_error(file + ":/key", "expected a number, found null");
+    return input_error(ErrorCode::kWrongType, file + ":/key", "expected a number, found null");
   };
   const auto refused = write_file(path("a.txt"), "bad", refuse);
   ASSERT_FALSE(refused);

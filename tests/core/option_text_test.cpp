@@ -14,9 +14,10 @@ TEST(OptionText, IsSpeltAsTheCallerSpellsOptions) {
 }
 
 TEST(OptionText, AnErrorIsPlainForALibrarysUserAndSpeltForACommands) {
-  const Error error{ErrorKind::kInput, {{option_text("method"), "use " + option_text("log")}}};
-  EXPECT_EQ(to_text(error), "error: method: use log\n");
-  EXPECT_EQ(to_text(error, "--"), "error: --method: use --log\n");
+  const Error error{ErrorKind::kInput,
+                    {{ErrorCode::kMissing, option_text("method"), "use " + option_text("log")}}};
+  EXPECT_EQ(to_text(error), "error: method: use log [missing]\n");
+  EXPECT_EQ(to_text(error, "--"), "error: --method: use --log [missing]\n");
 }
 
 TEST(OptionText, LeavesOtherBracesAlone) {

@@ -43,13 +43,15 @@ TEST(Shortened, KeepsTheBeginningAndTheEnd) {
 }
 
 TEST(ErrorText, TenMegabytesOfACellMadeALineOfTenMegabytes) {
-  const Error error{ErrorKind::kInput, {{std::string(100000, 'p'), std::string(10'000'000, 'm')}}};
+  const Error error{
+      ErrorKind::kInput,
+      {{ErrorCode::kMissing, std::string(100000, 'p'), std::string(10'000'000, 'm')}}};
   EXPECT_LT(to_text(error).size(), 2200U);
 }
 
 TEST(ErrorText, ANewlineInANameForgedALine) {
-  EXPECT_EQ(to_text(Error{ErrorKind::kInput, {{"a\nb", "no \"\x1B[31m\""}}}),
-            "error: a\\nb: no \"\\x1b[31m\"\n");
+  EXPECT_EQ(to_text(Error{ErrorKind::kInput, {{ErrorCode::kMissing, "a\nb", "no \"\x1B[31m\""}}}),
+            "error: a\\nb: no \"\\x1b[31m\" [missing]\n");
 }
 
 }  // namespace

@@ -128,12 +128,12 @@ TEST_F(RecoverShards, AnErrorOfAllRunsIsThatOfTheFirst) {
     for (RecoverRun& run : failed->runs)
       run = {run.index, true, std::vector(run.estimates.size(), std::optional<RecoverEstimate>())};
   }
-  one.error = input_error("here", "the first\nrun").value();
+  one.error = input_error(ErrorCode::kBrokenFile, "here", "the first\nrun").value();
   EXPECT_THAT(
       to_text(recovery_of(merge_recover_shards({write({1, 2}, one), write({2, 2}, two)})->whole)
                   .error()),
       HasSubstr("none gave an interval"));
-  two.error = refusal("another").value();
+  two.error = refusal(ErrorCode::kNotRecovered, "another").value();
   const auto recovery =
       recovery_of(merge_recover_shards({write({2, 2}, two), write({1, 2}, one)})->whole);
   ASSERT_FALSE(recovery);

@@ -259,7 +259,7 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
                                              const CompareOptions& options) {
   if (model.yaw_by_sides_alone) {
     return input_error(
-        option_text("break_even"),
+        ErrorCode::kNotIdentified, option_text("break_even"),
         "yaw resistance was identified from differential turns and already includes their scrub; "
         "add steered turns (steering_deg, wheel_force) to the turning table and identify again");
   }

@@ -26,12 +26,12 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
                                  const CompareOptions& options) {
   std::vector<Fault> faults;
   if (options.samples < 0) {
-    faults.push_back(
-        {option_text("samples"), fmt::format("has to be 0 or more, found {}", options.samples)});
+    faults.push_back({ErrorCode::kOutOfRange, option_text("samples"),
+                      fmt::format("has to be 0 or more, found {}", options.samples)});
   }
   if (options.threads < 0) {
-    faults.push_back(
-        {option_text("threads"), fmt::format("has to be 0 or more, found {}", options.threads)});
+    faults.push_back({ErrorCode::kOutOfRange, option_text("threads"),
+                      fmt::format("has to be 0 or more, found {}", options.threads)});
   }
   if (options.samples >= 0) {
     auto fault =
@@ -39,21 +39,22 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
     if (fault) faults.push_back(std::move(*fault));
   }
   if (scenarios.empty()) {
-    faults.push_back({option_text("scenario"), "none given; give at least one"});
+    faults.push_back(
+        {ErrorCode::kMissing, option_text("scenario"), "none given; give at least one"});
   }
   std::set<std::string> names;
   for (const Scenario& scenario : scenarios) {
     if (!names.insert(scenario.name).second) {
-      faults.push_back(
-          {option_text("scenario"), fmt::format("two scenarios are named '{}' and their rows "
-                                                "could not be distinguished: rename one",
-                                                scenario.name)});
+      faults.push_back({ErrorCode::kGivenTwice, option_text("scenario"),
+                        fmt::format("two scenarios are named '{}' and their rows "
+                                    "could not be distinguished: rename one",
+                                    scenario.name)});
     }
   }
   for (const Scenario& scenario : scenarios) {
     if (options.break_even && scenario.tyres) {
       faults.push_back(
-          {option_text("break_even"),
+          {ErrorCode::kConflict, option_text("break_even"),
            fmt::format("varies the model's yaw resistance, which scenario '{}' replaces by tyres; "
                        "remove it, or use the model's plant",
                        scenario.name)});
@@ -62,17 +63,18 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
   std::set<std::string> sets;
   for (const NamedGains& set : gains) {
     if (!sets.insert(set.name).second) {
-      faults.push_back(
-          {option_text("gains"), fmt::format("two sets of gains are named '{}'", set.name)});
+      faults.push_back({ErrorCode::kGivenTwice, option_text("gains"),
+                        fmt::format("two sets of gains are named '{}'", set.name)});
     }
   }
   if (options.break_even && (gains.size() > 1 || options.shard.count > 1)) {
     faults.push_back(
-        {option_text("break_even"),
+        {ErrorCode::kConflict, option_text("break_even"),
          fmt::format("needs one set of gains and a whole comparison; remove the other sets, and {}",
                      option_text("shard"))});
   }
-  if (gains.empty()) faults.push_back({option_text("gains"), "none given; give at least one"});
+  if (gains.empty())
+    faults.push_back({ErrorCode::kMissing, option_text("gains"), "none given; give at least one"});
   return faults;
 }
 
@@ -81,7 +83,7 @@ Status check_runs(std::size_t per_sample, int samples) {
   const std::size_t most = kMaxRuns / per_sample;
   if (at(samples) + 1 <= most) return {};
   return input_error(
-      option_text("samples"),
+      ErrorCode::kTooLarge, option_text("samples"),
       fmt::format("{} samples and the nominal one in {} runs each are {:.3g} runs, more than the "
                   "limit of {}; give at most {} samples, or fewer scenarios or sets of gains",
                   samples, per_sample, (samples + 1.0) * static_cast<double>(per_sample), kMaxRuns,
@@ -122,7 +124,7 @@ Status take_finished(const std::vector<Scenario>& scenarios, const std::vector<N
         position_of(gains, [&](const NamedGains& other) { return other.name == row.gains; });
     const auto mode = position_of(kYawModes, [&](YawMode other) { return other == row.mode; });
     if (!scenario || !set || !mode || *mode >= layout.modes || row.sample < 0) {
-      return input_error(option_text("resume"),
+      return input_error(ErrorCode::kStaleResult, option_text("resume"),
                          fmt::format("the finished run of '{}' in sample {} does not belong to "
                                      "this comparison; compare into another directory",
                                      row.scenario, row.sample));

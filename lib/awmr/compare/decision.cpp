@@ -110,7 +110,7 @@ Result<Scenario> on_other_plant(Scenario scenario, const Tyres<double>& tyres) {
     return scenario;
   }
   for (const TyreConflict& conflict : tyre_conflicts(scenario)) {
-    return input_error("/" + conflict.key, conflict.message);
+    return input_error(ErrorCode::kConflict, "/" + conflict.key, conflict.message);
   }
   scenario.tyres = tyres;
   return scenario;

@@ -21,7 +21,8 @@ Result<double> weight_in(std::string_view text, const std::string& place) {
   const bool number = error == std::errc{} && end == text.data() + text.size();
   if (number && value >= 0.0 && value <= kMaximumWeight) return value;
   return input_error(
-      place, fmt::format("'{}' is not a weight; give a number from 0 to {}", text, kMaximumWeight));
+      ErrorCode::kOutOfRange, place,
+      fmt::format("'{}' is not a weight; give a number from 0 to {}", text, kMaximumWeight));
 }
 
 Status check_metric(std::string_view name, const std::string& place) {
@@ -29,8 +30,9 @@ Status check_metric(std::string_view name, const std::string& place) {
   if (std::find(known.begin(), known.end(), name) != known.end()) return {};
   const std::string near = nearest(name, std::vector<std::string>(known.begin(), known.end()));
   const std::string hint = near.empty() ? "" : fmt::format("; did you mean '{}'?", near);
-  return input_error(place, fmt::format("'{}' is not a metric that ranks modes{}; available: {}",
-                                        name, hint, fmt::join(known, ", ")));
+  return input_error(ErrorCode::kUnknownName, place,
+                     fmt::format("'{}' is not a metric that ranks modes{}; available: {}", name,
+                                 hint, fmt::join(known, ", ")));
 }
 
 }  // namespace
@@ -46,14 +48,14 @@ std::vector<std::string_view> weighable_metrics() {
 Result<Preferences> preferences_of(const std::vector<std::string>& weights, double relevance) {
   const std::string place = option_text("weight");
   if (!(relevance >= 0.0 && relevance <= 1.0)) {
-    return input_error(option_text("relevance"), "is not in 0 ... 1");
+    return input_error(ErrorCode::kOutOfRange, option_text("relevance"), "is not in 0 ... 1");
   }
   Preferences preferences;
   preferences.relevance = relevance;
   for (const std::string& text : weights) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
-      return input_error(place,
+      return input_error(ErrorCode::kWrongType, place,
                          fmt::format("'{}' is not NAME=WEIGHT, such as finish_time_s=2", text));
     }
     const std::string name = text.substr(0, equals);
@@ -61,13 +63,14 @@ Result<Preferences> preferences_of(const std::vector<std::string>& weights, doub
     AWMR_ASSIGN_OR_RETURN(const double weight,
                           weight_in(std::string_view(text).substr(equals + 1), place));
     if (!preferences.weights.emplace(name, weight).second) {
-      return input_error(place, fmt::format("'{}' has two weights", name));
+      return input_error(ErrorCode::kGivenTwice, place, fmt::format("'{}' has two weights", name));
     }
   }
   if (std::none_of(kMetricColumns.begin(), kMetricColumns.end(), [&](const MetricColumn& metric) {
         return weight_of(metric, preferences) > 0.0;
       })) {
-    return input_error(place, "sets every metric's weight to 0; give at least one above 0");
+    return input_error(ErrorCode::kOutOfRange, place,
+                       "sets every metric's weight to 0; give at least one above 0");
   }
   return preferences;
 }

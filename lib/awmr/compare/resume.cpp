@@ -107,14 +107,15 @@ Result<std::vector<ComparisonRow>> comparison_rows(std::string_view text, const 
   const std::vector<std::string> head = take_text_record(rest);
   const bool with_gains = head.back() == "gains";
   if (head != comparison_columns(with_gains)) {
-    return input_error(file + ":1:1", "these are not the columns of a comparison");
+    return input_error(ErrorCode::kStaleResult, file + ":1:1",
+                       "these are not the columns of a comparison");
   }
   while (!rest.empty()) {
     const std::string_view before = text.substr(0, text.size() - rest.size());
     auto row = row_of(take_text_record(rest), with_gains);
     if (!row) {
       const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-      return input_error(fmt::format("{}:{}:1", file, line),
+      return input_error(ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line),
                          "is no row of a comparison; compare into another directory");
     }
     rows.push_back(std::move(*row));
@@ -146,11 +147,11 @@ Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& di
   AWMR_ASSIGN_OR_RETURN(const Origin before, read_origin(json));
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
   const std::string other = difference(before, provenance, arithmetic.rounding);
-  if (!other.empty()) return input_error(json.string(), other);
+  if (!other.empty()) return input_error(ErrorCode::kStaleResult, json.string(), other);
   AWMR_RETURN_IF_ERROR(check_regular_file(csv));
   AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(csv));
   if (before.csv_sha256 && *before.csv_sha256 != sha256_hex(text)) {
-    return input_error(csv.string(),
+    return input_error(ErrorCode::kStaleResult, csv.string(),
                        "is not as it was written with comparison.json: it was changed, or is of "
                        "another comparison; compare into another directory");
   }

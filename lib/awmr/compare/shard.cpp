@@ -102,9 +102,10 @@ Status check_groups(const std::vector<ComparisonRow>& rows, std::size_t items) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::size_t first = i - i % items;
     if (i == first ? seen.insert(group_of(i)).second : group_of(i) == group_of(first)) continue;
-    return input_error("", fmt::format("sample {} of scenario '{}' is not in its place in every "
-                                       "part: rows were lost or appear twice; run the parts again",
-                                       rows[i].sample, rows[i].scenario));
+    return input_error(ErrorCode::kStaleResult, "",
+                       fmt::format("sample {} of scenario '{}' is not in its place in every "
+                                   "part: rows were lost or appear twice; run the parts again",
+                                   rows[i].sample, rows[i].scenario));
   }
   return {};
 }

@@ -99,7 +99,7 @@ tl::expected<Halves, std::string> halves_of(std::string_view text) {
 }
 
 tl::unexpected<Error> wrong(std::string_view text, std::string_view why, std::string_view form) {
-  return input_error("",
+  return input_error(ErrorCode::kBadFormula, "",
                      fmt::format("column mapping \"{}\": {}; {}", shortened(text, 100), why, form));
 }
 

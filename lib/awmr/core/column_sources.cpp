@@ -83,12 +83,13 @@ class Search {
     Candidate candidate = candidate_of(column_, mapping, header_);
     if (!candidate.missing.empty()) {
       const bool in_part = candidate.missing.size() < candidate.names.size();
-      if (in_part) fault(missing_in(mapping, candidate));
+      if (in_part) fault(ErrorCode::kMissing, missing_in(mapping, candidate));
       if (!absent_ || in_part) absent_ = std::move(candidate);
     } else if (!chosen_ || distance(mapping) < distance(*chosen_->source.mapping)) {
       chosen_ = std::move(candidate);
     } else if (distance(mapping) == distance(*chosen_->source.mapping)) {
-      fault(fmt::format("two mappings give the column {}: \"{}\" and \"{}\"; keep one",
+      fault(ErrorCode::kGivenTwice,
+            fmt::format("two mappings give the column {}: \"{}\" and \"{}\"; keep one",
                         column_.name, shown(*chosen_->source.mapping), shown(mapping)));
     }
   }
@@ -106,9 +107,9 @@ class Search {
   }
 
  private:
-  void fault(std::string message, std::optional<std::size_t> cell = std::nullopt) {
+  void fault(ErrorCode code, std::string message, std::optional<std::size_t> cell = std::nullopt) {
     faulty_ = true;
-    result_.faults.push_back({cell, std::move(message)});
+    result_.faults.push_back({code, cell, std::move(message)});
   }
 
   std::string hint(const std::string& name) const {
@@ -127,13 +128,14 @@ class Search {
 
   void report_missing() {
     if (!absent_) {
-      fault(fmt::format("the column {} is missing{}", column_.name, hint(column_.name)));
+      fault(ErrorCode::kMissing,
+            fmt::format("the column {} is missing{}", column_.name, hint(column_.name)));
     } else if (absent_->source.expression) {
-      fault(missing_in(*absent_->source.mapping, *absent_));
+      fault(ErrorCode::kMissing, missing_in(*absent_->source.mapping, *absent_));
     } else {
       const std::string& source = absent_->names.front();
-      fault(fmt::format("the column \"{}\", mapped to {}, is missing{}", source, column_.name,
-                        hint(source)));
+      fault(ErrorCode::kMissing, fmt::format("the column \"{}\", mapped to {}, is missing{}",
+                                             source, column_.name, hint(source)));
     }
   }
 
@@ -141,7 +143,8 @@ class Search {
   bool use_time() {
     auto time = find_time(header_, samples_);
     if (!time) {
-      fault(fmt::format("{}; say which: {}", time.error(), option_text("column t_s=EXPRESSION")));
+      fault(ErrorCode::kAmbiguous,
+            fmt::format("{}; say which: {}", time.error(), option_text("column t_s=EXPRESSION")));
       return true;
     }
     if (!*time) return false;
@@ -165,7 +168,8 @@ class Search {
       const auto first = std::find(header_.begin(), header_.end(), name);
       const auto second = std::find(first + 1, header_.end(), name);
       if (second != header_.end()) {
-        fault(fmt::format("the column \"{}\" appears twice in the header; rename or remove one",
+        fault(ErrorCode::kGivenTwice,
+              fmt::format("the column \"{}\" appears twice in the header; rename or remove one",
                           name),
               static_cast<std::size_t>(second - header_.begin()));
         return;

@@ -26,6 +26,7 @@ struct ColumnSource {
 
 /// A fault of a header.
 struct HeaderFault {
+  ErrorCode code;
   std::optional<std::size_t> cell;  ///< none: the header as a whole
   std::string message;
 };

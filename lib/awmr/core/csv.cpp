@@ -59,8 +59,9 @@ class CsvParser {
                          std::span<const ColumnMapping> mappings);
 
  private:
-  void fault(int line, int character, std::string message) {
-    faults_.push_back({fmt::format("{}:{}:{}", raw_.file, line, character), std::move(message)});
+  void fault(ErrorCode code, int line, int character, std::string message) {
+    faults_.push_back(
+        {code, fmt::format("{}:{}:{}", raw_.file, line, character), std::move(message)});
   }
 
   ColumnSources find_sources(std::span<const CsvColumn> columns,
@@ -126,7 +127,7 @@ bool CsvParser::scan() {
   const CsvScanner::Outcome outcome = scanner_.next(cells_);
   if (outcome == CsvScanner::Outcome::kRecord) return true;
   if (outcome == CsvScanner::Outcome::kEnd) return false;
-  fault(cells_.back().line, cells_.back().character, message_of(outcome));
+  fault(ErrorCode::kBrokenFile, cells_.back().line, cells_.back().character, message_of(outcome));
   if (outcome == CsvScanner::Outcome::kOpenQuote) return false;
   scanner_.skip_line();
   cells_.clear();
@@ -139,7 +140,7 @@ ColumnSources CsvParser::find_sources(std::span<const CsvColumn> columns,
       find_columns(header_.names, header_.samples, columns, mappings, raw_.file);
   for (HeaderFault& found : sources.faults) {
     const bool placed = found.cell.has_value();
-    fault(placed ? header_.cells[*found.cell].line : header_.line,
+    fault(found.code, placed ? header_.cells[*found.cell].line : header_.line,
           placed ? header_.cells[*found.cell].character : 1, std::move(found.message));
   }
   return sources;
@@ -178,7 +179,7 @@ void CsvParser::report_ragged() {
         ": these look like decimal commas; write numbers with a point, or separate the cells "
         "by semicolons";
   }
-  fault(cell.line, cell.character, std::move(message));
+  fault(ErrorCode::kBrokenFile, cell.line, cell.character, std::move(message));
 }
 
 /// Faulty cells and permitted empty cells have marker values.
@@ -186,7 +187,7 @@ double CsvParser::value_of(const CsvCell& cell, const UsedColumn& used) {
   if (used.may_be_empty && cell.text.empty()) return kEmptyCell;
   if (used.is_date) {
     if (const auto seconds = seconds_of_date(cell.text)) return *seconds;
-    fault(cell.line, cell.character,
+    fault(ErrorCode::kWrongType, cell.line, cell.character,
           fmt::format("column {}: expected a date like 2026-01-31T12:34:56.789Z, as in the first "
                       "row; found \"{}\"",
                       used.name, shortened(cell.text, 40)));
@@ -200,14 +201,15 @@ double CsvParser::value_of(const CsvCell& cell, const UsedColumn& used) {
   if (header_.delimiter != ',') {
     if (const auto with_comma = number_with_comma(cell, commas_)) return *with_comma;
   }
-  fault(cell.line, cell.character, fmt::format("column {}: {}", used.name, value.error()));
+  fault(cell.text.empty() ? ErrorCode::kMissing : ErrorCode::kWrongType, cell.line, cell.character,
+        fmt::format("column {}: {}", used.name, value.error()));
   return kFaultyCell;
 }
 
 /// Reports decimal commas that are ambiguous or inconsistent.
 void CsvParser::check_commas() {
   if (const auto wrong = fault_of(commas_)) {
-    fault(commas_.comma->line, commas_.comma->character, *wrong);
+    fault(ErrorCode::kAmbiguous, commas_.comma->line, commas_.comma->character, *wrong);
   }
 }
 

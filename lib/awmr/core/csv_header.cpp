@@ -172,7 +172,7 @@ Status check_names(const CsvHeader& header, const std::string& file) {
   for (const CsvCell& cell : header.cells) {
     if (is_utf8(cell.text)) continue;
     return input_error(
-        fmt::format("{}:{}:{}", file, cell.line, cell.character),
+        ErrorCode::kBrokenFile, fmt::format("{}:{}:{}", file, cell.line, cell.character),
         fmt::format("the column's name \"{}\" is not UTF-8 (Latin-1?); save the file "
                     "as UTF-8",
                     shortened(cell.text, 40)));
@@ -184,18 +184,20 @@ Status take_first_line(CsvScanner& scanner, const std::string& file, CsvHeader& 
   scanner.set_delimiter(header.delimiter);
   const Outcome outcome = scanner.next(header.cells);
   if (outcome == Outcome::kEnd) {
-    return input_error(file, "the file has no header row; expected the columns' names");
+    return input_error(ErrorCode::kMissing, file,
+                       "the file has no header row; expected the columns' names");
   }
   if (outcome != Outcome::kRecord) {
     const CsvCell& cell = header.cells.back();
-    return input_error(fmt::format("{}:{}:{}", file, cell.line, cell.character),
+    return input_error(ErrorCode::kBrokenFile,
+                       fmt::format("{}:{}:{}", file, cell.line, cell.character),
                        message_of(outcome));
   }
   const bool are_numbers = std::all_of(header.cells.begin(), header.cells.end(),
                                        [](const CsvCell& cell) { return is_number(cell, false); });
   if (!are_numbers) return {};
   return input_error(
-      fmt::format("{}:{}:1", file, header.line),
+      ErrorCode::kMissing, fmt::format("{}:{}:1", file, header.line),
       fmt::format("this row holds numbers; expected the columns' names: add them, or map the "
                   "columns by their position, as in {}",
                   option_text("column t_s=column_1")));

@@ -62,16 +62,16 @@ std::vector<Fault> without_repeats(const std::vector<Fault>& faults) {
 
 }  // namespace
 
-tl::unexpected<Error> input_error(std::string place, std::string message) {
-  return tl::unexpected(Error{ErrorKind::kInput, {{std::move(place), std::move(message)}}});
+tl::unexpected<Error> input_error(ErrorCode code, std::string place, std::string message) {
+  return tl::unexpected(Error{ErrorKind::kInput, {{code, std::move(place), std::move(message)}}});
 }
 
-tl::unexpected<Error> refusal(std::string message) {
-  return tl::unexpected(Error{ErrorKind::kRefused, {{"", std::move(message)}}});
+tl::unexpected<Error> refusal(ErrorCode code, std::string message) {
+  return tl::unexpected(Error{ErrorKind::kRefused, {{code, "", std::move(message)}}});
 }
 
 tl::unexpected<Error> program_fault(std::string message) {
-  return tl::unexpected(Error{ErrorKind::kFault, {{"", std::move(message)}}});
+  return tl::unexpected(Error{ErrorKind::kFault, {{ErrorCode::kInternal, "", std::move(message)}}});
 }
 
 tl::unexpected<Error> input_errors(std::vector<Fault> faults) {
@@ -85,8 +85,8 @@ std::vector<Fault> shown_faults(const std::vector<Fault>& all) {
   if (faults.size() <= kMaxFaultsShown) return faults;
   std::vector<Fault> shown(faults.begin(), faults.begin() + kMaxFaultsShown);
   const std::size_t left = faults.size() - kMaxFaultsShown;
-  shown.push_back(
-      {"", fmt::format("{} more fault{} not shown", left, left == 1 ? " is" : "s are")});
+  shown.push_back({ErrorCode::kMoreFaults, "",
+                   fmt::format("{} more fault{} not shown", left, left == 1 ? " is" : "s are")});
   return shown;
 }
 
@@ -95,8 +95,8 @@ std::string to_text(const Error& error, std::string_view prefix) {
   for (const Fault& fault : shown_faults(error.faults)) {
     const std::string message = printable(shortened(spell_options(fault.message, prefix)));
     const std::string place = printable(shortened(spell_options(fault.place, prefix)));
-    text += place.empty() ? fmt::format("error: {}\n", message)
-                          : fmt::format("error: {}: {}\n", place, message);
+    text += fmt::format("error: {}{}{} [{}]\n", place, place.empty() ? "" : ": ", message,
+                        name_in(kErrorCodeNames, fault.code));
   }
   return text;
 }

@@ -27,7 +27,7 @@ constexpr int kMostLinks = 40;  ///< symbolic links followed, as the system does
 std::string reason() { return std::strerror(errno); }
 
 tl::unexpected<Error> write_error(const fs::path& path, const std::string& why) {
-  return input_error(path.string(), "cannot write the file: " + why);
+  return input_error(ErrorCode::kCannotWrite, path.string(), "cannot write the file: " + why);
 }
 
 /// Bytes of one read.
@@ -136,7 +136,8 @@ Result<PathKind> kind_of(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
     if (errno == ENOENT || errno == ENOTDIR) return PathKind::kNothing;
-    return input_error(path.string(), "cannot look up this path: " + reason());
+    return input_error(ErrorCode::kCannotRead, path.string(),
+                       "cannot look up this path: " + reason());
   }
   if (S_ISREG(status.st_mode)) return PathKind::kFile;
   return S_ISDIR(status.st_mode) ? PathKind::kDirectory : PathKind::kOther;
@@ -205,7 +206,7 @@ Result<std::string> read_file(const fs::path& path, std::size_t max_bytes) {
   std::string bytes;
   bytes.reserve(std::min(file.size(), max_bytes) + kBlock);
   if (file.size() <= max_bytes && !read_all(file.descriptor(), max_bytes, bytes)) {
-    return input_error(file.name(), "cannot read the file: " + reason());
+    return input_error(ErrorCode::kCannotRead, file.name(), "cannot read the file: " + reason());
   }
   if (std::max(file.size(), bytes.size()) > max_bytes) {
     return too_long_error(file.name(), max_bytes);
@@ -263,7 +264,7 @@ Result<bool> directory_exists(const fs::path& path) {
 Result<bool> regular_file_exists(const fs::path& path) {
   AWMR_ASSIGN_OR_RETURN(const PathKind kind, kind_of(path));
   if (kind == PathKind::kNothing || kind == PathKind::kFile) return kind == PathKind::kFile;
-  return input_error(path.string(),
+  return input_error(ErrorCode::kWrongFile, path.string(),
                      kind == PathKind::kDirectory
                          ? "this is a directory where a file is expected; move it away"
                          : "this is a pipe or a device where a file is expected; move it away");
@@ -280,7 +281,7 @@ Status check_output_directory(const fs::path& path) {
     AWMR_ASSIGN_OR_RETURN(const bool exists, path_exists(there));
     if (exists || there == directory_of(there)) break;
     if (there.filename().native().size() > NAME_MAX) {
-      return input_error(path.string(),
+      return input_error(ErrorCode::kBadName, path.string(),
                          fmt::format("a name of {} characters is too long; {} is the "
                                      "most",
                                      there.filename().native().size(), NAME_MAX));
@@ -289,12 +290,12 @@ Status check_output_directory(const fs::path& path) {
   }
   AWMR_ASSIGN_OR_RETURN(const bool is_a_directory, directory_exists(there));
   if (!is_a_directory) {
-    return input_error(there.string(),
+    return input_error(ErrorCode::kWrongFile, there.string(),
                        "this is a file where a directory is needed; give another name");
   }
   if (::access(there.c_str(), W_OK | X_OK) != 0) {
     return input_error(
-        path.string(),
+        ErrorCode::kCannotWrite, path.string(),
         fmt::format("no file can be made in {}: {}; give another name", there.string(), reason()));
   }
   return {};
@@ -305,7 +306,8 @@ Status make_directory(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) {
-    return input_error(path.string(), "cannot make the directory: " + error.message());
+    return input_error(ErrorCode::kCannotWrite, path.string(),
+                       "cannot make the directory: " + error.message());
   }
   return {};
 }
@@ -316,7 +318,9 @@ Result<std::vector<fs::path>> list_directory(const fs::path& path) {
   for (fs::directory_iterator it(path, error), end; !error && it != end; it.increment(error)) {
     entries.push_back(it->path());
   }
-  if (error) return input_error(path.string(), "cannot read the directory: " + error.message());
+  if (error)
+    return input_error(ErrorCode::kCannotRead, path.string(),
+                       "cannot read the directory: " + error.message());
   std::sort(entries.begin(), entries.end());
   return entries;
 }

@@ -69,15 +69,18 @@ bool is_between_spaces(CsvScanner scanner, const std::set<std::string>& wanted) 
 
 Result<std::string_view> text_of(std::string_view bytes, const std::string& file) {
   if (bytes.empty()) {
-    return input_error(file, "the file is empty; expected a header row and rows");
+    return input_error(ErrorCode::kBrokenFile, file,
+                       "the file is empty; expected a header row and rows");
   }
   for (const KnownFile& known : kKnownFiles) {
     if (bytes.starts_with(known.begin)) {
-      return input_error(file, fmt::format("this file is no CSV but {}", known.words));
+      return input_error(ErrorCode::kWrongFile, file,
+                         fmt::format("this file is no CSV but {}", known.words));
     }
   }
   if (bytes.find('\0') != std::string_view::npos) {
-    return input_error(file, "this is not UTF-8 text (UTF-16?); save it as UTF-8");
+    return input_error(ErrorCode::kWrongFile, file,
+                       "this is not UTF-8 text (UTF-16?); save it as UTF-8");
   }
   if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
   return bytes;
@@ -86,7 +89,7 @@ Result<std::string_view> text_of(std::string_view bytes, const std::string& file
 Status check_format(CsvScanner scanner, const std::string& file) {
   const std::string_view format = format_of(scanner.peek_line());
   if (format.empty()) return {};
-  return input_error(fmt::format("{}:{}:1", file, scanner.line()),
+  return input_error(ErrorCode::kWrongFile, fmt::format("{}:{}:1", file, scanner.line()),
                      fmt::format("this file is {}, expected CSV; export it as CSV: a row of names, "
                                  "then rows of numbers",
                                  format));
@@ -99,7 +102,7 @@ Status check_spaces(CsvScanner scanner, const std::string& file,
     if (scanner.peek_cells(delimiter).size() != 1) return {};
   }
   if (!is_between_spaces(scanner, wanted)) return {};
-  return input_error(fmt::format("{}:{}:1", file, scanner.line()),
+  return input_error(ErrorCode::kWrongFile, fmt::format("{}:{}:1", file, scanner.line()),
                      "the cells are separated by spaces; separate them by commas, semicolons or "
                      "tabs");
 }

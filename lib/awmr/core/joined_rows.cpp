@@ -86,7 +86,7 @@ void refuse_void_columns(const CsvTable::Parts& parts, const ColumnSources& sour
   };
   for (const ColumnSource& source : sources.found) {
     if (source.column.empty == EmptyCells::kOptional || !is_void(source)) continue;
-    faults.push_back({fmt::format("{}:{}:1", parts.file, parts.header_line),
+    faults.push_back({ErrorCode::kMissing, fmt::format("{}:{}:1", parts.file, parts.header_line),
                       fmt::format("the column {} has no value in any row", source.column.name)});
   }
 }

@@ -22,7 +22,7 @@ JsonObject::JsonObject(const Json& value, std::string file, std::string pointer,
                        std::vector<Fault>& faults)
     : value_(&value), file_(std::move(file)), pointer_(std::move(pointer)), faults_(&faults) {
   if (!value.is_object()) {
-    add_fault(*faults_, file_, pointer_,
+    add_fault(ErrorCode::kWrongType, *faults_, file_, pointer_,
               fmt::format("expected an object, found {}", describe(value)));
     value_ = nullptr;
   }
@@ -32,8 +32,8 @@ std::string JsonObject::pointer(std::string_view key) const {
   return pointer_ + "/" + pointer_token(key);
 }
 
-void JsonObject::fault(std::string_view key, std::string message) {
-  add_fault(*faults_, file_, pointer(key), std::move(message));
+void JsonObject::fault(ErrorCode code, std::string_view key, std::string message) {
+  add_fault(code, *faults_, file_, pointer(key), std::move(message));
 }
 
 const Json* JsonObject::find(std::string_view key, bool required) {
@@ -45,7 +45,7 @@ const Json* JsonObject::find(std::string_view key, bool required) {
   if (value_ == nullptr) return nullptr;
   const auto found = value_->find(std::string(key));
   if (found != value_->end()) return &*found;
-  if (required) fault(key, "this key is missing; add it");
+  if (required) fault(ErrorCode::kMissing, key, "this key is missing; add it");
   return nullptr;
 }
 
@@ -59,7 +59,8 @@ double JsonObject::number(std::string_view key, NumberRule rule) {
   if (value == nullptr) return kNoNumber;
   if (!value->is_number() || !std::isfinite(value->get<double>()) ||
       !allows(rule, value->get<double>())) {
-    fault(key, fmt::format("expected {}, found {}", describe(rule), describe(*value)));
+    fault(number_error(*value), key,
+          fmt::format("expected {}, found {}", describe(rule), describe(*value)));
     return kNoNumber;
   }
   return value->get<double>();
@@ -86,8 +87,9 @@ long JsonObject::integer(std::string_view key, long min, long max) {
                      value->get<std::uint64_t>() <= std::numeric_limits<long>::max()) &&
                     value->get<long>() >= min && value->get<long>() <= max;
   if (!fits) {
-    fault(key, fmt::format("expected a whole number from {} to {}, found {}", min, max,
-                           describe(*value)));
+    fault(
+        number_error(*value), key,
+        fmt::format("expected a whole number from {} to {}, found {}", min, max, describe(*value)));
     return min;
   }
   return value->get<long>();
@@ -101,7 +103,7 @@ std::uint64_t JsonObject::seed(std::string_view key) {
   const Json* value = find(key, true);
   if (value == nullptr) return 0;
   if (!value->is_number_unsigned()) {
-    fault(key,
+    fault(number_error(*value), key,
           fmt::format("expected a whole number from 0 to {}, found {}", kMost, describe(*value)));
     return 0;
   }
@@ -118,7 +120,8 @@ bool JsonObject::boolean(std::string_view key) {
   const Json* value = find(key, true);
   if (value == nullptr) return false;
   if (!value->is_boolean()) {
-    fault(key, fmt::format("expected true or false, found {}", describe(*value)));
+    fault(ErrorCode::kWrongType, key,
+          fmt::format("expected true or false, found {}", describe(*value)));
     return false;
   }
   return value->get<bool>();
@@ -134,11 +137,12 @@ std::string JsonObject::string(std::string_view key) {
   const Json* value = find(key, true);
   if (value == nullptr) return {};
   if (!value->is_string()) {
-    fault(key, fmt::format("expected a string, found {}", describe(*value)));
+    fault(ErrorCode::kWrongType, key, fmt::format("expected a string, found {}", describe(*value)));
     return {};
   }
   if (value->get_ref<const std::string&>().find('\0') != std::string::npos) {
-    fault(key, "holds a NUL (\\u0000), at which the system cuts a name off: remove it");
+    fault(ErrorCode::kBadName, key,
+          "holds a NUL (\\u0000), at which the system cuts a name off: remove it");
     return {};
   }
   return value->get<std::string>();
@@ -174,8 +178,9 @@ std::size_t JsonObject::choice(std::string_view key, std::span<const std::string
     if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
   }
   const std::string near = value->is_string() ? nearest(value->get<std::string>(), choices) : "";
-  fault(key, fmt::format("expected one of {}, found {}{}", fmt::join(choices, ", "),
-                         describe(*value), near.empty() ? "" : "; did you mean " + near + "?"));
+  fault(ErrorCode::kUnknownName, key,
+        fmt::format("expected one of {}, found {}{}", fmt::join(choices, ", "), describe(*value),
+                    near.empty() ? "" : "; did you mean " + near + "?"));
   return 0;
 }
 
@@ -209,8 +214,9 @@ void JsonObject::schema(std::string_view expected) {
   }
   const auto found = optional_string("schema");
   if (found && *found != expected) {
-    fault("schema", fmt::format("expected \"{}\", found \"{}\": this is another kind of file",
-                                expected, *found));
+    fault(ErrorCode::kWrongFile, "schema",
+          fmt::format("expected \"{}\", found \"{}\": this is another kind of file", expected,
+                      *found));
   }
 }
 
@@ -228,9 +234,9 @@ void JsonObject::reject_unknown_keys() {
   for (const std::string& key : keys()) {
     if (known_.count(key) != 0 || faults_->size() >= kMaxFaults) continue;
     const std::string near = nearest(key, known);
-    fault(key, near.empty()
-                   ? fmt::format("unknown key; the keys here are {}", fmt::join(known, ", "))
-                   : fmt::format("unknown key; did you mean \"{}\"?", near));
+    fault(ErrorCode::kUnknownName, key,
+          near.empty() ? fmt::format("unknown key; the keys here are {}", fmt::join(known, ", "))
+                       : fmt::format("unknown key; did you mean \"{}\"?", near));
   }
 }
 

@@ -94,7 +94,7 @@ class JsonObject {
   /// All keys of the object, in the file's order (for maps with free keys).
   std::vector<std::string> keys() const;
 
-  void fault(std::string_view key, std::string message);
+  void fault(ErrorCode code, std::string_view key, std::string message);
   void reject_unknown_keys();
   const std::string& file() const { return file_; }
   std::string pointer(std::string_view key) const;

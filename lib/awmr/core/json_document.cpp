@@ -41,11 +41,11 @@ std::optional<Fault> beyond_bounds(const std::string& file, std::string_view tex
     if ((c == ']' || c == '}') && depth > 0) --depth;
     if (c == ',' || c == '[' || c == '{') ++values;
     if (depth > kMaxJsonDepth) {
-      return Fault{place_of(file, text, i),
+      return Fault{ErrorCode::kTooLarge, place_of(file, text, i),
                    fmt::format("arrays and objects are nested more than {} deep", kMaxJsonDepth)};
     }
     if (values > kMaxJsonValues) {
-      return Fault{place_of(file, text, i),
+      return Fault{ErrorCode::kTooLarge, place_of(file, text, i),
                    fmt::format("there are more than {} values", kMaxJsonValues)};
     }
   }
@@ -129,7 +129,8 @@ bool DocumentBuilder::key(string_t& value) {
     place.append("/").append(is_array ? std::to_string(outer.value.size())
                                       : pointer_token(outer.key));
   }
-  faults_.push_back({std::move(place), "this key appears twice in its object; keep one"});
+  faults_.push_back(
+      {ErrorCode::kGivenTwice, std::move(place), "this key appears twice in its object; keep one"});
   return true;
 }
 
@@ -147,11 +148,13 @@ bool DocumentBuilder::parse_error(std::size_t position, const std::string& last_
   const std::string reason = reason_of(error);
   if (dynamic_cast<const Json::out_of_range*>(&error) != nullptr) {
     const std::size_t begin = position - std::min(position, last_token.size());
-    faults_ = {{place_of(file_, text_, begin), "a number is out of range: " + reason}};
+    faults_ = {{ErrorCode::kOutOfRange, place_of(file_, text_, begin),
+                "a number is out of range: " + reason}};
   } else {
     // `position` counts the bytes read, including the faulty one.
     const std::size_t offset = position == 0 ? 0 : position - 1;
-    faults_ = {{place_of(file_, text_, offset), "this is not valid JSON: " + reason}};
+    faults_ = {{ErrorCode::kBrokenFile, place_of(file_, text_, offset),
+                "this is not valid JSON: " + reason}};
   }
   return false;
 }
@@ -172,7 +175,7 @@ void require_finite(const Json& value, const std::string& pointer) {
 
 Result<Json> read_json_text(std::string_view text, const std::string& file) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-    return input_error(file, "the file is empty; expected a JSON object");
+    return input_error(ErrorCode::kBrokenFile, file, "the file is empty; expected a JSON object");
   }
   if (auto fault = beyond_bounds(file, text)) return input_errors({std::move(*fault)});
   DocumentBuilder builder(file, text);

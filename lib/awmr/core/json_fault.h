@@ -12,7 +12,9 @@ namespace awmr {
 std::string describe(const Json& value);
 std::string describe(const NumberRule& rule);
 bool allows(const NumberRule& rule, double value);
-void add_fault(std::vector<Fault>& faults, const std::string& file, const std::string& pointer,
-               std::string message);
+/// Of a value that is not the expected number: its range, or its type.
+ErrorCode number_error(const Json& value);
+void add_fault(ErrorCode code, std::vector<Fault>& faults, const std::string& file,
+               const std::string& pointer, std::string message);
 
 }  // namespace awmr

@@ -33,11 +33,15 @@ bool allows(const NumberRule& rule, double value) {
   return value <= rule.max && (rule.min_excluded ? value > rule.min : value >= rule.min);
 }
 
-void add_fault(std::vector<Fault>& faults, const std::string& file, const std::string& pointer,
-               std::string message) {
+ErrorCode number_error(const Json& value) {
+  return value.is_number() ? ErrorCode::kOutOfRange : ErrorCode::kWrongType;
+}
+
+void add_fault(ErrorCode code, std::vector<Fault>& faults, const std::string& file,
+               const std::string& pointer, std::string message) {
   if (faults.size() >= kMaxFaults) return;
   faults.push_back(
-      {pointer.empty() ? file : fmt::format("{}:{}", file, pointer), std::move(message)});
+      {code, pointer.empty() ? file : fmt::format("{}:{}", file, pointer), std::move(message)});
 }
 
 Interval JsonObject::interval(std::string_view key) {
@@ -49,7 +53,8 @@ Interval JsonObject::interval(std::string_view key) {
     const Interval interval{(*value)[0].get<double>(), (*value)[1].get<double>()};
     if (interval.lo <= interval.hi) return interval;
   }
-  fault(key, fmt::format("expected [lo, hi] with lo <= hi, found {}", describe(*value)));
+  fault(ErrorCode::kWrongType, key,
+        fmt::format("expected [lo, hi] with lo <= hi, found {}", describe(*value)));
   return {};
 }
 
@@ -71,7 +76,8 @@ std::vector<double> JsonObject::numbers(std::string_view key, NumberRule rule) {
   std::vector<double> result;
   if (value == nullptr) return result;
   if (!value->is_array()) {
-    fault(key, fmt::format("expected an array of numbers, found {}", describe(*value)));
+    fault(ErrorCode::kWrongType, key,
+          fmt::format("expected an array of numbers, found {}", describe(*value)));
     return result;
   }
   for (std::size_t i = 0; i < value->size(); ++i) {
@@ -79,7 +85,7 @@ std::vector<double> JsonObject::numbers(std::string_view key, NumberRule rule) {
     if (element.is_number() && allows(rule, element.get<double>())) {
       result.push_back(element.get<double>());
     } else {
-      add_fault(*faults_, file_, fmt::format("{}/{}", pointer(key), i),
+      add_fault(number_error(element), *faults_, file_, fmt::format("{}/{}", pointer(key), i),
                 fmt::format("expected {}, found {}", describe(rule), describe(element)));
     }
   }
@@ -92,7 +98,8 @@ std::vector<std::string> JsonObject::strings(std::string_view key) {
   std::vector<std::string> result;
   if (value == nullptr) return result;
   if (!value->is_array()) {
-    fault(key, fmt::format("expected an array of strings, found {}", describe(*value)));
+    fault(ErrorCode::kWrongType, key,
+          fmt::format("expected an array of strings, found {}", describe(*value)));
     return result;
   }
   for (std::size_t i = 0; i < value->size(); ++i) {
@@ -100,7 +107,7 @@ std::vector<std::string> JsonObject::strings(std::string_view key) {
     if (element.is_string()) {
       result.push_back(element.get<std::string>());
     } else {
-      add_fault(*faults_, file_, fmt::format("{}/{}", pointer(key), i),
+      add_fault(ErrorCode::kWrongType, *faults_, file_, fmt::format("{}/{}", pointer(key), i),
                 fmt::format("expected a string, found {}", describe(element)));
     }
   }
@@ -113,7 +120,8 @@ std::vector<JsonObject> JsonObject::objects(std::string_view key) {
   std::vector<JsonObject> result;
   if (value == nullptr) return result;
   if (!value->is_array()) {
-    fault(key, fmt::format("expected an array of objects, found {}", describe(*value)));
+    fault(ErrorCode::kWrongType, key,
+          fmt::format("expected an array of objects, found {}", describe(*value)));
     return result;
   }
   for (std::size_t i = 0; i < value->size(); ++i) {

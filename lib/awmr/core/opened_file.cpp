@@ -36,18 +36,21 @@ Result<OpenedFile> OpenedFile::open(const std::filesystem::path& path) {
   OpenedFile file(path.string(),
                   Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)));
   if (file.descriptor() < 0) {
-    return input_error(file.name_, std::string("cannot open the file: ") + std::strerror(errno));
+    return input_error(ErrorCode::kCannotRead, file.name_,
+                       std::string("cannot open the file: ") + std::strerror(errno));
   }
   if (::fstat(file.descriptor(), &file.status_) != 0) {
-    return input_error(file.name_, std::string("cannot read the file: ") + std::strerror(errno));
+    return input_error(ErrorCode::kCannotRead, file.name_,
+                       std::string("cannot read the file: ") + std::strerror(errno));
   }
   if (S_ISDIR(file.status_.st_mode)) {
-    return input_error(file.name_, "this is a directory; give a file");
+    return input_error(ErrorCode::kWrongFile, file.name_, "this is a directory; give a file");
   }
   if (S_ISFIFO(file.status_.st_mode) && !has_writer(file.descriptor())) {
-    return input_error(file.name_, fmt::format("no program writes to this pipe after {:g} s; start "
-                                               "the writer first, or give a file",
-                                               kPipeWait_s));
+    return input_error(ErrorCode::kCannotRead, file.name_,
+                       fmt::format("no program writes to this pipe after {:g} s; start "
+                                   "the writer first, or give a file",
+                                   kPipeWait_s));
   }
   ::fcntl(file.descriptor(), F_SETFL, ::fcntl(file.descriptor(), F_GETFL) & ~O_NONBLOCK);
   return file;
@@ -60,7 +63,8 @@ std::size_t OpenedFile::size() const {
 Status OpenedFile::check_unchanged() const {
   struct stat now {};
   if (::fstat(descriptor(), &now) != 0) {
-    return input_error(name_, std::string("cannot read the file: ") + std::strerror(errno));
+    return input_error(ErrorCode::kCannotRead, name_,
+                       std::string("cannot read the file: ") + std::strerror(errno));
   }
   if (size() == 0) return {};
   if (now.st_size < status_.st_size) return became_shorter_error(name_);
@@ -68,20 +72,23 @@ Status OpenedFile::check_unchanged() const {
                     now.st_mtim.tv_sec == status_.st_mtim.tv_sec &&
                     now.st_mtim.tv_nsec == status_.st_mtim.tv_nsec;
   if (same) return {};
-  return input_error(name_, "it changed while it was read; wait until it is written");
+  return input_error(ErrorCode::kCannotRead, name_,
+                     "it changed while it was read; wait until it is written");
 }
 
 tl::unexpected<Error> became_shorter_error(const std::string& name) {
-  return input_error(name, "it became shorter while it was read; wait until it is written");
+  return input_error(ErrorCode::kCannotRead, name,
+                     "it became shorter while it was read; wait until it is written");
 }
 
 tl::unexpected<Error> too_long_error(const std::string& name, std::size_t max_bytes) {
   constexpr std::size_t kMebibyte = std::size_t{1} << 20U;
   const std::string most = max_bytes < kMebibyte ? fmt::format("{} bytes", max_bytes)
                                                  : fmt::format("{} MiB", max_bytes / kMebibyte);
-  return input_error(name, fmt::format("it is longer than {}, the most that is read of such a "
-                                       "file; is it the right one?",
-                                       most));
+  return input_error(ErrorCode::kTooLarge, name,
+                     fmt::format("it is longer than {}, the most that is read of such a "
+                                 "file; is it the right one?",
+                                 most));
 }
 
 }  // namespace awmr

@@ -180,7 +180,7 @@ std::vector<std::string> plain_environment(const fs::path& temporary) {
 Result<ProgramEnd> run_program(const ProgramCall& call) {
   const auto failed = [&](int error) {
     return input_error(
-        call.program.string(),
+        ErrorCode::kNotInstalled, call.program.string(),
         fmt::format("cannot be started in {}: {}", call.directory.string(), std::strerror(error)));
   };
   Pipe pipe;

@@ -56,10 +56,10 @@ struct FaultList {
   std::vector<Fault>& faults;
 
   bool full() const { return faults.size() >= kMaxFaults; }
-  void add(std::size_t row, int character, std::string message) {
+  void add(ErrorCode code, std::size_t row, int character, std::string message) {
     if (full()) return;
     faults.push_back(
-        {fmt::format("{}:{}:{}", raw.file, raw.lines[row], character), std::move(message)});
+        {code, fmt::format("{}:{}:{}", raw.file, raw.lines[row], character), std::move(message)});
   }
 };
 
@@ -68,7 +68,7 @@ void check_value(double value, const ColumnSource& source, std::span<const doubl
                  std::size_t row, FaultList& faults) {
   if (std::isfinite(value)) return;
   if (!source.expression) {
-    faults.add(row, character_of(faults.raw, source, row),
+    faults.add(ErrorCode::kOutOfRange, row, character_of(faults.raw, source, row),
                fmt::format("column {}: out of range once scaled", source.column.name));
     return;
   }
@@ -77,7 +77,7 @@ void check_value(double value, const ColumnSource& source, std::span<const doubl
     at += fmt::format("{}{} = {}", i == 0 ? " with " : ", ",
                       shortened(source.expression->names()[i], 60), inputs[i]);
   }
-  faults.add(row, character_of(faults.raw, source, row),
+  faults.add(ErrorCode::kOutOfRange, row, character_of(faults.raw, source, row),
              fmt::format("column {}: {} is {}{}", source.column.name,
                          shortened(source.mapping != nullptr ? source.mapping->expression
                                                              : source.time->expression,
@@ -121,7 +121,7 @@ void check_pair(const ColumnSource& source, std::span<const double> inputs, std:
                 FaultList& faults) {
   if (!source.time || !source.time->is_pair) return;
   if (inputs[0] == std::floor(inputs[0]) && inputs[1] >= 0.0 && inputs[1] < 1e9) return;
-  faults.add(row, character_of(faults.raw, source, row),
+  faults.add(ErrorCode::kAmbiguous, row, character_of(faults.raw, source, row),
              fmt::format("{}: expected whole seconds and nanoseconds below 1e9, found {} and {}; "
                          "say what the time is: {}",
                          source.time->meaning, inputs[0], inputs[1],
@@ -211,7 +211,7 @@ void find_empty_cells(const ColumnSource& source, FaultList& faults) {
     for (std::size_t row = 0; row < column.value.size() && !faults.full(); ++row) {
       if (!is_empty(column.value[row])) continue;
       faults.add(
-          row, column.character.empty() ? 1 : column.character[row],
+          ErrorCode::kMissing, row, column.character.empty() ? 1 : column.character[row],
           fmt::format("column {}: the cell is empty; expected a number", source.column.name));
     }
   }
@@ -268,7 +268,7 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
   if (sparse) refuse_void_columns(parts, sources, faults);
   if (sparse && faults.empty()) drop_rows(parts, sources);
   if (faults.empty() && parts.lines.empty()) {
-    faults.push_back({fmt::format("{}:{}:1", parts.file, parts.header_line),
+    faults.push_back({ErrorCode::kTooFewData, fmt::format("{}:{}:1", parts.file, parts.header_line),
                       sparse ? "no row has all commands known and a measurement"
                              : "there are no rows below the header"});
   }

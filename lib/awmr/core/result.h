@@ -9,10 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "awmr/core/error_code.h"
+
 namespace awmr {
 
 /// One fault, at one place.
 struct Fault {
+  ErrorCode code;
   std::string place;    ///< `FILE:LINE:COLUMN`, `FILE:/json/pointer`, `FILE`, or empty
   std::string message;  ///< what is wrong, what was found, what to do
 };
@@ -37,14 +40,15 @@ template <class T>
 using Result = tl::expected<T, Error>;
 using Status = Result<void>;
 
-/// `return input_error("a.csv:3:7", "...")` from any function that returns a Result.
-tl::unexpected<Error> input_error(std::string place, std::string message);
-tl::unexpected<Error> refusal(std::string message);
+/// `return input_error(ErrorCode::kWrongType, "a.csv:3:7", "...")` from any function that returns a
+/// Result.
+tl::unexpected<Error> input_error(ErrorCode code, std::string place, std::string message);
+tl::unexpected<Error> refusal(ErrorCode code, std::string message);
 tl::unexpected<Error> program_fault(std::string message);
 /// All faults of a file; `faults` must not be empty.
 tl::unexpected<Error> input_errors(std::vector<Fault> faults);
 
-/// `error: PLACE: MESSAGE`, one line per fault, at most 20, then the number omitted.
+/// `error: PLACE: MESSAGE [CODE]`, one line per fault, at most 20, then the number omitted.
 std::string to_text(const Error& error);
 
 /// 1 for a refusal, 2 for invalid input, 3 for an internal error.

@@ -39,7 +39,8 @@ Result<bool> make_raw(int file, unsigned baud) {
   if (rate == kBaudRates.end()) {
     std::string names;
     for (const BaudRate& one : kBaudRates) names += fmt::format(" {}", one.baud);
-    return input_error(option_text("baud"), fmt::format("{}: one of{}", baud, names));
+    return input_error(ErrorCode::kOutOfRange, option_text("baud"),
+                       fmt::format("{}: one of{}", baud, names));
   }
   termios settings{};
   if (::tcgetattr(file, &settings) != 0) return false;
@@ -52,10 +53,11 @@ Result<bool> make_raw(int file, unsigned baud) {
 Result<Descriptor> open_serial_port(const std::filesystem::path& path, unsigned baud) {
   // Without O_NONBLOCK, a modem port can wait for its carrier forever.
   Descriptor port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
-  if (port.number() < 0) return input_error(path.string(), std::strerror(errno));
+  if (port.number() < 0)
+    return input_error(ErrorCode::kCannotRead, path.string(), std::strerror(errno));
   ::fcntl(port.number(), F_SETFL, ::fcntl(port.number(), F_GETFL) & ~O_NONBLOCK);
   AWMR_ASSIGN_OR_RETURN(const bool raw, make_raw(port.number(), baud));
-  if (!raw) return input_error(path.string(), "is no serial port");
+  if (!raw) return input_error(ErrorCode::kWrongFile, path.string(), "is no serial port");
   return port;
 }
 

@@ -68,7 +68,7 @@ Result<Part> read_part(const ShardKind& kind, const std::filesystem::path& direc
   AWMR_ASSIGN_OR_RETURN(part.json, read_shard_json(directory));
   const std::string found = schema_in(part.json);
   if (!found.empty() && found != kind.schema) {
-    return input_error(place + ":/schema",
+    return input_error(ErrorCode::kStaleResult, place + ":/schema",
                        fmt::format("expected \"{}\", found \"{}\": this is a part of another kind "
                                    "of work; merge each kind by itself",
                                    kind.schema, found));
@@ -136,13 +136,15 @@ Status check_parts(const ShardKind& kind, const std::vector<Part>& parts) {
       why = fmt::format("is part {} of {}, which {} is as well", shard.index, shard.count,
                         there->second->directory.string());
     }
-    faults.push_back({(part.directory / kShardFile).string(), std::move(why)});
+    faults.push_back(
+        {ErrorCode::kStaleResult, (part.directory / kShardFile).string(), std::move(why)});
   }
   const int count = parts.front().origin.shard.count;
   const std::vector<int> missing = missing_of(by_index, count);
   if (faults.empty() && !missing.empty()) {
     faults.push_back(
-        {"", fmt::format("of {} parts, these are missing: {}", count, fmt::join(missing, ", "))});
+        {ErrorCode::kMissing, "",
+         fmt::format("of {} parts, these are missing: {}", count, fmt::join(missing, ", "))});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};
@@ -234,7 +236,8 @@ std::string shard_schema(const ShardKind& kind) {
 
 Result<std::vector<Part>> read_parts(const ShardKind& kind,
                                      const std::vector<std::filesystem::path>& directories) {
-  if (directories.empty()) return input_error("", "no directories: give those of all parts");
+  if (directories.empty())
+    return input_error(ErrorCode::kMissing, "", "no directories: give those of all parts");
   std::vector<Part> parts;
   for (const std::filesystem::path& directory : directories) {
     AWMR_ASSIGN_OR_RETURN(Part part, read_part(kind, directory));
@@ -249,8 +252,8 @@ Result<std::string> read_part_file(const Part& part, const ShardFile& file) {
   const std::filesystem::path path = part.directory / file.name;
   AWMR_RETURN_IF_ERROR(check_regular_file(path));
   AWMR_ASSIGN_OR_RETURN(std::string text, read_file(path));
-  if (sha256_hex(text) != part.json.at(file.hash_key)) {
-    return input_error(path.string(),
+  if (part.json.at(file.hash_key) != Json(sha256_hex(text))) {
+    return input_error(ErrorCode::kStaleResult, path.string(),
                        fmt::format("is not as it was written with {}: it was changed "
                                    "or cut off; run the part again",
                                    kShardFile));
@@ -263,19 +266,21 @@ Status check_items(const Part& part, const ShardFile& file, std::string_view nam
   const std::string place = (part.directory / file.name).string();
   const Shard& shard = part.origin.shard;
   if (const auto fault = shard_fault(shard, items, fmt::format("{}s", name))) {
-    return input_error((part.directory / kShardFile).string(), fault->message);
+    return input_error(ErrorCode::kStaleResult, (part.directory / kShardFile).string(),
+                       fault->message);
   }
   const std::size_t share = at(shard.share_of(items));
   for (std::size_t i = 0; i < rows; ++i) {
     const int expected = shard.item(static_cast<int>(i % share));
     if (item_of(i) == expected) continue;
     return input_error(
-        place, fmt::format("row {} has {} {} instead of {}: rows are missing, repeated or of "
-                           "another part; run part {} of {} again",
-                           i + 1, name, item_of(i), expected, shard.index, shard.count));
+        ErrorCode::kStaleResult, place,
+        fmt::format("row {} has {} {} instead of {}: rows are missing, repeated or of "
+                    "another part; run part {} of {} again",
+                    i + 1, name, item_of(i), expected, shard.index, shard.count));
   }
   if (rows > 0 && rows % share == 0) return {};
-  return input_error(place,
+  return input_error(ErrorCode::kStaleResult, place,
                      fmt::format("has {} rows, not a multiple of the {} {}s of part {} of {}: rows "
                                  "are missing or repeated; run the part again",
                                  rows, share, name, shard.index, shard.count));

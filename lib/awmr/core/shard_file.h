@@ -77,9 +77,10 @@ Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& 
       const std::vector<Row>& part = parts[item % parts.size()];
       std::size_t& begin = next[item % parts.size()];
       if (part.size() - begin < per_item) {
-        return input_error("", fmt::format("part {} of {} has fewer rows than another: it has lost "
-                                           "rows, or the other repeats some; run both again",
-                                           item % parts.size() + 1, parts.size()));
+        return input_error(ErrorCode::kStaleResult, "",
+                           fmt::format("part {} of {} has fewer rows than another: it has lost "
+                                       "rows, or the other repeats some; run both again",
+                                       item % parts.size() + 1, parts.size()));
       }
       all.insert(all.end(), part.begin() + eigen_index(begin),
                  part.begin() + eigen_index(begin + per_item));

@@ -172,7 +172,7 @@ double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
 /// Refuses what the simulated controller does and the firmware does not.
 Status check_allocation(const Model& model) {
   if (model.vehicle.allocation == AllocationForm::kExact) return {};
-  return input_error(file_name(model) + ":/vehicle/allocation",
+  return input_error(ErrorCode::kUnsupported, file_name(model) + ":/vehicle/allocation",
                      "the firmware allocates exactly, not for small angles: give \"exact\", or "
                      "emit the header alone (" +
                          option_text("header-only") + ")");
@@ -180,7 +180,7 @@ Status check_allocation(const Model& model) {
 
 Status check_drive(const Plant<double>& plant, const Model& model) {
   if (plant.rear_driven > 0.0) return {};
-  return input_error(file_name(model) + ":/vehicle/drive",
+  return input_error(ErrorCode::kUnsupported, file_name(model) + ":/vehicle/drive",
                      "the firmware allocates to four driven wheels, not to the front ones alone: "
                      "emit the header alone (" +
                          option_text("header-only") + ")");
@@ -189,7 +189,7 @@ Status check_drive(const Plant<double>& plant, const Model& model) {
 /// powf supports only the power law.
 Status check_family(const Plant<double>& plant, ResistanceForm form) {
   if (form == ResistanceForm::kPowf && !is_power_law(plant)) {
-    return input_error(option_text("resistance"),
+    return input_error(ErrorCode::kUnsupported, option_text("resistance"),
                        "powf knows the power law alone; this model's family needs the table");
   }
   return {};

@@ -125,13 +125,14 @@ void leave_out_observer(Autopilot& pilot) {
 Status check_surge(const Model& model) {
   AWMR_RETURN_IF_ERROR(model.plant(Motion::kSteadySurge));
   if (model.vehicle.driven_wheels() != 4) {
-    return input_error(model.file + ":/vehicle/drive",
+    return input_error(ErrorCode::kUnsupported, model.file + ":/vehicle/drive",
                        "an autopilot's values are worked out for four driven wheels; the other "
                        "formats have this vehicle");
   }
   const double back_emf = model[ParameterId::kBackEmf].value.value_or(0.0);
   if (!(back_emf > 0.0)) return {};
   return input_error(
+      ErrorCode::kUnsupported,
       fmt::format("{}:{}", model.file, info(ParameterId::kBackEmf).pointer),
       fmt::format(
           "an autopilot's values are worked out for ideal sources of force, and would leave "

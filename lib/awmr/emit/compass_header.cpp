@@ -45,9 +45,10 @@ Result<std::string> compass_header(const CompassCalibration& calibration, const 
                                  100.0 * calibration.residual, calibration.heading_error_deg);
   for (const auto& [name, value] : constants) {
     if (!is_compass_float(value.value)) {
-      return input_error(record.name, fmt::format("{} = {:g} is no float of the chip: record the "
-                                                  "field in counts or microtesla",
-                                                  name, value.value));
+      return input_error(ErrorCode::kOutOfRange, record.name,
+                         fmt::format("{} = {:g} is no float of the chip: record the "
+                                     "field in counts or microtesla",
+                                     name, value.value));
     }
     text += fmt::format("#define AWMR_COMPASS_{} {} /* [{:.6g}, {:.6g}] */\n", name,
                         float_literal(value.value), value.ci95.lo, value.ci95.hi);

@@ -104,12 +104,12 @@ Status check_relations(const Model& model, const Gains<double>& gains, const Emi
   const Vehicle& vehicle = model.vehicle;
   std::vector<Fault> faults;
   if (!(static_cast<float>(vehicle.wheel_force.lo) < static_cast<float>(vehicle.wheel_force.hi))) {
-    faults.push_back({file_name(model) + ":/vehicle/wheel_force",
+    faults.push_back({ErrorCode::kWrongOrder, file_name(model) + ":/vehicle/wheel_force",
                       fmt::format("min = {:g} has to be below max = {:g}", vehicle.wheel_force.lo,
                                   vehicle.wheel_force.hi)});
   }
   if (!(static_cast<float>(radians(vehicle.steering_max_deg)) < 1.57079633F)) {
-    faults.push_back({file_name(model) + ":/vehicle/steering/max_deg",
+    faults.push_back({ErrorCode::kOutOfRange, file_name(model) + ":/vehicle/steering/max_deg",
                       fmt::format("{:g} has to be below 90", vehicle.steering_max_deg)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
@@ -120,12 +120,15 @@ Status check_relations(const Model& model, const Gains<double>& gains, const Emi
   const float mu = static_cast<float>(gains.heading.mu);
   const double exact = 0.5 * static_cast<double>(epsilon) * static_cast<double>(lambda);
   if (!(0.5F * epsilon * lambda < mu) || !(exact < static_cast<double>(mu))) {
-    return refusal(fmt::format(
-        "T2 = epsilon/(2 mu) = {:g} s is not below T1 = 1/lambda = {:g} s in {}: the sliding "
-        "surface has to be reached faster than it decays; lower epsilon or lambda, raise mu, or "
-        "tune again",
-        gains.heading.reaching_time_constant_s(), gains.heading.sliding_time_constant_s(),
-        inputs.gains_file));
+    return refusal(
+        ErrorCode::kSlowReaching,
+        fmt::format(
+            "T2 = epsilon/(2 mu) = {:g} s is not below T1 = 1/lambda = {:g} s in {}: the sliding "
+            "surface has to be reached faster than it decays; lower epsilon or lambda, raise mu, "
+            "or "
+            "tune again",
+            gains.heading.reaching_time_constant_s(), gains.heading.sliding_time_constant_s(),
+            inputs.gains_file));
   }
   return {};
 }

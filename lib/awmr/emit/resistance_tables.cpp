@@ -108,11 +108,13 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
   }
   if (!best.lines.empty()) return best;
   if (!error_share) return closest;
-  return refusal(fmt::format(
-      "the {} resistance has no table of at most {} lines with an error below {}; "
-      "the best has {:.2g}: allow a larger {}, or use {}",
-      name, kMaxLines, option_text(fmt::format("table-error {:g}", *error_share)),
-      closest.worst_share(), option_text("table-error"), option_text("resistance powf")));
+  return refusal(
+      ErrorCode::kNoTable,
+      fmt::format("the {} resistance has no table of at most {} lines with an error below {}; "
+                  "the best has {:.2g}: allow a larger {}, or use {}",
+                  name, kMaxLines, option_text(fmt::format("table-error {:g}", *error_share)),
+                  closest.worst_share(), option_text("table-error"),
+                  option_text("resistance powf")));
 }
 
 }  // namespace awmr

@@ -32,7 +32,7 @@ Status check_back_emf(const Vehicle& vehicle, const TrialData& data,
   if (!is_requested && !(vehicle.back_emf_s_per_m.value_or(0.0) > 0.0)) return {};
   if (!data.surge && !data.turning) return {};
   return input_error(
-      data.surge ? data.surge->file : data.turning->file,
+      ErrorCode::kNotIdentified, data.surge ? data.surge->file : data.turning->file,
       fmt::format(
           "steady runs cannot separate back-EMF ({}) from resistance; identify this "
           "vehicle from logs ({}) that drive and coast",
@@ -46,31 +46,32 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
                      const IdentifyOptions& options) {
   for (const ParameterId id : options.requested) {
     if (has(vehicle, id) || options.requested_all) continue;
-    return input_error(option_text("fit"),
+    return input_error(ErrorCode::kUnsupported, option_text("fit"),
                        fmt::format("a vehicle of drive \"{}\" has no steering, and with it no {}",
                                    name_in(kDriveNames, vehicle.drive), info(id).name));
   }
   AWMR_RETURN_IF_ERROR(check_back_emf(vehicle, data, options));
   if (data.surge && vehicle.driven_wheels() != 4 &&
       options.surge_family.family == Family::kDeadZone) {
-    return input_error(option_text("family"),
+    return input_error(ErrorCode::kUnsupported, option_text("family"),
                        fmt::format("dead-zone needs four driven wheels; this vehicle's drive is "
                                    "\"{}\"",
                                    name_in(kDriveNames, vehicle.drive)));
   }
   const bool other_family = asks_for_other_family(options);
   if (options.method == Method::kLogLinear && (other_family || options.loss != Loss::kSquared)) {
-    return input_error(option_text("method"),
+    return input_error(ErrorCode::kConflict, option_text("method"),
                        fmt::format("log-linear supports only the power law and least squares; with "
                                    "{} use nonlinear",
                                    option_text(other_family ? "family" : "loss")));
   }
   if (options.method == Method::kTrajectory && data.logs.empty()) {
-    return input_error(option_text("method"),
+    return input_error(ErrorCode::kMissing, option_text("method"),
                        fmt::format("trajectory needs a driving log ({})", option_text("log")));
   }
   if (options.joint && (!data.surge || data.curves.empty())) {
-    return input_error(option_text("joint"), "needs a surge trial and a coast-down curve");
+    return input_error(ErrorCode::kMissing, option_text("joint"),
+                       "needs a surge trial and a coast-down curve");
   }
   return {};
 }

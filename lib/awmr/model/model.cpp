@@ -31,7 +31,7 @@ Result<Plant<double>> plant_with(const Model& model, IsNeeded is_needed) {
     if (model[parameter.id].value || !is_needed(parameter.id)) continue;
     if (!has(model.vehicle, parameter.id)) continue;
     faults.push_back(
-        {fmt::format("{}:{}", model.file, parameter.pointer),
+        {ErrorCode::kNotIdentified, fmt::format("{}:{}", model.file, parameter.pointer),
          fmt::format("no value for {} ({}, {}), which this needs; identify again with {}",
                      parameter.name, parameter.symbol, parameter.meaning,
                      trial_of(model.vehicle, parameter.id))});

@@ -47,8 +47,9 @@ Quantiles quantiles_from_json(JsonObject json, const ParameterInfo& parameter) {
   for (std::size_t q = 0; q < kQuantileCount; ++q) {
     quantiles[q] = json.number(kQuantiles[q].key, rule_of_quantile(parameter.id));
     if (q == 0 || quantiles[q] >= quantiles[q - 1]) continue;
-    json.fault(kQuantiles[q].key, fmt::format("{:g} is less than the quantile before it, {:g}",
-                                              quantiles[q], quantiles[q - 1]));
+    json.fault(ErrorCode::kWrongOrder, kQuantiles[q].key,
+               fmt::format("{:g} is less than the quantile before it, {:g}", quantiles[q],
+                           quantiles[q - 1]));
   }
   json.reject_unknown_keys();
   return quantiles;
@@ -227,7 +228,8 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
                               std::vector<Fault>& faults) {
   const std::string place = model.file + ":/yaw_scrub";
   const auto check = [&](bool is_so, const char* key, const std::string& why) {
-    if (!is_so) faults.push_back({fmt::format("{}/{}", place, key), why});
+    if (!is_so)
+      faults.push_back({ErrorCode::kContradiction, fmt::format("{}/{}", place, key), why});
   };
   const Interval ci = scrub.ci95_m;
   check(ci.contains(scrub.moment_m), "ci95_m",
@@ -260,7 +262,8 @@ std::vector<Fault> self_contradictions(const Model& model) {
   for (const ParameterInfo& parameter : parameter_table()) {
     const Estimate& estimate = model[parameter.id];
     if (!estimate.value || !estimate.ci95 || estimate.ci95->contains(*estimate.value)) continue;
-    faults.push_back({fmt::format("{}:{}/ci95", model.file, parameter.pointer),
+    faults.push_back({ErrorCode::kContradiction,
+                      fmt::format("{}:{}/ci95", model.file, parameter.pointer),
                       fmt::format("[{:g}, {:g}] does not hold the value {:g}; null is no interval",
                                   estimate.ci95->lo, estimate.ci95->hi, *estimate.value)});
   }
@@ -273,7 +276,7 @@ std::vector<Fault> self_contradictions(const Model& model) {
     if (!std_error || std::abs(std::sqrt(variance) - *std_error) <= kTolerance * *std_error) {
       continue;
     }
-    faults.push_back({model.file + ":/covariance",
+    faults.push_back({ErrorCode::kContradiction, model.file + ":/covariance",
                       fmt::format("the variance of {} is {:g}, which is not the square of its "
                                   "std_error {:g}",
                                   parameter.name, variance, *std_error)});

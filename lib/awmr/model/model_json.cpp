@@ -50,9 +50,10 @@ std::vector<std::vector<double>> matrix_from_json(JsonObject& json, const Json& 
   };
   if (!matrix.is_array() || matrix.size() != size ||
       !std::all_of(matrix.begin(), matrix.end(), is_row)) {
-    json.fault("matrix", fmt::format("must be {0} rows of {0} numbers, one per entry of "
-                                     "parameters",
-                                     size));
+    json.fault(ErrorCode::kWrongType, "matrix",
+               fmt::format("must be {0} rows of {0} numbers, one per entry of "
+                           "parameters",
+                           size));
     return rows;
   }
   for (const Json& row : matrix) rows.push_back(row.get<std::vector<double>>());
@@ -80,22 +81,25 @@ bool are_correlations(const std::vector<std::vector<double>>& m) {
 void check_covariance(JsonObject& json, const std::vector<std::vector<double>>& m) {
   for (std::size_t i = 0; i < m.size(); ++i) {
     if (!(m[i][i] >= 0.0)) {
-      json.fault("matrix", fmt::format("the variance [{0}][{0}] is {1}; it must not be negative", i,
-                                       m[i][i]));
+      json.fault(
+          ErrorCode::kOutOfRange, "matrix",
+          fmt::format("the variance [{0}][{0}] is {1}; it must not be negative", i, m[i][i]));
     }
     for (std::size_t j = 0; j < i; ++j) {
       const double scale = std::max(std::abs(m[i][j]), std::abs(m[j][i]));
       if (std::abs(m[i][j] - m[j][i]) > kSymmetryTolerance * scale) {
-        json.fault("matrix", fmt::format("must be symmetric, but [{0}][{1}] is {2} and [{1}][{0}] "
-                                         "is {3}",
-                                         i, j, m[i][j], m[j][i]));
+        json.fault(ErrorCode::kContradiction, "matrix",
+                   fmt::format("must be symmetric, but [{0}][{1}] is {2} and [{1}][{0}] "
+                               "is {3}",
+                               i, j, m[i][j], m[j][i]));
       }
     }
   }
   const bool variances = std::ranges::all_of(
       m, [&](const std::vector<double>& row) { return row[at(&row - m.data())] >= 0.0; });
   if (variances && !are_correlations(m)) {
-    json.fault("matrix", "is no covariance: its correlations contradict each other");
+    json.fault(ErrorCode::kContradiction, "matrix",
+               "is no covariance: its correlations contradict each other");
   }
 }
 
@@ -103,7 +107,8 @@ EstimatorParameter parameter_from_json(JsonObject json) {
   EstimatorParameter parameter;
   parameter.name = json.string("name");
   if (!parameter.name.empty() && !is_estimated_name(parameter.name)) {
-    json.fault("name", fmt::format("no parameter is called '{}'", parameter.name));
+    json.fault(ErrorCode::kUnknownName, "name",
+               fmt::format("no parameter is called '{}'", parameter.name));
   }
   parameter.value = json.nullable_number("value").value_or(kNaN);
   parameter.std_error = json.nullable_number("std_error", kNonNegative);
@@ -242,9 +247,10 @@ Covariance covariance_from_json(JsonObject json) {
   for (const std::string& name : names) {
     const auto id = parameter_by_name(name);
     if (!id) {
-      json.fault("parameters", fmt::format("no parameter is called '{}'", name));
+      json.fault(ErrorCode::kUnknownName, "parameters",
+                 fmt::format("no parameter is called '{}'", name));
     } else if (std::count(names.begin(), names.end(), name) > 1) {
-      json.fault("parameters", fmt::format("'{}' is there twice", name));
+      json.fault(ErrorCode::kGivenTwice, "parameters", fmt::format("'{}' is there twice", name));
     } else {
       covariance.parameters.push_back(*id);
     }

@@ -192,7 +192,7 @@ Status check_plausible(const Vehicle& vehicle, const std::string& place,
                        const std::string& remedy) {
   std::vector<Fault> faults;
   for (const Implausible& one : implausible_values(vehicle)) {
-    faults.push_back({place + one.pointer, one.message + ". " + remedy});
+    faults.push_back({ErrorCode::kImplausible, place + one.pointer, one.message + ". " + remedy});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};

@@ -20,14 +20,17 @@ constexpr std::string_view kVehicleSchema = "awmr.vehicle/1";
 Interval beta_range_from_json(JsonObject& json, std::string_view key, Interval absent) {
   const Interval range = json.optional_interval(key).value_or(absent);
   if (range.lo < 0.0) {
-    json.fault(key, fmt::format("an exponent below 0 is a resistance that falls with speed; found "
-                                "[{}, {}], give a lower end of at least 0",
-                                range.lo, range.hi));
+    json.fault(ErrorCode::kOutOfRange, key,
+               fmt::format("an exponent below 0 is a resistance that falls with speed; found "
+                           "[{}, {}], give a lower end of at least 0",
+                           range.lo, range.hi));
   } else if (range.hi > kExponent.max) {
-    json.fault(key, fmt::format("an exponent is at most {}, found [{}, {}]", kExponent.max,
-                                range.lo, range.hi));
+    json.fault(ErrorCode::kOutOfRange, key,
+               fmt::format("an exponent is at most {}, found [{}, {}]", kExponent.max, range.lo,
+                           range.hi));
   } else if (range.lo == range.hi) {
-    json.fault(key, fmt::format("must not be empty, found [{}, {}]", range.lo, range.hi));
+    json.fault(ErrorCode::kWrongOrder, key,
+               fmt::format("must not be empty, found [{}, {}]", range.lo, range.hi));
   }
   return range;
 }
@@ -35,7 +38,8 @@ Interval beta_range_from_json(JsonObject& json, std::string_view key, Interval a
 void steering_from_json(JsonObject json, Vehicle& vehicle) {
   vehicle.steering_max_deg = json.number("max_deg", kPositive);
   if (vehicle.steering_max_deg >= 90.0) {
-    json.fault("max_deg", fmt::format("must be below 90, found {}", vehicle.steering_max_deg));
+    json.fault(ErrorCode::kOutOfRange, "max_deg",
+               fmt::format("must be below 90, found {}", vehicle.steering_max_deg));
   }
   vehicle.steering_max_rate_degps = json.number("max_rate_degps", kServoRate_degps);
   vehicle.steering_time_constant_s = json.number("time_constant_s", kServoTime_s);
@@ -52,7 +56,7 @@ void columns_from_json(JsonObject json, Vehicle& vehicle) {
   for (const std::string& name : json.keys()) {
     const std::string expression = json.string(name);
     if (const auto mapping = parse_column(name, expression); !mapping) {
-      json.fault(name, mapping.error().faults.front().message);
+      json.fault(mapping.error().faults.front().code, name, mapping.error().faults.front().message);
     }
     vehicle.columns[name] = expression;
   }
@@ -167,7 +171,7 @@ Vehicle vehicle_from_json(JsonObject& json) {
   if (vehicle.has_steering()) {
     steering_from_json(json.object("steering"), vehicle);
   } else if (json.has("steering")) {
-    json.fault("steering",
+    json.fault(ErrorCode::kConflict, "steering",
                "a vehicle of drive \"differential\" has none; take it out, or take "
                "another drive");
   }

@@ -47,7 +47,8 @@ Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   context.latency_s = latest_s;
   context.motor_time_constant_s = robust.number("motor_time_constant_s", kNonNegative);
   if (!(latest_s < (kMostLateSamples + 0.5) * context.sample_time_s)) {
-    robust.fault("latency", "more samples than gains are tuned for; tune again");
+    robust.fault(ErrorCode::kTooLarge, "latency",
+                 "more samples than gains are tuned for; tune again");
   }
   Draws draws{static_cast<int>(robust.integer("draws", 0, 1000)),
               static_cast<std::uint64_t>(robust.integer("seed", 0, 4'294'967'295L))};

@@ -126,7 +126,7 @@ Status check_report_page(const fs::path& path) {
   AWMR_ASSIGN_OR_RETURN(const std::string page, read_file(path));
   if (page.find("<title>awmr report</title>") != std::string::npos) return {};
   return input_error(
-      path.string(),
+      ErrorCode::kWouldOverwrite, path.string(),
       "is not a page that awmr wrote, and the report would replace it. Move it away");
 }
 

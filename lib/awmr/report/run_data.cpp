@@ -173,7 +173,7 @@ Result<Json> read_samples(const fs::path& path) {
   for (int line = 2; !rest.empty(); ++line) {
     const std::vector<std::string> cells = take_text_record(rest);
     if (cells.size() != names.size()) {
-      return input_error(fmt::format("{}:{}:1", path.string(), line),
+      return input_error(ErrorCode::kBrokenFile, fmt::format("{}:{}:1", path.string(), line),
                          fmt::format("expected {} cells, found {}", names.size(), cells.size()));
     }
     std::map<std::string, std::string> row;

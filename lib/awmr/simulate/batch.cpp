@@ -71,7 +71,7 @@ Result<BatchArithmetic> batch_arithmetic() {
     if (name == kernel->name) return BatchArithmetic{kernel->name, "fused"};
     known += fmt::format(", {}", kernel->name);
   }
-  return input_error("AWMR_INSTRUCTIONS",
+  return input_error(ErrorCode::kUnknownName, "AWMR_INSTRUCTIONS",
                      fmt::format("unsupported instruction set '{}'; available: {}", name, known));
 }
 

@@ -33,11 +33,11 @@ HeadingSteps read_heading_steps(JsonObject& json) {
     step.reject_unknown_keys();
   }
   if (heading.steps.empty() || heading.steps.front().t_s > 0.0) {
-    json.fault("steps", "the first step has to be at t_s = 0");
+    json.fault(ErrorCode::kWrongOrder, "steps", "the first step has to be at t_s = 0");
   }
   for (std::size_t i = 1; i < heading.steps.size(); ++i) {
     if (heading.steps[i].t_s <= heading.steps[i - 1].t_s) {
-      json.fault("steps", "the steps' times have to increase");
+      json.fault(ErrorCode::kWrongOrder, "steps", "the steps' times have to increase");
       break;
     }
   }
@@ -48,7 +48,7 @@ HeadingSteps read_heading_steps(JsonObject& json) {
 Position<double> read_point(JsonObject& json, const char* key) {
   const std::vector<double> xy = json.numbers(key, kCoordinate_m);
   if (xy.size() == 2) return {xy[0], xy[1]};
-  json.fault(key, "expected a point [x, y] in m");
+  json.fault(ErrorCode::kWrongType, key, "expected a point [x, y] in m");
   return {};
 }
 
@@ -71,11 +71,12 @@ std::vector<Position<double>> read_points(JsonObject& json, const char* key, std
     }
   }
   if (!well_formed || points.size() < least) {
-    json.fault(key,
+    json.fault(ErrorCode::kWrongType, key,
                "expected an array of points [[x, y], ...] in m, at least " + std::to_string(least));
   } else if (!in_range) {
-    json.fault(key, fmt::format("a coordinate is beyond {:g} m; give points within it",
-                                kCoordinate_m.max));
+    json.fault(
+        ErrorCode::kOutOfRange, key,
+        fmt::format("a coordinate is beyond {:g} m; give points within it", kCoordinate_m.max));
   }
   return points;
 }
@@ -94,9 +95,10 @@ void check_segments(JsonObject& json, const char* key,
                     const std::vector<Position<double>>& points_m) {
   for (std::size_t i = 1; i < points_m.size(); ++i) {
     if (points_m[i].x_m != points_m[i - 1].x_m || points_m[i].y_m != points_m[i - 1].y_m) continue;
-    json.fault(key, fmt::format("the points {} and {} are the same, [{}, {}]: a line needs two "
-                                "different ones",
-                                i - 1, i, points_m[i].x_m, points_m[i].y_m));
+    json.fault(ErrorCode::kGivenTwice, key,
+               fmt::format("the points {} and {} are the same, [{}, {}]: a line needs two "
+                           "different ones",
+                           i - 1, i, points_m[i].x_m, points_m[i].y_m));
   }
 }
 
@@ -147,7 +149,7 @@ LineCourse read_line(JsonObject& json) {
 std::array<double, 2> read_pair(JsonObject& json, const char* key, NumberRule rule) {
   const std::vector<double> pair = json.numbers(key, rule);
   if (pair.size() == 2) return {pair[0], pair[1]};
-  json.fault(key, "expected two numbers, for x and y");
+  json.fault(ErrorCode::kWrongType, key, "expected two numbers, for x and y");
   return {};
 }
 
@@ -158,7 +160,8 @@ LissajousCourse read_lissajous(JsonObject& json) {
   course.path = {amplitude_m[0], amplitude_m[1], rate_radps[0], rate_radps[1]};
   course.closed_loop = json.boolean("closed_loop");
   if (const auto gain = json.optional_number("position_gain_per_s", kRate)) {
-    if (!course.closed_loop) json.fault("position_gain_per_s", "is for closed_loop true only");
+    if (!course.closed_loop)
+      json.fault(ErrorCode::kConflict, "position_gain_per_s", "is for closed_loop true only");
     course.position_gain_per_s = *gain;
   }
   course.tolerance_m = json.optional_number("tolerance_m", kLength_m).value_or(course.tolerance_m);

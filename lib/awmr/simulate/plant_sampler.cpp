@@ -71,14 +71,14 @@ void take_mass_by_grip(Model& model) {
 Status check_shape(const Covariance& covariance, const std::string& place) {
   const std::size_t n = covariance.parameters.size();
   if (n == 0) {
-    return input_error(place,
+    return input_error(ErrorCode::kNotIdentified, place,
                        "no fitted parameter has a covariance, which samples are drawn from; "
                        "identify the model from trials, or compare without samples");
   }
   bool square = covariance.matrix.size() == n;
   for (const auto& row : covariance.matrix) square = square && row.size() == n;
   if (!square) {
-    return input_error(place + "/matrix",
+    return input_error(ErrorCode::kWrongType, place + "/matrix",
                        fmt::format("has to be {0} by {0}, one row and column per parameter", n));
   }
   return {};
@@ -118,7 +118,7 @@ Result<PlantSampler> PlantSampler::make(const Model& model) {
   AWMR_RETURN_IF_ERROR(check_shape(model.covariance, place));
   const std::optional<Eigen::MatrixXd> factor = factor_of(coordinate_covariance(model));
   if (!factor) {
-    return input_error(place + "/matrix",
+    return input_error(ErrorCode::kContradiction, place + "/matrix",
                        "is no covariance: it is not positive semi-definite; identify again");
   }
   PlantSampler sampler;
@@ -173,7 +173,7 @@ Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
     }
   }
   return input_error(
-      model_.file + ":/covariance",
+      ErrorCode::kNotIdentified, model_.file + ":/covariance",
       fmt::format("in {} draws an exponent or a term of a resistance was below 0 every time: "
                   "identify from more trials",
                   kMostTries));

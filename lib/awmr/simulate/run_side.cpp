@@ -55,7 +55,7 @@ Status check_run_side(const std::filesystem::path& side) {
   if (!exists) return {};
   const auto json = read_json_file(side);
   if (json && json->is_object() && json->value("schema", Json()) == kRunSchema) return {};
-  return input_error(side.string(),
+  return input_error(ErrorCode::kWouldOverwrite, side.string(),
                      "is not the side file of a run, and simulate would replace it. Choose another "
                      "output, or move this file away");
 }

@@ -22,7 +22,8 @@ Status check_time(const CsvTable& table) {
   const auto t = table.column("t_s");
   const auto back = std::is_sorted_until(t.begin(), t.end());
   if (back == t.end()) return {};
-  return input_error(table.place(static_cast<std::size_t>(back - t.begin()), "t_s"),
+  return input_error(ErrorCode::kWrongOrder,
+                     table.place(static_cast<std::size_t>(back - t.begin()), "t_s"),
                      "the time goes back; simulate the run again");
 }
 

@@ -62,7 +62,7 @@ Status check_mode(const Vehicle& vehicle, YawMode mode) {
   const auto modes = yaw_modes(vehicle);
   if (std::find(modes.begin(), modes.end(), mode) != modes.end()) return {};
   return input_error(
-      option_text("mode"),
+      ErrorCode::kUnsupported, option_text("mode"),
       fmt::format("the vehicle's drive is \"{}\": it has no steering, which {} is "
                   "made with; its mode is {}",
                   name_in(kDriveNames, vehicle.drive), name_of(mode), name_of(modes.front())));
@@ -108,7 +108,8 @@ Result<Model> model_at_corner(Model model, const Scenario& scenario) {
   for (const CornerParameter& corner : scenario.corner) {
     Estimate& estimate = model[corner.id];
     if (!estimate.ci95) {
-      faults.push_back({model.file + ":" + std::string(info(corner.id).pointer),
+      faults.push_back({ErrorCode::kNotIdentified,
+                        model.file + ":" + std::string(info(corner.id).pointer),
                         "has no 95 % interval (ci95), whose end the scenario '" + scenario.name +
                             "' asks for; identify it from trials, or take it out of the "
                             "scenario's corner"});
@@ -124,8 +125,9 @@ Status check_tyres(const Scenario& scenario) {
   std::vector<Fault> faults;
   if (scenario.tyres) {
     for (const TyreConflict& conflict : tyre_conflicts(scenario)) {
-      faults.push_back(
-          {fmt::format("scenario '{}':/{}", scenario.name, conflict.key), conflict.message});
+      faults.push_back({ErrorCode::kConflict,
+                        fmt::format("scenario '{}':/{}", scenario.name, conflict.key),
+                        conflict.message});
     }
   }
   if (!faults.empty()) return input_errors(std::move(faults));
@@ -140,7 +142,7 @@ Status check_lqi(const Scenario& scenario, const Model& model) {
   const LqiGains<double> gains = lqi_gains(*scenario.control.lqi, *inertia_norm);
   if (settles_when_sampled(gains, sample_time_s)) return {};
   return input_error(
-      fmt::format("scenario '{}':/control/heading_law", scenario.name),
+      ErrorCode::kDiverges, fmt::format("scenario '{}':/control/heading_law", scenario.name),
       fmt::format(
           "its weights ask for gains ({:.3g} 1/s on the yaw rate) that swing up when they are "
           "held over sample_time_s {:g}: give a smaller tau_turn_m, or larger heading_deg, "

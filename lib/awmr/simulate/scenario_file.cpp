@@ -24,11 +24,11 @@ State<double> read_initial(JsonObject json) {
 /// u_d, which a heading under a constant thrust has none of.
 double read_speed(JsonObject& json, bool holds_thrust) {
   if (!json.has("speed_mps")) {
-    if (!holds_thrust) json.fault("speed_mps", "this key is missing; add it");
+    if (!holds_thrust) json.fault(ErrorCode::kMissing, "speed_mps", "this key is missing; add it");
     return 0.0;
   }
   if (holds_thrust) {
-    json.fault("speed_mps",
+    json.fault(ErrorCode::kConflict, "speed_mps",
                "the guidance holds tau_speed in place of a speed; remove one of the two");
   }
   return json.number("speed_mps", kSpeed_mps);
@@ -38,19 +38,22 @@ double read_speed(JsonObject& json, bool holds_thrust) {
 void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
   const bool open = std::holds_alternative<OpenLoop>(scenario.guidance);
   if (scenario.avoidance && scenario.obstacles.empty()) {
-    json.fault("avoidance", "there are no obstacles to avoid; add obstacles or remove it");
+    json.fault(ErrorCode::kConflict, "avoidance",
+               "there are no obstacles to avoid; add obstacles or remove it");
   }
   for (const char* key : {"avoidance", "shaping", "sensors", "control"}) {
-    if (open && json.has(key)) json.fault(key, "open loop has no use for it; remove it");
+    if (open && json.has(key))
+      json.fault(ErrorCode::kConflict, key, "open loop has no use for it; remove it");
   }
   if (scenario.tyres) {
     for (const TyreConflict& conflict : tyre_conflicts(scenario)) {
-      json.fault(conflict.key, conflict.message);
+      json.fault(ErrorCode::kConflict, conflict.key, conflict.message);
     }
   }
   const auto* timed = std::get_if<LissajousCourse>(&scenario.guidance);
   if (timed && timed->closed_loop && scenario.speed_mps > 0.0) {
-    json.fault("speed_mps", "has to be 0 on a closed timed path, whose speed is the path's own");
+    json.fault(ErrorCode::kConflict, "speed_mps",
+               "has to be 0 on a closed timed path, whose speed is the path's own");
   }
 }
 

@@ -153,7 +153,7 @@ Status check_work(const Plant<double>& plant, const std::string& model_file,
   const double rows = scenario.duration_s / sample_time_s + 1.0;
   if (!(rows <= kMostRows)) {
     return input_error(
-        fmt::format("scenario '{}':/duration_s", scenario.name),
+        ErrorCode::kTooLarge, fmt::format("scenario '{}':/duration_s", scenario.name),
         fmt::format("{:g} s at a sample time of {:g} s are {:.3g} rows, more than the {:g} that a "
                     "run may have: give at most {:g} s",
                     scenario.duration_s, sample_time_s, rows, kMostRows,
@@ -164,7 +164,7 @@ Status check_work(const Plant<double>& plant, const std::string& model_file,
     const StepLimit limit = step_limit(plant, scenario.tyres.has_value());
     const ParameterInfo& parameter = info(limit.parameter);
     return input_error(
-        model_file + ":" + std::string(parameter.pointer),
+        ErrorCode::kTooLarge, model_file + ":" + std::string(parameter.pointer),
         fmt::format("its time constant requires RK4 steps of {:.3g} s, {:.3g} of them in {:g} s "
                     "(scenario '{}'); the limit is {:g}. Check {} and its divisor, or give a "
                     "shorter duration_s",
@@ -178,7 +178,7 @@ Status failure_of(const Run& run, const Scenario& scenario) {
   if (run.end != RunEnd::kFailed) return {};
   const RunRow& last = run.rows.back();
   return input_error(
-      fmt::format("scenario '{}'", scenario.name),
+      ErrorCode::kDiverges, fmt::format("scenario '{}'", scenario.name),
       fmt::format("the simulation cannot go on after {:g} s, at u {:.4g} m/s, v {:.4g} m/s, r "
                   "{:.4g} deg/s: resistance is too stiff there for any step, or a number is no "
                   "longer finite; check the initial speeds, the disturbances, {}and the model's "

@@ -30,7 +30,7 @@ Status check_straight(const Run& run, const Scenario& scenario, const Model& mod
   Error error = model.plant(Motion::kPlanar).error();
   error.faults.insert(
       error.faults.begin(),
-      Fault{fmt::format("scenario '{}'", scenario.name),
+      Fault{ErrorCode::kUnsupported, fmt::format("scenario '{}'", scenario.name),
             fmt::format("the run turns at {:g} s, and the model knows straight motion alone; give "
                         "a scenario that drives straight on, or the trials named below",
                         turned->t_s)});

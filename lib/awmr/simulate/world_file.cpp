@@ -18,7 +18,8 @@ Window read_window(JsonObject& json) {
   Window window;
   window.from_s = json.optional_number("from_s", kTime_s).value_or(window.from_s);
   window.to_s = json.optional_number("to_s", kTime_s).value_or(window.to_s);
-  if (!(window.to_s > window.from_s)) json.fault("to_s", "has to be after from_s");
+  if (!(window.to_s > window.from_s))
+    json.fault(ErrorCode::kWrongOrder, "to_s", "has to be after from_s");
   return window;
 }
 
@@ -107,7 +108,8 @@ Battery read_battery(JsonObject json) {
     battery.from_s = json.number("from_s", kTime_s);
     battery.to_s = json.number("to_s", kDuration_s);
     battery.share_end = json.number("share_end", kShare);
-    if (!(battery.to_s > battery.from_s)) json.fault("to_s", "has to be after from_s");
+    if (!(battery.to_s > battery.from_s))
+      json.fault(ErrorCode::kWrongOrder, "to_s", "has to be after from_s");
   }
   json.reject_unknown_keys();
   return battery;
@@ -228,7 +230,7 @@ std::vector<CornerParameter> read_corner(JsonObject json) {
       for (const ParameterInfo& parameter : parameter_table()) {
         known += (known.empty() ? "" : ", ") + std::string(parameter.name);
       }
-      json.fault(name, "is no parameter; they are " + known);
+      json.fault(ErrorCode::kUnknownName, name, "is no parameter; they are " + known);
     }
   }
   return corner;

@@ -166,7 +166,8 @@ Result<AwlLog> read_awl(std::string_view bytes, const std::string& file) {
   const std::vector<Place> rows =
       without_short_runs(usable_rows(bytes, scan, file, log), file, log);
   if (rows.empty()) {
-    return refusal(fmt::format("{}: of {} whole rows none can be used{}", file, scan.rows.size(),
+    return refusal(ErrorCode::kTooFewData,
+                   fmt::format("{}: of {} whole rows none can be used{}", file, scan.rows.size(),
                                log.findings.empty() ? "" : "; " + log.findings.back().message));
   }
   fill_columns(bytes, scan.layout, rows, log);

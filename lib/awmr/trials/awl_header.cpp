@@ -42,10 +42,11 @@ std::vector<Column> columns_in(JsonObject& header) {
     offset += bytes_of(column.kind);
     if (column.name.empty() || column.name.size() > kLongestName || !is_plain(column.name) ||
         column.name == "run") {
-      entry.fault("name", fmt::format("expected 1 to {} letters, digits and _, and not 'run'",
-                                      kLongestName));
+      entry.fault(
+          ErrorCode::kBadName, "name",
+          fmt::format("expected 1 to {} letters, digits and _, and not 'run'", kLongestName));
     } else if (!names.insert(column.name).second) {
-      entry.fault("name", "a second column of this name");
+      entry.fault(ErrorCode::kGivenTwice, "name", "a second column of this name");
     }
     columns.push_back(std::move(column));
   }
@@ -95,7 +96,8 @@ Result<Layout> layout_of(std::string_view json, const std::string& file) {
   std::vector<Fault> faults;
   JsonObject header(document, file, "", faults);
   if (header.string("schema") != kSchema) {
-    header.fault("schema", fmt::format("this program reads \"{}\"", kSchema));
+    header.fault(ErrorCode::kWrongFile, "schema",
+                 fmt::format("this program reads \"{}\"", kSchema));
     return input_errors(std::move(faults));
   }
   Layout layout{.parameters_sha256 = header.string("parameters_sha256"),
@@ -107,10 +109,12 @@ Result<Layout> layout_of(std::string_view json, const std::string& file) {
                                                    : layout.columns.back().offset +
                                                          bytes_of(layout.columns.back().kind);
     if (end != layout.row_bytes) {
-      header.fault("row_bytes", fmt::format("found {}; sync, check sum, number and columns are {}",
-                                            layout.row_bytes, end));
+      header.fault(ErrorCode::kBrokenFile, "row_bytes",
+                   fmt::format("found {}; sync, check sum, number and columns are {}",
+                               layout.row_bytes, end));
     } else if (layout.columns.empty() || layout.columns.front().name != kTimeName) {
-      header.fault("columns", fmt::format("the first column has to be {}", kTimeName));
+      header.fault(ErrorCode::kBrokenFile, "columns",
+                   fmt::format("the first column has to be {}", kTimeName));
     }
   }
   if (!faults.empty()) return input_errors(std::move(faults));

@@ -73,9 +73,10 @@ std::size_t pass_over(std::string_view bytes, std::size_t at, Scan& scan) {
 Status add_header(std::string_view json, std::size_t at, const std::string& file, Scan& scan) {
   AWMR_ASSIGN_OR_RETURN(Layout layout, layout_of(json, file));
   if (scan.layout.row_bytes > 0 && scan.layout != layout) {
-    return input_error(file, fmt::format("byte {}: a header of other rows or other parameters than "
-                                         "the one before: cut the file there",
-                                         at));
+    return input_error(ErrorCode::kBrokenFile, file,
+                       fmt::format("byte {}: a header of other rows or other parameters than "
+                                   "the one before: cut the file there",
+                                   at));
   }
   scan.layout = std::move(layout);
   return {};
@@ -108,14 +109,15 @@ Result<Scan> scan_of(std::string_view bytes, const std::string& file) {
     } else {
       if (bytes.substr(at).starts_with(kMagic) && ++damaged_headers > kMostDamagedHeaders) {
         return input_error(
-            file, fmt::format("byte {}: more than {} damaged headers", at, kMostDamagedHeaders));
+            ErrorCode::kBrokenFile, file,
+            fmt::format("byte {}: more than {} damaged headers", at, kMostDamagedHeaders));
       }
       at = pass_over(bytes, at, scan);
     }
   }
   if (scan.layout.row_bytes == 0) {
     return input_error(
-        file,
+        ErrorCode::kWrongFile, file,
         "no header of an awmr log is whole: is this a file that the emitted sketches "
         "wrote (LOG00.AWL)?");
   }

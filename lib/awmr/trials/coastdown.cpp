@@ -28,6 +28,7 @@ bool is_binned(const TrialReader& reader) {
 void check_coastdown_columns(TrialReader& reader) {
   if (is_binned(reader) && (is_curve(reader) || is_stop_time(reader))) {
     reader.header_fault(
+        ErrorCode::kConflict,
         fmt::format("speed bins (from_mps, to_mps, elapsed_s) and a curve or stop times: give "
                     "two files, {} twice",
                     option_text("coastdown")));
@@ -35,6 +36,7 @@ void check_coastdown_columns(TrialReader& reader) {
   }
   if (is_curve(reader) && is_stop_time(reader)) {
     reader.header_fault(
+        ErrorCode::kConflict,
         fmt::format("both a curve (t_s, speed_mps) and stop times (initial_speed_mps, "
                     "stop_time_s): give two files, {} twice",
                     option_text("coastdown")));
@@ -42,7 +44,7 @@ void check_coastdown_columns(TrialReader& reader) {
   }
   if (is_curve(reader) || is_stop_time(reader) || is_binned(reader)) return;
   if (reader.has("from_mps") || reader.has("to_mps")) {
-    reader.header_fault("speed bins need from_mps, to_mps and elapsed_s");
+    reader.header_fault(ErrorCode::kMissing, "speed bins need from_mps, to_mps and elapsed_s");
     return;
   }
   const bool meant_curve = reader.has("t_s") || reader.has("speed_mps");
@@ -51,6 +53,7 @@ void check_coastdown_columns(TrialReader& reader) {
   for (const std::string_view column : meant_curve ? curve : stop) {
     if (reader.has(column)) continue;
     reader.header_fault(
+        ErrorCode::kMissing,
         fmt::format("missing column {}; a coast-down has t_s and speed_mps (its curve), "
                     "initial_speed_mps and stop_time_s (a row per run), or from_mps, to_mps and "
                     "elapsed_s (a row per speed bin)",
@@ -68,7 +71,7 @@ TrialSet<StopTimeRow> read_stop_times(TrialReader& reader, std::vector<Finding>&
     const double speed_mps = *reader.non_negative(i, "initial_speed_mps");
     const double stop_time_s = *reader.non_negative(i, "stop_time_s");
     if (!is_rest(speed_mps, kRestSpeed_mps) && stop_time_s == 0.0) {
-      reader.fault(i, "stop_time_s",
+      reader.fault(ErrorCode::kOutOfRange, i, "stop_time_s",
                    fmt::format("found 0 from initial_speed_mps {}; a moving vehicle takes time to "
                                "stop",
                                speed_mps));
@@ -99,7 +102,8 @@ CoastCurve new_curve(const TrialReader& reader, std::size_t row) {
 void check_length(TrialReader& reader, const std::vector<CoastCurve>& curves) {
   for (const CoastCurve& curve : curves) {
     if (curve.t_s.size() >= kShortestCurve) continue;
-    reader.faults().push_back({fmt::format("{}:{}:1", reader.table().file(), curve.line),
+    reader.faults().push_back({ErrorCode::kTooFewData,
+                               fmt::format("{}:{}:1", reader.table().file(), curve.line),
                                fmt::format("this coast-down has {} speeds; record at least {}",
                                            curve.t_s.size(), kShortestCurve)});
   }
@@ -116,7 +120,7 @@ std::vector<CoastCurve> read_bins(TrialReader& reader) {
     const double to_mps = *reader.non_negative(i, "to_mps");
     const double elapsed_s = *reader.non_negative(i, "elapsed_s");
     if (!(to_mps < from_mps) || elapsed_s == 0.0) {
-      reader.fault(i, to_mps < from_mps ? "elapsed_s" : "to_mps",
+      reader.fault(ErrorCode::kContradiction, i, to_mps < from_mps ? "elapsed_s" : "to_mps",
                    fmt::format("found from_mps {}, to_mps {} in {} s: a coast-down slows from "
                                "from_mps to to_mps, which takes time",
                                from_mps, to_mps, elapsed_s));
@@ -147,7 +151,7 @@ std::vector<CoastCurve> read_curves(TrialReader& reader) {
       curves.push_back(new_curve(reader, i));
       run = this_run;
     } else if (!(t_s > curves.back().t_s.back())) {
-      reader.fault(i, "t_s",
+      reader.fault(ErrorCode::kWrongOrder, i, "t_s",
                    fmt::format("found {} after {}: time has to rise within a run; number several "
                                "runs in a column run",
                                t_s, curves.back().t_s.back()));

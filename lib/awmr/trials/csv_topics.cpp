@@ -80,7 +80,7 @@ Status check_spans(const std::vector<Span>& spans) {
       spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.end_s < b.end_s; });
   if (last->begin_s <= first->end_s) return {};
   return input_error(
-      last->file->path,
+      ErrorCode::kWrongOrder, last->file->path,
       fmt::format("begins at {:.9g} s, after {} has ended at {:.9g} s: files that are joined have "
                   "one clock",
                   last->begin_s, first->file->path, first->end_s));
@@ -114,7 +114,8 @@ Status check_time(const CsvTable& table) {
   constexpr double kMost_s = 9e9;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (std::abs(table.column(kTimeName)[row] + table.clock_s()) > kMost_s) {
-      return input_error(table.place(row, kTimeName), "this time cannot be in seconds");
+      return input_error(ErrorCode::kOutOfRange, table.place(row, kTimeName),
+                         "this time cannot be in seconds");
     }
   }
   return {};

@@ -86,12 +86,15 @@ Result<Contents> contents_of(std::string_view bytes, const std::string& file) {
                           std::size_t offset) -> Status {
     if (type == kFormatType) {
       auto format = dataflash::format_of(record);
-      if (!format) return input_error(file, fmt::format("byte {}: {}", offset, format.error()));
+      if (!format)
+        return input_error(ErrorCode::kBrokenFile, file,
+                           fmt::format("byte {}: {}", offset, format.error()));
       const auto defined = static_cast<std::uint8_t>(record[0]);
       const auto [known, is_new] = formats.try_emplace(defined, *std::move(format));
       if (!is_new && known->second.definition != record) {
-        return input_error(file, fmt::format("byte {}: a second, other format of {}", offset,
-                                             printable(known->second.name)));
+        return input_error(ErrorCode::kBrokenFile, file,
+                           fmt::format("byte {}: a second, other format of {}", offset,
+                                       printable(known->second.name)));
       }
     } else if (const dataflash::Format& format = formats.at(type); format.name == "FMTU") {
       mark_instance(record, format, formats);
@@ -163,7 +166,8 @@ Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
   Signals signals;
   const std::map<TopicKey, Listed> listed = list_topics(contents, wanted, signals);
   if (signals.header.size() > kMostSignals) {
-    return input_error(file, fmt::format("there are more than {} signals", kMostSignals));
+    return input_error(ErrorCode::kTooLarge, file,
+                       fmt::format("there are more than {} signals", kMostSignals));
   }
   const auto take = [&](std::uint8_t type, std::string_view record, std::size_t offset) -> Status {
     if (type == kFormatType) return {};
@@ -172,8 +176,9 @@ Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
     if (entry == listed.end() || entry->second.wanted.empty()) return {};
     const auto time_ns = time_of(format, record);
     if (!time_ns) {
-      return input_error(file, fmt::format("byte {}: a record of {} has no time that can be",
-                                           offset, printable(format.name)));
+      return input_error(ErrorCode::kBrokenFile, file,
+                         fmt::format("byte {}: a record of {} has no time that can be", offset,
+                                     printable(format.name)));
     }
     Topic& topic = signals.topics[entry->second.topic];
     topic.time_ns.push_back(*time_ns);

@@ -114,7 +114,7 @@ const dataflash::Format* format_of_line(const Cells& cells, const NamedFormats& 
 }
 
 tl::unexpected<Error> error_at(const std::string& file, int line, const std::string& why) {
-  return input_error(fmt::format("{}:{}", file, line), why);
+  return input_error(ErrorCode::kBrokenFile, fmt::format("{}:{}", file, line), why);
 }
 
 /// Adds the format that an FMT line defines.
@@ -253,7 +253,8 @@ Result<Signals> read_dataflash_text(std::string_view bytes, const std::string& f
   Signals signals;
   const std::map<TextTopic, ListedText> listed = list_text_topics(contents, wanted, signals);
   if (signals.header.size() > kMostSignals) {
-    return input_error(file, fmt::format("there are more than {} signals", kMostSignals));
+    return input_error(ErrorCode::kTooLarge, file,
+                       fmt::format("there are more than {} signals", kMostSignals));
   }
   AWMR_RETURN_IF_ERROR(for_each_line(whole, [&](const Cells& cells, int line) -> Status {
     if (cells.front() == "FMT") return {};

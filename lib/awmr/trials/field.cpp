@@ -34,7 +34,8 @@ Status check_names(const std::vector<ColumnMapping>& mappings) {
         std::any_of(field_columns().begin(), field_columns().end(),
                     [&](const CsvColumn& column) { return column.name == mapping.name; });
     if (is_known) continue;
-    faults.push_back({fmt::format("{} {}", option_text("column"), mapping.name),
+    faults.push_back({ErrorCode::kUnknownName,
+                      fmt::format("{} {}", option_text("column"), mapping.name),
                       "no such column; a record of the field has t_s, field_ahead, field_left and "
                       "yaw_rate_radps"});
   }
@@ -57,12 +58,14 @@ Result<FieldRecord> read_field(const std::filesystem::path& path,
   std::vector<Fault> faults;
   for (std::size_t i = 1; i < record.t_s.size() && faults.size() < kMaxFaults; ++i) {
     if (record.t_s[i] > record.t_s[i - 1]) continue;
-    faults.push_back({table.place(i, "t_s"), fmt::format("found {} after {}: time has to rise",
-                                                         record.t_s[i], record.t_s[i - 1])});
+    faults.push_back(
+        {ErrorCode::kWrongOrder, table.place(i, "t_s"),
+         fmt::format("found {} after {}: time has to rise", record.t_s[i], record.t_s[i - 1])});
   }
   if (table.rows() < kShortestField) {
-    faults.push_back({table.header_place(), fmt::format("{} rows; at least {} are needed",
-                                                        table.rows(), kShortestField)});
+    faults.push_back(
+        {ErrorCode::kTooFewData, table.header_place(),
+         fmt::format("{} rows; at least {} are needed", table.rows(), kShortestField)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return record;

@@ -28,7 +28,8 @@ void add_coastdown(const std::filesystem::path& path, CoastdownSet set, TrialDat
   if (const auto* curves = std::get_if<std::vector<CoastCurve>>(&set)) {
     data.curves.insert(data.curves.end(), curves->begin(), curves->end());
   } else if (data.coastdown) {
-    faults.push_back({path.string(), "a second file of stop times; put all rows into one"});
+    faults.push_back({ErrorCode::kGivenTwice, path.string(),
+                      "a second file of stop times; put all rows into one"});
   } else {
     data.coastdown = std::get<TrialSet<StopTimeRow>>(std::move(set));
   }
@@ -85,9 +86,10 @@ void check_repeated_logs(const std::vector<DrivingLog>& logs, std::vector<Fault>
   for (std::size_t i = 0; i < logs.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (!is_same_recording(logs[i], logs[k])) continue;
-      faults.push_back({logs[i].file, fmt::format("the same recording as {}, row by row: it would "
-                                                  "count twice; give it once",
-                                                  logs[k].file)});
+      faults.push_back({ErrorCode::kGivenTwice, logs[i].file,
+                        fmt::format("the same recording as {}, row by row: it would "
+                                    "count twice; give it once",
+                                    logs[k].file)});
       break;
     }
   }
@@ -152,10 +154,12 @@ std::vector<std::filesystem::path> in_order_of_names(std::vector<std::filesystem
 
 Status check(const TrialFiles& files) {
   if (!files.surge && !files.turning && files.coastdowns.empty() && files.logs.empty()) {
-    return input_error("", "no trials: give at least one surge, turning, coast-down or log file");
+    return input_error(ErrorCode::kMissing, "",
+                       "no trials: give at least one surge, turning, coast-down or log file");
   }
   if (files.steady_from_logs && files.logs.empty()) {
-    return input_error("", "steady stretches of logs were requested, but there is no log");
+    return input_error(ErrorCode::kMissing, "",
+                       "steady stretches of logs were requested, but there is no log");
   }
   return {};
 }

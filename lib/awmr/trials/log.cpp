@@ -59,18 +59,21 @@ void unwrap(std::vector<double>& angle_rad) {
 
 void check_log_columns(TrialReader& reader, bool has_steering) {
   if (has_steering && !reader.has("steering_cmd_deg") && !reader.has("steering_deg")) {
-    reader.header_fault("no steering: add a column steering_cmd_deg or steering_deg");
+    reader.header_fault(ErrorCode::kMissing,
+                        "no steering: add a column steering_cmd_deg or steering_deg");
   }
   if (reader.has("latitude_deg") != reader.has("longitude_deg")) {
-    reader.header_fault("latitude_deg and longitude_deg go together");
+    reader.header_fault(ErrorCode::kMissing, "latitude_deg and longitude_deg go together");
   }
   if (reader.has("latitude_deg") && (reader.has("x_m") || reader.has("y_m"))) {
-    reader.header_fault("a position twice: give x_m and y_m, or latitude_deg and longitude_deg");
+    reader.header_fault(ErrorCode::kConflict,
+                        "a position twice: give x_m and y_m, or latitude_deg and longitude_deg");
   }
   const auto has = [&](const char* column) { return reader.has(column); };
   if (!has("x_m") && !has("y_m") && !has("heading_deg") && !has("speed_mps") && !has("sway_mps") &&
       !has("yaw_rate_radps") && !has("latitude_deg")) {
     reader.header_fault(
+        ErrorCode::kMissing,
         "nothing measured: add any of x_m, y_m, heading_deg, speed_mps, sway_mps, yaw_rate_radps");
   }
 }
@@ -101,7 +104,7 @@ void check_time(TrialReader& reader, RowSpan run) {
   for (std::size_t i = run.begin + 1; i < run.end; ++i) {
     if (t_s[i] > t_s[i - 1]) continue;
     reader.fault(
-        i, "t_s",
+        ErrorCode::kWrongOrder, i, "t_s",
         fmt::format("found {} after {}: time has to rise{}", t_s[i], t_s[i - 1],
                     t_s[i] == t_s[i - 1] ? "; delete repeated rows, or write the time with "
                                            "more digits (from the start of the log)"
@@ -112,6 +115,7 @@ void check_time(TrialReader& reader, RowSpan run) {
   if (rows >= kShortestLog) return;
   const bool whole = rows == reader.table().rows();
   reader.header_fault(
+      ErrorCode::kTooFewData,
       whole ? fmt::format("this log has {} rows; at least {} are needed", rows, kShortestLog)
             : fmt::format("the run from line {} has {} rows; at least {} are needed",
                           reader.table().line(std::min(run.begin, reader.table().rows() - 1)), rows,
@@ -125,11 +129,11 @@ void add_geographic(TrialReader& reader, RowSpan rows, DrivingLog& log,
   const std::vector<double> longitude = values_of(reader, rows, "longitude_deg", 1.0);
   for (std::size_t i = 0; i < latitude.size(); ++i) {
     if (std::abs(latitude[i]) > 90.0) {
-      reader.fault(rows.begin + i, "latitude_deg",
+      reader.fault(ErrorCode::kOutOfRange, rows.begin + i, "latitude_deg",
                    fmt::format("found {}, outside [-90, 90]", latitude[i]));
     }
     if (std::abs(longitude[i]) > 360.0) {
-      reader.fault(rows.begin + i, "longitude_deg",
+      reader.fault(ErrorCode::kOutOfRange, rows.begin + i, "longitude_deg",
                    fmt::format("found {}, outside [-360, 360]", longitude[i]));
     }
   }
@@ -295,7 +299,7 @@ Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOption
                             std::vector<Finding>& findings) {
   AWMR_ASSIGN_OR_RETURN(std::vector<DrivingLog> logs, read_logs(path, options, findings));
   if (logs.size() == 1) return std::move(logs.front());
-  return input_error(path.string(),
+  return input_error(ErrorCode::kWrongFile, path.string(),
                      fmt::format("this file has {} runs; one was expected", logs.size()));
 }
 

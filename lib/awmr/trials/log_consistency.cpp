@@ -66,8 +66,9 @@ Status check_consistency(const DrivingLog& log, const std::string& place, const 
     const bool says_more = !one.remedy.empty() || one.mapping.empty();
     const std::string remedy =
         says_more ? one.remedy : "map it by " + option_text("column '" + one.mapping + "'");
-    faults.push_back({place, fmt::format("{}: {}; {}{}take it {}", one.column, one.message, remedy,
-                                         remedy.empty() ? "" : ", or ", option_text("as-is"))});
+    faults.push_back({ErrorCode::kContradiction, place,
+                      fmt::format("{}: {}; {}{}take it {}", one.column, one.message, remedy,
+                                  remedy.empty() ? "" : ", or ", option_text("as-is"))});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   if (!found.empty()) return {};

@@ -29,7 +29,7 @@ Result<std::vector<fs::path>> files_of(const fs::path& path) {
     AWMR_ASSIGN_OR_RETURN(std::vector<fs::path> paths, with_extension(entries, extension));
     if (!paths.empty()) return paths;
   }
-  return input_error(path.string(),
+  return input_error(ErrorCode::kMissing, path.string(),
                      "a log in a directory is a bag (.db3) or tables (.csv) with a topic each; "
                      "there is neither");
 }

@@ -36,7 +36,8 @@ Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
   raw.mapped = std::move(topics.mapped);
   ColumnSources sources = find_columns(header, {}, columns, mappings, file);
   std::vector<Fault> faults;
-  for (HeaderFault& fault : sources.faults) faults.push_back({file, std::move(fault.message)});
+  for (HeaderFault& fault : sources.faults)
+    faults.push_back({fault.code, file, std::move(fault.message)});
   return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
 }
 
@@ -52,7 +53,8 @@ Result<CsvTable> table_of_columns(std::vector<std::string> header,
   raw.notes = std::move(notes);
   ColumnSources sources = find_columns(header, {}, columns, mappings, file);
   std::vector<Fault> faults;
-  for (HeaderFault& fault : sources.faults) faults.push_back({file, std::move(fault.message)});
+  for (HeaderFault& fault : sources.faults)
+    faults.push_back({fault.code, file, std::move(fault.message)});
   return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
 }
 

@@ -166,10 +166,11 @@ Result<void> check_replay(const Plant<double>& plant, const std::string& file) {
                : fmt::format("resistance brings m' {:g} or I'z {:g} to rest within {:g} s",
                              plant.mass_norm, plant.inertia_norm, 4.0 * step_s);
   return input_error(
-      file, fmt::format("{}, too fast to be followed through a log, whose motion is "
-                        "computed in steps of a quarter of it; {:g} s or more can be: check "
-                        "the vehicle's numbers and the units of its trials",
-                        what, 4.0 * kShortestReplayStep_s));
+      ErrorCode::kOutOfRange, file,
+      fmt::format("{}, too fast to be followed through a log, whose motion is "
+                  "computed in steps of a quarter of it; {:g} s or more can be: check "
+                  "the vehicle's numbers and the units of its trials",
+                  what, 4.0 * kShortestReplayStep_s));
 }
 
 }  // namespace awmr

@@ -23,7 +23,8 @@ using Database = std::unique_ptr<sqlite3, CloseDatabase>;
 using Statement = std::unique_ptr<sqlite3_stmt, FinishStatement>;
 
 tl::unexpected<Error> wrong(const std::string& file, std::string_view what) {
-  return input_error(file, fmt::format("this is no bag of ROS 2 that can be read: {}", what));
+  return input_error(ErrorCode::kBrokenFile, file,
+                     fmt::format("this is no bag of ROS 2 that can be read: {}", what));
 }
 
 /// Opens the bytes as an in-memory database, so that its content cannot access any file.
@@ -120,10 +121,10 @@ Status read_messages(sqlite3* database, const BagTopic& bag,
     const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row, 1));
     const auto values = ros_values(bag.type, data == nullptr ? "" : std::string_view(data, size));
     if (!values) {
-      return input_error(
-          file, fmt::format("message {} of /{}: its {} bytes are no {} in CDR",
-                            topic.time_ns.size() + 1, printable(shortened(bag.name, 100)), size,
-                            printable(shortened(bag.type, 100))));
+      return input_error(ErrorCode::kBrokenFile, file,
+                         fmt::format("message {} of /{}: its {} bytes are no {} in CDR",
+                                     topic.time_ns.size() + 1, printable(shortened(bag.name, 100)),
+                                     size, printable(shortened(bag.type, 100))));
     }
     topic.time_ns.push_back(sqlite3_column_int64(row, 0));
     for (std::size_t i = 0; i < numbers.size(); ++i) {

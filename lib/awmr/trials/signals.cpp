@@ -15,23 +15,26 @@ namespace {
 /// Errors: as join().
 Status check(const Topic& topic, const Signals& signals, const std::string& file) {
   std::vector<Fault> faults;
-  const auto fault = [&](std::size_t message, std::string text) {
+  const auto fault = [&](ErrorCode code, std::size_t message, std::string text) {
     if (faults.size() >= kMaxFaults) return;
     faults.push_back(
-        {file, fmt::format("message {} of {}: {}", message + 1, shortened(topic.name, 100), text)});
+        {code, file,
+         fmt::format("message {} of {}: {}", message + 1, shortened(topic.name, 100), text)});
   };
   for (std::size_t i = 1; i < topic.time_ns.size(); ++i) {
     if (topic.time_ns[i] > topic.time_ns[i - 1]) continue;
-    fault(i, fmt::format("its time is {:.3g} s after that of the message before; time has to rise "
-                         "within a topic: cut the file where it begins anew",
-                         1e-9 * (static_cast<double>(topic.time_ns[i]) -
-                                 static_cast<double>(topic.time_ns[i - 1]))));
+    fault(ErrorCode::kWrongOrder, i,
+          fmt::format("its time is {:.3g} s after that of the message before; time has to rise "
+                      "within a topic: cut the file where it begins anew",
+                      1e-9 * (static_cast<double>(topic.time_ns[i]) -
+                              static_cast<double>(topic.time_ns[i - 1]))));
     break;
   }
   for (std::size_t c = 0; c < topic.columns.size(); ++c) {
     for (std::size_t i = 0; i < topic.values[c].size(); ++i) {
       if (std::isinf(topic.values[c][i])) {
-        fault(i, fmt::format("{} is infinite", signals.header[topic.columns[c]]));
+        fault(ErrorCode::kOutOfRange, i,
+              fmt::format("{} is infinite", signals.header[topic.columns[c]]));
       }
     }
   }

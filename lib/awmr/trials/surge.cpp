@@ -18,10 +18,12 @@ const Rate kSpeed{.printed_column = "speed_mps",
 
 void check_surge_columns(TrialReader& reader) {
   if (!reader.has("tau_speed") && !reader.has("wheel_force")) {
-    reader.header_fault("no thrust: add a column tau_speed, or wheel_force (tau_speed = 4 F')");
+    reader.header_fault(ErrorCode::kMissing,
+                        "no thrust: add a column tau_speed, or wheel_force (tau_speed = 4 F')");
   }
   if (!reader.has("speed_mps") && !(reader.has("distance_m") && reader.has("elapsed_s"))) {
-    reader.header_fault("no speed: add a column speed_mps, or distance_m and elapsed_s");
+    reader.header_fault(ErrorCode::kMissing,
+                        "no speed: add a column speed_mps, or distance_m and elapsed_s");
   }
 }
 

@@ -87,8 +87,9 @@ class SysIdReader {
   Result<SysIdLog> read();
 
  private:
-  void fault(const std::string& pointer, std::string message) {
-    if (faults_.size() < kMaxFaults) faults_.push_back({file_ + ":" + pointer, std::move(message)});
+  void fault(ErrorCode code, const std::string& pointer, std::string message) {
+    if (faults_.size() < kMaxFaults)
+      faults_.push_back({code, file_ + ":" + pointer, std::move(message)});
   }
   std::optional<std::string> text_at(const char* key);
   const SysIdRow* find_form();
@@ -112,7 +113,7 @@ std::optional<std::string> SysIdReader::text_at(const char* key) {
   const auto found = document_.find(key);
   if (found == document_.end()) return std::nullopt;
   if (found->is_string()) return found->get<std::string>();
-  fault(fmt::format("/{}", key), "expected a string");
+  fault(ErrorCode::kWrongType, fmt::format("/{}", key), "expected a string");
   return std::nullopt;
 }
 
@@ -120,7 +121,7 @@ std::optional<std::string> SysIdReader::text_at(const char* key) {
 const SysIdRow* SysIdReader::find_form() {
   const std::string test = text_at("test").value_or("");
   if (test == "Arm" || test == "Elevator") {
-    fault("/test",
+    fault(ErrorCode::kWrongFile, "/test",
           fmt::format("\"{}\" is no drive: this log has no vehicle's motion; give a log of the "
                       "test Drivetrain",
                       test));
@@ -133,11 +134,11 @@ const SysIdRow* SysIdReader::find_form() {
     for (const SysIdRow* form : {&drivetrain_form(), &old_drivetrain_form(), &simple_form()}) {
       if (first.is_array() && first.size() == form->numbers) return form;
     }
-    fault(fmt::format("/{}/0", name),
+    fault(ErrorCode::kWrongType, fmt::format("/{}/0", name),
           "expected 9 numbers (drivetrain), 4 (simple mechanism) or 10 (frc-characterization)");
     return nullptr;
   }
-  fault("/slow-forward",
+  fault(ErrorCode::kMissing, "/slow-forward",
         "no test has a row; record slow-forward, slow-backward, fast-forward and "
         "fast-backward");
   return nullptr;
@@ -147,7 +148,7 @@ double SysIdReader::read_metres_per_rotation() {
   const std::string units = text_at("units").value_or("");
   const auto unit = std::ranges::find(kSysIdLengths, units, &SysIdLength::name);
   if (unit == kSysIdLengths.end()) {
-    fault("/units",
+    fault(ErrorCode::kUnknownName, "/units",
           fmt::format("\"{}\" is no length, and the wheel's circumference is not in this file; set "
                       "units to \"Meters\" and unitsPerRotation to the circumference in metres",
                       units));
@@ -158,19 +159,20 @@ double SysIdReader::read_metres_per_rotation() {
       factor != document_.end() && factor->is_number() && factor->get<double>() > 0.0;
   const double metres = is_positive ? factor->get<double>() * unit->metres : 0.0;
   if (metres > 0.0 && std::isfinite(metres)) return metres;
-  fault("/unitsPerRotation",
+  fault(ErrorCode::kOutOfRange, "/unitsPerRotation",
         fmt::format("expected a number above 0: the wheel's circumference, {}", units));
   return 1.0;
 }
 
 bool SysIdReader::check_row(const Json& row, const std::string& pointer, const SysIdRow& form) {
   if (!row.is_array() || row.size() != form.numbers) {
-    fault(pointer, fmt::format("expected {} numbers, as in the first row", form.numbers));
+    fault(ErrorCode::kBrokenFile, pointer,
+          fmt::format("expected {} numbers, as in the first row", form.numbers));
     return false;
   }
   for (std::size_t i = 0; i < row.size(); ++i) {
     if (row[i].is_number() && std::isfinite(row[i].get<double>())) continue;
-    fault(fmt::format("{}/{}", pointer, i), "expected a finite number");
+    fault(ErrorCode::kWrongType, fmt::format("{}/{}", pointer, i), "expected a finite number");
     return false;
   }
   return true;
@@ -179,7 +181,8 @@ bool SysIdReader::check_row(const Json& row, const std::string& pointer, const S
 void SysIdReader::read_run(std::string_view test, const SysIdRow& form) {
   const auto rows = document_.find(test);
   if (rows == document_.end()) return;
-  if (!rows->is_array()) return fault(fmt::format("/{}", test), "expected an array of rows");
+  if (!rows->is_array())
+    return fault(ErrorCode::kWrongType, fmt::format("/{}", test), "expected an array of rows");
   if (rows->empty()) return;
   const std::size_t begin = log_.rows();
   double first_s = 0.0;
@@ -191,7 +194,8 @@ void SysIdReader::read_run(std::string_view test, const SysIdRow& form) {
     const double t_s = row[0].get<double>();
     if (log_.rows() == begin) first_s = t_s;
     if (log_.rows() > begin && !(t_s > last_s)) {
-      fault(pointer + "/0", fmt::format("found {} after {}: time has to rise", t_s, last_s));
+      fault(ErrorCode::kWrongOrder, pointer + "/0",
+            fmt::format("found {} after {}: time has to rise", t_s, last_s));
       continue;
     }
     last_s = t_s;
@@ -203,7 +207,8 @@ void SysIdReader::read_run(std::string_view test, const SysIdRow& form) {
                             : field.unit == SysIdUnit::kDegrees ? degrees(1.0)
                                                                 : 1.0;
       const double value = row[field.index].get<double>() * factor;
-      if (!std::isfinite(value)) fault(pointer, "out of range in metres or degrees");
+      if (!std::isfinite(value))
+        fault(ErrorCode::kOutOfRange, pointer, "out of range in metres or degrees");
       log_.columns[i + 2].push_back(value);
     }
   }
@@ -260,7 +265,8 @@ void SysIdReader::add_speed() {
 }
 
 Result<SysIdLog> SysIdReader::read() {
-  if (!document_.is_object()) return input_error(file_, "expected an object, as SysId writes it");
+  if (!document_.is_object())
+    return input_error(ErrorCode::kWrongFile, file_, "expected an object, as SysId writes it");
   const SysIdRow* form = find_form();
   metres_ = read_metres_per_rotation();
   if (!faults_.empty()) return input_errors(std::move(faults_));

@@ -30,7 +30,7 @@ struct Table {
       findings.push_back({file, line, Severity::kWarning, "table-contradiction", message});
       return;
     }
-    faults.push_back({fmt::format("{}:{}", path.string(), line),
+    faults.push_back({ErrorCode::kContradiction, fmt::format("{}:{}", path.string(), line),
                       fmt::format("{}; {}{}take it {}", message, remedy,
                                   remedy.empty() ? "" : ", or ", option_text("as-is"))});
   }

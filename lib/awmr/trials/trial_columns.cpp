@@ -221,7 +221,7 @@ Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& v
   std::vector<Fault> faults;
   for (const ColumnMapping& mapping : options.columns) {
     if (auto unknown = unknown_target(mapping)) {
-      faults.push_back({place_of(mapping), *std::move(unknown)});
+      faults.push_back({ErrorCode::kUnknownName, place_of(mapping), *std::move(unknown)});
     }
   }
   if (!faults.empty()) return input_errors(std::move(faults));
@@ -237,7 +237,7 @@ Status check_mappings(const TrialOptions& options, std::span<const std::size_t> 
     if (mapping.standing || std::find(used.begin(), used.end(), i) != used.end()) continue;
     if (headers.empty()) headers = headers_of(files);
     const std::string why = unusable(mapping, headers).value_or(why_unused(mapping));
-    faults.push_back({place_of(mapping), "unused: " + why});
+    faults.push_back({ErrorCode::kUnusedMapping, place_of(mapping), "unused: " + why});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};
@@ -251,7 +251,8 @@ std::vector<Fault> unusable_mappings(const TrialOptions& options,
   for (const ColumnMapping& mapping : options.columns) {
     if (mapping.standing || is_required(mapping.name)) continue;
     if (auto why = unusable(mapping, headers)) {
-      faults.push_back({place_of(mapping), "unused: " + *std::move(why)});
+      faults.push_back(
+          {ErrorCode::kUnusedMapping, place_of(mapping), "unused: " + *std::move(why)});
     }
   }
   return faults;

@@ -19,17 +19,19 @@ std::optional<double> TrialReader::cell(std::size_t row, std::string_view column
 std::optional<double> TrialReader::non_negative(std::size_t row, std::string_view column) {
   const std::optional<double> value = cell(row, column);
   if (value && *value < 0.0) {
-    fault(row, column, fmt::format("{} must not be negative, found {}", column, *value));
+    fault(ErrorCode::kOutOfRange, row, column,
+          fmt::format("{} must not be negative, found {}", column, *value));
   }
   return value;
 }
 
-void TrialReader::fault(std::size_t row, std::string_view column, std::string message) {
-  faults_.push_back({table_.place(row, column), std::move(message)});
+void TrialReader::fault(ErrorCode code, std::size_t row, std::string_view column,
+                        std::string message) {
+  faults_.push_back({code, table_.place(row, column), std::move(message)});
 }
 
-void TrialReader::header_fault(std::string message) {
-  faults_.push_back({table_.header_place(), std::move(message)});
+void TrialReader::header_fault(ErrorCode code, std::string message) {
+  faults_.push_back({code, table_.header_place(), std::move(message)});
 }
 
 Finding TrialReader::finding(std::size_t row, Severity severity, std::string code,
@@ -80,7 +82,7 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
     // printed value shows a vehicle at rest.
     const double motion = printed.value_or(*amount);
     if (motion != 0.0) {
-      reader.fault(row, "elapsed_s",
+      reader.fault(ErrorCode::kOutOfRange, row, "elapsed_s",
                    fmt::format("elapsed_s is 0 in a row that moves ({} {}); give the time it took",
                                printed ? rate.printed_column : rate.amount_column, motion));
       return std::nullopt;
@@ -89,7 +91,7 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
   }
   const double timed = rate.per_amount * *amount / *elapsed_s;
   if (!std::isfinite(timed) || (timed == 0.0 && *amount > 0.0)) {
-    reader.fault(row, "elapsed_s",
+    reader.fault(ErrorCode::kOutOfRange, row, "elapsed_s",
                  fmt::format("{} {} in elapsed_s {} make {}: no vehicle moves like this",
                              rate.amount_column, *amount, *elapsed_s, timed));
     return std::nullopt;

@@ -26,8 +26,8 @@ class TrialReader {
   /// Like cell(); a negative value is a fault.
   std::optional<double> non_negative(std::size_t row, std::string_view column);
 
-  void fault(std::size_t row, std::string_view column, std::string message);
-  void header_fault(std::string message);
+  void fault(ErrorCode code, std::size_t row, std::string_view column, std::string message);
+  void header_fault(ErrorCode code, std::string message);
   std::vector<Fault>& faults() { return faults_; }
 
   Finding finding(std::size_t row, Severity severity, std::string code, std::string message) const;

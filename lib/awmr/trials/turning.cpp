@@ -27,13 +27,16 @@ constexpr double kGeometryError = 0.01;
 void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
   if (vehicle.has_steering()) {
     if (reader.has("force_left") != reader.has("force_right")) {
-      reader.header_fault("force_left and force_right belong together: add the other one");
+      reader.header_fault(ErrorCode::kMissing,
+                          "force_left and force_right belong together: add the other one");
     } else if (!reader.has("wheel_force") && !reader.has("force_left")) {
-      reader.header_fault("no force: add a column wheel_force, or force_left and force_right");
+      reader.header_fault(ErrorCode::kMissing,
+                          "no force: add a column wheel_force, or force_left and force_right");
     }
   }
   if (!reader.has("yaw_rate_radps") && !(reader.has("turns") && reader.has("elapsed_s"))) {
-    reader.header_fault("no yaw rate: add a column yaw_rate_radps, or turns and elapsed_s");
+    reader.header_fault(ErrorCode::kMissing,
+                        "no yaw rate: add a column yaw_rate_radps, or turns and elapsed_s");
   }
 }
 
@@ -55,7 +58,7 @@ struct Turn {
 void check_side(TrialReader& reader, std::size_t row, const char* column, double value,
                 const Turn& turn) {
   if (value * turn.left >= 0.0) return;
-  reader.fault(row, column,
+  reader.fault(ErrorCode::kContradiction, row, column,
                fmt::format("found {} with {}: both are positive to the left, so their signs must "
                            "agree",
                            value, turn.in_words));
@@ -110,7 +113,7 @@ std::optional<Turn> by_steering(TrialReader& reader, std::size_t row, const Vehi
                                 double wheel_force) {
   const double steering_deg = *reader.cell(row, "steering_deg");
   if (std::abs(steering_deg) >= 90.0) {
-    reader.fault(row, "steering_deg",
+    reader.fault(ErrorCode::kOutOfRange, row, "steering_deg",
                  fmt::format("must lie between -90 and 90, found {}", steering_deg));
     return std::nullopt;
   }
@@ -148,7 +151,7 @@ void check_mean(TrialReader& reader, std::size_t row, double left, double right)
   const double computed = 0.5 * (left + right);
   const double tolerance = reader.rounding_error(*mean, "wheel_force") + 0.005 * std::abs(computed);
   if (std::abs(*mean - computed) <= tolerance) return;
-  reader.fault(row, "wheel_force",
+  reader.fault(ErrorCode::kContradiction, row, "wheel_force",
                fmt::format("found {}, but the mean of force_left {} and force_right {} is {:.4g}: "
                            "correct it or leave it empty",
                            *mean, left, right, computed));
@@ -157,12 +160,14 @@ void check_mean(TrialReader& reader, std::size_t row, double left, double right)
 /// F' of a steered run without force_left and force_right; a fault if it is empty or negative.
 std::optional<double> wheel_force_of(TrialReader& reader, std::size_t row) {
   if (!reader.has("wheel_force")) {
-    reader.fault(row, "force_left", "no force: give both sides', or a column wheel_force");
+    reader.fault(ErrorCode::kMissing, row, "force_left",
+                 "no force: give both sides', or a column wheel_force");
     return std::nullopt;
   }
   const auto force = reader.non_negative(row, "wheel_force");
   if (!force) {
-    reader.fault(row, "wheel_force", "column wheel_force: the cell is empty; expected a number");
+    reader.fault(ErrorCode::kMissing, row, "wheel_force",
+                 "column wheel_force: the cell is empty; expected a number");
   }
   return force;
 }
@@ -171,7 +176,7 @@ std::optional<double> wheel_force_of(TrialReader& reader, std::size_t row) {
 bool has_rate(TrialReader& reader, std::size_t row) {
   if (reader.cell(row, "yaw_rate_radps")) return true;
   if (reader.cell(row, "turns") && reader.cell(row, "elapsed_s")) return true;
-  reader.fault(row, reader.has("yaw_rate_radps") ? "yaw_rate_radps" : "turns",
+  reader.fault(ErrorCode::kMissing, row, reader.has("yaw_rate_radps") ? "yaw_rate_radps" : "turns",
                "no yaw rate: give yaw_rate_radps, or turns and elapsed_s");
   return false;
 }
@@ -183,7 +188,7 @@ std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
   const auto left = reader.cell(row, "force_left");
   const auto right = reader.cell(row, "force_right");
   if (left.has_value() != right.has_value()) {
-    reader.fault(row, left ? "force_right" : "force_left",
+    reader.fault(ErrorCode::kMissing, row, left ? "force_right" : "force_left",
                  "is empty, but the other side's force is not: give both or neither");
     return std::nullopt;
   }
@@ -197,14 +202,15 @@ std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
   if (!is_timed) return std::nullopt;
   if (*left == *right) {
     if (*left < 0.0) {
-      reader.fault(row, "force_left", fmt::format("must not be negative, found {}", *left));
+      reader.fault(ErrorCode::kOutOfRange, row, "force_left",
+                   fmt::format("must not be negative, found {}", *left));
       return std::nullopt;
     }
     return by_steering(reader, row, vehicle, *left);
   }
   if (*reader.cell(row, "steering_deg") == 0.0) return by_sides(reader, row, vehicle);
   reader.fault(
-      row, "steering_deg",
+      ErrorCode::kContradiction, row, "steering_deg",
       fmt::format("found {} with force_left {} and force_right {}: a run turns either by steering "
                   "or by a force difference; keep the wheels straight, or make both forces equal",
                   *reader.cell(row, "steering_deg"), *left, *right));
@@ -227,7 +233,7 @@ void check_sides_given(TrialReader& reader) {
     without.push_back(row);
   }
   if (without.empty()) return;
-  reader.fault(without.front(),
+  reader.fault(ErrorCode::kMissing, without.front(),
                reader.cell(without.front(), "force_left") ? "force_right" : "force_left",
                fmt::format("{} of {} rows lack force_left or force_right ({}): a vehicle without "
                            "steering turns only by left and right wheel forces; give both, remove "

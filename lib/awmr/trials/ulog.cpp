@@ -34,7 +34,8 @@ struct Reading {
 };
 
 tl::unexpected<Error> wrong(const Reading& reading, std::size_t offset, std::string_view what) {
-  return input_error(reading.file, fmt::format("byte {}: {}", offset, what));
+  return input_error(ErrorCode::kBrokenFile, reading.file,
+                     fmt::format("byte {}: {}", offset, what));
 }
 
 /// Message 'A': instance, id, name.

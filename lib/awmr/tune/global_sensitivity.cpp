@@ -173,10 +173,12 @@ Result<GlobalSensitivity> global_sensitivity(const Model& model, const Objective
   const auto broken_off = std::ranges::count_if(
       figures, [](const std::vector<double>& of_sample) { return of_sample.empty(); });
   if (broken_off > 0) {
-    return refusal(fmt::format(
-        "a run of the tuned loop fails with {} of {} samples of the assumed values, so the "
-        "sensitivity is unknown; tune without sensitivity, and examine these vehicles",
-        broken_off, figures.size()));
+    return refusal(
+        ErrorCode::kDiverges,
+        fmt::format(
+            "a run of the tuned loop fails with {} of {} samples of the assumed values, so the "
+            "sensitivity is unknown; tune without sensitivity, and examine these vehicles",
+            broken_off, figures.size()));
   }
   const std::span<const YawMode> modes = setting.modes();
   GlobalSensitivity result{.samples = samples, .inputs = {}, .figures = {}};

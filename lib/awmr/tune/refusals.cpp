@@ -63,14 +63,18 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
   if (worst == goals.size()) return std::nullopt;
   const bool is_rate_limited = std::ranges::any_of(
       scenarios, [](const Scenario& one) { return one.name.ends_with(kLedSuffix); });
-  return refusal(fmt::format(
-      "no gains within the bounds reach the goal \"{}\": the nearest of {} ({}) need {:.3g} times "
-      "its limits. Make it soft, raise its limits, or give more evaluations{}",
-      goals[worst].name(), found.evaluations, in_words(found.nearest.gains), e.goal_quantile[worst],
-      is_rate_limited
-          ? "; one default scenario limits the heading rate to the measured one and is slow: " +
-                option_text("heading_rate_limit") + " none removes it"
-          : ""));
+  return refusal(
+      ErrorCode::kNoGains,
+      fmt::format(
+          "no gains within the bounds reach the goal \"{}\": the nearest of {} ({}) need {:.3g} "
+          "times "
+          "its limits. Make it soft, raise its limits, or give more evaluations{}",
+          goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
+          e.goal_quantile[worst],
+          is_rate_limited
+              ? "; one default scenario limits the heading rate to the measured one and is slow: " +
+                    option_text("heading_rate_limit") + " none removes it"
+              : ""));
 }
 
 }  // namespace
@@ -87,6 +91,7 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
   }
   const std::string name = worst ? worst->name : "none";
   return refusal(
+      ErrorCode::kNoGains,
       fmt::format("no gains within the bounds meet the constraints: the nearest ({}) violate '{}', "
                   "{:.4g} against a limit of {:.4g} ({}); {}",
                   in_words(nearest.gains), name, worst ? worst->value : 0.0,
@@ -99,17 +104,21 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
   if (auto missed = goal_missed(found, e, objective, scenarios)) return *missed;
   const std::string gains = in_words(found.nearest.gains);
   if (!e.valid) {
-    return refusal(fmt::format(
-        "runs diverge with all gains tried, also with the nearest of {} ({}); give slower "
-        "scenarios or narrower bounds",
-        found.evaluations, gains));
+    return refusal(
+        ErrorCode::kDiverges,
+        fmt::format(
+            "runs diverge with all gains tried, also with the nearest of {} ({}); give slower "
+            "scenarios or narrower bounds",
+            found.evaluations, gains));
   }
   const bool is_activity = found.broken_most.starts_with("activity");
-  return refusal(fmt::format(
-      "no gains within the bounds meet every limit: the nearest of {} ({}) violate '{}' by {:.0f} "
-      "%; {}, or give more evaluations",
-      found.evaluations, gains, found.broken_most, 100.0 * found.broken_by,
-      is_activity ? "raise activity_max of tune.json" : advice_on(found.broken_most)));
+  return refusal(
+      ErrorCode::kNoGains,
+      fmt::format("no gains within the bounds meet every limit: the nearest of {} ({}) violate "
+                  "'{}' by {:.0f} "
+                  "%; {}, or give more evaluations",
+                  found.evaluations, gains, found.broken_most, 100.0 * found.broken_by,
+                  is_activity ? "raise activity_max of tune.json" : advice_on(found.broken_most)));
 }
 
 }  // namespace awmr

@@ -56,11 +56,12 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
   }
   if (evaluations * steps <= kMostSearchSteps) return {};
   return input_error(
-      "", fmt::format("evaluations: {:g} of {:.3g} RK4 steps each ({} scenarios in every mode) "
-                      "exceed the limit of {:g} steps; give at most {:.0f} evaluations, global and "
-                      "local together, or shorter scenarios",
-                      evaluations, steps, scenarios.size(), kMostSearchSteps,
-                      std::floor(kMostSearchSteps / steps)));
+      ErrorCode::kTooLarge, "",
+      fmt::format("evaluations: {:g} of {:.3g} RK4 steps each ({} scenarios in every mode) "
+                  "exceed the limit of {:g} steps; give at most {:.0f} evaluations, global and "
+                  "local together, or shorter scenarios",
+                  evaluations, steps, scenarios.size(), kMostSearchSteps,
+                  std::floor(kMostSearchSteps / steps)));
 }
 
 /// The largest change of the commanded heading, rad.
@@ -131,9 +132,10 @@ Status limit_observer(const ConstraintContext& context, std::optional<ObserverSe
   for (const auto& [name, limit, most] : limits) {
     if (!*limit) *limit = kObserverShare * most;
     if (**limit > 0.0) continue;
-    return input_error("", fmt::format("the observer's {}: at {:g} m/s no wheel force is left to "
-                                       "compensate a disturbance; give slower scenarios",
-                                       name, context.speed_mps));
+    return input_error(ErrorCode::kOutOfRange, "",
+                       fmt::format("the observer's {}: at {:g} m/s no wheel force is left to "
+                                   "compensate a disturbance; give slower scenarios",
+                                   name, context.speed_mps));
   }
   return {};
 }
@@ -149,7 +151,7 @@ ObjectiveSetting searched(ObjectiveSetting setting, const TuneOptions& options) 
 
 Status check_baseline(const Objective& objective, const Baseline& baseline) {
   if (objective.baseline().valid) return {};
-  return input_error(baseline.source,
+  return input_error(ErrorCode::kDiverges, baseline.source,
                      "runs with the baseline gains diverge, so the objective cannot be normalised; "
                      "give another baseline, or slower scenarios");
 }
@@ -234,7 +236,7 @@ Status check_latency(const ConstraintContext& context, const std::string& model_
   const double samples = context.latency_s / context.sample_time_s;
   if (samples < kMostLateSamples + 0.5) return {};
   return input_error(
-      model_file + ":/vehicle/latency_s",
+      ErrorCode::kTooLarge, model_file + ":/vehicle/latency_s",
       fmt::format("{:g} s are {:.0f} samples of {:g} s, more than the limit of {}; give a longer "
                   "sample_time_s, or tune without latency ({})",
                   context.latency_s, samples, context.sample_time_s, kMostLateSamples,

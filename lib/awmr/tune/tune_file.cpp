@@ -28,7 +28,8 @@ void read_weights(JsonObject json, ObjectiveWeights& weights) {
     weight = json.optional_number(term.name, kNonNegative).value_or(weight);
     sum += weight;
   }
-  if (sum <= 0.0) json.fault("itae", "all weights are 0: give at least one above 0");
+  if (sum <= 0.0)
+    json.fault(ErrorCode::kOutOfRange, "itae", "all weights are 0: give at least one above 0");
   json.reject_unknown_keys();
 }
 
@@ -43,7 +44,7 @@ void read_bounds(JsonObject json, GainBounds& bounds) {
     const std::optional<Interval> read = json.optional_interval(key);
     if (!read) continue;
     if (read->lo <= 0.0 || read->hi > kGainLimit) {
-      json.fault(key, "both ends have to be above 0 and at most 1e6");
+      json.fault(ErrorCode::kOutOfRange, key, "both ends have to be above 0 and at most 1e6");
     }
     *target = *read;
   }
@@ -55,7 +56,8 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
   if (json.has("form")) options.form = json.choice("form", kReachingFormNames);
   if (const auto margin =
           json.optional_number("margin", {.min = 0.0, .max = 1.0, .min_excluded = true})) {
-    if (*margin >= 1.0) json.fault("margin", "1 leaves none; give a number in (0, 1)");
+    if (*margin >= 1.0)
+      json.fault(ErrorCode::kOutOfRange, "margin", "1 leaves none; give a number in (0, 1)");
     options.margin = *margin;
   }
   options.global_evaluations =
@@ -80,8 +82,9 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
   options.sensitivity =
       static_cast<int>(json.optional_integer("sensitivity", 0, kMostSamples).value_or(0));
   if (options.sensitivity > 0 && options.sensitivity < kFewestSamples) {
-    json.fault("sensitivity", fmt::format("{} samples are too few; give 0, or at least {}",
-                                          options.sensitivity, kFewestSamples));
+    json.fault(ErrorCode::kOutOfRange, "sensitivity",
+               fmt::format("{} samples are too few; give 0, or at least {}", options.sensitivity,
+                           kFewestSamples));
   }
   options.tail_share =
       json.optional_number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true})
@@ -98,7 +101,8 @@ void read_baseline(JsonObject& json, const std::filesystem::path& directory, Tun
                    std::vector<Fault>& faults) {
   const std::optional<std::string> name = json.optional_string("baseline");
   if (!name) return;
-  if (name->empty()) return json.fault("baseline", "is empty: give a gains.json");
+  if (name->empty())
+    return json.fault(ErrorCode::kBadName, "baseline", "is empty: give a gains.json");
   const bool is_file = *name != kPaperSource && *name != kPolePlacement;
   Result<std::optional<Baseline>> baseline =
       baseline_named(is_file ? directory / *name : std::filesystem::path(*name));
@@ -116,7 +120,7 @@ ObserverSearch read_observer(JsonObject json) {
   ObserverSearch observer;
   if (const auto read = json.optional_interval("bandwidth_radps")) {
     if (read->lo < kObserverBandwidth.min || read->hi > kObserverBandwidth.max) {
-      json.fault("bandwidth_radps", "both ends have to be in [1e-6, 1e4]");
+      json.fault(ErrorCode::kOutOfRange, "bandwidth_radps", "both ends have to be in [1e-6, 1e4]");
     }
     observer.bandwidth_radps = *read;
   }
@@ -131,10 +135,12 @@ void read_goals(JsonObject& json, TuneOptions& options) {
     options.goals.push_back(read_goal(std::move(goal)));
   }
   if (options.goals.size() > kMostGoals) {
-    json.fault("goals", fmt::format("{} are more than {}", options.goals.size(), kMostGoals));
+    json.fault(ErrorCode::kTooLarge, "goals",
+               fmt::format("{} are more than {}", options.goals.size(), kMostGoals));
   }
   if (!options.goals.empty() && options.nominal) {
-    json.fault("goals", "need sampled plants, which nominal disables; remove one of the two");
+    json.fault(ErrorCode::kConflict, "goals",
+               "need sampled plants, which nominal disables; remove one of the two");
   }
 }
 
@@ -155,7 +161,8 @@ void read_scenarios(JsonObject& json, const std::filesystem::path& directory, Tu
     config.scenario_files.push_back(path);
   }
   if (names.empty()) {
-    json.fault("scenarios", "an empty list; leave the key out for the default scenario");
+    json.fault(ErrorCode::kMissing, "scenarios",
+               "an empty list; leave the key out for the default scenario");
   }
 }
 

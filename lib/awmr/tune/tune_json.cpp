@@ -59,7 +59,7 @@ TuningGoal read_goal(JsonObject json) {
   }
   limits.reject_unknown_keys();
   if (goal.at_most.empty()) {
-    json.fault("at_most", "names no metric");
+    json.fault(ErrorCode::kMissing, "at_most", "names no metric");
   }
   goal.share =
       json.optional_number("share", {.min = kLeastShare, .max = kMostShare}).value_or(goal.share);
@@ -81,18 +81,21 @@ UnmodelledVariation read_open(JsonObject json) {
   if (json.has("mass_factors")) {
     open.mass_factors =
         json.numbers("mass_factors", {.min = kLeastMassFactor, .max = kMostMassFactor});
-    if (open.mass_factors.empty()) json.fault("mass_factors", "an empty list; leave the key out");
+    if (open.mass_factors.empty())
+      json.fault(ErrorCode::kMissing, "mass_factors", "an empty list; leave the key out");
   }
   if (json.has("wheel_forces")) {
     for (JsonObject& force : json.objects("wheel_forces")) {
       open.wheel_forces.push_back(wheel_force_from_json(std::move(force)));
     }
-    if (open.wheel_forces.empty()) json.fault("wheel_forces", "an empty list; leave the key out");
+    if (open.wheel_forces.empty())
+      json.fault(ErrorCode::kMissing, "wheel_forces", "an empty list; leave the key out");
   }
   for (const auto& [key, count] : {std::pair("mass_factors", open.mass_factors.size()),
                                    std::pair("wheel_forces", open.wheel_forces.size())}) {
     if (count <= kMostOpenValues) continue;
-    json.fault(key, fmt::format("{} are more than {}", count, kMostOpenValues));
+    json.fault(ErrorCode::kTooLarge, key,
+               fmt::format("{} are more than {}", count, kMostOpenValues));
   }
   json.reject_unknown_keys();
   return open;

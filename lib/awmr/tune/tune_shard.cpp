@@ -37,13 +37,14 @@ Payload read_payload(JsonObject& json) {
       .findings = {}};
   for (const std::string& name : json.strings("modes")) {
     const auto mode = value_in(kYawModeNames, name);
-    if (!mode) json.fault("modes", fmt::format("'{}' is no mode", name));
+    if (!mode) json.fault(ErrorCode::kUnknownName, "modes", fmt::format("'{}' is no mode", name));
     payload.by.modes.push_back(mode.value_or(YawMode::kCombined));
   }
-  if (payload.by.modes.empty()) json.fault("modes", "names no mode");
-  if (payload.gains.empty()) json.fault("gains", "names no evaluated gains");
+  if (payload.by.modes.empty()) json.fault(ErrorCode::kMissing, "modes", "names no mode");
+  if (payload.gains.empty()) json.fault(ErrorCode::kMissing, "gains", "names no evaluated gains");
   payload.by.scenarios = json.strings("scenarios");
-  if (payload.by.scenarios.empty()) json.fault("scenarios", "names no scenario");
+  if (payload.by.scenarios.empty())
+    json.fault(ErrorCode::kMissing, "scenarios", "names no scenario");
   payload.by.tail_share = json.number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true});
   for (JsonObject& goal : json.objects("goals")) {
     payload.by.goals.push_back(read_goal(std::move(goal)));
@@ -96,7 +97,8 @@ Result<std::vector<RunOutcome>> evaluated_runs_from_text(const Payload& payload,
                                                          const std::string& file) {
   std::string_view rest = text;
   if (take_line(rest) != head_of_table()) {
-    return input_error(file + ":1:1", "these are not the columns of judged.csv");
+    return input_error(ErrorCode::kStaleResult, file + ":1:1",
+                       "these are not the columns of judged.csv");
   }
   int line = 1;
   std::vector<RunOutcome> runs;
@@ -108,7 +110,7 @@ Result<std::vector<RunOutcome>> evaluated_runs_from_text(const Payload& payload,
           const std::string place = place_of_row(gains, shard.item(i) + 1, mode, scenario);
           const auto outcome = outcome_in(take_line(rest), place, mode);
           if (!outcome) {
-            return input_error(fmt::format("{}:{}:1", file, line),
+            return input_error(ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line),
                                fmt::format("is not the run {} of the part; run the part again",
                                            std::string_view(place).substr(0, place.size() - 1)));
           }
@@ -118,7 +120,8 @@ Result<std::vector<RunOutcome>> evaluated_runs_from_text(const Payload& payload,
     }
   }
   if (!rest.empty()) {
-    return input_error(fmt::format("{}:{}:1", file, line + 1), "is none of the part's runs");
+    return input_error(ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line + 1),
+                       "is none of the part's runs");
   }
   return runs;
 }
@@ -160,7 +163,8 @@ Result<Json> read_gains_json(const std::vector<Part>& parts) {
   const std::filesystem::path path = parts.front().directory / file.name;
   AWMR_ASSIGN_OR_RETURN(Json json, read_json_file(path));
   if (!json.is_object() || !json.contains("robust") || !json["robust"].is_object()) {
-    return input_error(path.string(), "contains no robust gains; run the part again");
+    return input_error(ErrorCode::kStaleResult, path.string(),
+                       "contains no robust gains; run the part again");
   }
   return json;
 }

@@ -26,7 +26,8 @@ constexpr std::uint64_t kReadingsStream = std::uint64_t{1} << 40;
 
 Status check_options(const AcceptanceOptions& options) {
   if (options.draws >= 39 && options.draws <= 10000) return {};
-  return input_error("draws", fmt::format("expected 39 to 10000, got {}", options.draws));
+  return input_error(ErrorCode::kOutOfRange, "draws",
+                     fmt::format("expected 39 to 10000, got {}", options.draws));
 }
 
 /// The smallest value that at least a fraction `share` of the values do not exceed.
@@ -303,7 +304,7 @@ Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
   for (const PredictedDrive& one : predicted)
     result.duration_s = std::min(result.duration_s, one.end_s);
   if (result.duration_s < kShortest_s) {
-    return input_error(log.file,
+    return input_error(ErrorCode::kTooFewData, log.file,
                        fmt::format("only {:.3g} s of it overlap scenario '{}'; at least {:g} s are "
                                    "needed",
                                    result.duration_s, drive.scenario.name, kShortest_s));

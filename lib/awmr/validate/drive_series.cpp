@@ -113,9 +113,10 @@ DriveChannel measured_channel(const DrivingLog& log, LogChannel which, std::size
 
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s) {
   if (from_s && *from_s < log.t_s.front()) {
-    return input_error(log.file, fmt::format("begins at {:g} s, after the {:g} s at which the "
-                                             "scenario is to begin",
-                                             log.t_s.front(), *from_s));
+    return input_error(ErrorCode::kTooFewData, log.file,
+                       fmt::format("begins at {:g} s, after the {:g} s at which the "
+                                   "scenario is to begin",
+                                   log.t_s.front(), *from_s));
   }
   for (std::size_t row = 0; row < log.rows(); ++row) {
     const bool commands = log.force_left[row] != 0.0 || log.force_right[row] != 0.0 ||
@@ -123,8 +124,9 @@ Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<doub
     if (from_s ? log.t_s[row] >= *from_s : commands) return row;
   }
   return input_error(
-      log.file, from_s ? fmt::format("ends before {:g} s, where the scenario is to begin", *from_s)
-                       : "commands nothing: every force and steering command is 0");
+      ErrorCode::kTooFewData, log.file,
+      from_s ? fmt::format("ends before {:g} s, where the scenario is to begin", *from_s)
+             : "commands nothing: every force and steering command is 0");
 }
 
 double noise_in(const DrivingLog& log, LogChannel which, std::size_t first) {

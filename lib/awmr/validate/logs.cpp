@@ -27,14 +27,15 @@ std::optional<std::size_t> first_turning_row(const DrivingLog& log) {
 Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   if (const auto row = first_turning_row(log)) {
     Error error = model.plant().error();
-    error.faults.insert(error.faults.begin(),
-                        Fault{fmt::format("{}:{}", log.file, log.line[*row]),
-                              "the log turns from here, but the model covers straight motion only; "
-                              "give a straight log, or record the trials named below"});
+    error.faults.insert(
+        error.faults.begin(),
+        Fault{ErrorCode::kUnsupported, fmt::format("{}:{}", log.file, log.line[*row]),
+              "the log turns from here, but the model covers straight motion only; "
+              "give a straight log, or record the trials named below"});
     return tl::unexpected(std::move(error));
   }
   if (!log[LogChannel::kSpeed]) {
-    return input_error(log.file,
+    return input_error(ErrorCode::kMissing, log.file,
                        "there is no speed_mps, the only channel that a model of straight motion "
                        "predicts; map the column");
   }
@@ -66,7 +67,7 @@ Status check_finite(const LogValidation& validation) {
     if (std::isfinite(channel.one_step.nrmse) && std::isfinite(channel.long_horizon.nrmse))
       continue;
     return input_error(
-        validation.file,
+        ErrorCode::kDiverges, validation.file,
         fmt::format("the model's replay of this log diverges ({} is not finite): the log is of "
                     "another vehicle, or a column is mapped to the wrong channel; check the "
                     "mapping with awmr map",
@@ -109,9 +110,10 @@ Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, do
                                           model.vehicle.motor_time_constant_s.value_or(0.0));
   AWMR_RETURN_IF_ERROR(check_finite(validation));
   if (!validation.channels.empty()) return validation;
-  return input_error(log.file, fmt::format("no channel has readings to be predicted within a "
-                                           "horizon of {:g} s: give a longer one",
-                                           horizon_s));
+  return input_error(ErrorCode::kTooFewData, log.file,
+                     fmt::format("no channel has readings to be predicted within a "
+                                 "horizon of {:g} s: give a longer one",
+                                 horizon_s));
 }
 
 }  // namespace awmr

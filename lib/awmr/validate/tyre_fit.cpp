@@ -198,7 +198,7 @@ bool add_error_of_lost_commands(const std::vector<DrivingLog>& logs, const Plant
 Status check_vehicle(const Model& model) {
   if (model.vehicle.driven_wheels() == 4) return {};
   return input_error(
-      option_text("tyres"),
+      ErrorCode::kUnsupported, option_text("tyres"),
       fmt::format("the four-wheel plant drives all wheels, a vehicle of drive \"{}\" does "
                   "not",
                   name_in(kDriveNames, model.vehicle.drive)));

@@ -27,9 +27,10 @@ std::vector<Fault> trial_faults(const Model& model) {
     const TrialPoint& trial = model.record.trials[i];
     const std::string place = fmt::format("{}:/trials/{}", model.file, i);
     if (!(trial.input > 0.0) || !(trial.measured > 0.0)) {
-      faults.push_back({place, fmt::format("input {} and measured {} have to be above 0; take the "
-                                           "row out or identify again",
-                                           trial.input, trial.measured)});
+      faults.push_back({ErrorCode::kOutOfRange, place,
+                        fmt::format("input {} and measured {} have to be above 0; take the "
+                                    "row out or identify again",
+                                    trial.input, trial.measured)});
     }
   }
   return faults;
@@ -176,7 +177,7 @@ std::optional<double> predicted_measurement(const Plant<double>& plant, const Tr
 Result<Validation> validate(const Model& model, const std::optional<Gains<double>>& gains,
                             const ValidateOptions& options) {
   if (!(options.tolerance > 0.0)) {
-    return input_error("",
+    return input_error(ErrorCode::kOutOfRange, "",
                        fmt::format("tolerance: has to be above 0, found {}", options.tolerance));
   }
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant_of_trials());

@@ -176,7 +176,7 @@ Result<TyreFit> read_tyres(const std::filesystem::path& path) {
   if (!faults.empty()) return input_errors(std::move(faults));
   std::optional<TyreFit> tyres = validation_from_json(root);
   if (faults.empty() && !tyres) {
-    faults.push_back({path.string() + ":/tyres",
+    faults.push_back({ErrorCode::kMissing, path.string() + ":/tyres",
                       "there are no tyres: fit them by awmr validate --log FILE --tyres"});
   }
   if (!faults.empty()) return input_errors(std::move(faults));

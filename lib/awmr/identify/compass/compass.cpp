@@ -175,17 +175,21 @@ Status check_turn(const FieldRecord& record, double turned, std::vector<Finding>
   }
   const double gyro = turned_by_gyro_rad(record);
   if (gyro * turned < 0.0) {
-    return refusal(fmt::format(
-        "{}: the compass turns by {:.0f} deg while the gyroscope turns by {:.0f}: one of "
-        "field_ahead and field_left has the wrong sign, or they are exchanged, or "
-        "yaw_rate_radps is positive to the right",
-        record.file, degrees(turned), degrees(gyro)));
+    return refusal(
+        ErrorCode::kCompassUnusable,
+        fmt::format(
+            "{}: the compass turns by {:.0f} deg while the gyroscope turns by {:.0f}: one of "
+            "field_ahead and field_left has the wrong sign, or they are exchanged, or "
+            "yaw_rate_radps is positive to the right",
+            record.file, degrees(turned), degrees(gyro)));
   }
   if (std::abs(turned - gyro) <= kTurnTolerance * std::abs(turned)) return {};
-  return refusal(fmt::format(
-      "{}: the compass turns by {:.0f} deg while the gyroscope turns by {:.0f}, more than {:.0f} % "
-      "apart: check that yaw_rate_radps is in rad/s and without bias, and that no row is missing",
-      record.file, degrees(turned), degrees(gyro), 100.0 * kTurnTolerance));
+  return refusal(ErrorCode::kCompassUnusable,
+                 fmt::format("{}: the compass turns by {:.0f} deg while the gyroscope turns by "
+                             "{:.0f}, more than {:.0f} % "
+                             "apart: check that yaw_rate_radps is in rad/s and without bias, and "
+                             "that no row is missing",
+                             record.file, degrees(turned), degrees(gyro), 100.0 * kTurnTolerance));
 }
 
 /// Errors (refused): the vehicle's float cannot hold the centre against the field, or the field is so
@@ -198,6 +202,7 @@ Status check_usable(const std::string& file, const CompassCalibration& c) {
     const double rounded = static_cast<double>(static_cast<float>(centre));
     if (std::abs(rounded - centre) <= kRounding * field) continue;
     return refusal(
+        ErrorCode::kCompassUnusable,
         fmt::format("{}: the centre {:.9g} is too large compared with the field {:.4g} for the "
                     "vehicle's 24-bit numbers: take the offset off the readings, or "
                     "move the magnet away",
@@ -210,6 +215,7 @@ Status check_usable(const std::string& file, const CompassCalibration& c) {
   const double ratio = (mean + apart) / (mean - apart);
   if (ratio > 0.0 && ratio <= kRoundest) return {};
   return refusal(
+      ErrorCode::kCompassUnusable,
       fmt::format("{}: the field is {:.3g} times weaker one way than the other: one axis "
                   "of the compass is dead, or iron is too near",
                   file, ratio));
@@ -238,24 +244,25 @@ Result<CompassFit> fit_compass(const FieldRecord& record, double declination_deg
   const std::optional<Ellipse> ellipse = compass::fit_ellipse(points);
   if (!ellipse) {
     return refusal(
+        ErrorCode::kCompassUnusable,
         record.file +
-        ": the field makes no ellipse: turn the vehicle through two whole circles, level, "
-        "away from iron");
+            ": the field makes no ellipse: turn the vehicle through two whole circles, level, "
+            "away from iron");
   }
   const std::vector<double> headings = headings_of(*ellipse, points);
   const auto [gap_begin, gap] = largest_gap_rad(headings);
   if (degrees(gap) > kLargestGapDeg) {
-    return refusal(
-        fmt::format("{}: the turn leaves {:.0f} deg out, from {:.0f} deg on: an ellipse "
-                    "through the rest is a guess; turn through two whole circles",
-                    record.file, degrees(gap), degrees(gap_begin)));
+    return refusal(ErrorCode::kCompassUnusable,
+                   fmt::format("{}: the turn leaves {:.0f} deg out, from {:.0f} deg on: an ellipse "
+                               "through the rest is a guess; turn through two whole circles",
+                               record.file, degrees(gap), degrees(gap_begin)));
   }
   const Known fit = known(*ellipse, points, headings);
   if (fit.residual > kNoEllipse) {
-    return refusal(
-        fmt::format("{}: the field is off the best ellipse by {:.0f} % (standard "
-                    "deviation): iron moved, or the vehicle was not level",
-                    record.file, 100.0 * fit.residual));
+    return refusal(ErrorCode::kCompassUnusable,
+                   fmt::format("{}: the field is off the best ellipse by {:.0f} % (standard "
+                               "deviation): iron moved, or the vehicle was not level",
+                               record.file, 100.0 * fit.residual));
   }
   CompassFit result{.calibration = calibration_of(fit)};
   AWMR_RETURN_IF_ERROR(check_usable(record.file, result.calibration));

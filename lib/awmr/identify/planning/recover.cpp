@@ -234,7 +234,7 @@ Status check_drive(const DrivePlan& drive) {
   constexpr double kMost = 1e6;
   const double rows = drive.duration_s * drive.rate_hz;
   if (drive.rate_hz > 0.0 && rows >= kFewest && rows <= kMost) return {};
-  return input_error(option_text("duration"),
+  return input_error(ErrorCode::kOutOfRange, option_text("duration"),
                      fmt::format("{:g} s at {:g} Hz make {:.3g} rows; a log to be simulated has "
                                  "{:g} to {:g}",
                                  drive.duration_s, drive.rate_hz, rows, kFewest, kMost));
@@ -271,14 +271,15 @@ Result<Plant<double>> truth_of(const Model& model, RecoverPlan plan) {
 
 /// Errors (input): runs, a drive or trials that cannot be simulated.
 Status check_plan(const Model& model, const Plant<double>& truth, const RecoverOptions& options) {
-  if (options.runs < 2) return input_error(option_text("runs"), "at least 2 are needed");
+  if (options.runs < 2)
+    return input_error(ErrorCode::kOutOfRange, option_text("runs"), "at least 2 are needed");
   if (options.plan == RecoverPlan::kLog) {
     AWMR_RETURN_IF_ERROR(check_drive(options.drive));
     return check_replay(truth, model.file);
   }
   if (!model.record.trials.empty()) return {};
   return input_error(
-      model.file + ":/trials",
+      ErrorCode::kMissing, model.file + ":/trials",
       "holds no trials whose inputs could be simulated again; use " + option_text("plan log"));
 }
 

@@ -27,7 +27,9 @@ Json error_json(const Error& error) {
   json["kind"] = name_in(kErrorKindNames, error.kind);
   json["faults"] = Json::array();
   for (const Fault& fault : error.faults) {
-    json["faults"].push_back({{"place", fault.place}, {"message", fault.message}});
+    json["faults"].push_back({{"code", name_in(kErrorCodeNames, fault.code)},
+                              {"place", fault.place},
+                              {"message", fault.message}});
   }
   return json;
 }
@@ -35,10 +37,12 @@ Json error_json(const Error& error) {
 Error read_error(JsonObject json) {
   Error error{.kind = json.choice("kind", kErrorKindNames), .faults = {}};
   for (JsonObject& fault : json.objects("faults")) {
-    error.faults.push_back({fault.string("place"), fault.string("message")});
+    error.faults.push_back(
+        {fault.choice("code", kErrorCodeNames), fault.string("place"), fault.string("message")});
     fault.reject_unknown_keys();
   }
-  if (error.faults.empty()) json.fault("faults", "is empty: an error names what is wrong");
+  if (error.faults.empty())
+    json.fault(ErrorCode::kMissing, "faults", "is empty: an error names what is wrong");
   json.reject_unknown_keys();
   return error;
 }
@@ -47,7 +51,8 @@ Error read_error(JsonObject json) {
 std::optional<ParameterId> read_parameter(JsonObject& json, const std::string& key,
                                           const std::string& name) {
   const auto id = parameter_by_name(name);
-  if (!id) json.fault(key, fmt::format("no parameter is called '{}'", name));
+  if (!id)
+    json.fault(ErrorCode::kUnknownName, key, fmt::format("no parameter is called '{}'", name));
   return id;
 }
 
@@ -56,8 +61,9 @@ std::vector<RecoverTruth> read_truths(JsonObject json) {
   for (const std::string& name : json.keys()) {
     const double value = json.number(name, {.min = -kLargestTruth, .max = kLargestTruth});
     if (value != 0.0 && std::abs(value) < kSmallestTruth) {
-      json.fault(name, fmt::format("expected 0 or a number not below {:g} in size, found {:g}",
-                                   kSmallestTruth, value));
+      json.fault(ErrorCode::kOutOfRange, name,
+                 fmt::format("expected 0 or a number not below {:g} in size, found {:g}",
+                             kSmallestTruth, value));
     }
     if (const auto id = read_parameter(json, name, name)) truths.push_back({*id, value});
   }
@@ -102,7 +108,7 @@ Result<std::vector<RecoverRun>> read_runs(const Part& part, const RecoverPart& p
   const int expected = shard.share_of(payload.all_runs);
   if (std::ssize(runs) != expected) {
     return input_error(
-        (part.directory / table.name).string(),
+        ErrorCode::kStaleResult, (part.directory / table.name).string(),
         fmt::format("has {} runs, part {} of {} of {} runs has {}: run it again", runs.size(),
                     shard.index, shard.count, payload.all_runs, expected));
   }

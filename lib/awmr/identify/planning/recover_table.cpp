@@ -113,14 +113,16 @@ Result<std::vector<RecoverRun>> recover_runs(std::string_view text, const std::s
                                              const std::vector<RecoverTruth>& truths) {
   std::string_view rest = text;
   const auto places = places_of(take_text_record(rest), truths);
-  if (!places) return input_error(file + ":1:1", "these are not the columns of a recovery");
+  if (!places)
+    return input_error(ErrorCode::kStaleResult, file + ":1:1",
+                       "these are not the columns of a recovery");
   std::vector<RecoverRun> runs;
   while (!rest.empty()) {
     const std::string_view before = text.substr(0, text.size() - rest.size());
     auto run = run_in(take_text_record(rest), *places, truths.size());
     if (!run) {
       const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-      return input_error(fmt::format("{}:{}:1", file, line),
+      return input_error(ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line),
                          "is no run of a recovery; run the part again");
     }
     runs.push_back(std::move(*run));

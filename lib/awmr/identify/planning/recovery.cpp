@@ -46,10 +46,12 @@ Status check_recovered(const Recovery& recovery, const RecoverPart& whole) {
     if (std::ranges::none_of(recovery.parameters, is_it)) missing.push_back(info(id).name);
   }
   if (!recovery.parameters.empty() && missing.empty()) return {};
-  return refusal(fmt::format(
-      "of {} runs none gave {}{}", recovery.runs,
-      missing.empty() ? "an interval" : fmt::format("{}", fmt::join(missing, ", ")),
-      whole.refusal ? ": " + whole.refusal->message : ", as this plan's trials do not show it"));
+  return refusal(
+      ErrorCode::kNotRecovered,
+      fmt::format("of {} runs none gave {}{}", recovery.runs,
+                  missing.empty() ? "an interval" : fmt::format("{}", fmt::join(missing, ", ")),
+                  whole.refusal ? ": " + whole.refusal->message
+                                : ", as this plan's trials do not show it"));
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ tl::unexpected<Error> unknown_target(const std::vector<ParameterId>& ids,
   std::string names;
   for (const ParameterId known : ids) names += fmt::format("{} ", info(known).name);
   for (const SuggestTarget& metric : options.metrics) names += metric.name + " ";
-  return input_error(option_text("parameter"),
+  return input_error(ErrorCode::kUnknownName, option_text("parameter"),
                      fmt::format("'{}' has no uncertainty in this model; choose one of: {}",
                                  options.parameter, names));
 }
@@ -147,7 +147,8 @@ Result<Target> target_of(const Model& model, const Plant<double>& plant,
   }
   const auto id = parameter_by_name(options.parameter);
   if (id && !model[*id].value) {
-    return input_error(fmt::format("{}:{}", model.file, info(*id).pointer),
+    return input_error(ErrorCode::kNotIdentified,
+                       fmt::format("{}:{}", model.file, info(*id).pointer),
                        fmt::format("{} has no value yet, so trials cannot be ranked by it; record "
                                    "{}",
                                    options.parameter, trial_of(model.vehicle, *id)));
@@ -200,7 +201,7 @@ Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
   const Uncertainty uncertainty = uncertainty_of(model);
   std::vector<MissingParameter> missing = missing_of(model);
   if (uncertainty.parameters.empty() && missing.empty()) {
-    return input_error(model.file + ":/covariance",
+    return input_error(ErrorCode::kNotIdentified, model.file + ":/covariance",
                        "no parameter has an uncertainty that a trial could reduce");
   }
   AWMR_ASSIGN_OR_RETURN(const Target target,
@@ -224,7 +225,7 @@ Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
         std::isfinite(trial.d_gain)) {
       continue;
     }
-    return input_error(model.file,
+    return input_error(ErrorCode::kOutOfRange, model.file,
                        fmt::format("the information of trial '{}' is not finite at this model's "
                                    "values; check its exponents, mass and resistance",
                                    trial.settings));

@@ -27,7 +27,8 @@ Status add_from_file(void (*add)(const Json&, FiguresOfResults&), const std::str
     add(data, all);
   } catch (const Json::exception& error) {
     return input_error(
-        file, std::string("is not as awmr writes it (") + error.what() + "); make it again");
+        ErrorCode::kBrokenFile, file,
+        std::string("is not as awmr writes it (") + error.what() + "); make it again");
   }
   return {};
 }

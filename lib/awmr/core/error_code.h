@@ -1,0 +1,87 @@
+/// What is wrong with an input, as a code that stays the same while words change.
+#pragma once
+
+#include "awmr/core/name_table.h"
+
+namespace awmr {
+
+/// The cause of an error. `awmr explain CODE` prints each one's meaning and remedy (FINDINGS.md).
+enum class ErrorCode {
+  // A name, a value or a set of options.
+  kMissing,
+  kUnknownName,
+  kGivenTwice,
+  kWrongType,
+  kOutOfRange,
+  kWrongOrder,
+  kTooLarge,
+  kConflict,
+  kAmbiguous,
+  kBadName,
+  kBadFormula,
+  kUnusedMapping,
+  kUsage,
+  kContradiction,
+  kImplausible,
+  // A file or a program.
+  kCannotRead,
+  kCannotWrite,
+  kWouldOverwrite,
+  kWrongFile,
+  kBrokenFile,
+  kStaleResult,
+  kNotInstalled,
+  // A vehicle, a model or the trials.
+  kUnsupported,
+  kTooFewData,
+  kNotIdentified,
+  kDiverges,
+  // An answer that is no.
+  kNoGains,
+  kSlowReaching,
+  kNoTable,
+  kNotRecovered,
+  kCompassUnusable,
+  kNoAnswer,
+  // The program itself.
+  kMoreFaults,
+  kInternal,
+};
+
+inline constexpr NameTable<ErrorCode, 34> kErrorCodeNames{
+    {{"missing", ErrorCode::kMissing},
+     {"unknown-name", ErrorCode::kUnknownName},
+     {"given-twice", ErrorCode::kGivenTwice},
+     {"wrong-type", ErrorCode::kWrongType},
+     {"out-of-range", ErrorCode::kOutOfRange},
+     {"wrong-order", ErrorCode::kWrongOrder},
+     {"too-large", ErrorCode::kTooLarge},
+     {"conflict", ErrorCode::kConflict},
+     {"ambiguous", ErrorCode::kAmbiguous},
+     {"bad-name", ErrorCode::kBadName},
+     {"bad-formula", ErrorCode::kBadFormula},
+     {"unused-mapping", ErrorCode::kUnusedMapping},
+     {"usage", ErrorCode::kUsage},
+     {"contradiction", ErrorCode::kContradiction},
+     {"implausible", ErrorCode::kImplausible},
+     {"cannot-read", ErrorCode::kCannotRead},
+     {"cannot-write", ErrorCode::kCannotWrite},
+     {"would-overwrite", ErrorCode::kWouldOverwrite},
+     {"wrong-file", ErrorCode::kWrongFile},
+     {"broken-file", ErrorCode::kBrokenFile},
+     {"stale-result", ErrorCode::kStaleResult},
+     {"not-installed", ErrorCode::kNotInstalled},
+     {"unsupported", ErrorCode::kUnsupported},
+     {"too-few-data", ErrorCode::kTooFewData},
+     {"not-identified", ErrorCode::kNotIdentified},
+     {"diverges", ErrorCode::kDiverges},
+     {"no-gains", ErrorCode::kNoGains},
+     {"slow-reaching", ErrorCode::kSlowReaching},
+     {"no-table", ErrorCode::kNoTable},
+     {"not-recovered", ErrorCode::kNotRecovered},
+     {"compass-unusable", ErrorCode::kCompassUnusable},
+     {"no-answer", ErrorCode::kNoAnswer},
+     {"more-faults", ErrorCode::kMoreFaults},
+     {"internal", ErrorCode::kInternal}}};
+
+}  // namespace awmr
