@@ -15,13 +15,26 @@ SOURCE = Path(__file__).resolve().parents[2]
 AWMR = str(Path(sys.argv[1]).resolve())
 
 # Faults of malformed.txt that a schema can detect: those that depend on one key only.
-BY_ONE_KEY = ("this key is missing", "expected a number", "expected one of", "expected an object",
-              "expected a whole number", "true or false", "expected a string", "unknown key")
+# Codes of errors in one key.
+BY_ONE_KEY = ("missing", "wrong-type", "out-of-range", "unknown-name")
 # Rules between two keys: a line goes from_m to_m unless it has points_m, and a scenario has a speed_mps unless its
 # headings have a tau_speed.
+# Beyond a schema: the order of two numbers, sizes of lists that depend on others, names of parameters, trials and laws.
+BEYOND_SCHEMA = {(kind, f":/{place}", code) for kind, place, code in (
+    ("vehicle", "steering/max_deg", "out-of-range"), ("vehicle", "surge_beta_range", "wrong-type"),
+    ("vehicle", "surge_beta_range", "out-of-range"), ("vehicle", "yaw_beta_range", "out-of-range"),
+    ("scenario", "guidance/points_m", "wrong-type"), ("scenario", "guidance/points_m", "out-of-range"),
+    ("scenario", "guidance/from_m", "wrong-type"), ("scenario", "guidance/amplitude_m", "wrong-type"),
+    ("scenario", "corner/surge.alfa", "unknown-name"), ("gains", "observer/bandwidth_radps", "out-of-range"),
+    ("model", "surge/alpha/ci95", "wrong-type"), ("model", "yaw_scrub/yaw_rate_radps", "wrong-type"),
+    ("model", "covariance/parameters", "unknown-name"), ("model", "covariance/matrix", "wrong-type"),
+    ("model", "covariance/matrix", "out-of-range"), ("model", "estimates/0/parameters/0/name", "unknown-name"),
+    ("project", "trials", "missing"), ("project", "identify/family", "unknown-name"),
+    ("project", "identify/fit", "unknown-name"), ("project", "compare/scenarios", "missing"),
+    ("project", "compare/heading_rate_limit", "out-of-range"))}
 BETWEEN_KEYS = ['scenario | /guidance = {"type": "line", "from_m": [0, 0], "delta_deg": 60, "width_m": 5} '
-                '| :/guidance/to_m | this key is missing',
-                'scenario | /speed_mps gone | :/speed_mps | this key is missing']
+                '| :/guidance/to_m | missing',
+                'scenario | /speed_mps gone | :/speed_mps | missing']
 
 
 def awmr(words, folder, codes=(0,)):
@@ -127,15 +140,16 @@ def malformed(validators, good):
     seen, passed = 0, []
     for line in (SOURCE / "tests/cli/malformed.txt").read_text().splitlines():
         fields = line.split(" | ")
-        if len(fields) != 4 or fields[0] not in good or not fields[3].startswith(BY_ONE_KEY):
+        if len(fields) < 4 or fields[0] not in good or fields[3] not in BY_ONE_KEY:
             continue
         document = edited(good[fields[0]], fields[1])
-        if document is None:
+        if document is None or not fields[2]:
             continue
         seen += 1
         if validators[fields[0]].is_valid(document):
             passed.append(line)
-    passed = [line for line in passed if line not in BETWEEN_KEYS]
+    passed = [line for line in passed if line not in BETWEEN_KEYS and
+              (line.split(" | ")[0], *line.split(" | ")[2:4]) not in BEYOND_SCHEMA]
     for line in passed:
         print("the schema lets pass:", line)
     return seen, not passed
