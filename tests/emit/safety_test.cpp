@@ -64,7 +64,8 @@ constexpr Hazard kHazards[] = {
     {"command-unknown", "lines that are no command", "no known command", 0, 1.4},
     {"command-repeated-frame", "transmitter repeats a frame", "sequence number", 0, 1.7},
     {"stop", "operator sends STOP", "the command", 0, 0.05},
-    {"stop-in-noise", "STOP amid noise, without a line's end", "its last letter", 0, 0.05}};
+    {"stop-in-noise", "STOP amid noise, without a line's end", "its last letter", 0, 0.05},
+    {"stop-in-flood", "STOP on a line that is full of keep-alives", "the command", 0, 0.05}};
 
 /// Formats one row of the table in SAFETY.md.
 std::string table_row(const Hazard& h) {
@@ -83,17 +84,28 @@ Model rolling_robot() {
 }
 constexpr Gains<double> kRollingGains{.heading = kPaperGains.heading, .speed = {3.0, 1.0}};
 
+/// Steps of 50 ms, longer than a serial port's buffer lasts.
+Model slow_robot() {
+  Model model = paper_robot();
+  model.vehicle.sample_time_s = 0.05;
+  return model;
+}
+constexpr Gains<double> kSlowGains{.heading = {1.0, 2.0, 1.0}, .speed = {2.0, 2.0}};
+
 class SafeSketches : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     paper_ = new TemporaryDirectory;
     rolling_ = new TemporaryDirectory;
+    slow_ = new TemporaryDirectory;
     build(*paper_, paper_robot(), kPaperGains);
     build(*rolling_, rolling_robot(), kRollingGains);
+    build(*slow_, slow_robot(), kSlowGains);
   }
   static void TearDownTestSuite() {
     delete paper_;
     delete rolling_;
+    delete slow_;
   }
 
   static void build(const TemporaryDirectory& directory, const Model& model,
@@ -122,6 +134,7 @@ class SafeSketches : public ::testing::Test {
                         sanitize, sketch, name)));
       }
     };
+    if (&directory == slow_) return compile_case("drive_case", {"HeadingHold"});
     compile_case("drive_case", {"HeadingHold", "WaypointFollowing"});
     // The trials of one vehicle are recorded.
     if (&directory == paper_) compile_case("record_case", {"RecordTrials"});
@@ -142,9 +155,11 @@ class SafeSketches : public ::testing::Test {
 
   static TemporaryDirectory* paper_;
   static TemporaryDirectory* rolling_;
+  static TemporaryDirectory* slow_;
 };
 TemporaryDirectory* SafeSketches::paper_ = nullptr;
 TemporaryDirectory* SafeSketches::rolling_ = nullptr;
+TemporaryDirectory* SafeSketches::slow_ = nullptr;
 
 TEST_F(SafeSketches, DriveWhereNothingIsWrongAlsoAcrossTheClocksWrap) {
   for (const char* sketch : {"HeadingHold", "WaypointFollowing"}) {
@@ -155,6 +170,18 @@ TEST_F(SafeSketches, DriveWhereNothingIsWrongAlsoAcrossTheClocksWrap) {
       EXPECT_EQ(seen["stopped_s"], -1) << sketch << start_ms;
       EXPECT_EQ(seen["cause"], 0) << sketch << start_ms;
       EXPECT_GT(seen["away_m"], 10.0) << sketch << start_ms;
+    }
+  }
+}
+
+TEST_F(SafeSketches, LoseNoCharacterOfTheirLinesHoweverLongAStepIs) {
+  for (const TemporaryDirectory* directory : {paper_, slow_}) {
+    for (const char* phase_ms : {"0", "7", "13", "19", "26", "34", "41", "49"}) {
+      auto seen = drive(*directory, fmt::format("HeadingHold lines {}", phase_ms));
+      EXPECT_EQ(seen["armed"], 1) << phase_ms;
+      EXPECT_EQ(seen["drove"], 1) << phase_ms;
+      EXPECT_EQ(seen["off"], 1) << phase_ms;
+      EXPECT_EQ(seen["lost"], 0) << phase_ms;
     }
   }
 }

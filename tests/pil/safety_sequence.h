@@ -11,14 +11,16 @@
 namespace safety_sequence {
 
 const uint16_t kSteps = 1600;
-// Characters that arrive at a port of 38,400 baud in a step of 10 ms.
-const uint8_t kCharactersPerStep = 39;
+// Ticks per step of 10 ms, and characters that arrive at a port of 38,400 baud in each.
+const uint8_t kTicksPerStep = 4;
+const uint8_t kCharactersPerTick = 10;
 
 struct Limits {
   static constexpr float speed_max_mps = AWMR_SPEED_MAX_MPS;
   static constexpr float on_course_rad = AWMR_ON_COURSE_RAD;
   static constexpr float off_course_mrad = AWMR_OFF_COURSE_MRAD;
   static constexpr uint32_t timeout_ms = AWMR_SPEED_TIMEOUT_MS;
+  static constexpr bool spreads_work = true;
 };
 
 struct Sequence {
@@ -95,7 +97,20 @@ inline void say_fix(Sequence& s, uint16_t step) {
   text[++end] = '\0';
 }
 
-// Sensor readings at this step.
+struct Port {
+  Sequence& s;
+  int available() const { return s.arrived - s.taken; }
+  int read() { return s.sentence[s.taken++]; }
+};
+
+// A tick of the timer: reads the characters that have arrived since the last one.
+inline void receive(Sequence& s) {
+  for (uint8_t i = 0; i < kCharactersPerTick && s.sentence[s.arrived] != '\0'; ++i) ++s.arrived;
+  Port port = {s};
+  s.gps.receive(port, s.now_ms);
+}
+
+// Sensor readings at this step, and the ticks since the last one.
 inline void prepare(Sequence& s, uint16_t step) {
   if (!fails(step, 0)) s.word = static_cast<int16_t>(static_cast<int16_t>(draw(s) % 21) - 10);
   for (uint8_t i = 0; i < 3; ++i) s.field[i] = static_cast<int16_t>(i * 100 + draw(s) % 9);
@@ -104,7 +119,7 @@ inline void prepare(Sequence& s, uint16_t step) {
     if (!fails(step, 5)) s.utc_ms = 43200000UL + 10UL * step;  // else the same UTC again
     say_fix(s, step);
   }
-  for (uint8_t i = 0; i < kCharactersPerStep && s.sentence[s.arrived] != '\0'; ++i) ++s.arrived;
+  for (uint8_t tick = 0; tick < kTicksPerStep; ++tick) receive(s);
 }
 
 struct Projection {
@@ -114,17 +129,10 @@ struct Projection {
   }
 };
 
-struct Port {
-  Sequence& s;
-  int available() const { return s.arrived - s.taken; }
-  int read() { return s.sentence[s.taken++]; }
-};
-
 inline void read_gps(Sequence& s) {
   const awmr::GpsContext at = {0.0F, s.output.psi_ref_rad, 1, s.arming.is_armed()};
   Projection projection;
-  Port port = {s};
-  s.gps.read(port, projection, at, s.now_ms);
+  s.gps.step(projection, at);
   s.input.x_m = s.gps.x_m;
   s.input.y_m = s.gps.y_m;
   s.input.u_mps = s.gps.speed_mps;

@@ -12,6 +12,8 @@ struct GpsLimits {
   float on_course_rad;    ///< largest difference of heading and wanted heading in steady motion
   float off_course_mrad;  ///< distance driven with a larger one, times what is beyond it, m rad
   uint32_t timeout_ms;    ///< longest time without a fix
+  /// The work on a fix is spread over several steps (GpsReceiver).
+  static constexpr bool spreads_work = true;
 };
 
 /// Plausibility of GPS fixes. Limits: GpsLimits, or a type with the same names as constants.

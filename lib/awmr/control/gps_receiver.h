@@ -1,14 +1,16 @@
 /// Converts the characters of a GPS port to a checked position and speed. Freestanding C++14.
 ///
-/// The work on a sentence is spread over several steps, so that all take about the same time:
-///   1. Read its characters, at most kCharactersPerStep per step.
-///   2. Convert its numbers and accept or reject the fix.
+/// Characters are received between the steps. The work on a sentence is spread over several steps,
+/// so that all take about the same time:
+///   1. Convert its numbers.
+///   2. Accept or reject the fix.
 ///   3. Publish position and speed, for the autopilot in this step.
 ///   4. Compute the displacement along the heading.
 ///   5. Compare it with command and speed.
 ///   6. Compare it with the heading.
 ///   7. Compare the heading with the one that is to be held.
-/// If the next sentence ends earlier, a fix in step 2 is dropped and the rest is done at once.
+/// If the next sentence ends earlier, a fix in step 1 or 2 is dropped and the rest is done at once. A
+/// long sample time has room for all of it in one step, and too few steps to spread it.
 #pragma once
 
 #include "awmr/control/gps_check.h"
@@ -35,21 +37,22 @@ class GpsReceiver {
   /// Reason why fixes are rejected; kSensorGood: they are accepted.
   SensorFault fault(uint32_t now_ms) const { return check_.fault(now_ms); }
 
-  /// Call once per step. `port` has available() and read(), like Arduino's Stream; `project`
-  /// converts a GpsFix to a GpsPlace.
-  template <class Port, class Projection>
-  void read(Port& port, Projection& project, const GpsContext& at, uint32_t now_ms) {
-    work(project, at);
-    for (uint8_t i = 0; port.available() > (i < kCharactersPerStep ? 0 : kCharactersLeft); ++i) {
-      take(static_cast<char>(port.read()), now_ms);
-    }
+  /// Call as often as the port's buffer needs, never during step(): reads all characters that have
+  /// arrived. `port` has available() and read(), like Arduino's Stream.
+  template <class Port>
+  void receive(Port& port, uint32_t now_ms) {
+    while (port.available() > 0) take(static_cast<char>(port.read()), now_ms);
+  }
+
+  /// Call once per step. `project` converts a GpsFix to a GpsPlace.
+  template <class Projection>
+  void step(Projection& project, const GpsContext& at) {
+    do {
+      work(project, at);
+    } while (!Limits::spreads_work && due_ != Work::kNone);
   }
 
  private:
-  /// A port of 38,400 baud gives 39 characters in 10 ms, a sentence has 72. Those that are left have
-  /// to fit into the port's 64 together with the next 39.
-  static constexpr uint8_t kCharactersPerStep = 28;
-  static constexpr uint8_t kCharactersLeft = 24;
   enum class Work : uint8_t { kNone, kFix, kAccept, kPublish, kMotion };
 
   RmcReader reader_;

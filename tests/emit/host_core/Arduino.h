@@ -60,15 +60,33 @@ class Print {
 
 class Stream : public Print {
  public:
-  std::deque<char> incoming;
+  std::deque<char> incoming;  // on the line
+  std::deque<char> received;  // in the receive buffer
   std::string outgoing;
-  void begin(unsigned long) {}
-  int available() { return static_cast<int>(incoming.size()); }
+  double characters_per_ms = 0, due = 0;
+  int lost = 0;  // characters that found the buffer full
+  void begin(unsigned long baud) { characters_per_ms = static_cast<double>(baud) / 1e4; }
+  int available() { return static_cast<int>(received.size()); }
   int read() {
-    if (incoming.empty()) return -1;
-    const char c = incoming.front();
-    incoming.pop_front();
+    if (received.empty()) return -1;
+    const char c = received.front();
+    received.pop_front();
     return static_cast<unsigned char>(c);
+  }
+  // The line moves on. A full buffer loses the characters that arrive, as Arduino's does.
+  void pass(double ms) {
+    for (due += ms * characters_per_ms; due >= 1; due -= 1) {
+      if (incoming.empty()) {
+        due = 0;
+        return;
+      }
+      if (received.size() < 63) {
+        received.push_back(incoming.front());
+      } else {
+        ++lost;
+      }
+      incoming.pop_front();
+    }
   }
   using Print::write;
   size_t write(uint8_t byte) override {

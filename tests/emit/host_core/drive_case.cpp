@@ -23,22 +23,22 @@ const std::map<std::string, Drive> kDrives = {{"compass-stuck", {"H 90\n"}},
                                               {"servo-reversed", {"M 1\nH 90\n", 40}},
                                               {"compass-turning", {"", 40}}};
 
-/// Starts the sketch, leaves it 3 s for its sensors, arms it and runs it for `armed_s`.
-void start_and_arm(double armed_s) {
+/// Starts the sketch, leaves it time for its sensors, arms it and runs it for `armed_s`.
+void start_and_arm(double armed_s, double start_s = 3) {
   setup();
-  world.run(3);
+  world.run(start_s);
   world.say("ARM\n");
   world.run(armed_s);
 }
 
-/// When the vehicle was first disarmed, and the first sensor fault. Called once per ms.
+/// When the vehicle was first disarmed with its motors off, and the first sensor fault. Called once per ms.
 struct FirstStop {
   double t = 0;
   double stopped_s = -1;  ///< -1: never
   int cause = 0;
   void watch() {
     t += 0.001;
-    if (stopped_s < 0 && !safety.is_armed()) stopped_s = t;
+    if (stopped_s < 0 && !safety.is_armed() && !world.is_driven()) stopped_s = t;
     if (cause == 0) cause = awmr_board::sensor_fault(imu, gps);
   }
 };
@@ -184,6 +184,23 @@ void drive_and_stop(double seconds) {
       static_cast<int>(safety.reason()), w.is_driven());
 }
 
+/// Arms, drives, and stops by the last of 14 commands in one packet, with fixes `phase_ms` late.
+void fill_the_lines(uint32_t phase_ms) {
+  World& w = world;
+  w.gps_delay_ms = phase_ms;
+  start_and_arm(0.2, 10);  // the calibration at rest takes a number of steps
+  const bool was_armed = safety.is_armed();
+  w.say("S 0.8\n");
+  w.run(20);
+  const bool drove = safety.is_armed() && w.u > 0.3;
+  std::string packet;
+  for (int i = 0; i < 13; ++i) packet += "KEEP\n";
+  w.say(packet + "STOP\n");
+  w.run(0.1);
+  printf("armed=%d drove=%d off=%d lost=%d\n", was_armed, drove,
+         !safety.is_armed() && !w.is_driven(), Serial.lost + Serial1.lost);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -198,6 +215,7 @@ int main(int argc, char** argv) {
   if (what == "slope") return stand_on_slope(number, argc > 3), 0;
   if (what == "wrong") return drive_wrong(number, argc > 3 ? atof(argv[3]) : 1), 0;
   if (what == "turning") return start_turning(number), 0;
+  if (what == "lines") return fill_the_lines(static_cast<uint32_t>(number)), 0;
   if (what == "turns") return turn_often(number), 0;
   if (what == "drive") {
     if (argc > 3) world.mass_factor = atof(argv[3]);

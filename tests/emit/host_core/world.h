@@ -29,7 +29,7 @@
 Stream Serial, Serial1;
 TwoWire Wire;
 SDClass SD;
-uint16_t OCR4A, ICR4, TCNT3, OCR3A;
+uint16_t OCR4A, ICR4, TCNT3, OCR3A = 65535;
 uint8_t TCCR4A, TCCR4B, TCCR3A, TCCR3B, TIMSK3, MCUSR = 1;
 extern "C" void TIMER3_COMPA_vect();
 void setup();
@@ -39,6 +39,7 @@ struct World {
   // Time. The step runs every sample time.
   uint32_t start_ms = 1000, elapsed_ms = 0;
   const uint32_t step_ms = static_cast<uint32_t>(lround(1000.0 * AWMR_SAMPLE_TIME_S));
+  uint32_t timer_ms = 0;  // when the timer started
   // Motion, and how the vehicle differs from the model.
   double x = 0, y = 0, psi = 0.3, u = 0, r = 0;
   double mass_factor = 1, drag_factor = 1, motor_sign = 1, slope = 0;
@@ -196,6 +197,23 @@ struct World {
   void say(const std::string& text) {
     for (const char c : text) Serial.incoming.push_back(c);
   }
+  // The lines and the timer, which counts halves of a microsecond, in the ms that ends now.
+  void pass_time() {
+    const uint32_t period = OCR3A + 1U;
+    const uint64_t end = 2000ULL * (elapsed_ms - timer_ms);
+    double passed = 0;
+    for (uint64_t at = (end - 2000) / period * period + period; at <= end; at += period) {
+      const double to = 1 - static_cast<double>(end - at) / 2000;
+      pass_lines(to - passed);
+      passed = to;
+      TIMER3_COMPA_vect();
+    }
+    pass_lines(1 - passed);
+  }
+  static void pass_lines(double ms) {
+    Serial.pass(ms);
+    Serial1.pass(ms);
+  }
   void tick() {
     ++elapsed_ms;
     each_ms(*this);
@@ -203,11 +221,14 @@ struct World {
     move(0.001);
     navigate();
     if (keeps && elapsed_ms % keep_period_ms == 0) say(keep);
-    if (elapsed_ms % step_ms == 0) {
-      sense();
-      TIMER3_COMPA_vect();
-      loop();
+    if (TCNT3 == 0) {  // begin_steps() has started the timer
+      TCNT3 = 1;
+      timer_ms = elapsed_ms - 1;
     }
+    const bool is_due = (elapsed_ms - timer_ms) % step_ms == 0;
+    if (is_due) sense();
+    pass_time();
+    if (is_due) loop();
   }
   void run(double seconds, const std::function<void()>& each = {}) {
     for (int i = 0; i < static_cast<int>(seconds * 1000 + 0.5); ++i) {

@@ -3,7 +3,7 @@
    without the card. Header-only, so that the library itself needs neither Wire nor SD; include it
    only in the sketch. Axes: x north, y west, z up; heading counter-clockwise from north.
 
-   All driving code runs in a timer interrupt (begin_steps). loop() handles only the card, which can
+   All driving code runs in a timer interrupt (begin_steps): receive() and step(). loop() handles only the card, which can
    block. */
 #ifndef AWMR_PAPER_BOARD_H
 #define AWMR_PAPER_BOARD_H
@@ -87,7 +87,7 @@ inline uint8_t sensor_fault(const Imu& imu, const Gps& gps) {
    sensors, drives, disarms on a fault, logs. */
 inline void step(Imu& imu, Gps& gps, Command& command, Safety& safety, Log& card, awmr_input& input,
                  awmr_output& output) {
-  gps.read(input.u_ref_mps, imu.psi_rad, output.psi_ref_rad, safety.is_armed());
+  gps.step(input.u_ref_mps, imu.psi_rad, output.psi_ref_rad, safety.is_armed());
   imu.read(AWMR_SAMPLE_TIME_S);
   measure(imu, gps, command, input);
   safety.guard(input);

@@ -28,7 +28,7 @@ float turned_rad = 0.0f; // turned by the gyroscope since it was set to 0
 
 float cut(float force) { return constrain(force, -kForce, kForce); }
 
-void read_gps() {
+void receive() {
   while (gps_port->available() > 0) {
     if (!gps_reader.take(static_cast<char>(gps_port->read()))) continue;
     if (gps_reader.kind() == awmr::GpsSentence::kFix) has_fix = true;
@@ -51,7 +51,6 @@ bool read_yes() {
 }
 
 void step() {
-  read_gps();
   imu.read(AWMR_SAMPLE_TIME_S);
   turned_rad += imu.r_radps * AWMR_SAMPLE_TIME_S;
   while (shall_hang) {
@@ -205,7 +204,7 @@ void setup() {
   gps_port = &awmr_board::begin_gps_port();
   const bool has_bitten = (awmr_board::reset_cause() & awmr_board::kWatchdog) != 0;
   if (awmr_init() != AWMR_FAULT_NONE) Serial.println(F("parameters damaged: flash again"));
-  awmr_board::begin_steps(step);
+  awmr_board::begin_steps(receive, step);
   if (has_bitten) Serial.println(F("9. The watchdog works. Bring-up is done; once more from the start:"));
   walk();
 }

@@ -46,8 +46,11 @@ void obey() {
   }
 }
 
-void step() {
+void receive() {
   while (command.read()) obey();
+}
+
+void step() {
   // The turn needs no compass: the compass is being calibrated.
   if (millis() - command.heard_ms >= 1000) arming.disarm(awmr::DisarmReason::kTimeout);
   if (!arming.is_armed()) force = 0.0f;
@@ -76,7 +79,7 @@ void setup() {
   if (!file) Serial.println(F("no SD card: the record comes over this line alone"));
   Serial.println(F("t_s,field_ahead,field_left,yaw_rate_radps"));
   file.println(F("t_s,field_ahead,field_left,yaw_rate_radps"));
-  awmr_board::begin_steps(step);
+  awmr_board::begin_steps(receive, step);
 }
 
 void print_row(Print& to) {

@@ -32,7 +32,7 @@ void obey() {
   command.answer(awmr_board::kOk);
 }
 
-void step() {
+void receive() {
   bool armed_now = false;
   while (safety.read(command, armed_now)) {
     if (armed_now) {
@@ -42,13 +42,15 @@ void step() {
       obey();
     }
   }
-  awmr_board::step(imu, gps, command, safety, card, input, output);
+  gps.receive();
 }
+
+void step() { awmr_board::step(imu, gps, command, safety, card, input, output); }
 
 void setup() {
   awmr_board::begin(imu, gps, card);
   input.mode = AWMR_COMBINED;
-  awmr_board::begin_steps(step);
+  awmr_board::begin_steps(receive, step);
 }
 
 void loop() {

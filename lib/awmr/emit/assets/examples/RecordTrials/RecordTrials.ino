@@ -50,7 +50,7 @@ Told told;                  // written by the step, for loop() to record
 volatile bool has_told = false;
 uint16_t rows_lost = 0;
 
-void step() {
+void receive() {
   bool armed_now = false;
   while (safety.read(command, armed_now)) {
     if (armed_now) continue;
@@ -64,7 +64,11 @@ void step() {
     }
     command.answer(awmr_board::kOk);
   }
-  gps.read(recorder.force(), imu.psi_rad, imu.psi_rad, safety.is_armed());
+  gps.receive();
+}
+
+void step() {
+  gps.step(recorder.force(), imu.psi_rad, imu.psi_rad, safety.is_armed());
   imu.read(AWMR_SAMPLE_TIME_S);
   const uint32_t now_ms = millis();
   const uint8_t cause = awmr_board::sensor_fault(imu, gps);
@@ -129,7 +133,7 @@ void setup() {
   }
   if (!surge || !turning || !coastdown) Serial.println(F("no SD card: nothing is recorded"));
   announce();
-  awmr_board::begin_steps(step);
+  awmr_board::begin_steps(receive, step);
 }
 
 void print_cells(Print& to, float first, float second) {

@@ -29,7 +29,7 @@ void follow(int16_t count) {
   has_arrived = false;
 }
 
-void step() {
+void receive() {
   bool armed_now = false;
   while (safety.read(command, armed_now)) {
     if (armed_now) {
@@ -44,6 +44,10 @@ void step() {
       command.answer(awmr_board::kUnknown);
     }
   }
+  gps.receive();
+}
+
+void step() {
   awmr_board::step(imu, gps, command, safety, card, input, output);
   if (output.arrived && !has_arrived) {
     has_arrived = true;
@@ -59,7 +63,7 @@ void step() {
 void setup() {
   awmr_board::begin(imu, gps, card);
   input.mode = AWMR_COMBINED;
-  awmr_board::begin_steps(step);
+  awmr_board::begin_steps(receive, step);
 }
 
 void loop() {

@@ -1,4 +1,4 @@
-/* Commands over Serial, 115200 baud: the lines of awmr/control/command_line.h. The step reads them;
+/* Commands over Serial, 115200 baud: the lines of awmr/control/command_line.h. receive() reads them;
    loop() prints the answers, because a full port would make the step wait. */
 #ifndef AWMR_BOARD_COMMAND_H
 #define AWMR_BOARD_COMMAND_H
@@ -48,7 +48,7 @@ class Command {
     return false;
   }
 
-  /* Call in the step: queues an answer for loop(). If the queue is full, it is lost. */
+  /* Call in receive() or the step: queues an answer for loop(). If the queue is full, it is lost. */
   void answer(Answer what, uint8_t fault = 0, uint8_t cause = 0) {
     const uint8_t next = static_cast<uint8_t>((written_ + 1) % kWaiting);
     if (next == read_) return;

@@ -24,6 +24,8 @@ struct GpsLimits {
   static constexpr float on_course_rad = AWMR_ON_COURSE_RAD;
   static constexpr float off_course_mrad = AWMR_OFF_COURSE_MRAD;
   static constexpr uint32_t timeout_ms = AWMR_SPEED_TIMEOUT_MS;
+  /* A long sample time has room for all of a sentence's work, and too few steps to spread it. */
+  static constexpr bool spreads_work = AWMR_SAMPLE_TIME_S < 0.0151f;
 };
 
 /* x_m, y_m: north and west of the origin, the first fix; speed_mps without a sign; time_ms of the
@@ -43,13 +45,15 @@ class Gps : public awmr::GpsReceiver<GpsLimits> {
   /* Reason why fixes are rejected; awmr::kSensorGood: they are accepted. */
   awmr::SensorFault fault() const { return awmr::GpsReceiver<GpsLimits>::fault(millis()); }
 
+  /* Call in receive(): reads the characters that have arrived. */
+  void receive() { awmr::GpsReceiver<GpsLimits>::receive(*port_, millis()); }
+
   /* Call in the step, with the commanded speed, the heading, the heading that is to be held and
      whether the vehicle is armed. */
-  void read(float u_ref_mps = 0.0f, float psi_rad = 0.0f, float psi_ref_rad = 0.0f,
-            bool is_armed = false) {
+  void step(float u_ref_mps, float psi_rad, float psi_ref_rad, bool is_armed) {
     const int8_t direction = u_ref_mps > 0.0f ? 1 : u_ref_mps < 0.0f ? -1 : 0;
     const awmr::GpsContext context = {psi_rad, psi_ref_rad, direction, is_armed};
-    awmr::GpsReceiver<GpsLimits>::read(*port_, projection_, context, millis());
+    awmr::GpsReceiver<GpsLimits>::step(projection_, context);
   }
 
  private:

@@ -13,7 +13,7 @@ class Safety {
   bool is_armed() const { return arming_.is_armed(); }
   awmr::DisarmReason reason() const { return arming_.reason; }
 
-  /* Call first in the step: true if there is a command for the sketch. ARM, STOP and KEEP are
+  /* Call in receive(): true if there is a command for the sketch. ARM, STOP and KEEP are
      handled here, and all other commands are refused while disarmed. `armed_now` is set if this
      call armed the vehicle. */
   bool read(Command& command, bool& armed_now) {

@@ -1,4 +1,5 @@
-/* Calls the step periodically, handles steps that do not end, and stores the reset cause. */
+/* Calls the sketch's step periodically and reads its serial lines in between, handles steps that do
+   not end, and stores the reset cause. */
 #ifndef AWMR_BOARD_STEPS_H
 #define AWMR_BOARD_STEPS_H
 
@@ -26,12 +27,13 @@ static void keep_reset_cause() {
 
 inline uint8_t reset_cause() { return kept_reset_cause; }
 
-typedef void (*Step)();
-static Step the_step;
-static volatile bool is_in_step;
+typedef void (*Function)();
+static Function the_receive, the_step;
+static volatile bool is_busy;
+static volatile bool is_due;
 static volatile uint32_t sample_time_count; /* sample times since begin_steps() */
 static volatile uint32_t the_step_number;
-static uint16_t ticks_left; /* of the board's timer, until the next sample time */
+static uint16_t ticks_left; /* until the next sample time */
 static uint16_t ticks_per_step;
 
 /* The shortest watchdog time that is at least 250 ms and four sample times, so that a step skipped
@@ -44,11 +46,13 @@ inline uint8_t watchdog_time() {
                                              : WDTO_4S;
 }
 
-/* Calls `step` every AWMR_SAMPLE_TIME_S from the interrupt of the board's timer. Other interrupts
-   stay enabled for the sensor bus, the serial lines and millis(). If a step is still running when
-   the next one is due, it continues and the next one is skipped. The watchdog resets a chip on
-   which no step ends. */
-inline void begin_steps(Step step) {
+/* From the interrupt of the board's timer, calls `receive` every few ms, which reads the serial
+   lines before their buffers overflow, and after it `step` every AWMR_SAMPLE_TIME_S. Other
+   interrupts stay enabled for the sensor bus, the serial lines and millis(). If a step is still
+   running when the next one is due, it continues and the next one is skipped. The watchdog resets a
+   chip on which no step ends. */
+inline void begin_steps(Function receive, Function step) {
+  the_receive = receive;
   the_step = step;
   cli();
   ticks_left = ticks_per_step = begin_ticks(AWMR_SAMPLE_TIME_S);
@@ -62,17 +66,25 @@ inline uint32_t step_number() { return the_step_number; }
 }  // namespace awmr_board
 
 ISR(AWMR_BOARD_TICK) {
-  if (--awmr_board::ticks_left > 0) return;
-  awmr_board::ticks_left = awmr_board::ticks_per_step;
-  ++awmr_board::sample_time_count;
-  if (awmr_board::is_in_step) return;
-  awmr_board::is_in_step = true;
-  awmr_board::the_step_number = awmr_board::sample_time_count;
+  if (--awmr_board::ticks_left == 0) {
+    awmr_board::ticks_left = awmr_board::ticks_per_step;
+    ++awmr_board::sample_time_count;
+    awmr_board::is_due = true;
+  }
+  if (awmr_board::is_busy) return;
+  awmr_board::is_busy = true;
   sei();
-  awmr_board::the_step();
-  wdt_reset();
+  awmr_board::the_receive();
+  if (awmr_board::is_due) {
+    cli();
+    awmr_board::the_step_number = awmr_board::sample_time_count;
+    sei();
+    awmr_board::the_step();
+    wdt_reset();
+    awmr_board::is_due = false;
+  }
   cli();
-  awmr_board::is_in_step = false;
+  awmr_board::is_busy = false;
 }
 
 #endif /* AWMR_BOARD_STEPS_H */

@@ -1,4 +1,6 @@
-/* The timer that calls the step: its interrupt AWMR_BOARD_TICK, and its start. */
+/* The timer that calls the step: its interrupt AWMR_BOARD_TICK, and its start. A sample time is a
+   whole number of ticks, each short enough that the serial ports' buffers of 63 characters do not
+   overflow between two of them: at 115200 baud they are full after 5.4 ms, and a step takes 1.25 ms. */
 #ifndef AWMR_BOARD_TICKS_H
 #define AWMR_BOARD_TICKS_H
 
@@ -10,17 +12,18 @@ namespace awmr_board {
 #if defined(__AVR_ATmega2560__)
 #define AWMR_BOARD_TICK TIMER3_COMPA_vect
 
-/* Starts timer 3. Returns the ticks per sample time: one. */
+/* Starts timer 3: at most 8000 counts of clock/8, 4 ms. Returns the ticks per sample time. */
 inline uint16_t begin_ticks(float sample_time_s) {
-  const float counts = sample_time_s * (F_CPU / 8);
-  const bool slow = counts > 65536.0f;
+  float counts = sample_time_s * (F_CPU / 8);
+  uint16_t ticks = 1;
+  for (; counts > 8000.0f; counts *= 0.5f) ticks *= 2;
   TCCR3A = 0;
   TCCR3B = 0;
   TCNT3 = 0;
-  OCR3A = static_cast<uint16_t>((slow ? counts / 32 : counts) - 0.5f);
-  TCCR3B = static_cast<uint8_t>(_BV(WGM32) | (slow ? _BV(CS32) : _BV(CS31))); /* clock/256, /8 */
+  OCR3A = static_cast<uint16_t>(counts - 0.5f);
+  TCCR3B = _BV(WGM32) | _BV(CS31);
   TIMSK3 = _BV(OCIE3A);
-  return 1;
+  return ticks;
 }
 
 #elif defined(__AVR_ATmega328P__)
