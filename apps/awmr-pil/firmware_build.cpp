@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <span>
 
 #include "awmr/core/file.h"
@@ -47,9 +48,13 @@ std::span<const char* const> flags_for(cli::Optimize optimize) {
 /// A build takes two seconds; this allows a hundred times that on a busy machine.
 constexpr double kTimeLimit_s = 200.0;
 
-Status put(const fs::path& path, std::string_view bytes) {
+/// Writes a file of the temporary folder, which need not survive a loss of power: not flushed.
+Status put_temporary(const fs::path& path, std::string_view bytes) {
   AWMR_RETURN_IF_ERROR(make_directory(path.parent_path()));
-  return write_file(path, bytes);
+  std::ofstream file(path, std::ios::binary);
+  file << bytes << std::flush;
+  if (file) return {};
+  return input_error(path.string(), fmt::format("cannot write the file: {}", std::strerror(errno)));
 }
 
 /// Errors: a symbolic link on the path from `kept` to `file`.
@@ -72,12 +77,12 @@ Status check_no_link(const fs::path& kept, const fs::path& file) {
 Result<fs::path> build_firmware(const fs::path& directory, const std::vector<EmittedFile>& library,
                                 const FirmwareKind& kind) {
   for (const EmittedFile& file : library) {
-    AWMR_RETURN_IF_ERROR(put(directory / file.path, file.bytes));
+    AWMR_RETURN_IF_ERROR(put_temporary(directory / file.path, file.bytes));
   }
   for (const auto& [name, bytes] : firmware_sources()) {
-    AWMR_RETURN_IF_ERROR(put(directory / "pil" / std::string(name), bytes));
+    AWMR_RETURN_IF_ERROR(put_temporary(directory / "pil" / std::string(name), bytes));
   }
-  AWMR_RETURN_IF_ERROR(put(directory / "pil" / "mission.h", kind.mission));
+  AWMR_RETURN_IF_ERROR(put_temporary(directory / "pil" / "mission.h", kind.mission));
   const auto compiler = find_program("avr-g++");
   if (!compiler) {
     return input_error(ErrorCode::kNotInstalled, "avr-g++",
@@ -129,7 +134,9 @@ Status keep_firmware(const fs::path& directory, const fs::path& kept) {
     const fs::path file = entry.path().lexically_relative(directory);
     AWMR_RETURN_IF_ERROR(check_no_link(kept, file));
     AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(entry.path()));
-    AWMR_RETURN_IF_ERROR(put(kept / file, bytes));
+    const fs::path copy = kept / file;
+    AWMR_RETURN_IF_ERROR(make_directory(copy.parent_path()));
+    AWMR_RETURN_IF_ERROR(write_file(copy, bytes));
   }
   return {};
 }

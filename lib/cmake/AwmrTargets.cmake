@@ -35,7 +35,8 @@ endfunction()
 
 # awmr_test(NAME SOURCES file... [TIER tier] [LINK target...] [CASES n] [TOGETHER suite...]): one GoogleTest executable.
 # Each case is a test of its own, except that a suite of TOGETHER is one test, as its cases share a costly set-up.
-# Properties have a fixed seed and n cases, 100 by default. TIER is `unit` by default (tests/README.md).
+# Properties have a fixed seed and n cases, 100 by default. TIER is `unit` by default (tests/README.md). Instances of value-parameterised
+# suites that are named Long are in tier `long`; those named Short detect the same defects with fewer repeats.
 function(awmr_test name)
   cmake_parse_arguments(ARG "" "CASES;TIER" "SOURCES;LINK;TOGETHER" ${ARGN})
   if(NOT ARG_CASES)
@@ -52,17 +53,18 @@ function(awmr_test name)
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gmock GTest::gtest_main awmr_warnings)
   target_precompile_headers(${name} REUSE_FROM awmr_test_headers)
   target_compile_definitions(${name} PRIVATE AWMR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  set(others "*")
+  set(others "-Long/*")
   if(ARG_TOGETHER)
     list(TRANSFORM ARG_TOGETHER APPEND ".*" OUTPUT_VARIABLE suites)
     list(JOIN suites ":" suites)
-    set(others "-${suites}")
+    string(APPEND others ":${suites}")
     foreach(suite IN LISTS ARG_TOGETHER)
       awmr_command_test(${suite} TIER ${ARG_TIER} TIMEOUT 300 COMMAND ${name} --gtest_filter=${suite}.*)
     endforeach()
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER ${others} PROPERTIES TIMEOUT 300 LABELS ${ARG_TIER}
-    ENVIRONMENT "RC_PARAMS=seed=20260117 max_success=${ARG_CASES}")
+  set(properties TIMEOUT 300 ENVIRONMENT "RC_PARAMS=seed=20260117 max_success=${ARG_CASES}")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "${others}" PROPERTIES ${properties} LABELS ${ARG_TIER})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "Long/*" TEST_LIST ${name}_long PROPERTIES ${properties} LABELS long)
 endfunction()
 
 # awmr_command_test(NAME TIER tier TIMEOUT seconds COMMAND word... [NEEDS package=variable...]): a test that is a command;

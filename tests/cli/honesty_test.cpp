@@ -41,12 +41,14 @@ class Honesty : public ::testing::Test {
     vehicle["name"] = "another";
     vehicle["mass_kg"] = 41.0;
     write_all(kept("other_vehicle.json"), vehicle.dump());
+    write_all(kept("short.json"), R"({"global_evaluations": 20, "local_evaluations": 10})");
     const std::string lines[] = {
         fmt::format("identify --vehicle configs/paper/vehicle.json {} -o {}", kTables,
                     kept("model.json")),
         fmt::format("identify --vehicle {} {} -o {}", kept("other_vehicle.json"), kTables,
                     kept("other.json")),
-        fmt::format("tune --nominal --model {} -o {}", kept("model.json"), kept("gains.json"))};
+        fmt::format("tune --nominal --config {} --model {} -o {}", kept("short.json"),
+                    kept("model.json"), kept("gains.json"))};
     for (const std::string& line : lines) EXPECT_EQ(awmr(line).exit_code, 0) << line;
   }
   static void TearDownTestSuite() { delete kept_; }
@@ -182,7 +184,9 @@ TEST_F(Honesty, FindingsOnStderrAreThoseOfTheFile) {
       {fmt::format("identify --vehicle configs/paper/vehicle.json {} -o {}", kTables,
                    path("m.json")),
        "m.json"},
-      {fmt::format("tune --nominal --model {} -o {}", model, path("g.json")), "g.json"},
+      {fmt::format("tune --nominal --config {} --model {} -o {}", kept("short.json"), model,
+                   path("g.json")),
+       "g.json"},
       {fmt::format("validate {} -o {}", both, path("v.json")), "v.json"},
       {fmt::format("simulate {} {} --mode combined -o {}", both, kScenario, path("run.csv")),
        "run.csv.json"},

@@ -91,7 +91,7 @@ def pipeline(folder):
         awmr("identify --vehicle configs/paper/vehicle.json --log datasets/synthetic/drive_1.csv "
              "-o driven.json --json", folder),
         awmr("validate --model driven.json --log datasets/synthetic/drive_2.csv -o logs.json --json", folder),
-        awmr("tune --nominal --model out/model.json -o nominal.json --json", folder),
+        awmr("tune --nominal --config short.json --model out/model.json -o nominal.json --json", folder),
         awmr("tune --model out/model.json --config striving.json -o striven.json --json", folder),
         awmr(f"simulate --model out/model.json --gains striven.json --scenario {c3} --mode combined -o striven.csv --json", folder),
         awmr("suggest --model out/model.json -o suggest.json --json", folder),

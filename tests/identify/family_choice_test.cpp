@@ -185,23 +185,26 @@ TEST(Families, OfMotorsThatLagLeaveTheMassRightWhereOnlyTheSpeedIsMeasured) {
   }
 }
 
-TEST(Families, OfFrictionFromRestAreRightAtAnyNoise) {
-  for (const double noise_mps : {1e-5, 5e-4, 1e-3, 5e-3, 2e-2, 5e-2}) {
-    TrialData data;
-    data.logs = {ramps_with_friction(noise_mps, 17)};
-    const auto result = identify(robot(), data, {}, {});
-    ASSERT_TRUE(result);
-    const Model& model = result->model;
-    EXPECT_TRUE(terms_of(model.surge_family).coulomb) << noise_mps;
-    // Two parameters, six logs: 4 deviations give a failure probability of 8e-4.
-    for (const auto& [id, truth] :
-         {std::pair(ParameterId::kSurgeCoulomb, 0.12), std::pair(ParameterId::kMassNorm, 0.09)}) {
-      ASSERT_TRUE(model[id].value && model[id].std_error) << info(id).name << " at " << noise_mps;
-      EXPECT_LT(std::abs(*model[id].value - truth), 4.0 * *model[id].std_error)
-          << info(id).name << " at " << noise_mps;
-    }
+/// The parameter is the noise of the speed in m/s.
+class FamiliesAtNoise : public ::testing::TestWithParam<double> {};
+
+TEST_P(FamiliesAtNoise, OfFrictionFromRestAreRight) {
+  TrialData data;
+  data.logs = {ramps_with_friction(GetParam(), 17)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const Model& model = result->model;
+  EXPECT_TRUE(terms_of(model.surge_family).coulomb);
+  // Two parameters, six logs: 4 deviations give a failure probability of 8e-4.
+  for (const auto& [id, truth] :
+       {std::pair(ParameterId::kSurgeCoulomb, 0.12), std::pair(ParameterId::kMassNorm, 0.09)}) {
+    ASSERT_TRUE(model[id].value && model[id].std_error) << info(id).name;
+    EXPECT_LT(std::abs(*model[id].value - truth), 4.0 * *model[id].std_error) << info(id).name;
   }
 }
+INSTANTIATE_TEST_SUITE_P(Short, FamiliesAtNoise, ::testing::Values(1e-5, 5e-2));
+/// Also between the extremes.
+INSTANTIATE_TEST_SUITE_P(Long, FamiliesAtNoise, ::testing::Values(5e-4, 1e-3, 5e-3, 2e-2));
 
 TEST(Families, AreFittedWithoutATermThatTheFamilyBeforeThemHad) {
   const std::vector<DrivingLog> logs = with_coulomb_friction(0.2);

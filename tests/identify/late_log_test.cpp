@@ -126,13 +126,17 @@ void expect_found(DrivingLog log, const Truth& truth, const std::string& name, d
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * truth.mass_norm, 4.5);
 }
 
-TEST(LateLog, FindsTheTrimOfASteeringThatIsOffCentre) {
-  for (const double trim_rad : {0.07, -0.03}) {
-    DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
-    for (double& command : *log.steering_command_rad) command -= trim_rad;
-    expect_found(std::move(log), kTruths[1], "steering.trim_rad", trim_rad, "steering-trim");
-  }
+class SteeringTrim : public ::testing::TestWithParam<double> {};
+
+TEST_P(SteeringTrim, IsFound) {
+  const double trim_rad = GetParam();
+  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+  for (double& command : *log.steering_command_rad) command -= trim_rad;
+  expect_found(std::move(log), kTruths[1], "steering.trim_rad", trim_rad, "steering-trim");
 }
+INSTANTIATE_TEST_SUITE_P(Short, SteeringTrim, ::testing::Values(-0.03));
+/// Also the other sign and a larger value.
+INSTANTIATE_TEST_SUITE_P(Long, SteeringTrim, ::testing::Values(0.07));
 
 TEST(LateLog, TakesASteeringCommandThatIsTheMeasuredAngleForIt) {
   const Truth& t = kTruths[1];
@@ -161,14 +165,18 @@ TEST(LateLog, TakesASteeringCommandThatIsTheMeasuredAngleForIt) {
   expect_recovered(*result, ParameterId::kYawAlpha, t.a3, 4.5);
 }
 
-TEST(LateLog, FindsMotorsThatPushMoreOnOneSide) {
-  for (const double imbalance : {0.05, -0.1}) {
-    DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
-    for (double& force : log.force_left) force /= 1.0 - imbalance;
-    for (double& force : log.force_right) force /= 1.0 + imbalance;
-    expect_found(std::move(log), kTruths[1], "motor.imbalance", imbalance, "force-imbalance");
-  }
+class ForceImbalance : public ::testing::TestWithParam<double> {};
+
+TEST_P(ForceImbalance, IsFound) {
+  const double imbalance = GetParam();
+  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+  for (double& force : log.force_left) force /= 1.0 - imbalance;
+  for (double& force : log.force_right) force /= 1.0 + imbalance;
+  expect_found(std::move(log), kTruths[1], "motor.imbalance", imbalance, "force-imbalance");
 }
+INSTANTIATE_TEST_SUITE_P(Short, ForceImbalance, ::testing::Values(0.05));
+/// Also the other sign and a larger value.
+INSTANTIATE_TEST_SUITE_P(Long, ForceImbalance, ::testing::Values(-0.1));
 
 TEST(LateLog, GivesTheSameBytesOnALoadedMachine) {
   TrialData data;

@@ -28,7 +28,7 @@ list(JOIN headers "\n  " listed)
 message("${count} headers installed:\n  ${listed}")
 
 run(${WORK} ${CMAKE_COMMAND} -S ${SOURCE}/tests/package/consumer -B ${WORK}/consumer -G Ninja
-  -DCMAKE_PREFIX_PATH=${prefix} -DINCLUDE=${prefix}/include -DREADME=${SOURCE}/lib/awmr/README.md)
+  -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DCMAKE_PREFIX_PATH=${prefix} -DINCLUDE=${prefix}/include -DREADME=${SOURCE}/lib/awmr/README.md)
 run(${WORK} ${CMAKE_COMMAND} --build ${WORK}/consumer)
 
 file(COPY ${SOURCE}/configs/paper/vehicle.json ${SOURCE}/datasets/paper/surge.csv

@@ -38,15 +38,41 @@ class Pil : public ::testing::Test {
     const ProcessResult tuned =
         awmr("tune --nominal --quiet --model " + path("model.json") + " -o " + path("gains.json"));
     ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
+    write_compile_once();
   }
   static void TearDownTestSuite() { delete directory_; }
 
+  /// A compiler for `pil_on`: the firmware of the same sources and options is compiled once.
+  static void write_compile_once() {
+    const std::string compiler = path("compile_once/avr-g++");
+    std::filesystem::create_directory(path("compile_once"));
+    write_all(compiler,
+              "#!/bin/sh -e\n"
+              "for output; do :; done\n"  // the last argument
+              "key=$({ echo \"$*\"; find src pil awmr_params.h -type f | sort | xargs sha256sum; } "
+              "| sha256sum)\n"
+              "kept='" +
+                  path("compile_once/") +
+                  "'${key%% *}\n"
+                  "[ -f \"$kept\" ] || { '" AWMR_TOOL_AVR_GXX
+                  "' \"$@\"; cp \"$output\" \"$kept\"; }\n"
+                  "cp \"$kept\" \"$output\"\n");
+    std::filesystem::permissions(compiler, std::filesystem::perms::owner_all);
+  }
+
   static std::string path(const std::string& name) { return (directory_->path() / name).string(); }
+  /// Runs `awmr pil` on these files.
+  static ProcessResult pil_on(const std::string& model, const std::string& gains,
+                              const std::string& scenario, const std::string& mode,
+                              const std::string& options, const std::string& output = "pil.json") {
+    return run_process("PATH='" + path("compile_once") + "':$PATH " AWMR_PROGRAM " pil --model " +
+                           path(model) + " --gains " + path(gains) + " --scenario " + scenario +
+                           " --mode " + mode + " " + options + " -o " + path(output),
+                       AWMR_SOURCE_DIR);
+  }
   static ProcessResult pil(const std::string& scenario, const std::string& mode,
                            const std::string& options, const std::string& output = "pil.json") {
-    return awmr("pil --model " + path("model.json") + " --gains " + path("gains.json") +
-                " --scenario " + scenario + " --mode " + mode + " " + options + " -o " +
-                path(output));
+    return pil_on("model.json", "gains.json", scenario, mode, options, output);
   }
   /// pil.json of `scenario` in combined mode; each run once.
   static const Json& result_of(const std::string& scenario, const std::string& options = "") {
@@ -69,7 +95,8 @@ class Pil : public ::testing::Test {
   }
   /// A scenario of 1 s, for tests that are about folders, compilers and links.
   static std::string brief() { return shortened(kC13, 1.0); }
-  /// Like pil() in combined mode on brief(), with a prefix of the command line: variables, another directory.
+  /// Like pil() in combined mode on brief(), with the compiler that is installed and a prefix of the
+  /// command line: variables, another directory.
   static ProcessResult pil_after(const std::string& before, const std::string& options,
                                  const std::string& output = "after.json") {
     return run_process("export " + before + " && " + std::string(AWMR_PROGRAM) + " pil --model " +
@@ -141,18 +168,24 @@ TEST_P(PilScenario, RunsBitForBitAsOnTheHostAndWithinItsBudgets) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , PilScenario,
-    ::testing::Values(std::pair{kC3, "differential"}, std::pair{kC3, "steering"},
-                      std::pair{kC3, "combined"}, std::pair{kC8, "differential"},
-                      std::pair{kC8, "steering"}, std::pair{kC8, "combined"},
-                      std::pair{kC13, "differential"}, std::pair{kC13, "steering"},
-                      std::pair{kC13, "combined"}),
-    [](const auto& test) {
-      const std::string file = test.param.first;
-      const std::size_t slash = file.rfind('/') + 1;
-      return file.substr(slash, file.find('_') - slash) + "_" + test.param.second;
-    });
+std::string name_of_run(const ::testing::TestParamInfo<std::pair<const char*, const char*>>& test) {
+  const std::string file = test.param.first;
+  const std::size_t slash = file.rfind('/') + 1;
+  return file.substr(slash, file.find('_') - slash) + "_" + test.param.second;
+}
+
+INSTANTIATE_TEST_SUITE_P(, PilScenario,
+                         ::testing::Values(std::pair{kC3, "differential"},
+                                           std::pair{kC3, "steering"}, std::pair{kC3, "combined"},
+                                           std::pair{kC8, "differential"},
+                                           std::pair{kC8, "steering"}, std::pair{kC8, "combined"}),
+                         name_of_run);
+/// The same firmware as C3's, with other headings.
+INSTANTIATE_TEST_SUITE_P(Long, PilScenario,
+                         ::testing::Values(std::pair{kC13, "differential"},
+                                           std::pair{kC13, "steering"},
+                                           std::pair{kC13, "combined"}),
+                         name_of_run);
 
 class PilGuidance : public Pil, public ::testing::WithParamInterface<const char*> {
  protected:
@@ -266,9 +299,7 @@ TEST_F(Pil, FrictionAtRestADeadZoneAndBackEmfAreMadeUpForAsInTheSimulator) {
   geared["motor"]["back_emf_s_per_m"] = given(0.15, "s/m");
   for (const Json& model : {friction, zone, geared}) {
     write_all(path("rest.json"), model.dump());
-    const ProcessResult run =
-        awmr("pil --model " + path("rest.json") + " --gains " + path("gains.json") +
-             " --scenario " + kC3 + " --mode combined -o " + path("pil.json"));
+    const ProcessResult run = pil_on("rest.json", "gains.json", kC3, "combined", "");
     ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
     EXPECT_EQ(largest(result()["difference"]), 0.0);
     EXPECT_LE(result()["difference_double"]["heading_deg"].get<double>(), 0.05);
@@ -285,9 +316,7 @@ TEST_F(Pil, AnObserverTunedWithTheGainsWorksOnTheChip) {
   write_all(path("observed.json"), gains.dump());
   for (const std::string& scenario :
        {std::string(kC3), shortened("configs/scenarios/side_slope.json", 20.0)}) {
-    const ProcessResult run =
-        awmr("pil --model " + path("model.json") + " --gains " + path("observed.json") +
-             " --scenario " + scenario + " --mode combined -o " + path("pil.json"));
+    const ProcessResult run = pil_on("model.json", "observed.json", scenario, "combined", "");
     ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
     EXPECT_EQ(largest(result()["difference"]), 0.0);
     EXPECT_LE(result()["difference_double"]["heading_deg"].get<double>(), 0.05);
@@ -572,9 +601,7 @@ TEST_F(Pil, ASampleTimeBeyondTheTimerIsRefusedInWordsAndNotByTheCompiler) {
   for (const double sample_time_s : {0.033, 0.05, 4e-7}) {
     model["vehicle"]["sample_time_s"] = sample_time_s;
     write_all(path("slow.json"), model.dump());
-    const ProcessResult run =
-        awmr("pil --model " + path("slow.json") + " --gains " + path("gains.json") +
-             " --scenario " + kC13 + " --mode combined -o " + path("none.json"));
+    const ProcessResult run = pil_on("slow.json", "gains.json", kC13, "combined", "", "none.json");
     EXPECT_EQ(run.exit_code, 2) << run.err;
     EXPECT_THAT(run.err, HasSubstr("slow.json:/vehicle/sample_time_s"));
     EXPECT_THAT(run.err, Not(HasSubstr("static_assert")));

@@ -11,6 +11,7 @@
 #include <climits>
 #include <cstring>
 #include <optional>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -193,9 +194,11 @@ Status finish(std::vector<Staged> files) {
       return write_error(file.path, reason());
     }
   }
+  std::set<fs::path> directories;
   for (const Staged& file : files) {
-    if (file.temporary) flush_directory(directory_of(file.target.path));
+    if (file.temporary) directories.insert(directory_of(file.target.path));
   }
+  for (const fs::path& directory : directories) flush_directory(directory);
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 #include "awmr/core/option_text.h"
 
@@ -44,9 +45,15 @@ EmittedTable table_between(const ResistanceLaw& law, int lowest_exponent, int to
   return table;
 }
 
+/// Largest errors of a table in a range of speeds; EmittedTable has those of the whole.
+struct TableErrors {
+  double absolute = 0.0;
+  double relative = 0.0;
+};
+
 /// Compares the table with the law at `samples` points of [lo, hi), from `rest_speed` on.
 void measure(const ResistanceLaw& law, double lo, double hi, int samples, double rest_speed,
-             EmittedTable& table) {
+             const EmittedTable& table, TableErrors& errors) {
   const ResistanceTable view = table.view();
   for (int i = 0; i < samples; ++i) {
     const auto speed = static_cast<float>(lo + (hi - lo) * i / samples);
@@ -54,22 +61,20 @@ void measure(const ResistanceLaw& law, double lo, double hi, int samples, double
     const double exact = law(static_cast<double>(speed));
     const double error = std::abs(static_cast<double>(view(speed)) - exact);
     if (exact < table.split) {
-      table.worst_error = std::max(table.worst_error, error);
+      errors.absolute = std::max(errors.absolute, error);
     } else {
-      table.worst_relative_error = std::max(table.worst_relative_error, error / exact);
+      errors.relative = std::max(errors.relative, error / exact);
     }
   }
 }
 
-void measure_all(const ResistanceLaw& law, double rest_speed, EmittedTable& table) {
-  // Also below the first entry, octave by octave: the law can be steepest at rest.
+/// Errors below the first entry, octave by octave: the law can be steepest at rest.
+TableErrors measure_below(const ResistanceLaw& law, double rest_speed, const EmittedTable& table) {
+  TableErrors errors;
   for (double hi = table.lowest_speed; hi > 1e-9; hi /= 2.0) {
-    measure(law, hi / 2.0, hi, kSamplesPerCell, rest_speed, table);
+    measure(law, hi / 2.0, hi, kSamplesPerCell, rest_speed, table, errors);
   }
-  const int per_octave = 1 << table.mantissa_bits;
-  for (double lo = table.lowest_speed; lo < table.top_speed; lo *= 2.0) {
-    measure(law, lo, 2.0 * lo, kSamplesPerCell * per_octave, rest_speed, table);
-  }
+  return errors;
 }
 
 }  // namespace
@@ -92,16 +97,22 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
                                       double full_scale, double top,
                                       std::optional<double> error_share, double rest_speed) {
   const int top_exponent = std::ilogb(top);
-  EmittedTable best;     // the smallest within the bound
-  EmittedTable closest;  // the one with the smallest error
+  EmittedTable best;                 // the smallest within the bound
+  EmittedTable closest;              // the one with the smallest error
+  std::map<int, TableErrors> below;  // of the first entry, which does not depend on the bits
   for (int bits = 0; bits <= kMaxMantissaBits; ++bits) {
+    TableErrors from_first;  // an octave has the same lines wherever the table begins
     for (int lowest = top_exponent - 1; lowest >= kLowestExponent; --lowest) {
       const int lines = (top_exponent - lowest) * (1 << bits) + 1;
       if (lines > kMaxLines) break;
       if (!best.lines.empty() && lines >= static_cast<int>(best.lines.size())) break;
       EmittedTable table = table_between(law, lowest, top_exponent, bits);
       table.split = 0.1 * full_scale;
-      measure_all(law, rest_speed, table);
+      measure(law, table.lowest_speed, 2.0 * table.lowest_speed, kSamplesPerCell << bits,
+              rest_speed, table, from_first);
+      if (!below.contains(lowest)) below[lowest] = measure_below(law, rest_speed, table);
+      table.worst_error = std::max(from_first.absolute, below[lowest].absolute);
+      table.worst_relative_error = std::max(from_first.relative, below[lowest].relative);
       if (closest.lines.empty() || table.worst_share() < closest.worst_share()) closest = table;
       if (table.worst_share() <= error_share.value_or(kTableError)) best = std::move(table);
     }
