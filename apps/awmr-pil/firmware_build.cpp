@@ -54,7 +54,8 @@ Status put_temporary(const fs::path& path, std::string_view bytes) {
   std::ofstream file(path, std::ios::binary);
   file << bytes << std::flush;
   if (file) return {};
-  return input_error(path.string(), fmt::format("cannot write the file: {}", std::strerror(errno)));
+  return input_error(ErrorCode::kCannotWrite, path.string(),
+                     fmt::format("cannot write the file: {}", std::strerror(errno)));
 }
 
 /// Errors: a symbolic link on the path from `kept` to `file`.
