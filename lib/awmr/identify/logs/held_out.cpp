@@ -26,10 +26,10 @@ LogProblem problem_of(const std::vector<DrivingLog>& rows, const LogFit& fit,
   return problem;
 }
 
-/// The initial states of all windows at these coordinates: two Gauss-Newton steps from what was
-/// measured, as the motion is nearly linear in them.
+/// The initial states of all windows at these coordinates: Gauss-Newton steps from what was measured. The
+/// motion is nearly linear in them, but for a servo at its largest rate.
 SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> coordinates) {
-  constexpr int kSteps = 2;
+  constexpr int kSteps = 10;
   const Eigen::Index n = rows_of(coordinates);
   const Eigen::Index k = rows_of(problem.model.initial);
   SearchPoint point = from_measured(problem, std::move(coordinates));
@@ -103,10 +103,9 @@ Change change_of(const FitEvidence& rows, const Eigen::MatrixXd& c, double f) {
 
 }  // namespace
 
-std::optional<HeldOut> predict(const DrivingLog& rows, const LogFit& fit,
-                               const LogFitOptions& options) {
-  const std::vector<DrivingLog> logs{rows};
-  const LogProblem problem = problem_of(logs, fit, options);
+std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOptions options) {
+  options.only_s = rows.only_s;
+  const LogProblem problem = problem_of(rows.log, fit, options);
   const Places places = places_of(problem, fit.coordinates);
   if (problem.windows.empty() || places.compared.empty()) return std::nullopt;
   const std::vector<WindowSums> sums =
@@ -124,7 +123,7 @@ std::optional<HeldOut> predict(const DrivingLog& rows, const LogFit& fit,
   const std::size_t i = at(places.compared[at(most)]);
   const FreeQuantity& q = fit.quantities[i];
   const double x = fit.coordinates[i];
-  return HeldOut{rows.file, change.p_value, q.name(), q.value(x),
+  return HeldOut{rows.name, change.p_value, q.name(), q.value(x),
                  q.value(x + q.large_change * change.size(most))};
 }
 

@@ -3,10 +3,18 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "awmr/identify/logs/log_fit.h"
 
 namespace awmr {
+
+/// Rows of a log.
+struct LogPart {
+  const std::vector<DrivingLog>& log;  ///< one
+  Interval only_s;                     ///< their time
+  std::string name;                    ///< "the last fifth of log.csv"
+};
 
 /// Rows that a fit has not seen, compared with its prediction.
 struct HeldOut {
@@ -28,7 +36,6 @@ struct HeldOut {
 ///
 /// The noise is the fit's: noise that is estimated from the same rows takes a change of the vehicle for
 /// a drift of the sensor. None where the rows show nothing or cannot be replayed.
-std::optional<HeldOut> predict(const DrivingLog& rows, const LogFit& fit,
-                               const LogFitOptions& options);
+std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOptions options);
 
 }  // namespace awmr
