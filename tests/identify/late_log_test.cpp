@@ -134,6 +134,19 @@ TEST(LateLog, FindsTheTrimOfASteeringThatIsOffCentre) {
   }
 }
 
+TEST(LateLog, WithdrawsTheIntervalsOfLogsWithDifferentTrims) {
+  TrialData data;
+  for (const auto& [trim_rad, seed] : {std::pair(0.04, 8), std::pair(-0.03, 9)}) {
+    data.logs.push_back(drive(kTruths[1], seed, {.duration_s = 40.0}));
+    for (double& command : *data.logs.back().steering_command_rad) command -= trim_rad;
+    data.logs.back().file = std::to_string(seed);
+  }
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "logs-disagree", "steering.trim_rad"));
+  EXPECT_FALSE(result->model[ParameterId::kInertiaNorm].ci95);
+}
+
 TEST(LateLog, TakesASteeringCommandThatIsTheMeasuredAngleForIt) {
   const Truth& t = kTruths[1];
   Plant<double> slow = plant(t);

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/identify/uncertainty/quantiles.h"
+#include "awmr/model/sensor_delay_name.h"
 
 namespace awmr {
 namespace {
@@ -54,7 +56,8 @@ ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& 
 /// Result of Cochran's Q test that the logs agree on a quantity.
 struct Heterogeneity {
   double p_value = 1.0;
-  double widening = 1.0;  ///< of the standard error, for the mean of such vehicles
+  double widening = 1.0;     ///< of the standard error, for the mean of such vehicles
+  double mean_square = 0.0;  ///< Q/(L - 1)
 };
 
 Heterogeneity heterogeneity(const ByLog& by_log) {
@@ -73,7 +76,7 @@ Heterogeneity heterogeneity(const ByLog& by_log) {
   }
   const double degrees = static_cast<double>(by_log.weights.size()) - 1.0;
   const double between = std::max(0.0, (q - degrees) / (sum - squares / sum));
-  return {chi_squared_tail(q, degrees), std::sqrt(1.0 + between * squares / sum)};
+  return {chi_squared_tail(q, degrees), std::sqrt(1.0 + between * squares / sum), q / degrees};
 }
 
 /// Widens the i-th quantity of the common fit, known from this many logs.
@@ -119,11 +122,54 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
     const Heterogeneity between = heterogeneity(by_log);
     if (!(between.p_value < level)) continue;
     widen(i, between.widening, by_log.files.size(), common.fit);
-    LogDisagreement one{q.name(), between.p_value, by_log.files, {}};
+    LogDisagreement one{q.name(), between.p_value, by_log.files, {}, false};
     for (const double x : by_log.coordinates) one.values.push_back(q.value(x));
     disagreements.push_back(one);
   }
   return disagreements;
+}
+
+/// The term that the common fit does not have and on which the logs differ most by their score tests,
+/// if by more than three times the noise. Blocks of a log that all err in the same way scatter, so the
+/// errors are those of the noise alone.
+std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>& logs,
+                                                   const LogFitOptions& options,
+                                                   const LogFit& common) {
+  constexpr double kWorthAFit = 9.0;
+  std::map<std::string, std::pair<FreeQuantity, ByLog>> terms;
+  for (const DrivingLog& log : logs) {
+    for (const auto& [term, test] : test_further_terms({log}, common, options)) {
+      auto& [quantity, by_log] = terms[term.name()];
+      quantity = term;
+      add(log.file, test.value, test.noise_error * test.noise_error, by_log);
+    }
+  }
+  std::optional<FreeQuantity> strongest;
+  double most = kWorthAFit;
+  for (const auto& [name, found] : terms) {
+    if (found.second.files.size() < 2) continue;
+    const double mean_square = heterogeneity(found.second).mean_square;
+    if (!(mean_square > most)) continue;
+    most = mean_square;
+    strongest = found.first;
+  }
+  return strongest;
+}
+
+/// A term that the common fit does not have, and that each log puts in another place if it is free.
+std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLog>& logs,
+                                                     const std::vector<std::string>& files,
+                                                     LogFitOptions options, const LogFit& common) {
+  const auto term = strongest_missing_term(logs, options, common);
+  if (!term) return {};
+  options.terms.push_back({*term, 0.0});
+  std::vector<LogFit> fits;
+  for (const DrivingLog& log : logs) fits.push_back(fit_logs({log}, options));
+  const ByLog by_log = collect(files, fits, term->name());
+  if (by_log.files.size() < 2) return {};
+  const double p_value = heterogeneity(by_log).p_value;
+  if (!(p_value < kLevel)) return {};
+  return {{term->name(), p_value, by_log.files, by_log.coordinates, true}};
 }
 
 LogComparison compare_parts(const std::vector<DrivingLog>& log, const LogFitOptions& options,
@@ -167,7 +213,12 @@ LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& commo
     files.push_back(one.file);
     fits.push_back(fit_logs({one}, options));
   }
-  return {disagreements_of(files, fits, common), std::nullopt};
+  LogComparison found{disagreement_on_missing(logs, files, options, common.fit), std::nullopt};
+  for (LogDisagreement& one : disagreements_of(files, fits, common)) {
+    one.withdraws = one.name == kSteeringTrimName || one.name == kForceImbalanceName;
+    found.disagreements.push_back(std::move(one));
+  }
+  return found;
 }
 
 }  // namespace awmr

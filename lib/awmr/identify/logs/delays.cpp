@@ -33,10 +33,9 @@ bool any_log(const LogProblem& problem, bool (*has)(const DrivingLog&)) {
                              [&](const FitWindow& window) { return has(*window.rows.log); });
 }
 
-/// A delay of the commands and of every measured channel, one for both coordinates of the position,
-/// where they have none yet; none where all but one have. One of the steering alone. The steering's
-/// trim and the imbalance of the forces, where the commands separate them from a constant moment.
-std::vector<FreeQuantity> candidates(const LogProblem& problem) {
+}  // namespace
+
+std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   using Kind = FreeQuantity::Kind;
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   std::vector<FreeQuantity> found;
@@ -59,6 +58,8 @@ std::vector<FreeQuantity> candidates(const LogProblem& problem) {
   return found;
 }
 
+namespace {
+
 /// A candidate worth a fit, with where one step would put it.
 struct CandidateTerm {
   FreeQuantity quantity;
@@ -69,7 +70,7 @@ struct CandidateTerm {
 /// The likeliest first.
 std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   constexpr double kWorthATry = 3.0;
-  const std::vector<FreeQuantity> channels = candidates(settled.problem);
+  const std::vector<FreeQuantity> channels = further_terms(settled.problem);
   const std::vector<ScoreTest> tests = score_test(settled.problem, settled.point, channels);
   std::vector<CandidateTerm> found;
   for (std::size_t i = 0; i < channels.size(); ++i) {
@@ -171,7 +172,7 @@ Extended with_both_of_turning(NoiseIteration fit) {
   const std::vector<FreeQuantity>& quantities = fit.problem.model.quantities;
   std::vector<FreeQuantity> other;
   if (std::ranges::any_of(quantities, is_of_turning)) {
-    std::ranges::copy_if(candidates(fit.problem), std::back_inserter(other), is_of_turning);
+    std::ranges::copy_if(further_terms(fit.problem), std::back_inserter(other), is_of_turning);
   }
   return extended(std::move(fit.problem), std::move(fit.point), other,
                   std::vector<double>(other.size(), 0.0));

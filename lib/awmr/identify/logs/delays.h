@@ -2,9 +2,16 @@
 /// the steering, lag and imbalance of the motors. Private to identify/.
 #pragma once
 
+#include <vector>
+
 #include "awmr/identify/logs/noise_iteration.h"
 
 namespace awmr {
+
+/// A delay of the commands and of every measured channel, one for both coordinates of the position,
+/// where they have none yet; none where all but one have. One of the steering alone. The steering's
+/// trim and the imbalance of the forces, where the commands separate them from a constant moment.
+std::vector<FreeQuantity> further_terms(const LogProblem& problem);
 
 /// Frees such terms one after the other: of the candidates of a score test, the one that lowers AIC
 /// most after one round of its fit, if it lowers it by more than ten in the end. Without it,

@@ -7,6 +7,7 @@
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
+#include "awmr/identify/logs/delays.h"
 #include "awmr/identify/logs/identifiability.h"
 #include "awmr/identify/logs/information.h"
 #include "awmr/identify/logs/log_problem.h"
@@ -125,6 +126,20 @@ std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOpt
   const double x = fit.coordinates[i];
   return HeldOut{rows.name, change.p_value, q.name(), q.value(x),
                  q.value(x + q.large_change * change.size(most))};
+}
+
+std::vector<TermTest> test_further_terms(const std::vector<DrivingLog>& log, const LogFit& fit,
+                                         const LogFitOptions& options) {
+  const LogProblem problem = problem_of(log, fit, options);
+  if (problem.windows.empty()) return {};
+  const std::vector<FreeQuantity> terms = further_terms(problem);
+  const std::vector<ScoreTest> tests =
+      score_test(problem, with_initial_states(problem, fit.coordinates), terms);
+  std::vector<TermTest> found;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    if (tests[i].std_error > 0.0) found.push_back({terms[i], tests[i]});
+  }
+  return found;
 }
 
 }  // namespace awmr
