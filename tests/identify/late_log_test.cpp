@@ -138,6 +138,21 @@ INSTANTIATE_TEST_SUITE_P(Short, SteeringTrim, ::testing::Values(-0.03));
 /// Also the other sign and a larger value.
 INSTANTIATE_TEST_SUITE_P(Long, SteeringTrim, ::testing::Values(0.07));
 
+TEST(LateLog, WithdrawsTheIntervalsOfLogsWithDifferentTrims) {
+  TrialData data;
+  for (const auto& [trim_rad, seed] : {std::pair(0.04, 8), std::pair(-0.03, 9)}) {
+    data.logs.push_back(drive(kTruths[1], seed, {.duration_s = 20.0}));
+    for (double& command : *data.logs.back().steering_command_rad) command -= trim_rad;
+    data.logs.back().file = std::to_string(seed);
+  }
+  IdentifyOptions power_law;
+  power_law.surge_family = power_law.yaw_family = {.family = Family::kPower, .requested = true};
+  const auto result = identify(robot(), data, power_law, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "logs-disagree", "steering.trim_rad"));
+  EXPECT_FALSE(result->model[ParameterId::kInertiaNorm].ci95);
+}
+
 TEST(LateLog, TakesASteeringCommandThatIsTheMeasuredAngleForIt) {
   const Truth& t = kTruths[1];
   Plant<double> slow = plant(t);

@@ -186,6 +186,23 @@ TEST(Log, FindsByItselfThatCommandsActLateOrWereLoggedLate) {
   }
 }
 
+TEST(Log, FreesMotorLagAndDeadTimeTogether) {
+  constexpr double kLag_s = 0.08;
+  TrialData data;
+  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s)};
+  move_commands(data.logs[0], -4);
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto lag = estimated(*result, "motor.time_constant_s");
+  const auto delay = estimated(*result, "input_delay_s");
+  ASSERT_TRUE(lag && lag->std_error && delay && delay->std_error);
+  EXPECT_NEAR(lag->value, kLag_s, 4.5 * *lag->std_error);
+  EXPECT_NEAR(delay->value, 0.04, 4.5 * *delay->std_error);
+  EXPECT_TRUE(has_finding(*result, "actuator-lag", "in addition to the motors' lag"));
+  expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
+}
+
 TEST(Log, SeparatesMotorLagFromADeadTime) {
   constexpr double kLag_s = 0.08;
   TrialData data;

@@ -4,15 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/identify/uncertainty/quantiles.h"
+#include "awmr/model/sensor_delay_name.h"
 
 namespace awmr {
 namespace {
+
+constexpr double kLevel = 0.001;  // of a test of all quantities
 
 /// One quantity as single logs show it.
 struct ByLog {
@@ -29,16 +33,22 @@ std::optional<std::size_t> place_in(const LogFit& fit, const std::string& name) 
   return std::nullopt;
 }
 
-ByLog collect(const std::vector<DrivingLog>& logs, const std::vector<LogFit>& fits,
+/// Adds where one log puts a quantity.
+void add(const std::string& file, double coordinate, double variance, ByLog& by_log) {
+  by_log.files.push_back(file);
+  by_log.coordinates.push_back(coordinate);
+  by_log.weights.push_back(1.0 / variance);
+}
+
+/// `files`: by fit.
+ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& fits,
               const std::string& name) {
   ByLog found;
   for (std::size_t l = 0; l < fits.size(); ++l) {
     const auto place = fits[l].usable ? place_in(fits[l], name) : std::nullopt;
     if (!place) continue;
     const Eigen::Index i = eigen_index(*place);
-    found.files.push_back(logs[l].file);
-    found.coordinates.push_back(fits[l].coordinates[*place]);
-    found.weights.push_back(1.0 / fits[l].covariance(i, i));
+    add(files[l], fits[l].coordinates[*place], fits[l].covariance(i, i), found);
   }
   return found;
 }
@@ -46,7 +56,8 @@ ByLog collect(const std::vector<DrivingLog>& logs, const std::vector<LogFit>& fi
 /// Result of Cochran's Q test that the logs agree on a quantity.
 struct Heterogeneity {
   double p_value = 1.0;
-  double widening = 1.0;  ///< of the standard error, for the mean of such vehicles
+  double widening = 1.0;     ///< of the standard error, for the mean of such vehicles
+  double mean_square = 0.0;  ///< Q/(L - 1)
 };
 
 Heterogeneity heterogeneity(const ByLog& by_log) {
@@ -65,7 +76,7 @@ Heterogeneity heterogeneity(const ByLog& by_log) {
   }
   const double degrees = static_cast<double>(by_log.weights.size()) - 1.0;
   const double between = std::max(0.0, (q - degrees) / (sum - squares / sum));
-  return {chi_squared_tail(q, degrees), std::sqrt(1.0 + between * squares / sum)};
+  return {chi_squared_tail(q, degrees), std::sqrt(1.0 + between * squares / sum), q / degrees};
 }
 
 /// Widens the i-th quantity of the common fit, known from this many logs.
@@ -82,78 +93,102 @@ void widen(std::size_t i, double by, std::size_t logs, LogFit& fit) {
   parameter.ci95 = Interval{q.value(x - half), q.value(x + half)};
 }
 
-template <class T>
-std::vector<T> part_of(const std::vector<T>& all, std::size_t first, std::size_t last) {
-  return {all.begin() + static_cast<std::ptrdiff_t>(first),
-          all.begin() + static_cast<std::ptrdiff_t>(last)};
+/// The rows of a log between these shares of its duration.
+LogPart part_of(const std::vector<DrivingLog>& log, double from, double to,
+                const std::string& which) {
+  const std::vector<double>& t_s = log.front().t_s;
+  const double duration_s = t_s.back() - t_s.front();
+  // The last row is in the last part.
+  const double end_s = to < 1.0 ? t_s.front() + to * duration_s : t_s.back() + 1.0;
+  return {log,
+          {t_s.front() + from * duration_s, end_s},
+          fmt::format("the {} of {}", which, log.front().file)};
 }
 
-/// Rows [first, last) of a log under a name of their own.
-DrivingLog rows_between(const DrivingLog& log, std::size_t first, std::size_t last,
-                        const std::string& which) {
-  DrivingLog part = log;
-  part.file = fmt::format("the {} of {}", which, log.file);
-  part.line = part_of(log.line, first, last);
-  part.t_s = part_of(log.t_s, first, last);
-  part.force_left = part_of(log.force_left, first, last);
-  part.force_right = part_of(log.force_right, first, last);
-  if (part.steering_command_rad) {
-    part.steering_command_rad = part_of(*log.steering_command_rad, first, last);
-  }
-  for (std::optional<Measured>& measured : part.measured) {
-    if (!measured) continue;
-    measured->value = part_of(std::vector<double>(measured->value), first, last);
-    measured->fresh = part_of(std::vector<bool>(measured->fresh), first, last);
-    measured->fresh_count =
-        static_cast<int>(std::count(measured->fresh.begin(), measured->fresh.end(), true));
-  }
-  return part;
+LogFit fit_part(const LogPart& part, LogFitOptions options) {
+  options.only_s = part.only_s;
+  return fit_logs(part.log, options);
 }
 
-/// The rows of a log from this share of its duration on.
-DrivingLog rows_from(const DrivingLog& log, double share, const std::string& which) {
-  const double begin_s = log.t_s.front() + share * (log.t_s.back() - log.t_s.front());
-  const auto first = std::ranges::lower_bound(log.t_s, begin_s) - log.t_s.begin();
-  return rows_between(log, static_cast<std::size_t>(first), log.rows(), which);
-}
-
-std::vector<LogDisagreement> disagreements_of(const std::vector<DrivingLog>& logs,
+std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& files,
                                               const std::vector<LogFit>& fits, FamilyFit& common) {
-  constexpr double kLevel = 0.001;
   std::vector<LogDisagreement> disagreements;
   const double level = kLevel / static_cast<double>(common.fit.quantities.size());
   for (std::size_t i = 0; i < common.fit.quantities.size(); ++i) {
     const FreeQuantity& q = common.fit.quantities[i];
     if (q.kind == FreeQuantity::Kind::kBias || !common.fit.why_not[i].empty()) continue;
-    const ByLog by_log = collect(logs, fits, q.name());
+    const ByLog by_log = collect(files, fits, q.name());
     if (by_log.files.size() < 2) continue;
     const Heterogeneity between = heterogeneity(by_log);
     if (!(between.p_value < level)) continue;
     widen(i, between.widening, by_log.files.size(), common.fit);
-    LogDisagreement one{q.name(), between.p_value, by_log.files, {}};
+    LogDisagreement one{q.name(), between.p_value, by_log.files, {}, false};
     for (const double x : by_log.coordinates) one.values.push_back(q.value(x));
     disagreements.push_back(one);
   }
   return disagreements;
 }
 
-LogComparison compare_parts(const DrivingLog& log, const LogFitOptions& options,
+/// The term that the common fit does not have and on which the logs differ most by their score tests,
+/// if by more than three times the noise. Blocks of a log that all err in the same way scatter, so the
+/// errors are those of the noise alone.
+std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>& logs,
+                                                   const LogFitOptions& options,
+                                                   const LogFit& common) {
+  constexpr double kWorthAFit = 9.0;
+  std::map<std::string, std::pair<FreeQuantity, ByLog>> terms;
+  for (const DrivingLog& log : logs) {
+    for (const auto& [term, test] : test_further_terms({log}, common, options)) {
+      auto& [quantity, by_log] = terms[term.name()];
+      quantity = term;
+      add(log.file, test.value, test.noise_error * test.noise_error, by_log);
+    }
+  }
+  std::optional<FreeQuantity> strongest;
+  double most = kWorthAFit;
+  for (const auto& [name, found] : terms) {
+    if (found.second.files.size() < 2) continue;
+    const double mean_square = heterogeneity(found.second).mean_square;
+    if (!(mean_square > most)) continue;
+    most = mean_square;
+    strongest = found.first;
+  }
+  return strongest;
+}
+
+/// A term that the common fit does not have, and that each log puts in another place if it is free.
+std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLog>& logs,
+                                                     const std::vector<std::string>& files,
+                                                     LogFitOptions options, const LogFit& common) {
+  const auto term = strongest_missing_term(logs, options, common);
+  if (!term) return {};
+  options.terms.push_back({*term, 0.0});
+  std::vector<LogFit> fits;
+  for (const DrivingLog& log : logs) fits.push_back(fit_logs({log}, options));
+  const ByLog by_log = collect(files, fits, term->name());
+  if (by_log.files.size() < 2) return {};
+  const double p_value = heterogeneity(by_log).p_value;
+  if (!(p_value < kLevel)) return {};
+  return {{term->name(), p_value, by_log.files, by_log.coordinates, true}};
+}
+
+LogComparison compare_parts(const std::vector<DrivingLog>& log, const LogFitOptions& options,
                             FamilyFit& common) {
   constexpr double kAgree = 0.05;
   constexpr double kMiss = 0.001;
   LogComparison found;
-  const DrivingLog second = rows_from(log, 0.5, "second half");
-  const DrivingLog first = rows_between(log, 0, log.rows() - second.rows(), "first half");
-  LogFit by_first = fit_logs({first}, options);
+  const LogPart first = part_of(log, 0.0, 0.5, "first half");
+  const LogPart second = part_of(log, 0.5, 1.0, "second half");
+  LogFit by_first = fit_part(first, options);
   if (!by_first.usable) return found;
   const auto second_half = predict(second, by_first, options);
-  const auto last_fifth = predict(rows_from(log, 0.8, "last fifth"), by_first, options);
+  const auto last_fifth = predict(part_of(log, 0.8, 1.0, "last fifth"), by_first, options);
   const auto agrees = [](const std::optional<HeldOut>& rows) {
     return rows && rows->p_value > kAgree;
   };
   if (agrees(second_half) && agrees(last_fifth)) return found;
-  found.disagreements =
-      disagreements_of({first, second}, {std::move(by_first), fit_logs({second}, options)}, common);
+  found.disagreements = disagreements_of({first.name, second.name},
+                                         {std::move(by_first), fit_part(second, options)}, common);
   const bool misses = last_fifth && last_fifth->p_value < kMiss;
   if (found.disagreements.empty() && misses) found.missed = last_fifth;
   return found;
@@ -166,15 +201,24 @@ LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& commo
   if (!common.fit.usable) return {};
   LogFitOptions options = from_optimum(common.options, common);
   options.bootstrap = 0;
-  const DrivingLog& log = logs.front();
+  options.effort.reset();  // short searches from the optimum; without them no interval holds
   if (logs.size() == 1) {
-    if (log.t_s.back() - log.t_s.front() < kLongEnough_s) return {};
-    return compare_parts(log, options, common);
+    const std::vector<double>& t_s = logs.front().t_s;
+    if (t_s.back() - t_s.front() < kLongEnough_s) return {};
+    return compare_parts(logs, options, common);
   }
+  std::vector<std::string> files;
   std::vector<LogFit> fits;
-  fits.reserve(logs.size());
-  for (const DrivingLog& one : logs) fits.push_back(fit_logs({one}, options));
-  return {disagreements_of(logs, fits, common), std::nullopt};
+  for (const DrivingLog& one : logs) {
+    files.push_back(one.file);
+    fits.push_back(fit_logs({one}, options));
+  }
+  LogComparison found{disagreement_on_missing(logs, files, options, common.fit), std::nullopt};
+  for (LogDisagreement& one : disagreements_of(files, fits, common)) {
+    one.withdraws = one.name == kSteeringTrimName || one.name == kForceImbalanceName;
+    found.disagreements.push_back(std::move(one));
+  }
+  return found;
 }
 
 }  // namespace awmr

@@ -38,28 +38,34 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
   constexpr std::string_view kWhy =
       "actuator lag, command latency or a slew-rate limit. m', I'z and the sway resistance may be "
       "biased. Log the commands that reach the motors, or record slower steps";
+  std::vector<Finding> findings;
   for (const FoundTerm& lag : found_terms(fit, FreeQuantity::Kind::kMotorLag)) {
-    return {
+    findings.push_back(
         {file, 0, Severity::kWarning, "actuator-lag",
          fmt::format("the motors have a lag with a time constant of {:.3f} +- {:.3f} s; the fit "
                      "compensates. Set motor.time_constant_s in the vehicle file",
-                     lag.value, lag.error)}};
+                     lag.value, lag.error)});
   }
   for (const FoundTerm& input : found_terms(fit, FreeQuantity::Kind::kDelay)) {
     if (input.value < 0.0) {
-      return {{file, 0, Severity::kWarning, "late-commands",
-               fmt::format("the vehicle responds {:.3f} +- {:.3f} s before its commands: the "
-                           "commands' time stamps are late, or all sensors' are early; the fit "
-                           "compensates",
-                           -input.value, input.error)}};
+      findings.push_back(
+          {file, 0, Severity::kWarning, "late-commands",
+           fmt::format("the vehicle responds {:.3f} +- {:.3f} s before its commands: the "
+                       "commands' time stamps are late, or all sensors' are early; the fit "
+                       "compensates",
+                       -input.value, input.error)});
+      continue;
     }
-    return {
+    findings.push_back(
         {file, 0, Severity::kWarning, "actuator-lag",
-         fmt::format("the vehicle responds {:.3f} +- {:.3f} s after its commands, more likely by a "
-                     "dead time than by motor lag; the fit compensates, a controller has to allow "
-                     "for it",
-                     input.value, input.error)}};
+         fmt::format("the vehicle responds {:.3f} +- {:.3f} s after its commands, {}; the fit "
+                     "compensates, a controller has to allow for it",
+                     input.value, input.error,
+                     has_kind(fit.quantities, FreeQuantity::Kind::kMotorLag)
+                         ? "in addition to the motors' lag"
+                         : "more likely by a dead time than by motor lag")});
   }
+  if (!findings.empty()) return findings;
   const std::vector<FoundTerm> latency = found_terms(fit, FreeQuantity::Kind::kSensorDelay);
   std::set<LogChannel> channels;
   for (const auto& [channel, noise] : fit.noise) {

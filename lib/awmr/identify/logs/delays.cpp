@@ -22,10 +22,6 @@ bool has_delay(const std::vector<FreeQuantity>& quantities, LogChannel channel) 
   });
 }
 
-bool is_of_commands(const FreeQuantity& q) {
-  return q.kind == FreeQuantity::Kind::kDelay || q.kind == FreeQuantity::Kind::kMotorLag;
-}
-
 /// Whether the lag of the servo is free, so that a dead time of the steering could pass for it.
 bool frees_servo(const std::vector<FreeQuantity>& quantities) {
   return std::ranges::any_of(
@@ -37,20 +33,19 @@ bool any_log(const LogProblem& problem, bool (*has)(const DrivingLog&)) {
                              [&](const FitWindow& window) { return has(*window.rows.log); });
 }
 
-/// A delay of the commands and of every measured channel, one for both coordinates of the position,
-/// where they have none yet; none where all but one have. One of the steering alone. The steering's
-/// trim and the imbalance of the forces, where the commands separate them from a constant moment.
-std::vector<FreeQuantity> candidates(const LogProblem& problem) {
+}  // namespace
+
+std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
+  using Kind = FreeQuantity::Kind;
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   std::vector<FreeQuantity> found;
-  if (std::ranges::none_of(quantities, is_of_commands)) found.push_back(input_delay());
+  if (!has_kind(quantities, Kind::kDelay)) found.push_back(input_delay());
   for (const auto& [measured, noise] : problem.model.noise) {
     const LogChannel channel = measured == LogChannel::kY ? LogChannel::kX : measured;
     if (has_delay(quantities, channel) || has_delay(found, channel)) continue;
     found.push_back(sensor_delay_of(channel));
   }
   if (found.size() == 1) found.clear();
-  using Kind = FreeQuantity::Kind;
   if (frees_servo(quantities) && !has_kind(quantities, Kind::kSteeringDelay)) {
     found.push_back(steering_delay());
   }
@@ -63,6 +58,8 @@ std::vector<FreeQuantity> candidates(const LogProblem& problem) {
   return found;
 }
 
+namespace {
+
 /// A candidate worth a fit, with where one step would put it.
 struct CandidateTerm {
   FreeQuantity quantity;
@@ -73,7 +70,7 @@ struct CandidateTerm {
 /// The likeliest first.
 std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   constexpr double kWorthATry = 3.0;
-  const std::vector<FreeQuantity> channels = candidates(settled.problem);
+  const std::vector<FreeQuantity> channels = further_terms(settled.problem);
   const std::vector<ScoreTest> tests = score_test(settled.problem, settled.point, channels);
   std::vector<CandidateTerm> found;
   for (std::size_t i = 0; i < channels.size(); ++i) {
@@ -90,12 +87,16 @@ double akaike_of(const NoiseIteration& fit) {
   return akaike(fit.problem.model.noise, rows_of(fit.problem.model.quantities));
 }
 
-/// One round of the fit with one more quantity free, from `begin`.
-NoiseIteration tried(const NoiseIteration& settled, const FreeQuantity& more, double begin,
-                     Loss loss) {
+/// One round of the fit with more quantities free.
+NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more, Loss loss) {
   constexpr double kLargestFirstStep = 0.3;
-  begin = std::clamp(begin, -kLargestFirstStep, kLargestFirstStep);
-  Extended from = extended(with_white_noise(settled.problem), settled.point, {more}, {begin});
+  std::vector<FreeQuantity> quantities;
+  std::vector<double> begin;
+  for (const FreeTerm& term : more) {
+    quantities.push_back(term.quantity);
+    begin.push_back(std::clamp(term.begin, -kLargestFirstStep, kLargestFirstStep));
+  }
+  Extended from = extended(with_white_noise(settled.problem), settled.point, quantities, begin);
   return settle_noise(std::move(from.problem), std::move(from.point), loss, 1);
 }
 
@@ -124,7 +125,8 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     best = std::move(fit);
     return true;
   };
-  const bool is_lag_given = settled.problem.model.vehicle.motor_time_constant_s.has_value();
+  const bool may_lag = !settled.problem.model.vehicle.motor_time_constant_s &&
+                       !has_kind(settled.problem.model.quantities, FreeQuantity::Kind::kMotorLag);
   bool has_sensor = false;
   std::vector<std::pair<LogChannel, double>> filters;
   const std::vector<CandidateTerm> terms = candidate_terms(settled);
@@ -134,21 +136,26 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     const FreeQuantity& more = candidate_term.quantity;
     const bool is_sensor = more.kind == FreeQuantity::Kind::kSensorDelay;
     if (is_sensor && has_sensor) continue;
-    NoiseIteration fit = tried(settled, more, candidate_term.value, loss);
+    NoiseIteration fit = tried(settled, {{more, candidate_term.value}}, loss);
     const double found_s = fit.point.coordinates.back();
     if (&candidate_term == &terms.front() && candidate_term.significance > kBeyondDoubt) {
       strongest = fit;
     }
     has_sensor |= consider(std::move(fit)) && is_sensor;
-    if (!(found_s > 0.0)) continue;
     // Also where a sensor's delay does as well as one of the commands: a lag may do better than both.
-    if (is_of_commands(more) && !is_lag_given) consider(tried(settled, motor_lag(), found_s, loss));
+    // The commands may be delayed, or logged late, and the motors lag as well.
+    if (more.kind == FreeQuantity::Kind::kDelay && may_lag) {
+      const double lag_s = 0.5 * std::abs(found_s);
+      consider(tried(settled, {{input_delay(), found_s - lag_s}, {motor_lag(), lag_s}}, loss));
+      if (found_s > 0.0) consider(tried(settled, {{motor_lag(), found_s}}, loss));
+    }
+    if (!(found_s > 0.0)) continue;
     if (is_sensor && tells_filters && may_be_smoothed(more.channel)) {
       filters.emplace_back(more.channel, found_s);
     }
   }
   for (const auto& [channel, found_s] : filters) {
-    consider(tried(settled, sensor_lag_of(channel), found_s, loss), kLikelierFilter);
+    consider(tried(settled, {{sensor_lag_of(channel), found_s}}, loss), kLikelierFilter);
   }
   // One round may be too few where the model was far off and a drift passed for its error.
   return best ? std::move(best) : std::move(strongest);
@@ -165,7 +172,7 @@ Extended with_both_of_turning(NoiseIteration fit) {
   const std::vector<FreeQuantity>& quantities = fit.problem.model.quantities;
   std::vector<FreeQuantity> other;
   if (std::ranges::any_of(quantities, is_of_turning)) {
-    std::ranges::copy_if(candidates(fit.problem), std::back_inserter(other), is_of_turning);
+    std::ranges::copy_if(further_terms(fit.problem), std::back_inserter(other), is_of_turning);
   }
   return extended(std::move(fit.problem), std::move(fit.point), other,
                   std::vector<double>(other.size(), 0.0));

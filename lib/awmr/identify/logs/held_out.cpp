@@ -7,6 +7,7 @@
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
+#include "awmr/identify/logs/delays.h"
 #include "awmr/identify/logs/identifiability.h"
 #include "awmr/identify/logs/information.h"
 #include "awmr/identify/logs/log_problem.h"
@@ -26,10 +27,10 @@ LogProblem problem_of(const std::vector<DrivingLog>& rows, const LogFit& fit,
   return problem;
 }
 
-/// The initial states of all windows at these coordinates: two Gauss-Newton steps from what was
-/// measured, as the motion is nearly linear in them.
+/// The initial states of all windows at these coordinates: Gauss-Newton steps from what was measured. The
+/// motion is nearly linear in them, but for a servo at its largest rate.
 SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> coordinates) {
-  constexpr int kSteps = 2;
+  constexpr int kSteps = 10;
   const Eigen::Index n = rows_of(coordinates);
   const Eigen::Index k = rows_of(problem.model.initial);
   SearchPoint point = from_measured(problem, std::move(coordinates));
@@ -103,10 +104,9 @@ Change change_of(const FitEvidence& rows, const Eigen::MatrixXd& c, double f) {
 
 }  // namespace
 
-std::optional<HeldOut> predict(const DrivingLog& rows, const LogFit& fit,
-                               const LogFitOptions& options) {
-  const std::vector<DrivingLog> logs{rows};
-  const LogProblem problem = problem_of(logs, fit, options);
+std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOptions options) {
+  options.only_s = rows.only_s;
+  const LogProblem problem = problem_of(rows.log, fit, options);
   const Places places = places_of(problem, fit.coordinates);
   if (problem.windows.empty() || places.compared.empty()) return std::nullopt;
   const std::vector<WindowSums> sums =
@@ -124,8 +124,22 @@ std::optional<HeldOut> predict(const DrivingLog& rows, const LogFit& fit,
   const std::size_t i = at(places.compared[at(most)]);
   const FreeQuantity& q = fit.quantities[i];
   const double x = fit.coordinates[i];
-  return HeldOut{rows.file, change.p_value, q.name(), q.value(x),
+  return HeldOut{rows.name, change.p_value, q.name(), q.value(x),
                  q.value(x + q.large_change * change.size(most))};
+}
+
+std::vector<TermTest> test_further_terms(const std::vector<DrivingLog>& log, const LogFit& fit,
+                                         const LogFitOptions& options) {
+  const LogProblem problem = problem_of(log, fit, options);
+  if (problem.windows.empty()) return {};
+  const std::vector<FreeQuantity> terms = further_terms(problem);
+  const std::vector<ScoreTest> tests =
+      score_test(problem, with_initial_states(problem, fit.coordinates), terms);
+  std::vector<TermTest> found;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    if (tests[i].std_error > 0.0) found.push_back({terms[i], tests[i]});
+  }
+  return found;
 }
 
 }  // namespace awmr

@@ -3,10 +3,19 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "awmr/identify/logs/log_fit.h"
+#include "awmr/identify/logs/score_test.h"
 
 namespace awmr {
+
+/// Rows of a log.
+struct LogPart {
+  const std::vector<DrivingLog>& log;  ///< one
+  Interval only_s;                     ///< their time
+  std::string name;                    ///< "the last fifth of log.csv"
+};
 
 /// Rows that a fit has not seen, compared with its prediction.
 struct HeldOut {
@@ -28,7 +37,15 @@ struct HeldOut {
 ///
 /// The noise is the fit's: noise that is estimated from the same rows takes a change of the vehicle for
 /// a drift of the sensor. None where the rows show nothing or cannot be replayed.
-std::optional<HeldOut> predict(const DrivingLog& rows, const LogFit& fit,
-                               const LogFitOptions& options);
+std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOptions options);
+
+/// Where one log would put the delays and errors that the fit does not free (score_test.h), with all
+/// quantities of the fit free.
+struct TermTest {
+  FreeQuantity term;
+  ScoreTest test;
+};
+std::vector<TermTest> test_further_terms(const std::vector<DrivingLog>& log, const LogFit& fit,
+                                         const LogFitOptions& options);
 
 }  // namespace awmr

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -62,14 +63,32 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
       times, speed_unit_hint(logs, times));
 }
 
+/// Whether any command makes a yaw moment: forces that differ, or that push while the wheels are turned.
+bool is_turned(const std::vector<DrivingLog>& logs) {
+  constexpr double kMuch = 0.01;  // of the largest force
+  return std::ranges::any_of(logs, [](const DrivingLog& log) {
+    const std::vector<double>& angle = log.driving_steering_rad();
+    for (std::size_t row = 0; row < log.rows(); ++row) {
+      const double left = log.force_left[row];
+      const double right = log.force_right[row];
+      if (std::abs(right - left) > kMuch) return true;
+      if (std::abs((left + right) * std::sin(angle[row])) > kMuch) return true;
+    }
+    return false;
+  });
+}
+
 }  // namespace
 
 void check_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, const Model& model,
                    LogStage& stage) {
-  const std::string why = why_no_inertia(vehicle, logs, model, stage);
+  std::string why = why_no_inertia(vehicle, logs, model, stage);
   if (why.empty()) return;
+  // What else turned the vehicle says nothing of its mass.
+  const bool turned = is_turned(logs);
+  if (!turned) why = "no command turns the vehicle";
   stage.reasons[ParameterId::kInertiaNorm] = why;
-  if (!stage.reasons.contains(ParameterId::kMassNorm)) {
+  if (turned && !stage.reasons.contains(ParameterId::kMassNorm)) {
     stage.findings.push_back({logs.front().file, 0, Severity::kWarning, "inertia-mismatch",
                               why + ". The intervals are withdrawn; check the units of the speed, "
                                     "the yaw rate and the forces, and the sizes of the vehicle"});

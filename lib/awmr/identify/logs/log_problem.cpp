@@ -37,7 +37,7 @@ double step_s_at(const LogModel& model, const std::vector<double>& coordinates) 
 
 LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
   LogProblem problem;
-  problem.windows = fit_windows(logs);
+  problem.windows = fit_windows(logs, options.only_s);
   problem.model = {.vehicle = options.vehicle,
                    .held = options.initial_guess,
                    .quantities = free_quantities(options),

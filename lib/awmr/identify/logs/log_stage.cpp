@@ -358,10 +358,13 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements)
     }
     findings.push_back(
         {one.files.front(), 0, Severity::kWarning, "logs-disagree",
-         fmt::format(
-             "the logs disagree on {}: {} (p = {:.2g} for one vehicle, surface and battery); its "
-             "interval is widened and covers the mean over such logs, not an individual log",
-             one.name, each, one.p_value)});
+         fmt::format("the logs disagree on {}: {} (p = {:.2g} for one vehicle, surface and "
+                     "battery); {}",
+                     one.name, each, one.p_value,
+                     one.withdraws ? "the fit takes one value for all of them. The intervals are "
+                                     "withdrawn; identify each log by itself"
+                                   : "its interval is widened and covers the mean over such logs, "
+                                     "not an individual log")});
   }
   return findings;
 }
@@ -465,6 +468,9 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   report(options, "comparing the logs with each other");
   const LogComparison compared = compare_logs(logs, chosen);
   append(stage.findings, in_words(compared.disagreements));
+  if (std::ranges::any_of(compared.disagreements, &LogDisagreement::withdraws)) {
+    stage.withdraws_intervals = true;
+  }
   if (compared.missed) {
     stage.findings.push_back(in_words(*compared.missed, logs.front().file));
     stage.withdraws_intervals = true;

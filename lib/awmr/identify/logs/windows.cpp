@@ -28,13 +28,24 @@ std::vector<Sample> samples_of(const LogWindow& window) {
   return samples;
 }
 
+/// The rows of a window with a time in [lo, hi).
+LogWindow within(const LogWindow& window, const Interval& only_s) {
+  const std::vector<double>& t_s = window.log->t_s;
+  const auto from = t_s.begin() + static_cast<std::ptrdiff_t>(window.begin);
+  const auto to = t_s.begin() + static_cast<std::ptrdiff_t>(window.end);
+  return {window.log, at(std::lower_bound(from, to, only_s.lo) - t_s.begin()),
+          at(std::lower_bound(from, to, only_s.hi) - t_s.begin())};
+}
+
 }  // namespace
 
-std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs) {
+std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
+                                   const std::optional<Interval>& only_s) {
   std::vector<FitWindow> windows;
   for (const DrivingLog& log : logs) {
     const auto signals = std::make_shared<const LogSignals>(log);
-    for (const LogWindow& rows : windows_of(log, kWindow_s)) {
+    for (const LogWindow& all : windows_of(log, kWindow_s)) {
+      const LogWindow rows = only_s ? within(all, *only_s) : all;
       auto samples = std::make_shared<const std::vector<Sample>>(samples_of(rows));
       if (samples->empty()) continue;
       windows.push_back({rows, signals, std::move(samples), measured_initial_state(rows), {}});

@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "awmr/core/interval.h"
 #include "awmr/trials/replay.h"
 
 namespace awmr {
@@ -32,8 +34,10 @@ struct FitWindow {
   double weight(std::size_t sample) const { return weights.empty() ? 1.0 : weights[sample]; }
 };
 
-/// The windows of all logs, which must outlive them; those without a sample are left out.
-std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs);
+/// The windows of all logs, which must outlive them, within `only_s` if that is given; those without a
+/// sample are left out.
+std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
+                                   const std::optional<Interval>& only_s = {});
 
 /// The window in equal parts of at most `longest_s`, each with an initial state of its own.
 std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s);
