@@ -210,5 +210,27 @@ TEST(Decision, AnUndecidedLeadIsNotCalledBest) {
   EXPECT_THAT(verdict(), ::testing::HasSubstr("undecided: steering first on the four-wheel plant"));
 }
 
+TEST(Decision, NamesTheModeThatCompletesNoRunOfAChange) {
+  Comparison comparison = drawn(1);
+  comparison.whole_samples = 1;
+  comparison.changes = {on_tyres({kSteering, kCombined})};
+  comparison.changes[0].completed = {{kDifferential, 0, 1}, {kSteering, 1, 1}, {kCombined, 1, 1}};
+  EXPECT_THAT(judge(comparison, {}, 1).front().verdict,
+              ::testing::HasSubstr("; differential completed 0 of 1 on the four-wheel plant"));
+  comparison.changes[0].completed[0].count = 1;
+  EXPECT_THAT(judge(comparison, {}, 1).front().verdict,
+              ::testing::Not(::testing::HasSubstr("completed 0 of")));
+}
+
+TEST(Decision, CountsTheCompletedRunsOfEachMode) {
+  const auto comparison = compared({short_heading()}, 0);
+  ASSERT_TRUE(comparison) << to_text(comparison.error());
+  ASSERT_FALSE(comparison->changes.empty());
+  for (const Change& change : comparison->changes) {
+    ASSERT_THAT(change.completed, SizeIs(3));
+    for (const Completion& one : change.completed) EXPECT_EQ(one.of, 1U);
+  }
+}
+
 }  // namespace
 }  // namespace awmr::testing

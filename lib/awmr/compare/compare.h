@@ -129,6 +129,13 @@ inline constexpr NameTable<ChangeKind, 3> kChangeKindNames{{{"plant", ChangeKind
                                                             {"weights", ChangeKind::kWeights},
                                                             {"gains", ChangeKind::kGains}}};
 
+/// Completed runs of one contender.
+struct Completion {
+  Contender contender;
+  std::size_t count = 0;
+  std::size_t of = 0;  ///< > 0
+};
+
 /// Who is first in a scenario in another setting than the comparison's own.
 struct Change {
   std::string scenario;
@@ -136,6 +143,7 @@ struct Change {
   std::string setting;           ///< "four-wheel", "model"; "slower", "faster"; "within a factor 2"
   std::vector<Contender> first;  ///< of rank 1; for weights: of rank 1 for all of them
   std::string not_run = {};      ///< why there is no ranking in this setting; empty: there is
+  std::vector<Completion> completed = {};  ///< by contender; empty for weights, which need no runs
 };
 
 struct Comparison {

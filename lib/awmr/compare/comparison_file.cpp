@@ -102,10 +102,14 @@ Json decision_json(const std::string& scenario, const Decision& decision,
                {"deciding_trials", decision.deciding_trials()},
                {"changes", Json::array()}};
   for (const Change& change : decision.changes) {
-    json["changes"].push_back({{"kind", name_in(kChangeKindNames, change.kind)},
-                               {"setting", change.setting},
-                               {"first", labels_json(change.first)},
-                               {"survives", decision.survives(change)}});
+    Json& entry =
+        json["changes"].emplace_back(Json{{"kind", name_in(kChangeKindNames, change.kind)},
+                                          {"setting", change.setting},
+                                          {"first", labels_json(change.first)},
+                                          {"survives", decision.survives(change)}});
+    for (const Completion& one : change.completed) {
+      entry["completed"][one.contender.label()] = {{"count", one.count}, {"of", one.of}};
+    }
   }
   for (const Change& change : all) {
     if (change.scenario != scenario || change.not_run.empty()) continue;

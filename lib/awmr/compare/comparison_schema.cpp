@@ -74,6 +74,13 @@ void describe_decision(JsonObject& scenario) {
     if (change.has("first")) change.strings("first");
     change.optional_boolean("survives");
     change.optional_string("not_run");
+    if (auto completed = change.optional_object("completed")) {
+      for (JsonObject& mode : completed->values()) {
+        mode.integer("count", 0, kMost);
+        mode.integer("of", 1, kMost);
+        mode.reject_unknown_keys();
+      }
+    }
     change.reject_unknown_keys();
   }
   decision->reject_unknown_keys();

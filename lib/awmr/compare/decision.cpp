@@ -74,13 +74,16 @@ Change change_of_weights(const ScenarioRows& scenario,
   return change;
 }
 
-/// Who is first by these rows of one scenario.
-std::vector<Contender> first_by(const std::vector<ComparisonRow>& rows,
-                                const CompareOptions& options) {
+/// Who is first and who completes by these rows of one scenario.
+void evaluate(const std::vector<ComparisonRow>& rows, const CompareOptions& options,
+              Change& change) {
   const Comparison comparison{.rows = rows};
   const ScenarioRows scenario = group(comparison).front();
   const auto differences = paired_differences(scenario, options.preferences, options.seed);
-  return first_of(rank(scenario, differences, options.preferences, options.seed));
+  change.first = first_of(rank(scenario, differences, options.preferences, options.seed));
+  for (const ModeRows& mode : scenario.modes) {
+    change.completed.push_back({mode.contender, mode.completed_count(), mode.counted().size()});
+  }
 }
 
 /// The given gains with all rates of both closed loops times the factor: lambda and mu/epsilon of
@@ -173,6 +176,24 @@ std::string in_words(const Change& change) {
   return {};
 }
 
+/// "; differential completes 0 of 1 on the four-wheel plant": who completes no run of a change.
+std::string incomplete_in_words(const std::vector<Change>& changes) {
+  std::string text;
+  for (const Change& change : changes) {
+    std::vector<std::string> labels;
+    std::size_t runs = 0;
+    for (const Completion& one : change.completed) {
+      if (one.count > 0) continue;
+      labels.push_back(one.contender.label());
+      runs = one.of;
+    }
+    if (labels.empty()) continue;
+    text += fmt::format("; {} completed 0 of {} {}", fmt::join(labels, " and "), runs,
+                        in_words(change));
+  }
+  return text;
+}
+
 std::string trials_in_words(const std::vector<std::string_view>& trials) {
   if (trials.empty()) return {};
   return fmt::format("; {} would show which plant is right (awmr suggest)",
@@ -242,7 +263,7 @@ std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedG
     if (!comparison) {
       course.change.not_run = message_of(comparison.error());
     } else if (!comparison->stopped) {
-      course.change.first = first_by(comparison->rows, few);
+      evaluate(comparison->rows, few, course.change);
     }
   });
   for (ChangedCourse& course : courses) changes.push_back(std::move(course.change));
@@ -274,10 +295,13 @@ std::string decision_text(const Decision& decision) {
   }
   const bool differ = decision.kind() != DecisionKind::kDecided;
   const std::string trials = differ ? trials_in_words(decision.deciding_trials()) : "";
-  if (is_undecided) return fmt::format("; undecided: {}{}", fmt::join(words, ", "), trials);
-  return fmt::format("; {} a first place {}{}",
+  const std::string incomplete = incomplete_in_words(decision.changes);
+  if (is_undecided) {
+    return fmt::format("; undecided: {}{}{}", fmt::join(words, ", "), incomplete, trials);
+  }
+  return fmt::format("; {} a first place {}{}{}",
                      listed(never_behind) + (never_behind.size() == 1 ? " keeps" : " keep"),
-                     fmt::join(words, ", "), trials);
+                     fmt::join(words, ", "), incomplete, trials);
 }
 
 }  // namespace awmr

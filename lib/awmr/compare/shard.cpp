@@ -48,6 +48,12 @@ Json change_to_json(const Change& change) {
   for (const Contender& one : change.first) {
     json["first"].push_back({{"mode", name_of(one.mode)}, {"gains", one.gains}});
   }
+  for (const Completion& one : change.completed) {
+    json["completed"].push_back({{"mode", name_of(one.contender.mode)},
+                                 {"gains", one.contender.gains},
+                                 {"count", one.count},
+                                 {"of", one.of}});
+  }
   return json;
 }
 
@@ -62,6 +68,13 @@ std::vector<Change> read_changes(JsonObject& json) {
     for (JsonObject& first : one.objects("first")) {
       change.first.push_back({first.choice("mode", kYawModeNames), first.string("gains")});
       first.reject_unknown_keys();
+    }
+    for (JsonObject& completed : one.optional_objects("completed")) {
+      change.completed.push_back(
+          {{completed.choice("mode", kYawModeNames), completed.string("gains")},
+           static_cast<std::size_t>(completed.integer("count", 0, kMaxSamples)),
+           static_cast<std::size_t>(completed.integer("of", 1, kMaxSamples))});
+      completed.reject_unknown_keys();
     }
     one.reject_unknown_keys();
     changes.push_back(std::move(change));
