@@ -64,8 +64,7 @@ constexpr Hazard kHazards[] = {
     {"command-unknown", "lines that are no command", "no known command", 0, 1.4},
     {"command-repeated-frame", "transmitter repeats a frame", "sequence number", 0, 1.7},
     {"stop", "operator sends STOP", "the command", 0, 0.05},
-    {"stop-in-noise", "STOP amid noise, without a line's end", "its last letter", 0, 0.05},
-    {"stop-in-flood", "STOP on a line that is full of keep-alives", "the command", 0, 0.05}};
+    {"stop-in-noise", "STOP amid noise, without a line's end", "its last letter", 0, 0.05}};
 
 /// Formats one row of the table in SAFETY.md.
 std::string table_row(const Hazard& h) {

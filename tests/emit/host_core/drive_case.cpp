@@ -184,7 +184,7 @@ void drive_and_stop(double seconds) {
       static_cast<int>(safety.reason()), w.is_driven());
 }
 
-/// Arms, drives, and stops by the last of 14 commands in one packet, with fixes `phase_ms` late.
+/// Arms, drives, and stops on a full line by the last of 14 commands in one packet, with fixes `phase_ms` late.
 void fill_the_lines(uint32_t phase_ms) {
   World& w = world;
   w.gps_delay_ms = phase_ms;
@@ -193,6 +193,9 @@ void fill_the_lines(uint32_t phase_ms) {
   w.say("S 0.8\n");
   w.run(20);
   const bool drove = safety.is_armed() && w.u > 0.3;
+  w.keep = "KEEP\nKEEP\n", w.keep_period_ms = 1;  // 10 of 11.5 characters a ms
+  w.run(3);
+  w.keeps = false;
   std::string packet;
   for (int i = 0; i < 13; ++i) packet += "KEEP\n";
   w.say(packet + "STOP\n");

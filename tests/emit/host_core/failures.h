@@ -76,13 +76,6 @@ inline const std::vector<Failure>& hazards() {
        [](World& w) { w.keep = "", w.keeps = false; }},
       {"stop", [](World& w) { w.say("STOP\n"); }},
       {"stop-in-noise", [](World& w) { w.say("\xff....stop"); }, [](World& w) { w.say("\n"); }},
-      {"stop-in-flood",
-       [](World& w) {
-         w.keep = "KEEP\nKEEP\n", w.keep_period_ms = 1;  // 10 of 11.5 characters a ms
-         w.run(0.1);
-         w.say("STOP\n");
-       },
-       [](World& w) { w.keep = "KEEP\n", w.keep_period_ms = 300; }},
   };
   return all;
 }
