@@ -46,6 +46,9 @@ TEST_F(StepChip, AStepThatDoesNotEndResetsTheChipAndTheLogSaysSo) {
   }
   ASSERT_EQ(log->findings.size(), 1U);
   EXPECT_EQ(log->findings[0].code, "chip-reset");
+  // Four ticks per sample time of 10 ms read the serial lines, in 200 sample times.
+  const auto calls = emulator_->ram("receive_calls", 2);
+  EXPECT_NEAR(calls[0] + 256 * calls[1], 4 * 200, 4);
 }
 
 TEST_F(LogChip, ARowTakesAFewHundredCyclesOfTheStep) {

@@ -26,13 +26,16 @@ void step() {
 
 extern "C" {
 volatile uint8_t log_done;
+volatile uint16_t receive_calls;
 }
+
+static void receive() { ++receive_calls; }
 
 int main() {
   uart.begin();
   awmr_log::write_header(uart);
   awmr_log::write_header(uart);
-  awmr_board::begin_steps(step);
+  awmr_board::begin_steps(receive, step);
   sei();
   while (awmr_board::step_number() < 200) awmr_log::drain(ring, uart);
   log_done = 1;
