@@ -114,8 +114,9 @@ Result<fs::path> build_firmware(const fs::path& directory, const std::vector<Emi
 
 Status prepare_to_keep(const fs::path& kept) {
   const std::string name = kept.string();
-  if (name.empty())
+  if (name.empty()) {
     return input_error(ErrorCode::kBadName, "--build-dir", "the folder's name is empty: give one");
+  }
   if (name.starts_with('-')) {
     return input_error(
         ErrorCode::kBadName, "--build-dir",

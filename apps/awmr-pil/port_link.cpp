@@ -43,8 +43,9 @@ class Port : public Line {
   Status send(std::span<const std::uint8_t> bytes) override {
     while (!bytes.empty()) {
       const ssize_t count = ::write(file_->number(), bytes.data(), bytes.size());
-      if (count < 0 && errno != EINTR)
-        return input_error(ErrorCode::kCannotRead, path_.string(), std::strerror(errno));
+      if (count < 0 && errno != EINTR) {
+        return input_error(ErrorCode::kCannotWrite, path_.string(), std::strerror(errno));
+      }
       if (count > 0) bytes = bytes.subspan(static_cast<std::size_t>(count));
     }
     return {};

@@ -145,8 +145,9 @@ Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& i
       return input_error(ErrorCode::kConflict, "--port",
                          "is for --link uart: memory is the emulated chip's only");
     }
-    if (damage)
+    if (damage) {
       return input_error(ErrorCode::kConflict, "--inject", "parameters: only on the emulated chip");
+    }
     return port_link(*options.port, options.baud, elf,
                      in.parameters.crc ^ mission_crc(in.setup.mission));
   }

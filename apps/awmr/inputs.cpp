@@ -51,8 +51,7 @@ std::vector<ColumnMapping> columns_from_json(JsonObject& json) {
     if (auto mapping = parse_column(name, expression)) {
       mappings.push_back(*std::move(mapping));
     } else {
-      columns.fault(mapping.error().faults.front().code, name,
-                    mapping.error().faults.front().message);
+      columns.fault(name, mapping.error());
     }
   }
   json.reject_unknown_keys();

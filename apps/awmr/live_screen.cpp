@@ -49,12 +49,7 @@ std::string progress_text(const LiveUpdate& update) {
   return text;
 }
 
-std::string text_of(const Fault& fault) {
-  const std::string place = fault.place.empty() ? "" : fault.place + ": ";
-  return fmt::format("error: {} [{}]",
-                     printable(shortened(spell_options(place + fault.message, "--"))),
-                     name_in(kErrorCodeNames, fault.code));
-}
+std::string text_of(const Fault& fault) { return "error: " + to_text(fault, "--"); }
 
 /// Appends the text split into lines that fit the terminal width.
 void add_wrapped(std::string_view text, std::size_t columns, std::vector<std::string>& lines) {

@@ -52,8 +52,9 @@ Result<OpenStream> open_stream(const StreamSource& source) {
   const std::string name = source.log->string();
   if (name == "-") {
     Descriptor input(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0));
-    if (input.number() < 0)
+    if (input.number() < 0) {
       return input_error(ErrorCode::kCannotRead, "--log -", "standard input is closed");
+    }
     return OpenStream{std::move(input)};
   }
   // With O_NONBLOCK a pipe opens at once, so waiting for its writer can be interrupted.

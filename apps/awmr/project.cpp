@@ -26,8 +26,9 @@ class FileNames {
   fs::path at(JsonObject& json, const char* key) const {
     const std::size_t before = faults_.size();
     const std::string name = json.string(key);
-    if (name.empty() && faults_.size() == before)
+    if (name.empty() && faults_.size() == before) {
       json.fault(ErrorCode::kBadName, key, "is empty: give a file");
+    }
     return resolved(project_, name);
   }
   std::optional<fs::path> maybe_at(JsonObject& json, const char* key) const {
@@ -37,8 +38,9 @@ class FileNames {
     std::vector<fs::path> paths;
     for (const std::string& name : json.strings(key)) {
       if (name.empty()) json.fault(ErrorCode::kBadName, key, "has an empty name: give files");
-      if (name.find('\0') != std::string::npos)
+      if (name.find('\0') != std::string::npos) {
         json.fault(ErrorCode::kBadName, key, "has a name with a NUL: remove it");
+      }
       paths.push_back(resolved(project_, name));
     }
     return paths;
@@ -58,7 +60,7 @@ void read_columns(JsonObject json, const std::string& file, Project& project) {
       if (!file.empty()) mapping->file = file;
       project.trials.columns.push_back(*mapping);
     } else {
-      json.fault(mapping.error().faults.front().code, name, mapping.error().faults.front().message);
+      json.fault(name, mapping.error());
     }
   }
 }
@@ -96,8 +98,9 @@ void read_identify(JsonObject json, Project& project) {
   const auto each = [&json](const char* key, const auto& add) {
     if (!json.has(key)) return;
     for (const std::string& text : json.strings(key)) {
-      if (const auto added = add(text); !added)
-        json.fault(added.error().faults.front().code, key, added.error().faults.front().message);
+      if (const auto added = add(text); !added) {
+        json.fault(key, added.error());
+      }
     }
   };
   each("family", [&](const std::string& text) { return add_family(text, options); });
@@ -125,8 +128,9 @@ void read_heading_rate(JsonObject& json, Project& project) {
 
 void read_compare(JsonObject json, const FileNames& files, Project& project) {
   project.scenarios = files.all_at(json, "scenarios");
-  if (json.has("scenarios") && project.scenarios.empty())
+  if (json.has("scenarios") && project.scenarios.empty()) {
     json.fault(ErrorCode::kMissing, "scenarios", "none given; name at least one");
+  }
   project.compare.samples =
       static_cast<int>(json.optional_integer("samples", 0, 1000000).value_or(0));
   project.compare.seed =

@@ -1,17 +1,8 @@
-#include <fmt/format.h>
-
 #include "awmr/core/option_text.h"
 #include "bindings.h"
 
 namespace awmr::python {
 namespace {
-
-/// "PLACE: MESSAGE [CODE]", as on the command line.
-std::string text_of(const Fault& fault) {
-  const std::string message = fmt::format("{} [{}]", spell_options(fault.message, "--"),
-                                          name_in(kErrorCodeNames, fault.code));
-  return fault.place.empty() ? message : spell_options(fault.place, "--") + ": " + message;
-}
 
 /// The exception classes, which live as long as the module.
 struct Classes {
@@ -37,7 +28,7 @@ void raise(const Error& error, const Classes& classes) {
   std::string text;
   py::list faults, codes;
   for (const Fault& fault : error.faults) {
-    text += (text.empty() ? "" : "\n") + text_of(fault);
+    text += (text.empty() ? "" : "\n") + to_text(fault, "--");
     codes.append(std::string(name_in(kErrorCodeNames, fault.code)));
     faults.append(
         py::make_tuple(spell_options(fault.place, "--"), spell_options(fault.message, "--")));

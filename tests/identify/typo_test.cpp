@@ -169,8 +169,8 @@ TEST(Typo, AFallingTableIsRefusedInWords) {
 class TypoInACell : public ::testing::TestWithParam<int> {};
 
 /// Each mutation of each cell uses one of the methods, in turn. One in eight also runs the
-/// alternative families and the leave-one-out fits: all of them would take an hour. Of all of these,
-/// every n-th, where n is the parameter.
+/// alternative families and the leave-one-out fits: all of them would take an hour. Of all of
+/// these, every n-th, where n is the parameter.
 TEST_P(TypoInACell, EndsWithAValueOrARefusalByEveryMethodAndFamily) {
   const TrialData paper = paper_tables();
   const auto all = cells(paper);

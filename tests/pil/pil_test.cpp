@@ -95,8 +95,8 @@ class Pil : public ::testing::Test {
   }
   /// A scenario of 1 s, for tests that are about folders, compilers and links.
   static std::string brief() { return shortened(kC13, 1.0); }
-  /// Like pil() in combined mode on brief(), with the compiler that is installed and a prefix of the
-  /// command line: variables, another directory.
+  /// Like pil() in combined mode on brief(), with the compiler that is installed and a prefix of
+  /// the command line: variables, another directory.
   static ProcessResult pil_after(const std::string& before, const std::string& options,
                                  const std::string& output = "after.json") {
     return run_process("export " + before + " && " + std::string(AWMR_PROGRAM) + " pil --model " +

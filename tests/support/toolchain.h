@@ -25,8 +25,8 @@ inline constexpr const char* kArmGcc = AWMR_TOOL_ARM_NONE_EABI_GCC;
 inline constexpr const char* kArmGxx = AWMR_TOOL_ARM_NONE_EABI_GXX;
 inline constexpr const char* kQemuArm = AWMR_TOOL_QEMU_SYSTEM_ARM;
 
-/// A compiler of the host for commands with -c: through the compiler cache of the build, where it is
-/// installed. The cache is keyed by content, and a changed source is compiled.
+/// A compiler of the host for commands with -c: through the compiler cache of the build, where it
+/// is installed. The cache is keyed by content, and a changed source is compiled.
 inline std::string cached(const std::string& compiler) {
   const std::string_view cache = AWMR_TOOL_CCACHE;
   return cache.ends_with("-NOTFOUND") ? compiler : std::string(cache) + " " + compiler;

@@ -73,8 +73,9 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
          fmt::format("needs one set of gains and a whole comparison; remove the other sets, and {}",
                      option_text("shard"))});
   }
-  if (gains.empty())
+  if (gains.empty()) {
     faults.push_back({ErrorCode::kMissing, option_text("gains"), "none given; give at least one"});
+  }
   return faults;
 }
 

@@ -61,8 +61,8 @@ Decision decide(const ScenarioRows& scenario, const std::vector<PairedDifference
                 const std::vector<RankedMode>& ranking, const std::vector<Change>& changes,
                 const Preferences& preferences, std::uint64_t seed);
 
-/// "; undecided: ...", "; combined keeps a first place ...", and who completes no run of a change: the end of a
-/// verdict.
+/// "; undecided: ...", "; combined keeps a first place ...", and who completes no run of a change:
+/// the end of a verdict.
 std::string decision_text(const Decision& decision);
 
 /// One sentence (or two) on who is best, by what, and how sure that is. A mode that is first and does

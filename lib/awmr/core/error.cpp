@@ -90,13 +90,17 @@ std::vector<Fault> shown_faults(const std::vector<Fault>& all) {
   return shown;
 }
 
+std::string to_text(const Fault& fault, std::string_view prefix) {
+  const std::string message = printable(shortened(spell_options(fault.message, prefix)));
+  const std::string place = printable(shortened(spell_options(fault.place, prefix)));
+  return fmt::format("{}{}{} [{}]", place, place.empty() ? "" : ": ", message,
+                     name_in(kErrorCodeNames, fault.code));
+}
+
 std::string to_text(const Error& error, std::string_view prefix) {
   std::string text;
   for (const Fault& fault : shown_faults(error.faults)) {
-    const std::string message = printable(shortened(spell_options(fault.message, prefix)));
-    const std::string place = printable(shortened(spell_options(fault.place, prefix)));
-    text += fmt::format("error: {}{}{} [{}]\n", place, place.empty() ? "" : ": ", message,
-                        name_in(kErrorCodeNames, fault.code));
+    text += fmt::format("error: {}\n", to_text(fault, prefix));
   }
   return text;
 }

@@ -1,4 +1,4 @@
-/// What is wrong with an input, as a code that stays the same while words change.
+/// Codes of errors. A code stays the same while the words of its message may change.
 #pragma once
 
 #include "awmr/core/name_table.h"

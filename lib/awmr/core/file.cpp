@@ -321,9 +321,10 @@ Result<std::vector<fs::path>> list_directory(const fs::path& path) {
   for (fs::directory_iterator it(path, error), end; !error && it != end; it.increment(error)) {
     entries.push_back(it->path());
   }
-  if (error)
+  if (error) {
     return input_error(ErrorCode::kCannotRead, path.string(),
                        "cannot read the directory: " + error.message());
+  }
   std::sort(entries.begin(), entries.end());
   return entries;
 }

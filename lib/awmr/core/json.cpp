@@ -36,6 +36,10 @@ void JsonObject::fault(ErrorCode code, std::string_view key, std::string message
   add_fault(code, *faults_, file_, pointer(key), std::move(message));
 }
 
+void JsonObject::fault(std::string_view key, const Error& cause) {
+  fault(cause.faults.front().code, key, cause.faults.front().message);
+}
+
 const Json* JsonObject::find(std::string_view key, bool required) {
   if (shape_ != nullptr) {
     shape_->requested(key, required);

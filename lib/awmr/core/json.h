@@ -95,6 +95,8 @@ class JsonObject {
   std::vector<std::string> keys() const;
 
   void fault(ErrorCode code, std::string_view key, std::string message);
+  /// The first fault of an error of the key's value.
+  void fault(std::string_view key, const Error& cause);
   void reject_unknown_keys();
   const std::string& file() const { return file_; }
   std::string pointer(std::string_view key) const;

@@ -26,6 +26,9 @@ std::string plain_text(std::string_view message);
 /// The first 20 faults; if there are more, a last one with the number omitted.
 std::vector<Fault> shown_faults(const std::vector<Fault>& faults);
 
+/// `PLACE: MESSAGE [CODE]` in one printable line, with `prefix` before every option name.
+std::string to_text(const Fault& fault, std::string_view prefix);
+
 /// to_text(error) with `prefix` before every option name; to_text() leaves the names unchanged.
 std::string to_text(const Error& error, std::string_view prefix);
 

@@ -53,8 +53,9 @@ Result<bool> make_raw(int file, unsigned baud) {
 Result<Descriptor> open_serial_port(const std::filesystem::path& path, unsigned baud) {
   // Without O_NONBLOCK, a modem port can wait for its carrier forever.
   Descriptor port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
-  if (port.number() < 0)
+  if (port.number() < 0) {
     return input_error(ErrorCode::kCannotRead, path.string(), std::strerror(errno));
+  }
   ::fcntl(port.number(), F_SETFL, ::fcntl(port.number(), F_GETFL) & ~O_NONBLOCK);
   AWMR_ASSIGN_OR_RETURN(const bool raw, make_raw(port.number(), baud));
   if (!raw) return input_error(ErrorCode::kWrongFile, path.string(), "is no serial port");

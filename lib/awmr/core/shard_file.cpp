@@ -236,8 +236,9 @@ std::string shard_schema(const ShardKind& kind) {
 
 Result<std::vector<Part>> read_parts(const ShardKind& kind,
                                      const std::vector<std::filesystem::path>& directories) {
-  if (directories.empty())
+  if (directories.empty()) {
     return input_error(ErrorCode::kMissing, "", "no directories: give those of all parts");
+  }
   std::vector<Part> parts;
   for (const std::filesystem::path& directory : directories) {
     AWMR_ASSIGN_OR_RETURN(Part part, read_part(kind, directory));

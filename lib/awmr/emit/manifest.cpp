@@ -103,8 +103,9 @@ Status check_replaceable(const std::filesystem::path& directory,
     if (!*exists) continue;
     AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(path));
     std::string fault = fault_of(file, bytes, written);
-    if (!fault.empty())
+    if (!fault.empty()) {
       faults.push_back({ErrorCode::kWouldOverwrite, path.string(), std::move(fault)});
+    }
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};

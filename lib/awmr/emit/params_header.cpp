@@ -125,8 +125,7 @@ Status check_relations(const Model& model, const Gains<double>& gains, const Emi
         fmt::format(
             "T2 = epsilon/(2 mu) = {:g} s is not below T1 = 1/lambda = {:g} s in {}: the sliding "
             "surface has to be reached faster than it decays; lower epsilon or lambda, raise mu, "
-            "or "
-            "tune again",
+            "or tune again",
             gains.heading.reaching_time_constant_s(), gains.heading.sliding_time_constant_s(),
             inputs.gains_file));
   }

@@ -228,8 +228,9 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
                               std::vector<Fault>& faults) {
   const std::string place = model.file + ":/yaw_scrub";
   const auto check = [&](bool is_so, const char* key, const std::string& why) {
-    if (!is_so)
+    if (!is_so) {
       faults.push_back({ErrorCode::kContradiction, fmt::format("{}/{}", place, key), why});
+    }
   };
   const Interval ci = scrub.ci95_m;
   check(ci.contains(scrub.moment_m), "ci95_m",

@@ -56,7 +56,7 @@ void columns_from_json(JsonObject json, Vehicle& vehicle) {
   for (const std::string& name : json.keys()) {
     const std::string expression = json.string(name);
     if (const auto mapping = parse_column(name, expression); !mapping) {
-      json.fault(mapping.error().faults.front().code, name, mapping.error().faults.front().message);
+      json.fault(name, mapping.error());
     }
     vehicle.columns[name] = expression;
   }

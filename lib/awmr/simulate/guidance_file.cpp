@@ -160,8 +160,9 @@ LissajousCourse read_lissajous(JsonObject& json) {
   course.path = {amplitude_m[0], amplitude_m[1], rate_radps[0], rate_radps[1]};
   course.closed_loop = json.boolean("closed_loop");
   if (const auto gain = json.optional_number("position_gain_per_s", kRate)) {
-    if (!course.closed_loop)
+    if (!course.closed_loop) {
       json.fault(ErrorCode::kConflict, "position_gain_per_s", "is for closed_loop true only");
+    }
     course.position_gain_per_s = *gain;
   }
   course.tolerance_m = json.optional_number("tolerance_m", kLength_m).value_or(course.tolerance_m);

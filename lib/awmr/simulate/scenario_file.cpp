@@ -42,8 +42,9 @@ void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
                "there are no obstacles to avoid; add obstacles or remove it");
   }
   for (const char* key : {"avoidance", "shaping", "sensors", "control"}) {
-    if (open && json.has(key))
+    if (open && json.has(key)) {
       json.fault(ErrorCode::kConflict, key, "open loop has no use for it; remove it");
+    }
   }
   if (scenario.tyres) {
     for (const TyreConflict& conflict : tyre_conflicts(scenario)) {

@@ -150,8 +150,9 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
                           std::span<Scenario> scenarios) {
   if (choice.empty() || choice == kNoRate) return {};
   const std::string place = option_text("heading_rate_limit");
-  if (const std::string why = fault_of_rate(choice); !why.empty())
+  if (const std::string why = fault_of_rate(choice); !why.empty()) {
     return input_error(ErrorCode::kOutOfRange, place, why);
+  }
   const std::optional<double> limit_degps =
       choice == kMeasuredRate ? measured_yaw_rate_degps(model) : *number_from_text(choice);
   if (!limit_degps) {

@@ -18,8 +18,9 @@ Window read_window(JsonObject& json) {
   Window window;
   window.from_s = json.optional_number("from_s", kTime_s).value_or(window.from_s);
   window.to_s = json.optional_number("to_s", kTime_s).value_or(window.to_s);
-  if (!(window.to_s > window.from_s))
+  if (!(window.to_s > window.from_s)) {
     json.fault(ErrorCode::kWrongOrder, "to_s", "has to be after from_s");
+  }
   return window;
 }
 
@@ -108,8 +109,9 @@ Battery read_battery(JsonObject json) {
     battery.from_s = json.number("from_s", kTime_s);
     battery.to_s = json.number("to_s", kDuration_s);
     battery.share_end = json.number("share_end", kShare);
-    if (!(battery.to_s > battery.from_s))
+    if (!(battery.to_s > battery.from_s)) {
       json.fault(ErrorCode::kWrongOrder, "to_s", "has to be after from_s");
+    }
   }
   json.reject_unknown_keys();
   return battery;

@@ -86,9 +86,10 @@ Result<Contents> contents_of(std::string_view bytes, const std::string& file) {
                           std::size_t offset) -> Status {
     if (type == kFormatType) {
       auto format = dataflash::format_of(record);
-      if (!format)
+      if (!format) {
         return input_error(ErrorCode::kBrokenFile, file,
                            fmt::format("byte {}: {}", offset, format.error()));
+      }
       const auto defined = static_cast<std::uint8_t>(record[0]);
       const auto [known, is_new] = formats.try_emplace(defined, *std::move(format));
       if (!is_new && known->second.definition != record) {

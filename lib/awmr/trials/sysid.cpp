@@ -265,8 +265,9 @@ void SysIdReader::add_speed() {
 }
 
 Result<SysIdLog> SysIdReader::read() {
-  if (!document_.is_object())
+  if (!document_.is_object()) {
     return input_error(ErrorCode::kWrongFile, file_, "expected an object, as SysId writes it");
+  }
   const SysIdRow* form = find_form();
   metres_ = read_metres_per_rotation();
   if (!faults_.empty()) return input_errors(std::move(faults_));

@@ -45,8 +45,9 @@ void check_weights(const ObjectiveWeights& w, std::vector<Fault>& faults) {
                            w.control_variation, w.effort, w.speed_itae};
   double sum = 0.0;
   for (const double value : values) {
-    if (!(value >= 0.0))
+    if (!(value >= 0.0)) {
       faults.push_back({ErrorCode::kOutOfRange, "", fmt::format("weights: {} is below 0", value)});
+    }
     sum += value;
   }
   if (!(sum > 0.0) || !std::isfinite(sum)) {

@@ -67,8 +67,7 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
       ErrorCode::kNoGains,
       fmt::format(
           "no gains within the bounds reach the goal \"{}\": the nearest of {} ({}) need {:.3g} "
-          "times "
-          "its limits. Make it soft, raise its limits, or give more evaluations{}",
+          "times its limits. Make it soft, raise its limits, or give more evaluations{}",
           goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
           e.goal_quantile[worst],
           is_rate_limited

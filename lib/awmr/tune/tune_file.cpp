@@ -28,8 +28,9 @@ void read_weights(JsonObject json, ObjectiveWeights& weights) {
     weight = json.optional_number(term.name, kNonNegative).value_or(weight);
     sum += weight;
   }
-  if (sum <= 0.0)
+  if (sum <= 0.0) {
     json.fault(ErrorCode::kOutOfRange, "itae", "all weights are 0: give at least one above 0");
+  }
   json.reject_unknown_keys();
 }
 
@@ -56,8 +57,9 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
   if (json.has("form")) options.form = json.choice("form", kReachingFormNames);
   if (const auto margin =
           json.optional_number("margin", {.min = 0.0, .max = 1.0, .min_excluded = true})) {
-    if (*margin >= 1.0)
+    if (*margin >= 1.0) {
       json.fault(ErrorCode::kOutOfRange, "margin", "1 leaves none; give a number in (0, 1)");
+    }
     options.margin = *margin;
   }
   options.global_evaluations =

@@ -81,15 +81,17 @@ UnmodelledVariation read_open(JsonObject json) {
   if (json.has("mass_factors")) {
     open.mass_factors =
         json.numbers("mass_factors", {.min = kLeastMassFactor, .max = kMostMassFactor});
-    if (open.mass_factors.empty())
+    if (open.mass_factors.empty()) {
       json.fault(ErrorCode::kMissing, "mass_factors", "an empty list; leave the key out");
+    }
   }
   if (json.has("wheel_forces")) {
     for (JsonObject& force : json.objects("wheel_forces")) {
       open.wheel_forces.push_back(wheel_force_from_json(std::move(force)));
     }
-    if (open.wheel_forces.empty())
+    if (open.wheel_forces.empty()) {
       json.fault(ErrorCode::kMissing, "wheel_forces", "an empty list; leave the key out");
+    }
   }
   for (const auto& [key, count] : {std::pair("mass_factors", open.mass_factors.size()),
                                    std::pair("wheel_forces", open.wheel_forces.size())}) {

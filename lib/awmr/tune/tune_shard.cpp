@@ -43,8 +43,9 @@ Payload read_payload(JsonObject& json) {
   if (payload.by.modes.empty()) json.fault(ErrorCode::kMissing, "modes", "names no mode");
   if (payload.gains.empty()) json.fault(ErrorCode::kMissing, "gains", "names no evaluated gains");
   payload.by.scenarios = json.strings("scenarios");
-  if (payload.by.scenarios.empty())
+  if (payload.by.scenarios.empty()) {
     json.fault(ErrorCode::kMissing, "scenarios", "names no scenario");
+  }
   payload.by.tail_share = json.number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true});
   for (JsonObject& goal : json.objects("goals")) {
     payload.by.goals.push_back(read_goal(std::move(goal)));

@@ -31,7 +31,8 @@ void start_and_arm(double armed_s, double start_s = 3) {
   world.run(armed_s);
 }
 
-/// When the vehicle was first disarmed with its motors off, and the first sensor fault. Called once per ms.
+/// When the vehicle was first disarmed with its motors off, and the first sensor fault. Called once
+/// per ms.
 struct FirstStop {
   double t = 0;
   double stopped_s = -1;  ///< -1: never
@@ -184,7 +185,8 @@ void drive_and_stop(double seconds) {
       static_cast<int>(safety.reason()), w.is_driven());
 }
 
-/// Arms, drives, and stops on a full line by the last of 14 commands in one packet, with fixes `phase_ms` late.
+/// Arms, drives, and stops on a full line by the last of 14 commands in one packet, with fixes
+/// `phase_ms` late.
 void fill_the_lines(uint32_t phase_ms) {
   World& w = world;
   w.gps_delay_ms = phase_ms;

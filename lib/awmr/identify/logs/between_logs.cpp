@@ -129,9 +129,9 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
   return disagreements;
 }
 
-/// The term that the common fit does not have and on which the logs differ most by their score tests,
-/// if by more than three times the noise. Blocks of a log that all err in the same way scatter, so the
-/// errors are those of the noise alone.
+/// The term that the common fit does not have and on which the logs differ most by their score
+/// tests, if by more than three times the noise. Blocks of a log that all err in the same way
+/// scatter, so the errors are those of the noise alone.
 std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>& logs,
                                                    const LogFitOptions& options,
                                                    const LogFit& common) {

@@ -33,11 +33,11 @@ struct LogComparison {
 ///     tau^2 = (Q - (L - 1)) / (sum w - sum w^2 / sum w)                    (DerSimonian and Laird)
 ///
 /// Where p < 0.001 over all quantities, the standard error and the interval of the common fit are
-/// widened by tau: they then hold for the mean of vehicles like these. A bias may differ. A delay or
-/// an error of the commands that the common fit does not have, as a trim that was set anew between two
-/// logs, is freed where the score tests of the logs differ most. If the logs disagree on it, or on a
-/// trim or an imbalance that the common fit has, no interval of the common fit holds: what such a term
-/// does in each log is in the other quantities.
+/// widened by tau: they then hold for the mean of vehicles like these. A bias may differ. A delay
+/// or an error of the commands that the common fit does not have, as a trim that was set anew
+/// between two logs, is freed where the score tests of the logs differ most. If the logs disagree
+/// on it, or on a trim or an imbalance that the common fit has, no interval of the common fit
+/// holds: what such a term does in each log is in the other quantities.
 ///
 /// Of a single log of 20 s and more, the first half is fitted and predicts the second half and the last
 /// fifth (held_out.h). Where it predicts both (p > 0.05), nothing differs; else the halves are compared

@@ -32,6 +32,24 @@ std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
   return found;
 }
 
+/// Reports a dead time of the commands, or late time stamps. `with_lag`: the motors' lag is free as
+/// well.
+Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::string& file) {
+  if (input.value < 0.0) {
+    return {file, 0, Severity::kWarning, "late-commands",
+            fmt::format("the vehicle responds {:.3f} +- {:.3f} s before its commands: the "
+                        "commands' time stamps are late, or all sensors' are early; the fit "
+                        "compensates",
+                        -input.value, input.error)};
+  }
+  return {file, 0, Severity::kWarning, "actuator-lag",
+          fmt::format("the vehicle responds {:.3f} +- {:.3f} s after its commands, {}; the fit "
+                      "compensates, a controller has to allow for it",
+                      input.value, input.error,
+                      with_lag ? "in addition to the motors' lag"
+                               : "more likely by a dead time than by motor lag")};
+}
+
 /// Reports latency of the commands (dead time or motor lag) or of their time stamps, or equal
 /// latency of two or more motion channels, which has a common cause.
 std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
@@ -46,24 +64,9 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
                      "compensates. Set motor.time_constant_s in the vehicle file",
                      lag.value, lag.error)});
   }
+  const bool with_lag = has_kind(fit.quantities, FreeQuantity::Kind::kMotorLag);
   for (const FoundTerm& input : found_terms(fit, FreeQuantity::Kind::kDelay)) {
-    if (input.value < 0.0) {
-      findings.push_back(
-          {file, 0, Severity::kWarning, "late-commands",
-           fmt::format("the vehicle responds {:.3f} +- {:.3f} s before its commands: the "
-                       "commands' time stamps are late, or all sensors' are early; the fit "
-                       "compensates",
-                       -input.value, input.error)});
-      continue;
-    }
-    findings.push_back(
-        {file, 0, Severity::kWarning, "actuator-lag",
-         fmt::format("the vehicle responds {:.3f} +- {:.3f} s after its commands, {}; the fit "
-                     "compensates, a controller has to allow for it",
-                     input.value, input.error,
-                     has_kind(fit.quantities, FreeQuantity::Kind::kMotorLag)
-                         ? "in addition to the motors' lag"
-                         : "more likely by a dead time than by motor lag")});
+    findings.push_back(dead_time_finding(input, with_lag, file));
   }
   if (!findings.empty()) return findings;
   const std::vector<FoundTerm> latency = found_terms(fit, FreeQuantity::Kind::kSensorDelay);

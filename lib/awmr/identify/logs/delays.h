@@ -17,11 +17,11 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem);
 /// most after one round of its fit, if it lowers it by more than ten in the end. Without it,
 /// latency of the speed would bias the mass upwards. A delay of all commands may be negative, where
 /// they were logged late. The lag of the motors takes its place, or becomes free together with it,
-/// where that is likelier (unless the vehicle file gives that lag); in the same way a filter takes the
-/// place of a late speed or yaw rate. The steering alone may be later than the forces: a dead time that would
-/// pass for a slow servo. Of the commands and all channels, one stays without a delay: the others
-/// are late against it. A steering trim needs steering that moves, an imbalance of the motors needs
-/// forces that differ: otherwise each is a constant moment. Where
+/// where that is likelier (unless the vehicle file gives that lag); in the same way a filter takes
+/// the place of a late speed or yaw rate. The steering alone may be later than the forces: a dead
+/// time that would pass for a slow servo. Of the commands and all channels, one stays without a
+/// delay: the others are late against it. A steering trim needs steering that moves, an imbalance
+/// of the motors needs forces that differ: otherwise each is a constant moment. Where
 /// the commands show both, they become free together.
 NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss);
 

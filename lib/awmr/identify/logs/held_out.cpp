@@ -27,8 +27,8 @@ LogProblem problem_of(const std::vector<DrivingLog>& rows, const LogFit& fit,
   return problem;
 }
 
-/// The initial states of all windows at these coordinates: Gauss-Newton steps from what was measured. The
-/// motion is nearly linear in them, but for a servo at its largest rate.
+/// The initial states of all windows at these coordinates: Gauss-Newton steps from what was
+/// measured. The motion is nearly linear in them, but for a servo at its largest rate.
 SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> coordinates) {
   constexpr int kSteps = 10;
   const Eigen::Index n = rows_of(coordinates);

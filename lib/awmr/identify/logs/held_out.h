@@ -39,8 +39,8 @@ struct HeldOut {
 /// a drift of the sensor. None where the rows show nothing or cannot be replayed.
 std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOptions options);
 
-/// Where one log would put the delays and errors that the fit does not free (score_test.h), with all
-/// quantities of the fit free.
+/// Where one log would put the delays and errors that the fit does not free (score_test.h), with
+/// all quantities of the fit free.
 struct TermTest {
   FreeQuantity term;
   ScoreTest test;

@@ -63,18 +63,21 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
       times, speed_unit_hint(logs, times));
 }
 
-/// Whether any command makes a yaw moment: forces that differ, or that push while the wheels are turned.
-bool is_turned(const std::vector<DrivingLog>& logs) {
+/// True if the forces push while the wheels are turned.
+bool has_steered_force(const DrivingLog& log) {
   constexpr double kMuch = 0.01;  // of the largest force
+  const std::vector<double>& angle = log.driving_steering_rad();
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    const double force = log.force_left[row] + log.force_right[row];
+    if (std::abs(force * std::sin(angle[row])) > kMuch) return true;
+  }
+  return false;
+}
+
+/// True if any command makes a yaw moment.
+bool is_turned(const std::vector<DrivingLog>& logs) {
   return std::ranges::any_of(logs, [](const DrivingLog& log) {
-    const std::vector<double>& angle = log.driving_steering_rad();
-    for (std::size_t row = 0; row < log.rows(); ++row) {
-      const double left = log.force_left[row];
-      const double right = log.force_right[row];
-      if (std::abs(right - left) > kMuch) return true;
-      if (std::abs((left + right) * std::sin(angle[row])) > kMuch) return true;
-    }
-    return false;
+    return has_force_difference(log) || has_steered_force(log);
   });
 }
 
@@ -84,7 +87,7 @@ void check_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, 
                    LogStage& stage) {
   std::string why = why_no_inertia(vehicle, logs, model, stage);
   if (why.empty()) return;
-  // What else turned the vehicle says nothing of its mass.
+  // Without a yaw command, the yaw motion contains no information on the mass.
   const bool turned = is_turned(logs);
   if (!turned) why = "no command turns the vehicle";
   stage.reasons[ParameterId::kInertiaNorm] = why;

@@ -46,8 +46,8 @@ struct LogFitOptions {
   std::vector<FreeTerm> terms;
   std::vector<LogChannel> biases;  ///< channels whose constant offset is free
   bool finds_delays = true;        ///< the fit adds the terms that its residuals show
-  /// Time of the rows that are fitted, s; the commands before them act on them all the same, through
-  /// latency and lags. Absent: all rows.
+  /// Time of the rows that are fitted, s; the commands before them act on them all the same,
+  /// through latency and lags. Absent: all rows.
   std::optional<Interval> only_s;
   /// Further initial guesses: the optimum of a family inside this one.
   std::vector<ParameterValues<double>> also_from;

@@ -34,8 +34,8 @@ struct FitWindow {
   double weight(std::size_t sample) const { return weights.empty() ? 1.0 : weights[sample]; }
 };
 
-/// The windows of all logs, which must outlive them, within `only_s` if that is given; those without a
-/// sample are left out.
+/// The windows of all logs, which must outlive them, within `only_s` if that is given; those
+/// without a sample are left out.
 std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
                                    const std::optional<Interval>& only_s = {});
 

@@ -271,8 +271,9 @@ Result<Plant<double>> truth_of(const Model& model, RecoverPlan plan) {
 
 /// Errors (input): runs, a drive or trials that cannot be simulated.
 Status check_plan(const Model& model, const Plant<double>& truth, const RecoverOptions& options) {
-  if (options.runs < 2)
+  if (options.runs < 2) {
     return input_error(ErrorCode::kOutOfRange, option_text("runs"), "at least 2 are needed");
+  }
   if (options.plan == RecoverPlan::kLog) {
     AWMR_RETURN_IF_ERROR(check_drive(options.drive));
     return check_replay(truth, model.file);

@@ -41,8 +41,9 @@ Error read_error(JsonObject json) {
         {fault.choice("code", kErrorCodeNames), fault.string("place"), fault.string("message")});
     fault.reject_unknown_keys();
   }
-  if (error.faults.empty())
+  if (error.faults.empty()) {
     json.fault(ErrorCode::kMissing, "faults", "is empty: an error names what is wrong");
+  }
   json.reject_unknown_keys();
   return error;
 }
@@ -51,8 +52,9 @@ Error read_error(JsonObject json) {
 std::optional<ParameterId> read_parameter(JsonObject& json, const std::string& key,
                                           const std::string& name) {
   const auto id = parameter_by_name(name);
-  if (!id)
+  if (!id) {
     json.fault(ErrorCode::kUnknownName, key, fmt::format("no parameter is called '{}'", name));
+  }
   return id;
 }
 

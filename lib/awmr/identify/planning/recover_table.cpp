@@ -113,9 +113,10 @@ Result<std::vector<RecoverRun>> recover_runs(std::string_view text, const std::s
                                              const std::vector<RecoverTruth>& truths) {
   std::string_view rest = text;
   const auto places = places_of(take_text_record(rest), truths);
-  if (!places)
+  if (!places) {
     return input_error(ErrorCode::kStaleResult, file + ":1:1",
                        "these are not the columns of a recovery");
+  }
   std::vector<RecoverRun> runs;
   while (!rest.empty()) {
     const std::string_view before = text.substr(0, text.size() - rest.size());
