@@ -1,9 +1,15 @@
 #include <utility>
 
+#include "awmr/simulate/any_line.h"
 #include "executor.h"
 
 namespace awmr::pil {
 namespace {
+
+template <CombinedSplit split>
+struct HostParts : AllParts<split> {
+  typedef AnyLineFollower<float> Line;
+};
 
 /// Firmware with all parts compiled in and those that the mission does not need disabled. Its bits
 /// must equal those of a firmware built without these parts.
@@ -34,8 +40,8 @@ class HostExecutor : public Executor {
     points_ = points;
     const int count = static_cast<int>(points_.points_m.size());
     if (const auto& line = mission_->line) {
-      follow_line(autopilot_,
-                  Polyline<float>{points_.points_m.data(), count, line->corner_m, line->law});
+      follow_line(autopilot_, {points_.points_m.data(), count, line->corner_m, line->law},
+                  parameters_->sample_time_s);
     } else {
       follow_waypoints(autopilot_, Waypoints<float>{points_.points_m.data(), count,
                                                     points_.acceptance_m, mission_->skip_passed});
@@ -68,7 +74,7 @@ class HostExecutor : public Executor {
 
   const AutopilotParameters* parameters_;
   const Mission* mission_;
-  Autopilot<G, AllParts<split>> autopilot_{};
+  Autopilot<G, HostParts<split>> autopilot_{};
   Points points_;
   bool is_reset_ = false;
   std::vector<Sector<float>> sectors_;

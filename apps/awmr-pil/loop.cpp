@@ -142,11 +142,6 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
                       "the firmware's heading law is the sliding mode: remove, or give its type as "
                       "sliding_mode"});
   }
-  const auto* line = std::get_if<LineCourse>(&scenario.guidance);
-  if (line != nullptr && !std::holds_alternative<LineLaw<double>>(line->law)) {
-    faults.push_back({ErrorCode::kUnsupported, file + ":/guidance/law",
-                      "the firmware follows lines by los alone: give los, delta_deg and width_m"});
-  }
   const std::size_t points = mission_of(scenario).points.points_m.size();
   if (points > kMaxPoints) {
     faults.push_back(

@@ -4,7 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <initializer_list>
+#include <utility>
+#include <vector>
 
 #include "awmr/control/crc.h"
 
@@ -12,6 +13,27 @@ namespace awmr::pil {
 namespace {
 
 float in_float(double value) { return static_cast<float>(value); }
+
+template <class Law>
+std::vector<double> parameters_of(const Law& law) {
+  std::vector<double> values;
+  law.parameters(law,
+                 [&](const char*, auto value, const LawParameter&) { values.push_back(value); });
+  return values;
+}
+
+/// The same law in the chip's number format.
+template <template <class> class Law>
+Law<float> in_float(const Law<double>& law) {
+  Law<float> result{};
+  const std::vector<double> values = parameters_of(law);
+  auto next = values.begin();
+  result.parameters(result, [&](const char*, float& parameter, const LawParameter&) {
+    parameter = in_float(*next++);
+  });
+  result.sideslip_compensation = law.sideslip_compensation;
+  return result;
+}
 
 Points points_of(const std::vector<Position<double>>& points_m, double acceptance_m) {
   Points points;
@@ -31,12 +53,10 @@ void add(const WaypointCourse& course, Mission& mission) {
 }
 void add(const LineCourse& course, Mission& mission) {
   mission.points = points_of(course.points_m, 0.0);
-  // check_scenario() in loop.h refuses other laws before a firmware is built.
-  if (const auto* law = std::get_if<LineLaw<double>>(&course.law)) {
-    mission.line =
-        LineMission{{in_float(law->delta_rad), in_float(law->width_m), law->sideslip_compensation},
-                    in_float(course.corner_m)};
-  }
+  mission.line = LineMission{
+      std::visit([](const auto& law) -> LineLaws<std::variant, float> { return in_float(law); },
+                 course.law),
+      course.law.index(), in_float(course.corner_m)};
   if (course.slow_down_m) mission.slow_down_m = in_float(*course.slow_down_m);
 }
 void add(const LissajousCourse& course, Mission& mission) {
@@ -53,7 +73,7 @@ Avoidance<float> in_float(const Avoidance<double>& a) {
 }
 
 /// Formats floats in braces, as literals that read back to the same values.
-std::string braced(std::initializer_list<float> values) {
+std::string braced(const std::vector<float>& values) {
   std::vector<std::string> literals;
   for (const float value : values) literals.push_back(fmt::format("{:.8e}f", value));
   return fmt::format("{{{}}}", fmt::join(literals, ", "));
@@ -138,10 +158,16 @@ std::string header_with(const Mission& mission, std::uint32_t crc) {
   std::string follow = fmt::format("  awmr_follow{}(points, count, acceptance_m);\n",
                                    mission.skip_passed ? "_skipping" : "");
   if (const auto& line = mission.line) {
-    set_up.constants += fmt::format(
-        "const awmr_line_law pil_line = {{{:.8e}f, {:.8e}f, {:.8e}f, {:d}}};\n",
-        line->law.delta_rad, line->law.width_m, line->corner_m, line->law.sideslip_compensation);
-    follow = "  (void)acceptance_m;\n  awmr_follow_line(points, count, &pil_line);\n";
+    const auto [parameters, is_compensated] = std::visit(
+        [](const auto& law) {
+          const std::vector<double> values = parameters_of(law);
+          return std::pair(braced({values.begin(), values.end()}), law.sideslip_compensation);
+        },
+        line->law);
+    set_up.constants += fmt::format("const float pil_line[] = {};\n", parameters);
+    follow = fmt::format(
+        "  (void)acceptance_m;\n  awmr_follow_line_by(points, count, pil_line, {:.8e}f, {:d});\n",
+        line->corner_m, is_compensated);
   }
   const bool plain = parts_of(mission).empty();
   return fmt::format(kHeader,

@@ -1,10 +1,12 @@
 // Guidance features that a scenario needs from the firmware, in the chip's number format.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "awmr/control/autopilot.h"
@@ -21,7 +23,8 @@ struct Points {
 
 /// Law of a line, without its corners.
 struct LineMission {
-  LineLaw<float> law{};
+  LineLaws<std::variant, float> law{};
+  std::size_t place = 0;  ///< of the law in LineLaws
   float corner_m = 0.0F;
 };
 

@@ -72,6 +72,7 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   const Mission mission = mission_of(*scenario);
   in.emit = options.emit;
   in.emit.parts.merge(parts_of(mission));
+  if (mission.line) in.emit.line_law = mission.line->place;
   if (scenario->control.split != CombinedSplit::kRedistribute) in.emit.split = mission.split;
   const auto parameters = autopilot_parameters(*model, *gains, *names, in.emit);
   if (!parameters) return tl::unexpected(parameters.error());

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
@@ -16,7 +18,9 @@
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/plausibility.h"
+#include "awmr/simulate/scenario.h"
 #include "awmr/simulate/validity.h"
+#include "choices.h"
 #include "commands.h"
 #include "emit_options.h"
 #include "gains_origin.h"
@@ -143,6 +147,19 @@ Status add_tables(const Model& model, const Gains<double>& gains, const EmitInpu
   return {};
 }
 
+void add_line_law(CLI::App& command, EmitOptions& options) {
+  std::vector<std::string> laws;
+  for (const AnyLineLaw& law : line_laws()) laws.emplace_back(name_of(law));
+  const auto set = [&options, laws](const std::string& name) {
+    options.line_law = static_cast<std::size_t>(std::ranges::find(laws, name) - laws.begin());
+    options.parts.insert(FirmwarePart::kLine);
+  };
+  command
+      .add_option_function<std::string>(
+          "--line-law", set, "Compile in the part 'line', with this law [" + laws.front() + "]")
+      ->check(one_of(laws));
+}
+
 }  // namespace
 
 Result<Outcome> execute(const EmitCommand& command) {
@@ -195,6 +212,7 @@ void add_emit(CLI::App& app, Session& session) {
   sub->add_flag("--header-only", command->header_only, "awmr_params.h alone, without the library");
   sub->add_flag("--as-is", command->as_is, "Accept contradictory vehicle sizes");
   add_emit_options(*sub, command->emit);
+  add_line_law(*sub, command->emit);
   add_output_directory(*sub, command->output, "Directory for awmr_params.h and the library");
 }
 

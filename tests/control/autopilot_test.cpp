@@ -111,16 +111,17 @@ TEST_F(AutopilotLeads, SlowerOnTheLastLegAlone) {
 
 TEST_F(AutopilotLeads, AlongALineToItsEnd) {
   const Position<float> corners[] = {{0.0F, 0.0F}, {5.0F, 5.0F}, {10.0F, 0.0F}};
-  const Polyline<float> line{corners, 3, 1.0F, {1.0F, 2.0F, true}};
+  const Polyline<float, LineOfSight<float>> line{corners, 3, 1.0F, {1.0F, 2.0F, true}};
   follow_waypoints(autopilot_, {kPoints, 2, 3.0F, false});
-  follow_line(autopilot_, line);
+  follow_line(autopilot_, line, 0.01F);
   part_of<SlowDown<float>>(autopilot_).distance_m = 3.0F;
   auto progress = start_polyline(in_.measured.psi_rad);
-  const float sideslip = sideslip_rad(in_.measured.u_mps, in_.measured.v_mps);
+  const LineMotion<float> motion{sideslip_rad(in_.measured.u_mps, in_.measured.v_mps),
+                                 in_.measured.u_mps, 0.01F};
   bool has_arrived = false, was_slower = false;
   for (const Position<float>& place : drive()) {
     const AutopilotOutput out = step_at(place);
-    const auto guided = guide(line, place, sideslip, progress);
+    const auto guided = guide(line, place, motion, progress);
     const float share = progress.segment >= 1 ? arrival_share(3.0F, guided.to_go_m) : 1.0F;
     expect_reference(out, led_to(guided.psi_rad, share));
     EXPECT_EQ(out.arrived, guided.finished);
@@ -317,7 +318,7 @@ TEST_F(AutopilotLeads, WithDrivesThatMakeUpForBackEmfAndForcesThatItLeaves) {
 TEST_F(AutopilotLeads, AskingForAPositionWhereSomethingLeadsByIt) {
   EXPECT_EQ(fault_without_position(), kFaultNone);
   const Position<float> corners[] = {{0.0F, 0.0F}, {5.0F, 5.0F}};
-  follow_line(autopilot_, {corners, 2, 0.0F, {1.0F, 1.0F, false}});
+  follow_line(autopilot_, {corners, 2, 0.0F, {1.0F, 1.0F, false}}, 0.01F);
   EXPECT_EQ(fault_without_position(), kFaultNotFinite);
   follow_path(autopilot_, {10.0F, 10.0F, 0.1F, 0.3F}, 0.0F);
   EXPECT_EQ(fault_without_position(), kFaultNone) << "an open path is one of time alone";
@@ -350,7 +351,7 @@ TEST_F(AutopilotLeads, ByNothingOnceItIsStartedAgain) {
     start();
     EXPECT_EQ(fault_without_position(), kFaultNone);
   };
-  follow_line(autopilot_, {corners, 2, 0.0F, {1.0F, 1.0F, false}});
+  follow_line(autopilot_, {corners, 2, 0.0F, {1.0F, 1.0F, false}}, 0.01F);
   expect_plain();
   follow_path(autopilot_, {10.0F, 10.0F, 0.1F, 0.3F}, 0.5F);
   expect_plain();
@@ -370,7 +371,7 @@ TEST_F(AutopilotLeads, ByWhatWasRequestedLast) {
   EXPECT_EQ(heading(), 0.3F);
   follow_waypoints(autopilot_, {kPoints, 2, 0.5F, false});
   EXPECT_NEAR(heading(), std::atan2(5.0F, 5.0F), 1e-4F);
-  follow_line(autopilot_, {corners, 2, 0.0F, {1.0F, 1.0F, false}});
+  follow_line(autopilot_, {corners, 2, 0.0F, {1.0F, 1.0F, false}}, 0.01F);
   EXPECT_NEAR(heading(), std::atan2(5.0F, 0.0F), 1e-4F);
   follow_path(autopilot_, {10.0F, 10.0F, 0.0F, 0.3F}, 0.0F);
   EXPECT_NEAR(heading(), std::atan2(3.0F, 0.0F), 1e-4F);

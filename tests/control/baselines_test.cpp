@@ -5,8 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "awmr/control/guidance/ilos.h"
-#include "awmr/control/guidance/pure_pursuit.h"
+#include "awmr/control/guidance/line_laws.h"
 #include "awmr/control/heading_lqi.h"
 #include "support/any_robot.h"
 #include "support/strict_scalar.h"
@@ -16,71 +15,75 @@ namespace {
 
 using P = Position<double>;
 constexpr double kPi = pi<double>();
+using Pursued = Polyline<double, PurePursuit<double>>;
+constexpr LineMotion<double> kStraight{0.0, 1.0, 0.01};
+constexpr LineMotion<double> kSlipping{0.1, 1.0, 0.01};
 
 TEST(PurePursuit, GoesToTheFartherPointOfTheLineThatIsTheLookaheadAway) {
   const P points[] = {{0.0, 0.0}, {100.0, 0.0}};
-  const PursuedLine<double> line{points, 2, {5.0, false}};
+  const Pursued line{points, 2, 0.0, {5.0, false}};
   auto progress = start_polyline(0.0);
-  const auto guided = guide(line, P{10.0, 3.0}, 0.0, progress);
+  const auto guided = guide(line, P{10.0, 3.0}, kStraight, progress);
   EXPECT_NEAR(guided.psi_rad, std::atan2(-3.0, 4.0), 1e-15);  // to (14, 0): 3, 4, 5
   EXPECT_NEAR(guided.cross_track_m, 3.0, 1e-15);
   EXPECT_NEAR(guided.to_go_m, 90.0, 1e-12);
   // Farther than the lookahead: steer to the nearest point; before the line's start: to the start.
-  EXPECT_NEAR(guide(line, P{10.0, -8.0}, 0.0, progress).psi_rad, kPi / 2.0, 1e-15);
-  EXPECT_NEAR(guide(line, P{-9.0, 4.0}, 0.0, progress).psi_rad, std::atan2(-4.0, 9.0), 1e-15);
+  EXPECT_NEAR(guide(line, P{10.0, -8.0}, kStraight, progress).psi_rad, kPi / 2.0, 1e-15);
+  EXPECT_NEAR(guide(line, P{-9.0, 4.0}, kStraight, progress).psi_rad, std::atan2(-4.0, 9.0), 1e-15);
 }
 
 TEST(PurePursuit, TakesSideslipOffOnlyWhereRequested) {
   const P points[] = {{0.0, 0.0}, {100.0, 0.0}};
   auto progress = start_polyline(0.0);
+  EXPECT_NEAR(guide(Pursued{points, 2, 0.0, {5.0, true}}, P{1.0, 0.0}, kSlipping, progress).psi_rad,
+              -0.1, 1e-15);
   EXPECT_NEAR(
-      guide(PursuedLine<double>{points, 2, {5.0, true}}, P{1.0, 0.0}, 0.1, progress).psi_rad, -0.1,
-      1e-15);
-  EXPECT_NEAR(
-      guide(PursuedLine<double>{points, 2, {5.0, false}}, P{1.0, 0.0}, 0.1, progress).psi_rad, 0.0,
+      guide(Pursued{points, 2, 0.0, {5.0, false}}, P{1.0, 0.0}, kSlipping, progress).psi_rad, 0.0,
       1e-15);
 }
 
 TEST(PurePursuit, TheGoalTurnsTheCornerBeforeTheVehicleWithoutAJump) {
   const P points[] = {{0, 0}, {10, 0}, {10, 0}, {10, 10}};  // one segment has no length
-  const PursuedLine<double> line{points, 4, {2.0, false}};
+  const Pursued line{points, 4, 0.0, {2.0, false}};
   auto progress = start_polyline(0.0);
-  EXPECT_NEAR(guide(line, P{7.999, 0.0}, 0.0, progress).psi_rad, 0.0, 1e-12);
+  EXPECT_NEAR(guide(line, P{7.999, 0.0}, kStraight, progress).psi_rad, 0.0, 1e-12);
   EXPECT_EQ(progress.segment, 0);
   // The target is the corner itself: 2 m ahead.
-  EXPECT_NEAR(guide(line, P{8.0, 0.0}, 0.0, progress).psi_rad, 0.0, 1e-12);
+  EXPECT_NEAR(guide(line, P{8.0, 0.0}, kStraight, progress).psi_rad, 0.0, 1e-12);
   EXPECT_EQ(progress.segment, 2);
   // While turning the corner the cross-track error refers to the nearer segment.
-  const auto inside = guide(line, P{8.8, 0.4}, 0.0, progress);
+  const auto inside = guide(line, P{8.8, 0.4}, kStraight, progress);
   EXPECT_NEAR(inside.psi_rad, std::atan2(1.6, 1.2), 1e-12);  // 2 m away
   EXPECT_NEAR(inside.cross_track_m, 1.2, 1e-12);             // the previous segment has no length
-  EXPECT_FALSE(guide(line, P{10.0, 9.9}, 0.0, progress).finished);
-  EXPECT_TRUE(guide(line, P{10.1, 10.0}, 0.0, progress).finished);
+  EXPECT_FALSE(guide(line, P{10.0, 9.9}, kStraight, progress).finished);
+  EXPECT_TRUE(guide(line, P{10.1, 10.0}, kStraight, progress).finished);
 }
 
 TEST(PurePursuit, TheErrorAtACornerIsFromTheNearerSegment) {
   const P points[] = {{0, 0}, {10, 0}, {10, 10}};
-  const PursuedLine<double> line{points, 3, {2.0, false}};
+  const Pursued line{points, 3, 0.0, {2.0, false}};
   auto progress = start_polyline(0.0);
-  EXPECT_NEAR(guide(line, P{8.5, 0.1}, 0.0, progress).cross_track_m, 0.1, 1e-12);
+  EXPECT_NEAR(guide(line, P{8.5, 0.1}, kStraight, progress).cross_track_m, 0.1, 1e-12);
   EXPECT_EQ(progress.segment, 1);
-  EXPECT_NEAR(guide(line, P{9.5, 1.0}, 0.0, progress).cross_track_m, 0.5, 1e-12);
+  EXPECT_NEAR(guide(line, P{9.5, 1.0}, kStraight, progress).cross_track_m, 0.5, 1e-12);
 }
 
 TEST(PurePursuit, WithoutAnyLengthItIsFinishedAndTheHeadingHeld) {
   const P points[] = {{1, 1}, {1, 1}};
   auto progress = start_polyline(0.4);
-  const auto guided = guide(PursuedLine<double>{points, 2, {1.0, true}}, P{0, 0}, 0.0, progress);
+  const auto guided = guide(Pursued{points, 2, 0.0, {1.0, true}}, P{0, 0}, kStraight, progress);
   EXPECT_TRUE(guided.finished);
   EXPECT_EQ(guided.psi_rad, 0.4);
 }
 
+AlongSegment<double> beside(double cross_track_m) { return {100.0, 1.0, 0.0, 10.0, cross_track_m}; }
+
 TEST(Ilos, IsTheStatedEquation) {
   const IntegralLos<double> law{3.0, 0.5, true};
   double integral_s = 2.0;
-  const double psi_rad = line_heading_rad(law, 0.2, 1.5, 0.1, 0.01, integral_s);
+  const double approach = approach_rad(law, beside(1.5), kStraight, integral_s);
   const double aside_m = 1.5 + 0.5 * 2.0;
-  EXPECT_NEAR(psi_rad, 0.2 - 0.1 - std::atan(aside_m / 3.0), 1e-15);
+  EXPECT_NEAR(approach, std::atan(aside_m / 3.0), 1e-15);
   EXPECT_NEAR(integral_s, 2.0 + 0.01 * 3.0 * 1.5 / (aside_m * aside_m + 9.0), 1e-15);
 }
 
@@ -88,8 +91,8 @@ TEST(Ilos, FarFromTheLineTheIntegralHardlyGrows) {
   const IntegralLos<double> law{3.0, 0.5, false};
   double far_s = 0.0;
   double near_s = 0.0;
-  line_heading_rad(law, 0.0, 1000.0, 0.0, 0.01, far_s);
-  line_heading_rad(law, 0.0, 3.0, 0.0, 0.01, near_s);
+  approach_rad(law, beside(1000.0), kStraight, far_s);
+  approach_rad(law, beside(3.0), kStraight, near_s);
   EXPECT_LT(far_s, 0.01 * near_s);
 }
 
@@ -97,13 +100,12 @@ TEST(Ilos, BeginsAnewOnEachSegment) {
   const P points[] = {{0, 0}, {10, 0}, {10, 10}};
   const Polyline<double, IntegralLos<double>> line{points, 3, 0.0, {2.0, 0.5, false}};
   auto progress = start_polyline(0.0);
-  auto integral = start_integral<double>();
-  for (int i = 0; i < 100; ++i) guide(line, P{5.0, 1.0}, 0.0, 0.01, progress, integral);
-  EXPECT_GT(integral.integral_s, 0.1);
-  const auto turned = guide(line, P{10.0, 0.5}, 0.0, 0.01, progress, integral);
-  EXPECT_EQ(integral.segment, 1);
+  for (int i = 0; i < 100; ++i) guide(line, P{5.0, 1.0}, kStraight, progress);
+  EXPECT_GT(progress.memory, 0.1);
+  const auto turned = guide(line, P{10.0, 0.5}, kStraight, progress);
+  EXPECT_EQ(progress.segment, 1);
   EXPECT_NEAR(turned.psi_rad, kPi / 2.0, 1e-15);
-  EXPECT_EQ(integral.integral_s, 0.0);
+  EXPECT_EQ(progress.memory, 0.0);
 }
 
 using Real = long double;
@@ -232,11 +234,11 @@ TEST(Baselines, MixNoDoubleIntoTheirScalar) {
   using S = Strict;
   const Position<S> points[] = {{S(1.0), S(2.0)}, {S(3.0), S(4.0)}};
   auto along = start_polyline(S(0.0));
-  const PursuedLine<S> pursued{points, 2, {S(1.0), true}};
-  EXPECT_FALSE(guide(pursued, points[0], S(0.1), along).finished);
+  const LineMotion<S> motion{S(0.1), S(1.0), S(0.01)};
+  const Polyline<S, PurePursuit<S>> pursued{points, 2, S(0.0), {S(1.0), true}};
+  EXPECT_FALSE(guide(pursued, points[0], motion, along).finished);
   const Polyline<S, IntegralLos<S>> line{points, 2, S(0.0), {S(1.0), S(0.2), true}};
-  auto integral = start_integral<S>();
-  EXPECT_FALSE(guide(line, points[0], S(0.1), S(0.01), along, integral).finished);
+  EXPECT_FALSE(guide(line, points[0], motion, along).finished);
   const LqiWeights<S> weights{S(0.2), S(0.4), S(1.0), S(0.02)};
   const LqiGains<S> gains = lqi_gains(weights, S(0.012));
   EXPECT_EQ(gains.rate_per_s.value(), lqi_gains<double>({0.2, 0.4, 1.0, 0.02}, 0.012).rate_per_s);

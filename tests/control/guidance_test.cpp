@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "awmr/control/guidance/heading_shaping.h"
-#include "awmr/control/guidance/line.h"
+#include "awmr/control/guidance/line_laws.h"
 #include "awmr/control/guidance/timed_path.h"
 #include "support/strict_scalar.h"
 
@@ -75,16 +75,28 @@ TEST(Waypoints, APassedOneIsTurnedBackToOrMissed) {
   EXPECT_NEAR(skipped.psi_rad, std::atan2(-3.0, 9.5), 1e-15);
 }
 
+using LosLine = Polyline<double, LineOfSight<double>>;
+constexpr LineMotion<double> kStraight{0.0, 1.0, 0.01};
+
+/// psi_d beside a line of direction 0.2 rad.
+double heading_beside(const LineOfSight<double>& law, double cross_track_m, double sideslip_rad) {
+  const double t[] = {std::cos(0.2), std::sin(0.2)};
+  const P points[] = {{0, 0}, {100.0 * t[0], 100.0 * t[1]}};
+  const P at{50.0 * t[0] - cross_track_m * t[1], 50.0 * t[1] + cross_track_m * t[0]};
+  auto progress = start_polyline(0.0);
+  return guide(LosLine{points, 2, 0.0, law}, at, {sideslip_rad, 1.0, 0.01}, progress).psi_rad;
+}
+
 TEST(Line, FarFromItTheLaneIsApproachedAtDelta) {
-  const LineLaw<double> law{kPi / 3.0, 2.0, true};
-  EXPECT_NEAR(line_heading_rad(law, 0.2, 50.0, 0.0), 0.2 - kPi / 3.0, 1e-15);
-  EXPECT_NEAR(line_heading_rad(law, 0.2, -50.0, 0.0), 0.2 + kPi / 3.0, 1e-15);
-  EXPECT_NEAR(line_heading_rad(law, 0.2, 1.0, 0.0), 0.2 - kPi / 6.0, 1e-15);
+  const LineOfSight<double> law{kPi / 3.0, 2.0, true};
+  EXPECT_NEAR(heading_beside(law, 50.0, 0.0), 0.2 - kPi / 3.0, 1e-14);
+  EXPECT_NEAR(heading_beside(law, -50.0, 0.0), 0.2 + kPi / 3.0, 1e-14);
+  EXPECT_NEAR(heading_beside(law, 1.0, 0.0), 0.2 - kPi / 6.0, 1e-14);
 }
 
 TEST(Line, SideslipIsTakenOffOnlyWhereRequested) {
-  EXPECT_NEAR(line_heading_rad(LineLaw<double>{1.0, 2.0, true}, 0.0, 0.0, 0.1), -0.1, 1e-15);
-  EXPECT_NEAR(line_heading_rad(LineLaw<double>{1.0, 2.0, false}, 0.0, 0.0, 0.1), 0.0, 1e-15);
+  EXPECT_NEAR(heading_beside({1.0, 2.0, true}, 0.0, 0.1), 0.1, 1e-14);
+  EXPECT_NEAR(heading_beside({1.0, 2.0, false}, 0.0, 0.1), 0.2, 1e-14);
   EXPECT_EQ(sideslip_rad(0.0, 0.01), 0.0);  // at rest the course is undefined
   EXPECT_NEAR(sideslip_rad(1.0, 1.0), kPi / 4.0, 1e-15);
 }
@@ -93,8 +105,7 @@ TEST(Line, SideslipIsTakenOffOnlyWhereRequested) {
 double cross_track(P a, P b, P at) {
   const P points[] = {a, b};
   auto progress = start_polyline(0.0);
-  return guide(Polyline<double>{points, 2, 0.0, {1.0, 1.0, false}}, at, 0.0, progress)
-      .cross_track_m;
+  return guide(LosLine{points, 2, 0.0, {1.0, 1.0, false}}, at, kStraight, progress).cross_track_m;
 }
 
 TEST(Line, VerticalLinesAreLinesToo) {
@@ -105,16 +116,16 @@ TEST(Line, VerticalLinesAreLinesToo) {
 
 TEST(Polyline, PassesOnAtTheEndOfASegmentAndFinishesAtTheLast) {
   const P points[] = {{0, 0}, {10, 0}, {10, 0}, {10, 10}};  // one segment has no length
-  const Polyline<double> line{points, 4, 1.0, {1.0, 1.0, false}};
+  const LosLine line{points, 4, 1.0, {1.0, 1.0, false}};
   auto progress = start_polyline(0.0);
-  EXPECT_NEAR(guide(line, {8.9, 0.0}, 0.0, progress).to_go_m, 1.1, 1e-12);
+  EXPECT_NEAR(guide(line, {8.9, 0.0}, kStraight, progress).to_go_m, 1.1, 1e-12);
   EXPECT_EQ(progress.segment, 0);
-  const auto turned = guide(line, {9.0, 0.0}, 0.0, progress);
+  const auto turned = guide(line, {9.0, 0.0}, kStraight, progress);
   EXPECT_EQ(progress.segment, 2);
   EXPECT_NEAR(turned.cross_track_m, 1.0, 1e-15);
   EXPECT_NEAR(turned.psi_rad, kPi / 2.0 - 1.0, 1e-15);
-  EXPECT_FALSE(guide(line, {10.0, 9.5}, 0.0, progress).finished);
-  const auto at_end = guide(line, {10.2, 10.0}, 0.0, progress);
+  EXPECT_FALSE(guide(line, {10.0, 9.5}, kStraight, progress).finished);
+  const auto at_end = guide(line, {10.2, 10.0}, kStraight, progress);
   EXPECT_TRUE(at_end.finished);
   EXPECT_EQ(at_end.to_go_m, 0.0);
 }
@@ -122,8 +133,7 @@ TEST(Polyline, PassesOnAtTheEndOfASegmentAndFinishesAtTheLast) {
 TEST(Polyline, WithoutAnyLengthItIsFinishedAndTheHeadingHeld) {
   const P points[] = {{1, 1}, {1, 1}};
   auto progress = start_polyline(0.4);
-  const auto guided =
-      guide(Polyline<double>{points, 2, 0.0, {1.0, 1.0, true}}, {0, 0}, 0.0, progress);
+  const auto guided = guide(LosLine{points, 2, 0.0, {1.0, 1.0, true}}, {0, 0}, kStraight, progress);
   EXPECT_TRUE(guided.finished);
   EXPECT_EQ(guided.psi_rad, 0.4);
 }
@@ -198,8 +208,9 @@ TEST(Guidance, MixesNoDoubleIntoItsScalar) {
   auto progress = start_waypoints(points[0], S(0.0));
   EXPECT_FALSE(guide(Waypoints<S>{points, 2, S(0.1), true}, points[0], progress).finished);
   auto along = start_polyline(S(0.0));
-  const Polyline<S> line{points, 2, S(0.0), {S(1.0), S(1.0), true}};
-  EXPECT_FALSE(guide(line, points[0], sideslip_rad(S(1.0), S(0.1)), along).finished);
+  const Polyline<S, LineOfSight<S>> line{points, 2, S(0.0), {S(1.0), S(1.0), true}};
+  EXPECT_FALSE(
+      guide(line, points[0], {sideslip_rad(S(1.0), S(0.1)), S(1.0), S(0.01)}, along).finished);
   const Lissajous<S> path{S(10.0), S(10.0), S(0.01), S(0.03)};
   const auto at = path.at(S(1.0));
   EXPECT_GT(closed_path(at, S(0.5), at.position_m, S(0.0), S(0.0)).speed_mps.value(), 0.0);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "awmr/simulate/scenario.h"
 #include "emit/paper_robot.h"
 #include "support/toolchain.h"
 
@@ -146,6 +147,42 @@ TEST(AllParts, CompileForTheChipAsCAndAsCxxAndRunUnderSanitizers) {
   ASSERT_TRUE(succeeded(run(kGcc + host + "-std=c99 -c use.c -o use.o")));
   ASSERT_TRUE(succeeded(run(kGxx + host + "-std=c++14 use.o src/awmr.cpp -o use")));
   EXPECT_EQ(run("./use").exit_code, 0);
+}
+
+/// Follows a line by a law whose parameters are 0.5 and 0.3.
+constexpr const char* kUseLine = R"(#include "awmr.h"
+static const awmr_point corners[2] = {{0.0f, 0.0f}, {100.0f, 0.0f}};
+static const float parameters[2] = {0.5f, 0.3f};
+int main(void) {
+  awmr_input in = {0};
+  awmr_output out;
+  if (awmr_init() != AWMR_FAULT_NONE) return 1;
+  awmr_follow_line_by(corners, 2, parameters, 0.0f, 0);
+  in.u_ref_mps = in.u_mps = 1.0f;
+  in.y_m = 0.1f;
+  awmr_step(&in, &out);
+  /* to the line, from its left */
+  return out.fault == AWMR_FAULT_NONE && out.psi_ref_rad < -0.01f && out.psi_ref_rad > -1.0f ? 0 : 2;
+}
+)";
+
+TEST(LineLaws, EachCompilesForTheChipAndLeadsToTheLine) {
+  for (std::size_t place = 0; place < line_laws().size(); ++place) {
+    SCOPED_TRACE(name_of(line_laws()[place]));
+    TemporaryDirectory directory;
+    EmitOptions options;
+    options.parts.insert(FirmwarePart::kLine);
+    options.line_law = place;
+    write_library(directory.path(), options);
+    write_all(directory.path() / "use.c", kUseLine);
+    const auto run = [&](const std::string& line) { return run_process(line, directory.path()); };
+    EXPECT_TRUE(succeeded(run(std::string(kAvrGxx) +
+                              " -mmcu=atmega2560 -Os -Wall -Wextra -Werror -std=c++11 -Isrc -c "
+                              "src/awmr.cpp -o awmr.o")));
+    ASSERT_TRUE(succeeded(run(std::string(kGcc) + " -std=c99 -Isrc -c use.c -o use.o")));
+    ASSERT_TRUE(succeeded(run(std::string(kGxx) + " -std=c++14 -Isrc use.o src/awmr.cpp -o use")));
+    EXPECT_EQ(run("./use").exit_code, 0);
+  }
 }
 
 constexpr auto kForm = [](const auto& test) {

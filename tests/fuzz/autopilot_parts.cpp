@@ -117,7 +117,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       start_autopilot(autopilot, &kRobot.block, nullptr, 0, nullptr, 0, kRobot.crc, &kRobot.rest),
       "the parameters are good");
   if ((use & kWaypoints) != 0) follow_waypoints(autopilot, {corners, kMostPoints, 1.0F, true});
-  if ((use & kLine) != 0) follow_line(autopilot, {corners, kMostPoints, 0.5F, {1.0F, 2.0F, true}});
+  if ((use & kLine) != 0)
+    follow_line(autopilot, {corners, kMostPoints, 0.5F, {1.0F, 2.0F, true}}, 0.01F);
   if ((use & kPath) != 0) follow_path(autopilot, {10.0F, 8.0F, 0.1F, 0.3F}, 0.5F);
   part_of<SlowDown<float>>(autopilot).distance_m = (use & kLine) != 0 ? 2.0F : 0.0F;
   if ((use & kObstacles) != 0) {

@@ -219,6 +219,8 @@ constexpr const char* kGuided[] = {"paper/scenarios/c9_line",
                                    "paper/scenarios/c11_lissajous",
                                    "paper/scenarios/c11_lissajous_closed",
                                    "paper/scenarios/c12_waypoints_and_line",
+                                   "baselines/double_lane_change_pure_pursuit",
+                                   "baselines/side_slope_ilos",
                                    "scenarios/docking",
                                    "scenarios/heading_steps_fixed_half",
                                    "scenarios/heading_steps_observer",
@@ -229,10 +231,16 @@ constexpr const char* kGuided[] = {"paper/scenarios/c9_line",
                                    "scenarios/slalom"};
 
 /// The same firmware as one of kGuided, on other courses and grounds.
-constexpr const char* kGuidedElsewhere[] = {
-    "scenarios/double_lane_change", "scenarios/figure_of_eight", "scenarios/gps_dropout",
-    "scenarios/low_battery",        "scenarios/side_slope",      "scenarios/slippery_patch",
-    "scenarios/wheel_failure",      "scenarios/worst_corner"};
+constexpr const char* kGuidedElsewhere[] = {"scenarios/double_lane_change",
+                                            "scenarios/figure_of_eight",
+                                            "scenarios/gps_dropout",
+                                            "scenarios/low_battery",
+                                            "scenarios/side_slope",
+                                            "scenarios/slippery_patch",
+                                            "scenarios/wheel_failure",
+                                            "scenarios/worst_corner",
+                                            "baselines/double_lane_change_ilos",
+                                            "baselines/side_slope_pure_pursuit"};
 
 std::string name_of_file(const ::testing::TestParamInfo<const char*>& test) {
   return std::filesystem::path(test.param).filename().string();
@@ -240,8 +248,8 @@ std::string name_of_file(const ::testing::TestParamInfo<const char*>& test) {
 
 INSTANTIATE_TEST_SUITE_P(, PilGuidance, ::testing::ValuesIn(kGuided), name_of_file);
 
-/// Tier `long`: all of configs/ to its end, except open loop, which has no controller, the
-/// baselines, and those of PilScenario.
+/// Tier `long`: all of configs/ to its end, except open loop, which has no controller, the LQI, and
+/// those of PilScenario.
 class PilWholeScenario : public PilGuidance {};
 
 TEST_P(PilWholeScenario, LeadsByItselfBitForBitAsOnTheHost) {
@@ -256,21 +264,13 @@ std::vector<const char*> all_guided() {
 
 INSTANTIATE_TEST_SUITE_P(, PilWholeScenario, ::testing::ValuesIn(all_guided()), name_of_file);
 
-/// The chip supports the paper's laws; others are refused, not replaced.
-TEST_F(Pil, RefusesTheBaselinesByName) {
-  const std::pair<const char*, const char*> cases[] = {
-      {"heading_steps_lqi",
-       ":/control/heading_law: the firmware's heading law is the sliding mode"},
-      {"side_slope_ilos", ":/guidance/law: the firmware follows lines by los alone"},
-      {"double_lane_change_pure_pursuit",
-       ":/guidance/law: the firmware follows lines by los alone"}};
-  for (const auto& [scenario, words] : cases) {
-    const ProcessResult run =
-        pil(std::string("configs/baselines/") + scenario + ".json", "combined", "", "refused.json");
-    EXPECT_EQ(run.exit_code, 2) << scenario;
-    EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
-    EXPECT_FALSE(exists("refused.json"));
-  }
+/// The chip has the paper's heading law; another is refused, not replaced.
+TEST_F(Pil, RefusesTheLqiByName) {
+  const ProcessResult run =
+      pil("configs/baselines/heading_steps_lqi.json", "combined", "", "refused.json");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find(":/control/heading_law: "), std::string::npos) << run.err;
+  EXPECT_FALSE(exists("refused.json"));
 }
 
 /// If the only task is a heading that has been reached, the commands decay to the smallest numbers.

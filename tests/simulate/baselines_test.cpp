@@ -99,7 +99,7 @@ double last_cross_track_m(const Scenario& scenario, YawMode mode) {
 TEST(IlosInTheLoop, LeavesNoOffsetOnASideSlopeWhereLineOfSightDoes) {
   for (const YawMode mode : kYawModes) {
     for (const bool compensated : {true, false}) {
-      const LineLaw<double> los{radians(60.0), 5.0, compensated};
+      const LineOfSight<double> los{radians(60.0), 5.0, compensated};
       const IntegralLos<double> ilos{3.0, 0.3, compensated};
       EXPECT_GT(std::abs(last_cross_track_m(on_a_side_slope(los), mode)), 0.05) << name_of(mode);
       // y_int converges at 0.1 1/s = sigma/Delta at the slowest, over 150 s.

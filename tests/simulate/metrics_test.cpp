@@ -71,7 +71,7 @@ TEST(Metrics, ACourseThatSlowsDownAtItsEndHasNoSpeedDrop) {
         .speed_drop_mps;
   };
   WaypointCourse waypoints{{{4.0, 0.0}}, 0.5, false, {}};
-  LineCourse line{{{0.0, 0.0}, {4.0, 0.0}}, LineLaw<double>{1.0, 1.0, false}, 0.0, {}};
+  LineCourse line{{{0.0, 0.0}, {4.0, 0.0}}, LineOfSight<double>{1.0, 1.0, false}, 0.0, {}};
   EXPECT_NEAR(*drop(waypoints), 0.6, 1e-12);
   EXPECT_NEAR(*drop(line), 0.6, 1e-12);
   waypoints.slow_down_m = 1.0;

@@ -213,8 +213,8 @@ TEST(ScenarioFile, ReadsLinesAndTimedPaths) {
                                       "delta_deg": 45, "width_m": 2})"));
   ASSERT_TRUE(line) << to_text(line.error());
   EXPECT_EQ(std::get<LineCourse>(line->guidance).points_m[1].y_m, 3.0);
-  EXPECT_TRUE(
-      std::get<LineLaw<double>>(std::get<LineCourse>(line->guidance).law).sideslip_compensation);
+  EXPECT_TRUE(std::get<LineOfSight<double>>(std::get<LineCourse>(line->guidance).law)
+                  .sideslip_compensation);
   const auto integral = read(replaced(kHeading, steps,
                                       R"({"type": "line", "from_m": [0, 1], "to_m": [2, 3],
                                           "law": "ilos", "lookahead_m": 3,

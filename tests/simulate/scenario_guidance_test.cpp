@@ -62,7 +62,7 @@ TEST(ScenarioGuidance, GoesToOnePointAfterTheOtherAndSlowsDownBeforeTheLast) {
 
 TEST(ScenarioGuidance, FollowsALineToItsEndAndSlowsDownBeforeIt) {
   const Scenario scenario = along(LineCourse{.points_m = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}},
-                                             .law = LineLaw<double>{1.0, 1.0, false},
+                                             .law = LineOfSight<double>{1.0, 1.0, false},
                                              .slow_down_m = 4.0});
   ScenarioGuidance guidance(scenario, 0.01, at(0.0, 0.0));
   const GuidanceOutput first = guidance.step(0.0, at(7.0, 0.2));

@@ -16,12 +16,13 @@ void follow_waypoints(Autopilot<G, P>& a, const Waypoints<float>& waypoints) {
   disable(part_of<typename P::Path>(a));
 }
 
-/// Follows this line from the next step on.
+/// Follows this line from the next step on. `sample_time_s`: between two steps.
 template <class G, class P>
-void follow_line(Autopilot<G, P>& a, const Polyline<float>& line) {
+void follow_line(Autopilot<G, P>& a, const typename P::Line::Route& line, float sample_time_s) {
   follow_waypoints(a, Waypoints<float>{0, 0, 0.0F, false});
-  LineFollower<float>& part = part_of<LineFollower<float>>(a);
+  typename P::Line& part = part_of<typename P::Line>(a);
   part.line = line;
+  part.sample_time_s = sample_time_s;
   part.is_started = false;
 }
 

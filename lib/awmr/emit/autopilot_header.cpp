@@ -6,6 +6,7 @@
 #include <string>
 
 #include "awmr/emit/emit.h"
+#include "awmr/simulate/scenario.h"
 #include "literals.h"
 
 namespace awmr {
@@ -59,7 +60,9 @@ constexpr std::string_view kTable = R"(
 
 constexpr std::string_view kParts = R"(
 /* 1: compiled in; awmr.h says what each is for */
-{}/* 1: in the combined mode half of the moment by each path, whatever the limits take away */
+{}/* Law for lines: {} (its place in src/awmr/control/guidance/line_laws.h) */
+#define AWMR_LINE_LAW {}
+/* 1: in the combined mode half of the moment by each path, whatever the limits take away */
 #define AWMR_FIXED_HALF {}
 )";
 
@@ -76,7 +79,8 @@ std::string parts_text(const AutopilotParameters& parameters) {
   for (const auto& [name, part] : kFirmwarePartNames) {
     lines += fmt::format("#define {} {}\n", macro_of(name), parameters.parts.count(part));
   }
-  return fmt::format(kParts, lines, parameters.split == CombinedSplit::kFixedHalf ? 1 : 0);
+  return fmt::format(kParts, lines, name_of(line_laws()[parameters.line_law]), parameters.line_law,
+                     parameters.split == CombinedSplit::kFixedHalf ? 1 : 0);
 }
 
 constexpr std::string_view kRest = R"(

@@ -261,6 +261,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
                       single(gains.observer.surge_max), parameters.sample_time_s};
   }
   parameters.split = options.split;
+  parameters.line_law = options.line_law;
   parameters.block = block_of(plant, model, gains, options);
   parameters.steering_max_tan_half = parameters.block.constants.allocation.q_max;
   parameters.block.safety.speed_max_mps = largest_below(surge.top);

@@ -77,6 +77,8 @@ struct EmitOptions {
   std::optional<double> table_error = {};
   /// Compiled in. Each needs flash, RAM and, while in use, time in every step.
   std::set<FirmwarePart> parts = {};
+  /// Law of the part kLine: its place in LineLaws.
+  std::size_t line_law = 0;
   /// Action of the combined mode when a path saturates.
   CombinedSplit split = CombinedSplit::kRedistribute;
   /// ms, > 0: maximum age of heading and yaw rate. Longer for a slow compass.
@@ -125,6 +127,7 @@ struct AutopilotParameters {
   float on_course_rad = 0.0F;    ///< of the sketches: largest steady error of the heading
   float off_course_mrad = 0.0F;  ///< of the sketches: driven with a larger one before a fault
   std::set<FirmwarePart> parts;  ///< as in EmitOptions, and the observer of the gains
+  std::size_t line_law = 0;      ///< as in EmitOptions
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< as in EmitOptions
   std::uint32_t crc = 0;                               ///< crc32_of_parameters() of all parameters
 };

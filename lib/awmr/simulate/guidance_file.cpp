@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "awmr/core/name_table.h"
 #include "awmr/core/units.h"
@@ -21,7 +23,6 @@ constexpr NameTable<GuidanceType, 5> kGuidanceTypes{{{"open_loop", GuidanceType:
                                                      {"line", GuidanceType::kLine},
                                                      {"lissajous", GuidanceType::kLissajous}}};
 constexpr NumberRule kBelowRightAngle{.min = 0.0, .max = 89.0};
-constexpr NumberRule kApproachAngle{.min = 0.0, .max = 90.0, .min_excluded = true};
 
 HeadingSteps read_heading_steps(JsonObject& json) {
   HeadingSteps heading;
@@ -102,29 +103,23 @@ void check_segments(JsonObject& json, const char* key,
   }
 }
 
-enum class LineLawName { kLos, kPurePursuit, kIlos };
-constexpr NameTable<LineLawName, 3> kLineLaws{{{"los", LineLawName::kLos},
-                                               {"pure_pursuit", LineLawName::kPurePursuit},
-                                               {"ilos", LineLawName::kIlos}}};
-/// From a millimetre, below which a vehicle would turn for every rounding error off the line.
-constexpr NumberRule kLookahead_m{.min = 1e-3, .max = 1e6};
-constexpr NumberRule kIntegralGain_mps{.min = 0.0, .max = 1e3, .min_excluded = true};
-
 /// Each law with its own keys, so that those of another are unknown ones.
-AnyLineLaw read_line_law(JsonObject& json, bool sideslip_compensation) {
-  const bool is_named = json.has("law");
-  switch (is_named ? json.choice("law", kLineLaws) : LineLawName::kLos) {
-    case LineLawName::kPurePursuit:
-      return PurePursuit<double>{json.number("lookahead_m", kLookahead_m), sideslip_compensation};
-    case LineLawName::kIlos:
-      return IntegralLos<double>{json.number("lookahead_m", kLookahead_m),
-                                 json.number("integral_gain_mps", kIntegralGain_mps),
-                                 sideslip_compensation};
-    case LineLawName::kLos:
-      break;
-  }
-  return LineLaw<double>{radians(json.number("delta_deg", kApproachAngle)),
-                         json.number("width_m", kLength_m), sideslip_compensation};
+void read_line_law(JsonObject& json, LineCourse& course) {
+  const std::vector<AnyLineLaw> laws = line_laws();
+  std::vector<std::string> names;
+  for (const AnyLineLaw& law : laws) names.emplace_back(name_of(law));
+  course.law = laws[json.has("law") ? json.choice("law", names) : 0];
+  const auto read = [&json](const char* key, double& parameter, const LawParameter& rule) {
+    const NumberRule range{.min = rule.min, .max = rule.max, .min_excluded = rule.min_excluded};
+    parameter = rule.unit * json.number(key, range);
+  };
+  const auto read_law = [&](auto& law) {
+    law.sideslip_compensation = json.optional_boolean("sideslip_compensation").value_or(true);
+    law.parameters(law, read);
+    if (!law.kUsesCorner) return;
+    course.corner_m = json.optional_number("corner_m", kLengthOrNone_m).value_or(0.0);
+  };
+  std::visit(read_law, course.law);
 }
 
 LineCourse read_line(JsonObject& json) {
@@ -136,11 +131,7 @@ LineCourse read_line(JsonObject& json) {
     course.points_m = {read_point(json, "from_m"), read_point(json, "to_m")};
     if (json.has("from_m") && json.has("to_m")) check_segments(json, "to_m", course.points_m);
   }
-  course.law = read_line_law(json, json.optional_boolean("sideslip_compensation").value_or(true));
-  // Pure pursuit rounds corners by its lookahead.
-  if (!std::holds_alternative<PurePursuit<double>>(course.law)) {
-    course.corner_m = json.optional_number("corner_m", kLengthOrNone_m).value_or(0.0);
-  }
+  read_line_law(json, course);
   course.slow_down_m = json.optional_number("slow_down_m", kLength_m);
   return course;
 }

@@ -25,7 +25,18 @@ bool is_random(const std::vector<DisturbanceTerm>& terms) {
 
 bool has_noise(const Channel& channel) { return channel.noise > 0.0; }
 
+template <class... Laws>
+std::vector<std::variant<Laws...>> each_of(const std::variant<Laws...>&) {
+  return {Laws{}...};
+}
+
 }  // namespace
+
+std::vector<AnyLineLaw> line_laws() { return each_of(AnyLineLaw{}); }
+
+std::string_view name_of(const AnyLineLaw& law) {
+  return std::visit([](const auto& held) { return std::string_view(held.name()); }, law);
+}
 
 std::optional<double> Scenario::held_tau_speed() const {
   const auto* heading = std::get_if<HeadingSteps>(&guidance);

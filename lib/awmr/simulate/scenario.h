@@ -10,10 +10,8 @@
 #include <vector>
 
 #include "awmr/control/guidance/heading_shaping.h"
-#include "awmr/control/guidance/ilos.h"
-#include "awmr/control/guidance/line.h"
+#include "awmr/control/guidance/line_laws.h"
 #include "awmr/control/guidance/obstacles.h"
-#include "awmr/control/guidance/pure_pursuit.h"
 #include "awmr/control/guidance/timed_path.h"
 #include "awmr/control/yaw_mode.h"
 #include "awmr/core/name_table.h"
@@ -55,14 +53,18 @@ struct WaypointCourse {
   std::optional<double> slow_down_m;
 };
 
-/// Guidance law of a line: the paper's line of sight, or a baseline.
-using AnyLineLaw = std::variant<LineLaw<double>, PurePursuit<double>, IntegralLos<double>>;
+/// A law for lines: the paper's line of sight, or a baseline.
+using AnyLineLaw = LineLaws<std::variant, double>;
+/// Each law, with parameters of 0, in the order of LineLaws.
+std::vector<AnyLineLaw> line_laws();
+/// A law's name in files, options and messages.
+std::string_view name_of(const AnyLineLaw& law);
 
 /// A line or polyline to follow; the run ends past its end.
 struct LineCourse {
   std::vector<Position<double>> points_m;  ///< at least two
   AnyLineLaw law{};
-  double corner_m = 0.0;              ///< >= 0, see Polyline::corner_m; not for pure pursuit
+  double corner_m = 0.0;              ///< >= 0, see Polyline::corner_m; 0 for a law without
   std::optional<double> slow_down_m;  ///< as in WaypointCourse, along the last segment
 };
 

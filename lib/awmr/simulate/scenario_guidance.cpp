@@ -54,13 +54,12 @@ void ScenarioGuidance::set_up(const WaypointCourse& course, const Sensed& start)
 }
 
 void ScenarioGuidance::set_up(const LineCourse& course, const Sensed& start) {
-  CourseFollower& part = laws_;
-  part.line = {course.points_m.data(), static_cast<int>(course.points_m.size())};
-  part.course = &course;
+  AnyLineFollower<double>& part = laws_;
+  part.line = {course.points_m.data(), static_cast<int>(course.points_m.size()), course.corner_m,
+               course.law};
   part.progress = start_polyline(start.motion.psi_rad);
   part.is_started = true;
   part.sample_time_s = sample_time_s_;
-  part.integral = start_integral<double>();
   laws_.distance_m = course.slow_down_m.value_or(0.0);
 }
 
@@ -119,7 +118,7 @@ void ScenarioGuidance::describe(const WaypointCourse& course, const Sensed& sens
 void ScenarioGuidance::describe(const LineCourse& course, const Sensed& sensed,
                                 GuidanceOutput& output) {
   const int count = static_cast<int>(course.points_m.size());
-  const CourseFollower& part = laws_;
+  const AnyLineFollower<double>& part = laws_;
   output.course.leg = std::min(part.progress.segment, count - 2);
   output.course.target_m = course.points_m[static_cast<std::size_t>(output.course.leg) + 1];
   output.course.cross_track_m = part.guided.cross_track_m;

@@ -7,7 +7,7 @@
 
 #include "awmr/control/guidance/guidance.h"
 #include "awmr/control/measurement.h"
-#include "awmr/simulate/line_following.h"
+#include "awmr/simulate/any_line.h"
 #include "awmr/simulate/scenario.h"
 #include "awmr/simulate/sensing.h"
 #include "awmr/simulate/simulate.h"
@@ -49,7 +49,7 @@ class ScenarioGuidance {
  private:
   /// The parts of the guidance that a scenario can have; without a clock that wraps.
   struct Parts {
-    using Line = CourseFollower;
+    using Line = AnyLineFollower<double>;
     using Path = TimedPathFollower;
     using Arrival = SlowDown<double>;
     using Avoidance = Avoider<double>;

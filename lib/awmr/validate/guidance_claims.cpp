@@ -88,7 +88,7 @@ double final_cross_track_m(const ModeRun& run) {
 
 Claim line_followed(const ModeRuns& runs) {
   const Scenario scenario = line_scenario();
-  const auto& law = std::get<LineLaw<double>>(std::get<LineCourse>(scenario.guidance).law);
+  const auto& law = std::get<LineOfSight<double>>(std::get<LineCourse>(scenario.guidance).law);
   const double accepted_m = kOnTheLineShare * law.width_m;
   const auto off = [](const ModeRun& run) -> std::optional<double> {
     return final_cross_track_m(run);

@@ -19,7 +19,7 @@ State<double> pose(double x_m, double y_m, double psi_deg) {
   return state;
 }
 
-LineLaw<double> lane(double width_m) { return {radians(kDelta_deg), width_m, true}; }
+LineOfSight<double> lane(double width_m) { return {radians(kDelta_deg), width_m, true}; }
 
 /// MMD: the steering mode's turning radius, 5 m at any speed, plus distance for the turn to begin.
 Avoidance<double> avoidance() {

@@ -28,7 +28,7 @@ KERNEL_OPTIONS = ["-fno-tree-slp-vectorize"]
 # Sources that batches need, without file readers and their libraries.
 PARTS = ["core/error", "core/option_text", "core/random", "core/text", "identify/logs/sensitivity_kernel", "model/family",
          "model/model", "model/observer_rate", "model/parameters", "model/rest_speed", "model/vehicle", "simulate/batch", "simulate/disturbance",
-         "simulate/laws", "simulate/line_following", "simulate/metrics", "simulate/passage",
+         "simulate/metrics", "simulate/passage",
          "simulate/physics", "simulate/scenario_guidance", "simulate/scenario", "simulate/sensing", "simulate/simulate",
          "simulate/straight"]
 BOCHS = """\

@@ -97,11 +97,12 @@ AWMR_INLINE bool guide_by_waypoints(GuidanceLaws<T, P>& g, const VehiclePose<T, 
   return true;
 }
 
-/// guide() of the part's law for lines.
-template <class T>
-AWMR_INLINE PolylineGuidance<T> guide_line(LineFollower<T>& part, const Position<T>& position_m,
-                                           const T& sideslip) {
-  return guide(part.line, position_m, sideslip, part.progress);
+/// guide() of line.h, for a part.
+template <class T, class Law>
+AWMR_INLINE PolylineGuidance<T> guide_line(LineFollower<T, Law>& part,
+                                           const Position<T>& position_m,
+                                           const LineMotion<T>& motion) {
+  return guide(part.line, position_m, motion, part.progress);
 }
 
 /// Writes the heading along the line into the reference. False: there is no line to follow.
@@ -116,8 +117,9 @@ AWMR_CALLED bool guide_by_line(Line& part, const Arrival& arrival, const Vehicle
   if (part.line.count <= 0) return false;
   if (!part.is_started) part.progress = start_polyline(at.measured.psi_rad);
   part.is_started = true;
-  const T sideslip = sideslip_rad(at.measured.u_mps, at.measured.v_mps);
-  const PolylineGuidance<T> guided = guide_line(part, at.position_m, sideslip);
+  const LineMotion<T> motion = {sideslip_rad(at.measured.u_mps, at.measured.v_mps),
+                                at.measured.u_mps, part.sample_time_s};
+  const PolylineGuidance<T> guided = guide_line(part, at.position_m, motion);
   hold_heading(guided.psi_rad, ref);
   const bool is_last = part.progress.segment + 2 >= part.line.count;
   slow_down(

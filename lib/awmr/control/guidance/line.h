@@ -1,4 +1,4 @@
-/// Following a line or a polyline. Freestanding C++14.
+/// Following a line or a polyline by any of the laws of line_laws.h. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/guidance/position.h"
@@ -22,67 +22,6 @@ AWMR_CALLED T sideslip_rad(const T& u_mps, const T& v_mps) {
   if (!(u_mps * u_mps + v_mps * v_mps > least * least)) return T(0.0);
   return atan2(v_mps, u_mps);
 }
-
-/// Parameters of the approach to a line.
-template <class T>
-struct LineLaw {
-  /// Delta, rad, in (0, pi/2]: angle of approach outside the lane. Larger: the line is reached on a
-  /// shorter way and more abruptly.
-  T delta_rad;
-  /// R, m, > 0: half width of the lane in which the approach angle is proportional to the distance.
-  /// Larger: smoother, and slower to reach the line.
-  T width_m;
-  /// true, as in the paper: beta is subtracted, so that the course over ground is controlled and a
-  /// vehicle that slips stays on the line. false: for vehicles that cannot measure v.
-  bool sideslip_compensation;
-};
-
-/// The heading that approaches a line of direction psi_AB and then follows it, rad, in (-pi, pi]:
-///   psi_d = psi_AB - beta - Delta sat(e/R)                                           [paper (107)]
-/// e = cross_track_m is the signed distance from the line, m, positive to the left of its
-/// direction; beta = sideslip, rad.
-template <class T>
-T line_heading_rad(const LineLaw<T>& law, const T& psi_line_rad, const T& cross_track_m,
-                   const T& sideslip) {
-  const T beta = law.sideslip_compensation ? sideslip : T(0.0);
-  return called_wrap_angle(psi_line_rad - beta -
-                           law.delta_rad * math::saturate(cross_track_m / law.width_m, T(1.0)));
-}
-
-/// Corners joined by line segments, driven from the first to the last. Two corners are one line.
-/// `Law` is the approach to a segment: this one, or that of ilos.h.
-template <class T, class Law = LineLaw<T>>
-struct Polyline {
-  const Position<T>* points_m;  ///< the corners in the world frame, m; not owned, `count` of them
-  int count;                    ///< >= 0; with fewer than two corners the line is finished at once
-  /// m, >= 0: the next segment starts this distance before the end of the current one, so that a
-  /// corner is rounded on its inside. The last segment is driven to its end. 0: corners are
-  /// overshot.
-  T corner_m;
-  Law law;  ///< approach to each segment
-};
-
-/// Progress along the corners.
-template <class T>
-struct PolylineProgress {
-  int segment;  ///< from points_m[segment] to points_m[segment + 1]
-  T psi_rad;    ///< the last psi_d, held if there is none
-};
-
-/// The progress before the first step: `psi_rad` is the vehicle's heading.
-template <class T>
-PolylineProgress<T> start_polyline(const T& psi_rad) {
-  return {0, psi_rad};
-}
-
-/// Guidance output of one step.
-template <class T>
-struct PolylineGuidance {
-  T psi_rad;        ///< psi_d, rad, in (-pi, pi]
-  T cross_track_m;  ///< e, m: distance from the current segment's line, left positive
-  T to_go_m;        ///< m: distance along the current segment to its end
-  bool finished;    ///< past the end of the last segment: psi_d holds its last value
-};
 
 /// Coordinates of a point relative to the segment from A to B. With its unit vector
 /// t = (B - A)/|B - A|:
@@ -119,38 +58,107 @@ AWMR_INLINE AlongSegment<T> along_segment(const Position<T>& a, const Position<T
   return s;
 }
 
-/// Guidance along the current segment; `heading_rad` computes the heading from the segment's
-/// direction and the distance from it.
+/// Motion of the vehicle that the laws use.
+template <class T>
+struct LineMotion {
+  T sideslip_rad;   ///< beta
+  T u_mps;          ///< u
+  T sample_time_s;  ///< of the guidance, > 0
+};
+
+/// Range of a law's parameter in files. In the law, it is `unit` times as large (rad in place of
+/// deg).
+struct LawParameter {
+  double min;
+  double max;
+  bool min_excluded;
+  double unit;
+};
+
+/// Lengths in files, m. Below the shortest one, a vehicle would turn for every rounding error.
+constexpr LawParameter lookahead_range() { return {1e-3, 1e6, false, 1.0}; }
+
+/// Corners joined by line segments, driven from the first to the last. Two corners are one line.
 ///
+/// A Law is a struct with its parameters and
+///   sideslip_compensation     true, as in the paper: beta is subtracted, so that the course over
+///                             ground is controlled and a vehicle that slips stays on the line;
+///                             false: for vehicles that cannot measure v
+///   kUsesCorner               whether corner_m below has a meaning
+///   name()                    its name in files
+///   parameters(law, field)    calls field(key, parameter, LawParameter) for each parameter
+/// with the function approach_rad(law, segment, motion, memory), which guide() subtracts from the
+/// segment's direction, and, where the defaults below do not suit, is_passed() and
+/// distance_off_m().
+template <class T, class Law>
+struct Polyline {
+  const Position<T>* points_m;  ///< the corners in the world frame, m; not owned, `count` of them
+  int count;                    ///< >= 0; with fewer than two corners the line is finished at once
+  /// m, >= 0: the next segment starts this distance before the end of the current one, so that a
+  /// corner is rounded on its inside. The last segment is driven to its end. 0: corners are
+  /// overshot.
+  T corner_m;
+  Law law;  ///< approach to each segment
+};
+
+/// Progress along the corners.
+template <class T>
+struct PolylineProgress {
+  int segment;  ///< from points_m[segment] to points_m[segment + 1]
+  T psi_rad;    ///< the last psi_d, held if there is none
+  T memory;     ///< the law's own, 0 at the start of each segment
+};
+
+/// The progress before the first step: `psi_rad` is the vehicle's heading.
+template <class T>
+PolylineProgress<T> start_polyline(const T& psi_rad) {
+  return {0, psi_rad, T(0.0)};
+}
+
+/// Guidance output of one step.
+template <class T>
+struct PolylineGuidance {
+  T psi_rad;        ///< psi_d, rad, in (-pi, pi]
+  T cross_track_m;  ///< e, m: distance from the current segment's line, left positive
+  T to_go_m;        ///< m: distance along the current segment to its end
+  bool finished;    ///< past the end of the last segment: psi_d holds its last value
+};
+
+/// True if the next segment is to be followed.
+template <class T, class Law>
+AWMR_INLINE bool is_passed(const Law&, const AlongSegment<T>& s, const T& corner_m) {
+  return !(s.length_m - s.along_m > corner_m);
+}
+
+/// Distance from the line, m, as in AlongSegment, for the record. `segment`: the current one.
+template <class T, class Law>
+AWMR_INLINE T distance_off_m(const Polyline<T, Law>&, int /*segment*/,
+                             const Position<T>& /*position_m*/, const AlongSegment<T>& s) {
+  return s.cross_track_m;
+}
+
+/// The heading along the current segment, rad, in (-pi, pi]:
+///   psi_d = psi_AB - beta - approach_rad()
 /// Segments of zero length (coinciding corners) are skipped. If no segment has a length, guidance
 /// is finished and the heading is held.
-template <class T, class Law, class Heading>
-AWMR_INLINE PolylineGuidance<T> guide_by(const Polyline<T, Law>& line,
-                                         const Position<T>& position_m, const Heading& heading_rad,
-                                         PolylineProgress<T>& progress) {
+template <class T, class Law>
+AWMR_CALLED PolylineGuidance<T> guide(const Polyline<T, Law>& line, const Position<T>& position_m,
+                                      const LineMotion<T>& motion, PolylineProgress<T>& progress) {
   T cross_track_m = T(0.0);
-  for (; progress.segment + 1 < line.count; ++progress.segment) {
+  for (; progress.segment + 1 < line.count; ++progress.segment, progress.memory = T(0.0)) {
     const AlongSegment<T> s = along_segment(line.points_m[progress.segment],
                                             line.points_m[progress.segment + 1], position_m);
     if (!(s.length_m > T(0.0))) continue;
-    cross_track_m = s.cross_track_m;
+    cross_track_m = distance_off_m(line, progress.segment, position_m, s);
     const T to_go_m = s.length_m - s.along_m;
-    const bool last = progress.segment + 2 >= line.count;
-    if (!(to_go_m > (last ? T(0.0) : line.corner_m))) continue;
-    progress.psi_rad = heading_rad(s.psi_rad(), cross_track_m);
+    const bool is_last = progress.segment + 2 >= line.count;
+    if (is_last ? !(to_go_m > T(0.0)) : is_passed(line.law, s, line.corner_m)) continue;
+    const T beta = line.law.sideslip_compensation ? motion.sideslip_rad : T(0.0);
+    progress.psi_rad = called_wrap_angle(
+        T(s.psi_rad() - beta - approach_rad(line.law, s, motion, progress.memory)));
     return {progress.psi_rad, cross_track_m, to_go_m, false};
   }
   return {progress.psi_rad, cross_track_m, T(0.0), true};
-}
-
-/// guide_by() with the law of (107).
-template <class T>
-AWMR_CALLED PolylineGuidance<T> guide(const Polyline<T>& line, const Position<T>& position_m,
-                                      const T& sideslip, PolylineProgress<T>& progress) {
-  const auto heading_rad = [&](const T& psi_line_rad, const T& cross_track_m) {
-    return line_heading_rad(line.law, psi_line_rad, cross_track_m, sideslip);
-  };
-  return guide_by(line, position_m, heading_rad, progress);
 }
 
 }  // namespace awmr

@@ -4,7 +4,7 @@
 #include <stdint.h>
 
 #include "awmr/control/guidance/heading_shaping.h"
-#include "awmr/control/guidance/line.h"
+#include "awmr/control/guidance/line_laws.h"
 #include "awmr/control/guidance/obstacles.h"
 #include "awmr/control/guidance/timed_path.h"
 #include "awmr/control/guidance/waypoints.h"
@@ -29,9 +29,11 @@ inline float elapsed_s(uint32_t start_ms, uint32_t now_ms) {
 inline double elapsed_s(double start_s, double now_s) { return now_s - start_s; }
 
 /// Follows a line or polyline.
-template <class T>
+template <class T, class Law = LineOfSight<T>>
 struct LineFollower {
-  Polyline<T> line;              ///< count 0: none
+  typedef Polyline<T, Law> Route;
+  Route line;                    ///< count 0: none
+  T sample_time_s;               ///< of the guidance, > 0
   PolylineProgress<T> progress;  ///< valid once is_started
   bool is_started;               ///< the first step along the line was made
 };
@@ -73,8 +75,8 @@ struct Shaper {
   bool is_started;
 };
 
-template <class T>
-void disable(LineFollower<T>& part) {
+template <class T, class Law>
+void disable(LineFollower<T, Law>& part) {
   part.line.count = 0;
 }
 template <class T, class Time>
@@ -108,8 +110,8 @@ template <class Part>
 AWMR_INLINE bool needs_position(const Disabled<Part>&) {
   return false;
 }
-template <class T>
-bool needs_position(const LineFollower<T>& part) {
+template <class T, class Law>
+bool needs_position(const LineFollower<T, Law>& part) {
   return part.line.count > 0;
 }
 template <class T, class Time>

@@ -90,8 +90,10 @@ const awmr::ObserverBlock awmr_tuned_observer AWMR_IN_FLASH = {
 
 namespace {
 
+typedef awmr::LineLaws<awmr::LineLawAt<AWMR_LINE_LAW>::Of, float>::Law LineLaw;
+
 struct Parts {
-  typedef awmr::Optional<AWMR_WITH_LINE, awmr::LineFollower<float>>::type Line;
+  typedef awmr::Optional<AWMR_WITH_LINE, awmr::LineFollower<float, LineLaw>>::type Line;
   typedef awmr::Optional<AWMR_WITH_PATH, awmr::PathFollower<float, uint32_t>>::type Path;
   typedef awmr::Optional<AWMR_WITH_SLOW_DOWN, awmr::SlowDown<float>>::type Arrival;
   typedef awmr::Optional<AWMR_WITH_AVOIDANCE, awmr::Avoider<float>>::type Avoidance;
@@ -160,14 +162,29 @@ __attribute__((noinline)) void awmr_follow_skipping(const awmr_point* points, in
 }
 
 #if AWMR_WITH_LINE
-__attribute__((noinline)) void awmr_follow_line(const awmr_point* corners, int16_t count,
-                                                const awmr_line_law* law) {
+namespace {
+struct NextParameter {
+  const float* next;
+  void operator()(const char*, float& parameter, const awmr::LawParameter&) { parameter = *next++; }
+};
+}  // namespace
+
+__attribute__((noinline)) void awmr_follow_line_by(const awmr_point* corners, int16_t count,
+                                                   const float* parameters, float corner_m,
+                                                   uint8_t sideslip_compensation) {
   __asm__ volatile("" ::: "memory");
-  const awmr::Polyline<float> line = {
-      reinterpret_cast<const awmr::Position<float>*>(corners), count, law->corner_m,
-      {law->delta_rad, law->width_m, law->sideslip_compensation != 0}};
-  awmr::follow_line(autopilot, line);
+  awmr::Polyline<float, LineLaw> line = {reinterpret_cast<const awmr::Position<float>*>(corners),
+                                         count, corner_m, LineLaw()};
+  LineLaw::parameters(line.law, NextParameter{parameters});
+  line.law.sideslip_compensation = sideslip_compensation != 0;
+  awmr::follow_line(autopilot, line, AWMR_SAMPLE_TIME_S);
 }
+#if AWMR_LINE_LAW == 0
+void awmr_follow_line(const awmr_point* corners, int16_t count, const awmr_line_law* law) {
+  const float parameters[] = {law->delta_rad, law->width_m};
+  awmr_follow_line_by(corners, count, parameters, law->corner_m, law->sideslip_compensation);
+}
+#endif
 #endif
 
 #if AWMR_WITH_PATH

@@ -75,7 +75,7 @@ typedef struct awmr_point {
 /* Optional parts in addition to heading hold and waypoints. Each needs flash and RAM only if
    awmr_autopilot_params.h has it compiled in (awmr emit --with NAME). */
 
-#if AWMR_WITH_LINE
+#if AWMR_WITH_LINE && AWMR_LINE_LAW == 0
 typedef struct awmr_line_law {
   float delta_rad;         /* angle of approach to the line, in (0, pi/2] */
   float width_m;           /* half width of the lane in which the approach flattens, > 0 */
@@ -156,8 +156,15 @@ void awmr_follow_skipping(const awmr_point* points, int16_t count, float accepta
 
 #if AWMR_WITH_LINE
 /* Follows the line through `count` corners from the next step on, instead of waypoints. The corners
-   are not copied. */
+   are not copied. `parameters`: those of the law of awmr emit --line-law, in the order and units of
+   its header in src/awmr/control/guidance. corner_m: as in awmr_line_law; 0 for pure_pursuit.
+   sideslip_compensation: as in awmr_line_law. */
+void awmr_follow_line_by(const awmr_point* corners, int16_t count, const float* parameters,
+                         float corner_m, uint8_t sideslip_compensation);
+#if AWMR_LINE_LAW == 0
+/* As above, for the paper's law (los). */
 void awmr_follow_line(const awmr_point* corners, int16_t count, const awmr_line_law* law);
+#endif
 #endif
 
 #if AWMR_WITH_PATH

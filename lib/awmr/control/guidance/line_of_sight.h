@@ -1,0 +1,37 @@
+/// The paper's law for lines: line of sight. Freestanding C++14.
+#pragma once
+
+#include "awmr/control/guidance/line.h"
+
+namespace awmr {
+
+/// Parameters of the line-of-sight law.
+template <class T>
+struct LineOfSight {
+  /// Delta, rad, in (0, pi/2]: angle of approach outside the lane. Larger: the line is reached on a
+  /// shorter way and more abruptly.
+  T delta_rad;
+  /// R, m, > 0: half width of the lane in which the approach angle is proportional to the distance.
+  /// Larger: smoother, and slower to reach the line.
+  T width_m;
+  bool sideslip_compensation;
+
+  static constexpr bool kUsesCorner = true;
+  static const char* name() { return "los"; }
+  template <class Law, class Field>
+  static void parameters(Law& law, Field field) {
+    field("delta_deg", law.delta_rad, LawParameter{0.0, 90.0, true, 3.14159265358979323846 / 180.0});
+    field("width_m", law.width_m, LawParameter{0.0, 1e6, true, 1.0});
+  }
+};
+
+/// Part of guide(), rad:
+///   psi_d = psi_AB - beta - Delta sat(e/R)                                           [paper (107)]
+/// e is the signed distance from the line, m, positive to the left of its direction.
+template <class T>
+AWMR_INLINE T approach_rad(const LineOfSight<T>& law, const AlongSegment<T>& s,
+                           const LineMotion<T>&, T& /*memory*/) {
+  return law.delta_rad * math::saturate(s.cross_track_m / law.width_m, T(1.0));
+}
+
+}  // namespace awmr

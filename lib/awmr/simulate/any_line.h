@@ -1,0 +1,45 @@
+/// A part of the guidance that follows a line by a law chosen at run time. Private to the program:
+/// a firmware has one law compiled in.
+#pragma once
+
+#include <variant>
+
+#include "awmr/control/guidance/parts.h"
+
+namespace awmr {
+
+/// LineFollower by any law.
+template <class T>
+struct AnyLineFollower {
+  struct Route {
+    const Position<T>* points_m;
+    int count;  ///< 0: there is no line
+    T corner_m;
+    LineLaws<std::variant, T> law;
+  } line;
+  T sample_time_s;
+  PolylineProgress<T> progress;
+  bool is_started;
+  PolylineGuidance<T> guided;  ///< of the last step
+};
+
+template <class T>
+void disable(AnyLineFollower<T>& part) {
+  part.line.count = 0;
+}
+template <class T>
+bool needs_position(const AnyLineFollower<T>& part) {
+  return part.line.count > 0;
+}
+template <class T>
+PolylineGuidance<T> guide_line(AnyLineFollower<T>& part, const Position<T>& position_m,
+                               const LineMotion<T>& motion) {
+  const auto by = [&]<class Law>(const Law& law) {
+    const Polyline<T, Law> line{part.line.points_m, part.line.count, part.line.corner_m, law};
+    return guide(line, position_m, motion, part.progress);
+  };
+  part.guided = std::visit(by, part.line.law);
+  return part.guided;
+}
+
+}  // namespace awmr
