@@ -1,4 +1,4 @@
-/// Baseline laws: pure pursuit, integral line of sight, LQI.
+/// Baseline laws: pure pursuit, integral line of sight, Stanley, LQI.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -106,6 +106,17 @@ TEST(Ilos, BeginsAnewOnEachSegment) {
   EXPECT_EQ(progress.segment, 1);
   EXPECT_NEAR(turned.psi_rad, kPi / 2.0, 1e-15);
   EXPECT_EQ(progress.memory, 0.0);
+}
+
+TEST(Stanley, ApproachesByTheDistanceOverTheSpeed) {
+  const Stanley<double> law{0.5, 0.2, true};
+  double none = 0.0;
+  EXPECT_NEAR(approach_rad(law, beside(1.5), {0.0, 2.0, 0.01}, none), std::atan(0.75 / 2.2), 1e-15);
+  EXPECT_NEAR(approach_rad(law, beside(-1.5), {0.0, 0.0, 0.01}, none), -std::atan(0.75 / 0.2),
+              1e-15);
+  // rolling backward counts as at rest
+  EXPECT_EQ(approach_rad(law, beside(1.5), {0.0, -5.0, 0.01}, none),
+            approach_rad(law, beside(1.5), {0.0, 0.0, 0.01}, none));
 }
 
 using Real = long double;
@@ -239,6 +250,8 @@ TEST(Baselines, MixNoDoubleIntoTheirScalar) {
   EXPECT_FALSE(guide(pursued, points[0], motion, along).finished);
   const Polyline<S, IntegralLos<S>> line{points, 2, S(0.0), {S(1.0), S(0.2), true}};
   EXPECT_FALSE(guide(line, points[0], motion, along).finished);
+  const Polyline<S, Stanley<S>> smooth{points, 2, S(0.0), {S(1.0), S(0.2), true}};
+  EXPECT_FALSE(guide(smooth, points[0], motion, along).finished);
   const LqiWeights<S> weights{S(0.2), S(0.4), S(1.0), S(0.02)};
   const LqiGains<S> gains = lqi_gains(weights, S(0.012));
   EXPECT_EQ(gains.rate_per_s.value(), lqi_gains<double>({0.2, 0.4, 1.0, 0.02}, 0.012).rate_per_s);

@@ -118,6 +118,18 @@ TEST(PurePursuitInTheLoop, ComesToALineFromBesideIt) {
   }
 }
 
+/// Near the line e_dot = -k e u/(k_s + u), whatever the speed: after ln(10)/k s a tenth is left.
+TEST(StanleyInTheLoop, ApproachesTheLineInTheSameTimeAtAnySpeed) {
+  for (const double speed_mps : {0.5, 1.0}) {
+    Scenario s = line_scenario({{0.0, 0.0}, {100.0, 0.0}}, Stanley<double>{0.2, 0.01, true}, 0.3);
+    s.speed_mps = s.initial.u_mps = speed_mps;
+    s.duration_s = std::log(10.0) / 0.2;
+    for (const YawMode mode : kYawModes) {
+      EXPECT_NEAR(run_of(s, mode).rows.back().course.cross_track_m, 0.03, 0.01) << name_of(mode);
+    }
+  }
+}
+
 /// The corner is cut on the inside. With the target on a circle of radius L about the vehicle it
 /// stays within L/2 of a right angle. Steering, with a minimum radius of 5 m, swings out by some of
 /// that.

@@ -8,12 +8,13 @@
 #include "awmr/control/guidance/ilos.h"
 #include "awmr/control/guidance/line_of_sight.h"
 #include "awmr/control/guidance/pure_pursuit.h"
+#include "awmr/control/guidance/stanley.h"
 
 namespace awmr {
 
 /// List<LineOfSight<T>, ...>: every law; the first is the default.
 template <template <class...> class List, class T>
-using LineLaws = List<LineOfSight<T>, PurePursuit<T>, IntegralLos<T>>;
+using LineLaws = List<LineOfSight<T>, PurePursuit<T>, IntegralLos<T>, Stanley<T>>;
 
 namespace detail {
 template <int kPlace, class First, class... Rest>

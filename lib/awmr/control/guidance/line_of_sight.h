@@ -20,7 +20,8 @@ struct LineOfSight {
   static const char* name() { return "los"; }
   template <class Law, class Field>
   static void parameters(Law& law, Field field) {
-    field("delta_deg", law.delta_rad, LawParameter{0.0, 90.0, true, 3.14159265358979323846 / 180.0});
+    field("delta_deg", law.delta_rad,
+          LawParameter{0.0, 90.0, true, 3.14159265358979323846 / 180.0});
     field("width_m", law.width_m, LawParameter{0.0, 1e6, true, 1.0});
   }
 };
