@@ -181,6 +181,7 @@ Result<Outcome> execute(const EmitCommand& command) {
   }
   AWMR_RETURN_IF_ERROR(check_replaceable(command.output, files));
   AWMR_RETURN_IF_ERROR(note_other_model(command.gains, command.model, outcome.findings));
+  if (auto finding = missing_intervals(model)) outcome.findings.push_back(*std::move(finding));
   const double sample_time_s = model.vehicle.sample_time_s;
   std::ranges::move(sample_time(sample_time_s, command), std::back_inserter(outcome.findings));
   std::ranges::move(unstable_gains(gains, sample_time_s, command),

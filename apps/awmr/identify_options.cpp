@@ -117,6 +117,16 @@ void describe_reading(const TrialOptions& trials, bool steady_from_logs,
                       std::vector<std::pair<std::string, std::string>>& words) {
   words.emplace_back("prefer", name_in(kPreferenceNames, trials.preference));
   if (trials.as_is) words.emplace_back("as-is", "true");
+  const TrialOptions whole;
+  if (trials.used_s.lo > whole.used_s.lo) {
+    words.emplace_back("from", fmt::format("{}", trials.used_s.lo));
+  }
+  if (trials.used_s.hi < whole.used_s.hi) {
+    words.emplace_back("until", fmt::format("{}", trials.used_s.hi));
+  }
+  for (const Interval& span : trials.excluded_s) {
+    words.emplace_back("exclude", fmt::format("{}:{}", span.lo, span.hi));
+  }
   if (steady_from_logs) words.emplace_back("steady_from_logs", "true");
   for (const ColumnMapping& mapping : trials.columns) {
     words.emplace_back("column", text_of(mapping));

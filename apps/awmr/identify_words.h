@@ -20,9 +20,12 @@ struct IdentifyWords {
   std::string noise;
   std::string loss = "squares";
   std::string prefer = "printed";
+  double from_s = TrialOptions{}.used_s.lo;
+  double until_s = TrialOptions{}.used_s.hi;
+  std::vector<std::string> excluded;
 };
 
-/// Errors: a malformed column mapping; an unknown parameter or family.
+/// Errors: a malformed column mapping or span of time; an unknown parameter or family.
 Result<IdentifyCommand> command_of(const IdentifyWords& words);
 
 /// Adds `--vehicle` and the tables.
@@ -31,6 +34,8 @@ void add_table_files(CLI::App& sub, IdentifyCommand& command);
 void add_fit_options(CLI::App& sub, IdentifyWords& words);
 /// Adds the options for fitting logs.
 void add_log_options(CLI::App& sub, IdentifyCommand& command);
+/// Adds `--from`, `--until` and `--exclude`.
+void add_part_options(CLI::App& sub, IdentifyWords& words);
 /// Adds the options for reading files.
 void add_reading_options(CLI::App& sub, IdentifyWords& words);
 

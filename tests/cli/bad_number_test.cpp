@@ -18,6 +18,8 @@ struct NumericOption {
 };
 
 constexpr NumericOption kOptions[] = {
+    {"identify", "--from", false},
+    {"identify", "--until", false},
     {"identify", "--starts", true},
     {"identify", "--bootstrap", true},
     {"identify", "--seed", true},

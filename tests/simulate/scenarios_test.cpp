@@ -1,4 +1,5 @@
 /// Every scenario file runs in every mode, and is symmetric under mirroring and displacement.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,11 +10,15 @@
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/simulate.h"
+#include "awmr/simulate/validity.h"
 #include "simulate/paper_model_ci.h"
 #include "simulate/symmetry.h"
 
 namespace awmr::testing {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 namespace fs = std::filesystem;
 
@@ -185,6 +190,26 @@ TEST(Scenarios, LqiWeightsTooFastForTheControllersSamplesAreRefused) {
   const auto refused = plant_for(*scenario, model);
   ASSERT_FALSE(refused);
   EXPECT_NE(to_text(refused.error()).find("held over sample_time_s"), std::string::npos);
+}
+
+TEST(MissingIntervals, NamesFittedParametersWithoutOneAndWhatWithdrewThem) {
+  Model model = model_with_intervals();
+  for (Estimate& estimate : model.estimates) estimate.source = Source::kFitted;
+  EXPECT_FALSE(missing_intervals(model));
+  for (const ParameterId id : {ParameterId::kMassNorm, ParameterId::kYawAlpha}) {
+    model[id].ci95.reset();
+  }
+  model.record.findings = {{"log.csv", 0, Severity::kWarning, "model-inadequate", ""},
+                           {"log.csv", 0, Severity::kNote, "held-samples", ""}};
+  const auto finding = missing_intervals(model);
+  ASSERT_TRUE(finding);
+  EXPECT_EQ(finding->code, "no-interval");
+  EXPECT_THAT(finding->message, HasSubstr("a3, m'"));
+  EXPECT_THAT(finding->message, HasSubstr("model-inadequate"));
+  EXPECT_THAT(finding->message, Not(HasSubstr("held-samples")));
+  model[ParameterId::kMassNorm].source = Source::kGiven;  // a given value is not in doubt
+  model[ParameterId::kYawAlpha].source = Source::kGiven;
+  EXPECT_FALSE(missing_intervals(model));
 }
 
 }  // namespace

@@ -144,6 +144,26 @@ TEST(Log, RefusesWhatItCannotUse) {
               ElementsAre(HasSubstr("go together")));
 }
 
+TEST(Log, TimesThatAreNotUsedAreLeftOut) {
+  const std::string text = log_text(
+      "speed_mps", [](int i) { return std::to_string(0.01 * i); }, 60);
+  TrialOptions options;
+  options.used_s = {1.0, 4.95};
+  options.excluded_s = {{2.05, 2.95}};
+  const auto logs = accepted(read_logs, text, options).set;
+  ASSERT_THAT(logs, SizeIs(2));  // before and after the excluded time
+  EXPECT_NEAR(logs[0].t_s.front(), 1.0, 1e-12);
+  EXPECT_NEAR(logs[0].t_s.back(), 2.0, 1e-12);
+  EXPECT_NEAR(logs[1].t_s.front(), 3.0, 1e-12);
+  EXPECT_NEAR(logs[1].t_s.back(), 4.9, 1e-12);
+  EXPECT_EQ(logs[1].line.front(), 32);  // row 30 behind the header
+  EXPECT_NEAR(logs[1][LogChannel::kSpeed]->value.front(), 0.30, 1e-12);
+  options.used_s = {5.5, 9.0};
+  EXPECT_THAT(faults_of(read_logs, text, options), SizeIs(1));  // 5 rows
+  options.used_s = {100.0, 200.0};
+  EXPECT_THAT(faults_of(read_logs, text, options), ElementsAre(HasSubstr("0 to 5.9 s")));
+}
+
 TEST(Log, CutsWindowsAtGapsAndIntoEqualParts) {
   std::string text = "t_s,force_left,force_right,steering_deg,speed_mps\n";
   for (int i = 0; i < 100; ++i) text += std::to_string(0.1 * i) + ",0.1,0.1,0,1\n";

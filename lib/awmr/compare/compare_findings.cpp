@@ -51,6 +51,7 @@ std::vector<Finding> compare_findings(const Model& model, const std::vector<Scen
     std::ranges::move(unattainable_requests(scenario, model), std::back_inserter(findings));
     if (auto finding = tyres_differ(scenario, model)) findings.push_back(*std::move(finding));
   }
+  if (auto finding = missing_intervals(model)) findings.push_back(*std::move(finding));
   note_samples(options, comparison, findings);
   if (auto finding = heading_rate_not_limited(rate, model)) findings.push_back(*std::move(finding));
   note_scrub(model, findings);

@@ -1,14 +1,19 @@
 #include "awmr/simulate/validity.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <string_view>
 
 #include "awmr/control/directed_speed.h"
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
+#include "awmr/model/finding_rank.h"
 #include "awmr/model/fitted_law.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/model/steady.h"
@@ -86,6 +91,27 @@ double turned_degps(const Model& model, double tau_turn_m,
 }
 
 }  // namespace
+
+std::optional<Finding> missing_intervals(const Model& model) {
+  std::vector<std::string_view> missing;
+  for (std::size_t i = 0; i < kParameterCount; ++i) {
+    const Estimate& e = model.estimates[i];
+    if (!e.value || e.source == Source::kGiven || e.std_error || e.ci95) continue;
+    missing.push_back(parameter_table()[i].symbol);
+  }
+  if (missing.empty()) return std::nullopt;
+  std::set<std::string> causes;
+  for (const Finding& finding : model.record.findings) {
+    if (effect_of(finding) == Effect::kWithdrawn) causes.insert(finding.code);
+  }
+  return Finding{
+      model.file, 0, Severity::kWarning, "no-interval",
+      fmt::format("{} of the model {} no 95 % interval{}: they may be wrong by any amount, and no "
+                  "draw varies them. Do what the findings of identify advise, and identify again, "
+                  "before the vehicle drives with these numbers",
+                  fmt::join(missing, ", "), missing.size() == 1 ? "has" : "have",
+                  causes.empty() ? "" : fmt::format(" (identify: {})", fmt::join(causes, ", ")))};
+}
 
 std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model) {
   const std::optional<double> measured_degps = measured_yaw_rate_degps(model);

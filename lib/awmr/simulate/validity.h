@@ -18,6 +18,10 @@ namespace awmr {
 /// measured.
 std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model);
 
+/// A warning (`no-interval`) of a model whose fitted parameters lack an interval: draws from it do
+/// not vary them.
+std::optional<Finding> missing_intervals(const Model& model);
+
 /// Warnings about parts of a scenario without effect on this vehicle: a latency of a fraction of a
 /// sample (`rounded-latency`), a step behind the end (`late-step`), a waypoint within an obstacle
 /// (`blocked-waypoint`), a speed beyond the motors (`unreachable-speed`).

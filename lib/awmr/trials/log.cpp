@@ -99,6 +99,55 @@ RowSpan from_known_steering(const TrialReader& reader, RowSpan run) {
   return run;
 }
 
+/// The parts of a run that the options use.
+std::vector<RowSpan> used_parts(const TrialReader& reader, RowSpan run,
+                                const TrialOptions& options) {
+  const std::span<const double> t_s = reader.table().column("t_s");
+  const auto is_used = [&](double t) {
+    return options.used_s.contains(t) &&
+           std::ranges::none_of(options.excluded_s,
+                                [t](const Interval& span) { return span.contains(t); });
+  };
+  std::vector<RowSpan> parts;
+  bool was_used = false;
+  for (std::size_t row = run.begin; row < run.end; ++row) {
+    const bool is = is_used(t_s[row]);
+    if (is && !was_used) parts.push_back({row, row});
+    if (is) parts.back().end = row + 1;
+    was_used = is;
+  }
+  return parts;
+}
+
+/// Replaces the runs by their parts that the options use.
+void keep_used(TrialReader& reader, const TrialOptions& options, std::vector<RowSpan>& runs) {
+  std::vector<RowSpan> parts;
+  for (const RowSpan run : runs) {
+    for (const RowSpan part : used_parts(reader, run, options)) parts.push_back(part);
+  }
+  if (parts.empty()) {
+    const std::span<const double> t_s = reader.table().column("t_s");
+    const auto [first, last] = std::ranges::minmax(t_s);
+    reader.header_fault(ErrorCode::kTooFewData,
+                        fmt::format("no row is used: t_s goes from {} to {} s; correct --from, "
+                                    "--until or --exclude",
+                                    first, last));
+  }
+  runs = std::move(parts);
+}
+
+void check_length(TrialReader& reader, RowSpan run) {
+  const std::size_t rows = run.end - run.begin;
+  if (rows >= kShortestLog) return;
+  const bool whole = rows == reader.table().rows();
+  reader.header_fault(
+      ErrorCode::kTooFewData,
+      whole ? fmt::format("this log has {} rows; at least {} are needed", rows, kShortestLog)
+            : fmt::format("the run from line {} has {} rows; at least {} are needed",
+                          reader.table().line(std::min(run.begin, reader.table().rows() - 1)), rows,
+                          kShortestLog));
+}
+
 void check_time(TrialReader& reader, RowSpan run) {
   const std::span<const double> t_s = reader.table().column("t_s");
   for (std::size_t i = run.begin + 1; i < run.end; ++i) {
@@ -111,15 +160,6 @@ void check_time(TrialReader& reader, RowSpan run) {
                     : reader.has("run")  ? ""
                                          : "; several runs in one file need a column run"));
   }
-  const std::size_t rows = run.end - run.begin;
-  if (rows >= kShortestLog) return;
-  const bool whole = rows == reader.table().rows();
-  reader.header_fault(
-      ErrorCode::kTooFewData,
-      whole ? fmt::format("this log has {} rows; at least {} are needed", rows, kShortestLog)
-            : fmt::format("the run from line {} has {} rows; at least {} are needed",
-                          reader.table().line(std::min(run.begin, reader.table().rows() - 1)), rows,
-                          kShortestLog));
 }
 
 /// East and north of the first row, in the library's local tangent plane.
@@ -284,6 +324,8 @@ Result<std::vector<DrivingLog>> read_logs(const std::filesystem::path& path,
   std::vector<RowSpan> runs = runs_of(reader);
   for (RowSpan& run : runs) run = from_known_steering(reader, run);
   for (const RowSpan run : runs) check_time(reader, run);
+  keep_used(reader, options, runs);
+  for (const RowSpan run : runs) check_length(reader, run);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
   note_format(reader, findings);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 #include "awmr/core/csv.h"
+#include "awmr/core/interval.h"
 #include "awmr/core/name_table.h"
 #include "awmr/core/result.h"
 #include "awmr/model/record.h"
@@ -29,6 +31,10 @@ struct TrialOptions {
   bool has_steering = true;
   /// Number of driven wheels n: tau_speed = n F' of a surge row.
   int driven_wheels = 4;
+  /// Times that are used of each log, s, as in its t_s.
+  Interval used_s{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
+  /// Times that are not. The log before and after them is read as two runs.
+  std::vector<Interval> excluded_s = {};
 };
 
 /// Findings: `speed-mismatch`, `yaw-rate-mismatch`, `tau-turn-mismatch`, `steering-stop`,
@@ -44,7 +50,7 @@ Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const Tri
 
 /// Columns: t_s, force_left, force_right, steering_cmd_deg or steering_deg (for a vehicle with
 /// steering), and any of the channels. latitude_deg and longitude_deg may replace x_m and y_m
-/// (local tangent plane at the first row). Findings: `held-samples`, `log-gap`, and those of
+/// (local tangent plane at the first row that is used). Findings: `held-samples`, `log-gap`, and those of
 /// channel_quality.h. Errors: as read_csv; time that does not rise; no measurement; fewer than 10
 /// rows; more than one run.
 Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,

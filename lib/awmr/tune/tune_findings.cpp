@@ -137,6 +137,7 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
                                          tuning.robust->evaluated_by_scenario, tuning.robust->goals)
                    : nominal_findings(tuning);
   }
+  if (auto finding = missing_intervals(model)) findings.push_back(*std::move(finding));
   note_sensitivity(tuning, findings);
   for (const ModeCertificate& one : tuning.certificate->modes) note_certificate(one, findings);
   note_observer(options, findings);
