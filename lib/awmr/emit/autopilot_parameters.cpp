@@ -169,7 +169,7 @@ double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
   return std::min(most, kMost_mrad);
 }
 
-/// Refuses what the simulated controller does and the firmware does not.
+/// Refuses the form of the allocation that only the simulated controller supports.
 Status check_allocation(const Model& model) {
   if (model.vehicle.allocation == AllocationForm::kExact) return {};
   return input_error(ErrorCode::kUnsupported, file_name(model) + ":/vehicle/allocation",

@@ -167,7 +167,7 @@ Result<AwlLog> read_awl(std::string_view bytes, const std::string& file) {
       without_short_runs(usable_rows(bytes, scan, file, log), file, log);
   if (rows.empty()) {
     return refusal(ErrorCode::kTooFewData,
-                   fmt::format("{}: of {} whole rows none can be used{}", file, scan.rows.size(),
+                   fmt::format("{}: none of {} complete rows can be used{}", file, scan.rows.size(),
                                log.findings.empty() ? "" : "; " + log.findings.back().message));
   }
   fill_columns(bytes, scan.layout, rows, log);

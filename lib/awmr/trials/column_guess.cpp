@@ -98,7 +98,7 @@ Scale scale_of(const std::string& quoted, const Words& words, Dimension dimensio
         fmt::format("the values reach {:.4g}, beyond a turn in radians: degrees", largest(values))};
   }
   return {times(quoted, 1.0), Confidence::kUnsure,
-          "the name says no unit, and the values fit several"};
+          "the name has no unit, and the values fit several"};
 }
 
 /// Returns the name as written in an expression.

@@ -128,7 +128,7 @@ Status define(const Cells& cells, const std::string& file, int line, NamedFormat
   const auto [known, is_new] = formats.try_emplace(std::string(cells[3]), *std::move(format));
   if (is_new || known->second.definition == *record) return {};
   return error_at(file, line,
-                  fmt::format("a second, other format of {}", printable(known->second.name)));
+                  fmt::format("a second, different format of {}", printable(known->second.name)));
 }
 
 /// A topic: name and instance.

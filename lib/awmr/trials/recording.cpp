@@ -147,7 +147,7 @@ std::string Recording::damage_of(const std::string& line) {
   }
   const auto same = [](const CsvCell& cell, const std::string& name) { return cell.text == name; };
   if (std::equal(cells.begin(), cells.end(), header_.names.begin(), same)) {
-    return "it is the header again: did the recorder restart?";
+    return "it repeats the header: the recorder may have restarted";
   }
   if (is_number_.empty()) {
     for (const CsvCell& cell : cells) is_number_.push_back(is_number(cell, header_.delimiter));
