@@ -126,7 +126,7 @@ TEST(DataflashText, RefusesWhatLiesWithItsLine) {
       {kFormats + "FMT, 10, 15, RCOU, QHH, TimeUS,C1,C4\n", "a.log:8: a second, different format"},
       {kFormats + "RCOU, 99999999999999999999, 1, 2\n", "no time that can be"},
       {kFormats + "RCOU, -5, 1, 2\n", "a.log:8: a record of RCOU has no time that can be"},
-      {kFormats + "RCOU, 1000, 1500, full\n", "a.log:8: RCOU.C3 is no number: full"}};
+      {kFormats + "RCOU, 1000, 1500, full\n", "a.log:8: RCOU.C3 is not a number: full"}};
   for (const auto& [text, words] : cases) {
     const auto signals = read(text);
     ASSERT_FALSE(signals) << words;

@@ -239,7 +239,8 @@ std::string decided(const std::vector<const BreakEven*>& all) {
   if (at_other_rates > 0) {
     const Interval rates = *all.front()->measured_degps;
     text += fmt::format(
-        "    {} of the undecided reach {:.3g} to {:.3g} deg/s; scrub was measured at {:.3g} to "
+        "    {} of the undecided results reach {:.3g} to {:.3g} deg/s; scrub was measured at "
+        "{:.3g} to "
         "{:.3g}\n",
         at_other_rates, slowest, fastest, rates.lo, rates.hi);
   }

@@ -190,7 +190,7 @@ Status check_drive(const Plant<double>& plant, const Model& model) {
 Status check_family(const Plant<double>& plant, ResistanceForm form) {
   if (form == ResistanceForm::kPowf && !is_power_law(plant)) {
     return input_error(ErrorCode::kUnsupported, option_text("resistance"),
-                       "powf knows the power law alone; this model's family needs the table");
+                       "powf supports only the power law; this model's family needs the table");
   }
   return {};
 }

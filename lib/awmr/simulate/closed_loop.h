@@ -247,8 +247,7 @@ RunRow ClosedLoop<Row>::row_of(std::size_t run, double t_s) const {
                                                         run_of<double>(v.plant.rear_driven, run))};
 }
 
-/// Appends a row to each active run. A run with a non-finite row ends; that row stays only at k =
-/// 0.
+/// Appends a row to each active run. A non-finite row ends the run, and is kept only at k = 0.
 template <class Row>
 void ClosedLoop<Row>::keep_rows(std::size_t k, double t_s) {
   if (!options_.keeps_rows) return;

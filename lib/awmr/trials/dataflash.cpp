@@ -192,7 +192,7 @@ Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
   AWMR_RETURN_IF_ERROR(for_each_record(bytes, contents.formats, take));
   if (contents.skipped > 0) {
     signals.notes.push_back({0, "log-damaged",
-                             fmt::format("{} of {} bytes belong to no record and are passed over",
+                             fmt::format("{} of {} bytes belong to no record and are skipped",
                                          contents.skipped, bytes.size())});
   }
   return signals;

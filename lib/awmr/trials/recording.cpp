@@ -157,7 +157,7 @@ std::string Recording::damage_of(const std::string& line) {
     if (!is_number_[i] || is_number(cells[i], header_.delimiter)) continue;
     // Words such as "nan" are intended by the recorder and left to the reader.
     if (std::any_of(text.begin(), text.end(), is_digit)) {
-      return fmt::format("its cell of {} is \"{}\", no number", header_.names[i],
+      return fmt::format("its cell {} is \"{}\", which is not a number", header_.names[i],
                          shortened(text, 40));
     }
   }

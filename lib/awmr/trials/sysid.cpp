@@ -149,7 +149,8 @@ double SysIdReader::read_metres_per_rotation() {
   const auto unit = std::ranges::find(kSysIdLengths, units, &SysIdLength::name);
   if (unit == kSysIdLengths.end()) {
     fault(ErrorCode::kUnknownName, "/units",
-          fmt::format("\"{}\" is no length, and the wheel's circumference is not in this file; set "
+          fmt::format("\"{}\" is not a unit of length, and the wheel's circumference is not in "
+                      "this file; set "
                       "units to \"Meters\" and unitsPerRotation to the circumference in metres",
                       units));
     return 1.0;

@@ -486,7 +486,7 @@ std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
   if (times < kImpossible) return std::nullopt;
   return Contradiction{
       column,
-      fmt::format("the vehicle turns {:.3g} times as sharply as its front axle points, whose "
+      fmt::format("the vehicle turns {:.3g} times as sharply as its front wheels allow; their "
                   "largest angle is {:.3g} % of the stop: the angle looks like radians",
                   times, 100.0 * largest_deg / stop_deg),
       scaled_mapping(evidence, column, degree)};
