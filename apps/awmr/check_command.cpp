@@ -9,6 +9,7 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
+#include "awmr/identify/identify.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/model/vehicle_file.h"
@@ -127,9 +128,10 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
   if (vehicle == nullptr || vehicle->sway_alpha) return;
   check.notes.push_back(
       {project.vehicle.string() + ":/sway_alpha", 0, Severity::kNote, "assumed-sway",
-       fmt::format("not given ({}): identify assumes that of common tyres, +-70 %, unless a "
-                   "driving log has sway_mps",
-                   info(ParameterId::kSwayAlpha).meaning)});
+       fmt::format(
+           "not given ({}): identify assumes that of common tyres, within a factor of {:.1f}, "
+           "unless a driving log has sway_mps",
+           info(ParameterId::kSwayAlpha).meaning, assumed_sway_factor())});
 }
 
 /// Adds the column mapping guessed from the column names of a file that could not be read.

@@ -21,7 +21,7 @@ inline CLI::Validator one_of(std::vector<std::string> names) {
   std::string shown = fmt::format("{{{}}}", fmt::join(names, ","));
   const auto check = [names = std::move(names)](const std::string& word) -> std::string {
     if (std::find(names.begin(), names.end(), word) != names.end()) return {};
-    return fmt::format("'{}' is none of {}{}", word, fmt::join(names, ", "),
+    return fmt::format("'{}' is not one of {}{}", word, fmt::join(names, ", "),
                        did_you_mean(word, names));
   };
   return {check, std::move(shown), ""};

@@ -114,8 +114,8 @@ std::string list_of(const std::vector<Explanation>& all) {
   return text;
 }
 
-/// The codes that a misspelt or shortened one may stand for: the nearest by letters, then those that
-/// contain it; at most five.
+/// Suggestions for a misspelt or shortened code, at most five: the nearest by spelling, then those
+/// that contain it.
 std::vector<std::string> near_codes(const std::string& code, std::vector<std::string> codes) {
   constexpr std::size_t kShortest = 3, kMost = 5;
   std::vector<std::string> near;

@@ -1,4 +1,4 @@
-/// FINDINGS.md, embedded: what each finding code means and what to do.
+/// FINDINGS.md, embedded: meaning and remedy of each finding code.
 #pragma once
 
 #include <vector>

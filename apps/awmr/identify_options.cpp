@@ -42,8 +42,8 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
   } else if (subject == "yaw") {
     if (choice.family == Family::kDeadZone) {
       return input_error(ErrorCode::kConflict, "--family",
-                         "a dead zone belongs to the wheels: ask for it as "
-                         "surge=dead-zone, the turning runs are freed of it too");
+                         "a dead zone belongs to the wheels: use surge=dead-zone, which also "
+                         "corrects the turning runs");
     }
     options.yaw_family = choice;
   } else {

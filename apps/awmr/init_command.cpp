@@ -108,10 +108,11 @@ std::string summary_of(const InitCommand& command, const std::vector<OutputFile>
   if (command.example) return example_summary(command, files);
   std::string text = "wrote\n";
   for (const OutputFile& file : files) text += fmt::format("  {}\n", file.path.string());
-  return text + fmt::format(
-                    "next: fill in each null of vehicle.json ({} says how to measure it), print\n"
-                    "field_sheet.html, record the trials; `awmr check {}` says what is missing\n",
-                    (command.directory / "README.md").string(), command.directory.string());
+  return text +
+         fmt::format(
+             "next: fill in each null of vehicle.json ({} describes how to measure it), print\n"
+             "field_sheet.html, record the trials; `awmr check {}` lists what is missing\n",
+             (command.directory / "README.md").string(), command.directory.string());
 }
 
 }  // namespace

@@ -59,10 +59,10 @@ Result<fs::path> record_of(const LiveCommand& command) {
                        "there is a recording already; name another with --record FILE");
   }
   if (fs::exists(record, error) && !fs::is_regular_file(record, error)) {
-    return input_error(ErrorCode::kWrongFile, "--record",
-                       record.string() +
-                           " is no ordinary file, from which the recording could be "
-                           "read back; name another");
+    return input_error(
+        ErrorCode::kWrongFile, "--record",
+        record.string() +
+            " is not a regular file, so the recording could not be read back; name another");
   }
   if (record.lexically_normal() == command.identify.output.lexically_normal()) {
     return input_error(ErrorCode::kConflict, "--record",
@@ -74,7 +74,7 @@ Result<fs::path> record_of(const LiveCommand& command) {
 Status check(const LiveCommand& command) {
   if (command.source.port.has_value() == command.source.log.has_value()) {
     return input_error(ErrorCode::kMissing, "",
-                       "give one of --port PORT, --log FILE, --log -: where the log comes from");
+                       "give the source of the log: --port PORT, --log FILE or --log -");
   }
   return check_output(command.identify.output, inputs_of(command));
 }
@@ -177,8 +177,8 @@ void add_source(CLI::App& sub, LiveCommand& live) {
   add_file(sub, "--log", live.source.log,
            "CSV of the driving log as it is written; - for standard input");
   add_file(sub, "--record", live.record,
-           "CSV to write: all that came (default: the model's name with .csv, where there is none "
-           "yet)");
+           "CSV for all received rows (default: the model's name with .csv, if that file does not "
+           "exist)");
 }
 
 void add_updates_and_end(CLI::App& sub, LiveCommand& live) {

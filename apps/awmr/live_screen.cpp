@@ -84,8 +84,9 @@ std::string verdict_text(const LiveUpdate& update) {
     return fmt::format("enough: every half interval is within {:g} %", 100.0 * update.enough);
   }
   const char* const delay_note =
-      update.out_of_time ? " (the last fit did not end within --budget: this is the one before)"
-                         : "";
+      update.out_of_time
+          ? " (the last fit exceeded --budget; these results are of the previous fit)"
+          : "";
   return (update.next.empty() ? "drive on" : "next: " + update.next) + delay_note;
 }
 

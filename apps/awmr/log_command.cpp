@@ -58,7 +58,7 @@ void add_log(CLI::App& app, Session& session) {
       add_command(app, session, "log", "Turn the log of the emitted sketches into the CSV of a log",
                   "awmr log LOG00.AWL -o log.csv", [command] { return execute(*command); });
   add_file(*sub, "FILE", command->file,
-           "The on-board log; `identify --log` and `validate --log` read it as it is, too")
+           "The on-board log, which `identify --log` and `validate --log` also read directly")
       ->required();
   add_output(*sub, command->output, "CSV to write; lost and damaged rows are reported");
 }

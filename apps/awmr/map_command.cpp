@@ -137,7 +137,7 @@ void add_map(CLI::App& app, Session& session) {
            "A log: CSV, ULog, DataFlash, SysId's JSON, a ROS 2 bag, or a directory of tables")
       ->required();
   add_choice(*sub, "--trial", command->trial, kTrialKindNames,
-             "What the file is: log (default), or a table with a row a run");
+             "What the file is: log (default), or a table with one row per run");
   add_file(*sub, "-o,--output", command->output,
            "JSON to write, for --columns-file or a vehicle's columns");
 }

@@ -94,8 +94,8 @@ void add_merge(CLI::App& app, Session& session) {
       [command] { return execute(*command); });
   add_directory(*sub, "DIR", command->parts, "Directories of all parts, in any order")->required();
   add_output_directory(*sub, command->output,
-                       "Directory for comparison.csv and comparison.json, or recover.json, or "
-                       "gains.json: the bytes of a single run");
+                       "Directory for comparison.csv and comparison.json, recover.json or "
+                       "gains.json, with the same bytes as a single run");
 }
 
 }  // namespace awmr::cli

@@ -18,13 +18,13 @@ constexpr unsigned kAnyCount = std::numeric_limits<unsigned>::max();
 void add_bounds(CLI::App& command, PilOptions& options) {
   command
       .add_option("--cycles-max", options.cycles_max,
-                  "Most cycles of a step [12000 by table, 24000 by powf; with parts three quarters "
-                  "of the sample time]")
+                  "Maximum cycles of a step [12000 by table, 24000 by powf; with optional features "
+                  "three quarters of the sample time]")
       ->check(within(1U, kAnyCount));
-  command.add_option("--flash-max", options.flash_max, "Most bytes of flash")
+  command.add_option("--flash-max", options.flash_max, "Maximum bytes of flash")
       ->check(within(1U, kAnyCount))
       ->capture_default_str();
-  command.add_option("--ram-max", options.ram_max, "Most bytes of RAM, without the stack")
+  command.add_option("--ram-max", options.ram_max, "Maximum bytes of RAM, without the stack")
       ->check(within(1U, kAnyCount))
       ->capture_default_str();
   command

@@ -106,7 +106,7 @@ inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
       std::ranges::any_of(scenarios, [](const Scenario& s) { return s.tyres.has_value(); });
   if (choice.tyres_file && !has_tyres && !choice.runs_other()) {
     return input_error(ErrorCode::kConflict, kTyresOption,
-                       fmt::format("nothing runs on the four-wheel plant: leave it out, or give "
+                       fmt::format("no run uses the four-wheel plant: remove this option, or give "
                                    "{} {}",
                                    kPlantOption, name_in(kPlantKindNames, PlantKind::kFourWheel)));
   }

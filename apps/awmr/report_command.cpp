@@ -62,10 +62,10 @@ void add_report(CLI::App& app, Session& session) {
       app, session, "report", "Make report.html from a results directory, and figures for print",
       "awmr report out --figures figures", [command] { return execute(*command); });
   add_directory(*sub, "DIR", command->directory, "Directory that `awmr run` filled")->required();
-  add_directory(
-      *sub, "--figures", command->figures,
-      "Write the main figures there too: a CSV each, and plot.py, which draws them as SVG and "
-      "PDF by matplotlib");
+  add_directory(*sub, "--figures", command->figures,
+                "Also write the main figures there: one CSV per figure, and plot.py, which draws "
+                "them as SVG and "
+                "PDF by matplotlib");
 }
 
 }  // namespace awmr::cli

@@ -120,8 +120,8 @@ Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Pr
     add_faults(read_scenario(path), faults);
     if (stems.insert(path.stem().string()).second) continue;
     faults.push_back({ErrorCode::kGivenTwice, command.project.string() + ":/compare/scenarios",
-                      fmt::format("two scenarios have the file name {}, by which their runs are "
-                                  "named; rename one",
+                      fmt::format("two scenarios have the file name {}, which would also name "
+                                  "their runs; rename one",
                                   path.filename().string())});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
@@ -173,7 +173,7 @@ Result<Outcome> execute(const RunCommand& command) {
   AWMR_ASSIGN_OR_RETURN(Outcome identified, identify_step(project, names, model));
   add_step(steps, "identify", std::move(identified));
   if (total.refused) {
-    total.summary += "stopped: the steps that follow need what could not be identified\n";
+    total.summary += "stopped: the next steps need parameters that could not be identified\n";
     total.document = joined(steps.documents);
     put_findings_into_document(total);
     return total;
@@ -221,10 +221,10 @@ void add_run(CLI::App& app, Session& session) {
                               [command] { return execute(*command); });
   add_file(*sub, "PROJECT", command->project, "project.json")->required();
   add_output_directory(*sub, command->output, "Directory for all results");
-  sub->add_flag(
-      "--figures", command->figures,
-      "Write the main figures to figures/ in it too: a CSV each, and plot.py, which draws them as "
-      "SVG and PDF by matplotlib");
+  sub->add_flag("--figures", command->figures,
+                "Also write the main figures to figures/ in it: one CSV per figure, and plot.py, "
+                "which draws them as "
+                "SVG and PDF by matplotlib");
 }
 
 }  // namespace awmr::cli

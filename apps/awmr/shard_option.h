@@ -17,9 +17,8 @@ namespace awmr::cli {
 using ShardChoice = std::optional<Shard>;
 
 inline CLI::Option* add_shard(CLI::App& command, std::optional<std::string>& text) {
-  return command.add_option(
-      "--shard", text,
-      "I/N: part I of N, for as many machines; awmr merge puts the parts together");
+  return command.add_option("--shard", text,
+                            "I/N: run part I of N, for N machines; awmr merge combines the parts");
 }
 
 /// Errors (input): text that is not I/N.
@@ -28,7 +27,7 @@ Result<ShardChoice> shard_of(const std::optional<std::string>& text);
 /// Outcome if `--resume` finds a finished part, which remains unchanged.
 Result<Outcome> finished_part(const Shard& shard, const std::filesystem::path& directory);
 
-/// Writes a part into the directory. `content` says what it has: "5 runs". Errors: as write_part().
+/// Writes a part into the directory. `content` describes it: "5 runs". Errors: as write_part().
 Result<Outcome> written_part(const ShardKind& kind, const Shard& shard,
                              const std::filesystem::path& directory, const PartText& part,
                              const std::string& content, std::vector<Finding> findings = {});

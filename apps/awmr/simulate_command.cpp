@@ -29,14 +29,15 @@ namespace {
 /// Describes how the run ended, if its guidance has an end.
 std::string end_of(const Run& run, const Scenario& scenario) {
   if (run.end == RunEnd::kNoPassage) {
-    return "  no passage: the obstacles leave no way to where the guidance leads; stopped\n";
+    return "  no passage: the obstacles leave no way to the guidance target; stopped\n";
   }
   const bool ends = std::holds_alternative<WaypointCourse>(scenario.guidance) ||
                     std::holds_alternative<LineCourse>(scenario.guidance);
   if (!ends) return "";
-  if (run.end == RunEnd::kDuration) return "  not at the end of its course in time\n";
-  if (run.missed_waypoints == 0) return "  at the end of its course\n";
-  return fmt::format("  at the end of its course, {} waypoint(s) missed\n", run.missed_waypoints);
+  if (run.end == RunEnd::kDuration) return "  did not reach the end of its path in time\n";
+  if (run.missed_waypoints == 0) return "  reached the end of its path\n";
+  return fmt::format("  reached the end of its path, {} waypoint(s) missed\n",
+                     run.missed_waypoints);
 }
 
 std::string summary_of(const Run& run, const Scenario& scenario, const SimulateCommand& command) {

@@ -104,7 +104,7 @@ Result<Outcome> part_outcome(const TuneCommand& command, const Tuning& tuning,
   return outcome;
 }
 
-/// Adds the options of what is searched; returns `--nominal`.
+/// Adds the options of the search; returns `--nominal`.
 CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
   auto* nominal = sub.add_flag("--nominal", command.nominal,
                                "Tune for the nominal parameters only: no parameter draws, noise, "

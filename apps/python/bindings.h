@@ -46,7 +46,7 @@ Value value_of(const NameTable<Value, N>& names, const std::string& name, const 
   std::string known;
   for (const auto& one : names_in(names)) known += " " + std::string(one);
   throw Raised(
-      input_error(ErrorCode::kUnknownName, what, "'" + name + "' is none of" + known).value());
+      input_error(ErrorCode::kUnknownName, what, "'" + name + "' is not one of" + known).value());
 }
 
 /// Copies the numbers into a NumPy array.

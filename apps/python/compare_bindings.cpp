@@ -81,7 +81,7 @@ void bind_compare(py::module_& module) {
              "The yaw-control modes on a list of scenarios, for the model's own values and "
              "`samples` draws from its covariance. The numbers are those of `awmr compare`, "
              "whatever the threads (0: all). heading_rate_limit: deg/s, \"measured\" or \"none\"; "
-             "by default measured, where the model says how fast that was. Raises InputError.");
+             "by default measured, if the model has that rate. Raises InputError.");
 }
 
 }  // namespace awmr::python

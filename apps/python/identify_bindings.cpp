@@ -85,7 +85,7 @@ py::list suggested(const Model& model, const std::string& parameter, int repeats
 }  // namespace
 
 void bind_identify(py::module_& module) {
-  py::class_<Identification>(module, "Identification", "A model, and what was refused.")
+  py::class_<Identification>(module, "Identification", "A model, and the refused parameters.")
       .def_readonly("model", &Identification::model)
       .def_property_readonly(
           "refused", refused_names,

@@ -63,8 +63,8 @@ void bind_vehicle(py::module_& module) {
                              [](const Vehicle& v) { return name_in(kDriveNames, v.drive); })
       .def_property_readonly("inertia_kgm2", &Vehicle::inertia_kgm2, "Iz, kg m^2");
   py::class_<VehicleOfFile, Vehicle>(module, "VehicleOfFile",
-                                     "A vehicle as read_vehicle() returns it: what is made of it "
-                                     "names its file.");
+                                     "A vehicle as read_vehicle() returns it: results made from it "
+                                     "name its file.");
   bind_read(module, "read_vehicle", read_with_its_file, "vehicle.json. Raises InputError.");
 }
 

@@ -8,7 +8,7 @@ PYBIND11_MODULE(awmr, module) {
       "\n"
       "Units are in the names: _m, _s, _rad, _deg, _mps, _radps, _kg. Forces are over F_max, the "
       "largest force of one motor. Angles and yaw rates count counter-clockwise, left is positive. "
-      "Rows are NumPy arrays, what is doubtful is a list of Finding, what fails raises Error.";
+      "Rows are NumPy arrays, warnings are a list of Finding, failures raise Error.";
   module.attr("__version__") = awmr::version();
   awmr::python::bind_errors(module);
   awmr::python::bind_model(module);

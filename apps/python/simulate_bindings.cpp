@@ -65,7 +65,7 @@ py::dict metrics_dict(const Metrics& metrics) {
 }  // namespace
 
 void bind_simulate(py::module_& module) {
-  py::class_<Scenario>(module, "Scenario", "A course with its obstacles, disturbances and noise.")
+  py::class_<Scenario>(module, "Scenario", "A path with its obstacles, disturbances and noise.")
       .def_readonly("name", &Scenario::name)
       .def_readonly("duration_s", &Scenario::duration_s, "s");
   bind_read(

@@ -53,7 +53,7 @@ class Contradiction : public ::testing::Test {
   static inline TemporaryDirectory* kept_ = nullptr;
 };
 
-TEST_F(Contradiction, SuggestEndedWithAFaultOfTheProgramOrNotAtAllOnAnExtremeModel) {
+TEST_F(Contradiction, SuggestRefusesAnExtremeModel) {
   Json model = Json::parse(read_all(kept("model.json")));
   model["covariance"]["matrix"][0][1] = model["covariance"]["matrix"][1][0] = 1.0;
   write_all(path("odd.json"), model.dump());
@@ -67,7 +67,7 @@ TEST_F(Contradiction, SuggestEndedWithAFaultOfTheProgramOrNotAtAllOnAnExtremeMod
                  "too fast to be followed");
 }
 
-TEST_F(Contradiction, RecoverSaidNothingOfARunThatGaveNothing) {
+TEST_F(Contradiction, RecoverReportsRunsWithoutAResult) {
   const std::string recover = "recover --runs 3 --model " + kept("model.json");
   expect_refused(awmr(recover + " --joint"), "--joint: needs");
   expect_refused(awmr(recover + " --fit steering.time_constant_s"),
@@ -77,7 +77,7 @@ TEST_F(Contradiction, RecoverSaidNothingOfARunThatGaveNothing) {
   EXPECT_EQ(Json::parse(read_all(path("recover.json")))["parameters"].size(), 1U);
 }
 
-TEST_F(Contradiction, APartOfAComparisonWithANumberThatIsNoneWasAFaultOfTheProgram) {
+TEST_F(Contradiction, MergeRefusesAPartWithEditedRows) {
   for (const char* part : {"1", "2"}) {
     ASSERT_EQ(awmr(fmt::format("compare --model {} --gains {} {} --samples 3 --shard {}/2 -o {}",
                                kept("model.json"), kept("gains.json"), kScenario, part, path(part)))
@@ -100,7 +100,7 @@ TEST_F(Contradiction, APartOfAComparisonWithANumberThatIsNoneWasAFaultOfTheProgr
     std::size_t cell = row;
     for (int i = 0; i < 4; ++i) cell = csv.find(',', cell) + 1;
     with(csv.substr(0, cell) + number + csv.substr(csv.find(',', cell)));
-    expect_refused(merge(), "comparison.csv:2:1: is no row");
+    expect_refused(merge(), "comparison.csv:2:1: is not a row");
     EXPECT_FALSE(fs::exists(path("merged")));
   }
   std::string columns = csv;
@@ -124,10 +124,10 @@ TEST_F(Contradiction, ACompassWhoseNumbersTheVehicleCannotHoldIsRefused) {
   };
   EXPECT_EQ(circle(20.0, 30.0, 30.0).exit_code, 0);
   expect_refused(circle(123456789.0, 3.0, 3.0), "too large compared with the field", 1);
-  expect_refused(circle(0.0, 1e4, 1.0), "weaker one way than the other", 1);
+  expect_refused(circle(0.0, 1e4, 1.0), "times weaker along one axis", 1);
 }
 
-TEST_F(Contradiction, AScenarioThatBeganBeforeTheLogWasHeldAgainstItsFirstRow) {
+TEST_F(Contradiction, RefusesAScenarioThatBeginsBeforeTheLog) {
   expect_refused(
       awmr(fmt::format("validate --model {} --gains {} --log datasets/synthetic/drive_2.csv {} "
                        "--draws 39 --from -5 -o {}",

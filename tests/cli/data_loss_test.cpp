@@ -40,7 +40,7 @@ class DataLoss : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(DataLoss, AnOutputThatWasAnInputWasDestroyed) {
+TEST_F(DataLoss, RefusesOutputEqualToInput) {
   const std::string surge = text("surge.csv");
   fs::create_symlink("surge.csv", path("link"));
   for (const char* output : {"surge.csv", "link", "./link", "../surge.csv"}) {
@@ -54,14 +54,14 @@ TEST_F(DataLoss, AnOutputThatWasAnInputWasDestroyed) {
   }
 }
 
-TEST_F(DataLoss, AReadOnlyModelWasReplaced) {
+TEST_F(DataLoss, RefusesToReplaceAReadOnlyFile) {
   write_all(path("model.json"), "precious");
   ASSERT_EQ(::chmod(path("model.json").c_str(), 0444), 0);
   EXPECT_EQ(identify(path("surge.csv"), path("model.json")).exit_code, 2);
   EXPECT_EQ(text("model.json"), "precious");
 }
 
-TEST_F(DataLoss, FullStandardOutputGaveExitZero) {
+TEST_F(DataLoss, FullStandardOutputExitsWith2) {
   const ProcessResult result =
       identify(path("surge.csv"), path("model.json"), "", "--fit surge.alpha >/dev/full");
   EXPECT_EQ(result.exit_code, 2);
@@ -70,7 +70,7 @@ TEST_F(DataLoss, FullStandardOutputGaveExitZero) {
   EXPECT_EQ(awmr("identify --help >/dev/full").exit_code, 2);
 }
 
-TEST_F(DataLoss, ALimitOfTheFileSizeEndedTheProgramAndLeftATemporaryFile) {
+TEST_F(DataLoss, ReportsTheFileSizeLimitAndLeavesNoTemporaryFile) {
   const ProcessResult result = identify(path("surge.csv"), path("model.json"), "ulimit -f 1; ");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("File too large"));
@@ -79,7 +79,7 @@ TEST_F(DataLoss, ALimitOfTheFileSizeEndedTheProgramAndLeftATemporaryFile) {
   }
 }
 
-TEST_F(DataLoss, APipeWasHashedAsAnEmptyFile) {
+TEST_F(DataLoss, HashesAPipeLikeItsFile) {
   ASSERT_EQ(identify(path("surge.csv"), path("file.json"), "", "--fit surge.alpha").exit_code, 0);
   ASSERT_EQ(identify("/dev/stdin", path("pipe.json"), fmt::format("cat {} | ", path("surge.csv")),
                      "--fit surge.alpha")
@@ -91,7 +91,7 @@ TEST_F(DataLoss, APipeWasHashedAsAnEmptyFile) {
   EXPECT_EQ(hash("pipe.json"), hash("file.json"));
 }
 
-TEST_F(DataLoss, TheSpellingOfAPathChangedTheModel) {
+TEST_F(DataLoss, ModelDoesNotDependOnTheSpellingOfAPath) {
   fs::create_directory(path("d"));
   const std::string disagreeing =
       "wheel_force,tau_speed,speed_mps\n0.25,1,0.5\n0.5,2.2,1.1\n0.75,3,1.7\n";
@@ -104,14 +104,14 @@ TEST_F(DataLoss, TheSpellingOfAPathChangedTheModel) {
   EXPECT_THAT(text("a.json"), Not(HasSubstr(directory_.path().string())));
 }
 
-TEST_F(DataLoss, AnEndlessInputNeverEnded) {
+TEST_F(DataLoss, RefusesAnEndlessInput) {
   const ProcessResult result = awmr(fmt::format("identify --vehicle /dev/zero --surge {} -o {}",
                                                 path("surge.csv"), path("model.json")));
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("longer than 64 MiB"));
 }
 
-TEST_F(DataLoss, ControlCharactersOfANameReachedTheTerminal) {
+TEST_F(DataLoss, EscapesControlCharactersOfNames) {
   std::string vehicle = text("vehicle.json");
   const std::size_t name = vehicle.find("\"name\": \"") + 9;
   vehicle.insert(name, "\\u001b[2J\\u009b");
@@ -124,7 +124,7 @@ TEST_F(DataLoss, ControlCharactersOfANameReachedTheTerminal) {
               Not(HasSubstr("\x1B")));
 }
 
-TEST_F(DataLoss, ATenMegabyteCellMadeATenMegabyteLine) {
+TEST_F(DataLoss, ShortensLongCellsInMessages) {
   write_all(path("surge.csv"),
             fmt::format("tau_speed,speed_mps\n1,{}\n", std::string(10'000'000, 'x')));
   const ProcessResult result = identify(path("surge.csv"), path("model.json"));
@@ -134,7 +134,7 @@ TEST_F(DataLoss, ATenMegabyteCellMadeATenMegabyteLine) {
   EXPECT_LT(identify(path("surge.csv"), path("model.json")).err.size(), 5000U);
 }
 
-TEST_F(DataLoss, TwoScenariosWithOneFileNameOverwroteEachOther) {
+TEST_F(DataLoss, RefusesTwoScenariosWithOneFileName) {
   fs::create_directory(path("d"));
   const std::string scenario =
       std::string(AWMR_SOURCE_DIR) + "/configs/paper/scenarios/c3_heading_steps.json";
@@ -150,7 +150,7 @@ TEST_F(DataLoss, TwoScenariosWithOneFileNameOverwroteEachOther) {
   EXPECT_FALSE(fs::exists(path("out")));
 }
 
-TEST_F(DataLoss, ABrokenTuneFileWasFoundAfterIdentifying) {
+TEST_F(DataLoss, ChecksTheTuneFileBeforeIdentifying) {
   fs::copy(std::string(AWMR_SOURCE_DIR) + "/configs/paper/scenarios/c3_heading_steps.json",
            path("s.json"));
   write_all(path("tune.json"), R"({"scenarios": ["missing.json"]})");

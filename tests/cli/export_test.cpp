@@ -67,7 +67,7 @@ TEST_F(Export, AutopilotsFilesHaveNothingButParametersAndComments) {
       "    assert all(re.match(form, l) for l in lines), lines\n");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(read_all(path("rover.params")),
-              HasSubstr("extrapolated, the trials reach tau_speed 2"));
+              HasSubstr("extrapolated: the trials reach only tau_speed 2"));
 }
 
 TEST_F(Export, TheSameInputsMakeTheSameBytesAndNameTheirHashes) {

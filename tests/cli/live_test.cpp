@@ -246,8 +246,8 @@ TEST_F(Live, RefusesWhatItCannotRecord) {
       {live("--port /dev/null"), "is no serial port"},
       {live("--port nowhere"), "nowhere: No such file"},
       {live("--port /dev/null --baud 12345"), "--baud: 12345: one of 9600"},
-      {live(""), "give one of --port"},
-      {live("--log - --port /dev/null"), "give one of --port"},
+      {live(""), "give the source of the log"},
+      {live("--log - --port /dev/null"), "give the source of the log"},
       {live("--log - --record " + path("live.json")), "it is the model's file"},
       {live("--log " + path("there.csv") + " --record " + path("there.csv")), "it is the input"},
       {live("--log - --column speed_mps=V") + " < " + kDrive, "V"}};

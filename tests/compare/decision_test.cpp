@@ -95,7 +95,7 @@ Change on_tyres(std::vector<Contender> first) {
           .first = std::move(first)};
 }
 
-TEST(Decision, IsWhoIsNeverBehind) {
+TEST(Decision, NamesTheModeThatIsNeverBehind) {
   const Decision kept{{kDifferential}, {on_tyres({kDifferential, kCombined})}};
   EXPECT_EQ(kept.kind(), DecisionKind::kDecided);
   EXPECT_THAT(kept.never_behind(), ElementsAre(kDifferential));

@@ -103,7 +103,7 @@ TEST(Resume, RefusesAnotherComparisonsFiles) {
               HasSubstr("comparison.csv:2:1"));
 }
 
-TEST(Resume, RowsOfAnotherVersionWereTakenForFinishedRuns) {
+TEST(Resume, RefusesRowsOfAnotherVersion) {
   const TemporaryDirectory directory;
   const Comparison c = compared({.samples = 1, .seed = 3, .threads = 1});
   write_all(directory.path() / "comparison.csv", comparison_csv(c));
@@ -131,7 +131,7 @@ TEST(Resume, RowsOfAnotherArithmeticAreRefused) {
   }
 }
 
-TEST(Resume, EditedRowsWereTakenForFinishedRuns) {
+TEST(Resume, RefusesEditedRows) {
   const TemporaryDirectory directory;
   const Comparison c = compared({.samples = 1, .seed = 3, .threads = 1});
   std::string csv = comparison_csv(c);

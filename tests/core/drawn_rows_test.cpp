@@ -66,7 +66,7 @@ TEST(DrawnRows, NoiseIsHeldToTheMostWithItsLargestPeak) {
   EXPECT_THAT(rows, ::testing::Contains(777u));
 }
 
-TEST(DrawnRows, OfNothingNothing) {
+TEST(DrawnRows, ReturnsNoRowsForAnEmptySignal) {
   EXPECT_TRUE(drawn_rows(Signal{}, {}, 0.01, 10).empty());
   EXPECT_THAT(drawn_rows(Signal{0.0}, std::vector<Signal>{{4.0}}, 0.01, 10),
               ::testing::ElementsAre(0));

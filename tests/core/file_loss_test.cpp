@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 using FileLoss = DirectoryTest;
 
-TEST_F(FileLoss, AnOutputThatWasAnInputWasDestroyed) {
+TEST_F(FileLoss, RefusesOutputEqualToInput) {
   ASSERT_TRUE(write_file(path("a.json"), "precious"));
   fs::create_symlink("a.json", path("link"));
   fs::create_symlink(".", path("here"));
@@ -44,7 +44,7 @@ TEST_F(FileLoss, AnOutputThatWasAnInputWasDestroyed) {
   EXPECT_TRUE(check_output("/dev/null", std::vector<fs::path>{"/dev/null"}));
 }
 
-TEST_F(FileLoss, AReadOnlyFileWasReplacedWithoutAWord) {
+TEST_F(FileLoss, RefusesToReplaceAReadOnlyFile) {
   ASSERT_TRUE(write_file(path("a.json"), "precious"));
   ASSERT_EQ(::chmod(path("a.json").c_str(), 0444), 0);
   EXPECT_THAT(faults_of(check_output(path("a.json"))), ElementsAre(HasSubstr("read-only")));
@@ -53,7 +53,7 @@ TEST_F(FileLoss, AReadOnlyFileWasReplacedWithoutAWord) {
   EXPECT_THAT(names(), ElementsAre("a.json"));
 }
 
-TEST_F(FileLoss, AHardLinkWasPartedWithoutAWord) {
+TEST_F(FileLoss, RefusesToReplaceAHardLink) {
   ASSERT_TRUE(write_file(path("a.json"), "precious"));
   fs::create_hard_link(path("a.json"), path("b.json"));
   EXPECT_THAT(faults_of(check_output(path("b.json"))), ElementsAre(HasSubstr("hard link")));
@@ -61,7 +61,7 @@ TEST_F(FileLoss, AHardLinkWasPartedWithoutAWord) {
   EXPECT_EQ(read_file(path("a.json")).value(), "precious");
 }
 
-TEST_F(FileLoss, ADanglingLinkWasReplacedByAFile) {
+TEST_F(FileLoss, WritesTheTargetOfADanglingLink) {
   ASSERT_TRUE(make_directory(path("d")));
   fs::create_symlink("d/a.json", path("first"));
   fs::create_symlink("first", path("second"));
@@ -79,7 +79,7 @@ TEST_F(FileLoss, LinksInACircleAreAnError) {
   EXPECT_TRUE(fs::is_symlink(path("a")));
 }
 
-TEST_F(FileLoss, ANameOf255BytesLeftNoRoomForATemporaryName) {
+TEST_F(FileLoss, WritesAFileWithANameOf255Bytes) {
   const std::string longest(255, 'n');
   ASSERT_TRUE(write_file(path(longest), "x"));
   EXPECT_EQ(read_file(path(longest)).value(), "x");
@@ -100,7 +100,7 @@ pid_t ended_process() {
   return child;
 }
 
-TEST_F(FileLoss, TemporaryFilesOfAKilledProgramStayedForEver) {
+TEST_F(FileLoss, RemovesTemporaryFilesOfAKilledProgram) {
   const std::string stale = ".awmr-" + std::to_string(ended_process()) + "-abcdef";
   const std::string alive = ".awmr-" + std::to_string(::getpid()) + "-abcdef";
   const std::string other = ".awmr-1-settings.json";
@@ -126,7 +126,7 @@ TEST_F(FileLoss, AKilledWriterLeavesTheOldFileAndTheNextOneTidiesUp) {
   EXPECT_THAT(names(), UnorderedElementsAre("a.json", "b.json"));
 }
 
-TEST_F(FileLoss, OfASetOneWasNewAndOneOld) {
+TEST_F(FileLoss, WritesAllFilesOfASetOrNone) {
   ASSERT_TRUE(write_file(path("a.csv"), "old"));
   ASSERT_TRUE(make_directory(path("b.json")));  // cannot be written
   const std::vector<OutputFile> set{{path("a.csv"), "new"}, {path("b.json"), "new"}};
@@ -139,7 +139,7 @@ TEST_F(FileLoss, OfASetOneWasNewAndOneOld) {
   EXPECT_EQ(read_file(path("b.json")).value(), "new");
 }
 
-TEST_F(FileLoss, AFileThatShrankWhileItWasReadEndedInABusError) {
+TEST_F(FileLoss, ReportsAFileThatShrinksWhileRead) {
   constexpr std::size_t kBytes = 300'000'000;
   for (int i = 0; i < 5; ++i) {
     std::ofstream(path("a.csv")) << "x";

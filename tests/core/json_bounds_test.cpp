@@ -49,7 +49,7 @@ double seconds(Work work) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-TEST(JsonBounds, NestingOf80000EndedInASegmentationFault) {
+TEST(JsonBounds, RefusesNestingBeyond64) {
   for (const std::string_view open : {"[", "{\"a\":"}) {
     const std::string bomb = repeated(open, 80000);
     EXPECT_THAT(faults_of(read_json_text(bomb, "a.json")),
@@ -67,19 +67,19 @@ TEST(JsonBounds, BracketsAndCommasInTextsAreNoValues) {
   EXPECT_TRUE(read_json_text(joined({"{\"a\\\"", repeated("[{,", 10000), "\": 1}"}), "a.json"));
 }
 
-TEST(JsonBounds, DuplicateKeysInADepthOf5000TookAGibibyte) {
+TEST(JsonBounds, RefusesDuplicateKeysNested5000Deep) {
   std::string bomb;
   for (int i = 0; i < 5000; ++i) bomb += R"({"a":1,"a":)";
   EXPECT_THAT(faults_of(read_json_text(bomb, "a.json")), SizeIs(1));
 }
 
-TEST(JsonBounds, OfManyDuplicateKeysAHundredAreNamed) {
+TEST(JsonBounds, NamesAHundredDuplicateKeysAtMost) {
   EXPECT_THAT(
       faults_of(read_json_text(joined({"{", repeated("\"a\":1,", 100000), "\"a\":1}"}), "a.json")),
       SizeIs(100));
 }
 
-TEST(JsonBounds, AMillionKeysTookOverTwoMinutes) {
+TEST(JsonBounds, ReadsAMillionKeysWithin20Seconds) {
   const std::string text = object_of(1'000'000);
   EXPECT_LT(seconds([&] {
               const auto json = read_json_text(text, "a.json");
@@ -94,7 +94,7 @@ TEST(JsonBounds, AMillionKeysTookOverTwoMinutes) {
             20.0);
 }
 
-TEST(JsonBounds, MoreValuesThanAnyFileHas) {
+TEST(JsonBounds, RefusesMoreThanTwoMillionValues) {
   EXPECT_THAT(faults_of(read_json_text(joined({"[", repeated("0,", 2'000'001), "0]"}), "a.json")),
               ElementsAre(HasSubstr("more than 2000000 values")));
 }

@@ -13,7 +13,7 @@ TEST(Printable, LeavesUtf8AsItIs) {
   EXPECT_EQ(printable(text), text);
 }
 
-TEST(Printable, ControlCharactersOfANameReachedTheTerminal) {
+TEST(Printable, EscapesControlCharactersOfNames) {
   EXPECT_EQ(printable("a\x1B[2Jb\r\n\t\x7F"), "a\\x1b[2Jb\\r\\n\\t\\x7f");
   EXPECT_EQ(printable("\xC2\x9B"
                       "31m"),
@@ -42,7 +42,7 @@ TEST(Shortened, KeepsTheBeginningAndTheEnd) {
   EXPECT_EQ(shortened("\xC3\xBC\xC3\xBC\xC3\xBC\xC3\xBC", 5), "\xC3\xBC\xC3\xBC ... ");
 }
 
-TEST(ErrorText, TenMegabytesOfACellMadeALineOfTenMegabytes) {
+TEST(ErrorText, ShortensLongCellsInMessages) {
   const Error error{
       ErrorKind::kInput,
       {{ErrorCode::kMissing, std::string(100000, 'p'), std::string(10'000'000, 'm')}}};

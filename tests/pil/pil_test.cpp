@@ -360,7 +360,7 @@ TEST_F(Pil, CompiledForSizeItTakesLessFlashAndGivesTheSameBits) {
   EXPECT_EQ(pil(kC8, "combined", "--optimize fast", "none.json").exit_code, 2);
 }
 
-TEST_F(Pil, AnOutputThatWasAnInputWasDestroyed) {
+TEST_F(Pil, RefusesOutputEqualToInput) {
   const std::string model = read_all(path("model.json"));
   const ProcessResult run = pil(kC13, "combined", "", "model.json");
   EXPECT_EQ(run.exit_code, 2);

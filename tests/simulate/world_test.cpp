@@ -311,7 +311,7 @@ TEST(SensorChannels, HaveNoiseWithACorrelationTime) {
   EXPECT_NEAR(products / squares, std::exp(-0.01 / 0.2), 0.01);
 }
 
-TEST(SensorChannels, TellWhatWasTrueAsLongAgoAsTheyAreLate) {
+TEST(SensorChannels, ReturnTheValueFromOneLatencyAgo) {
   Sensors sensors;
   sensors.heading.late_s = 0.03;
   sensors.yaw_rate.late_s = 0.014;  // to the nearest sample: one

@@ -88,11 +88,12 @@ TEST(Dataflash, LostBytesAndABrokenEndArePassedOverAndNoted) {
 TEST(Dataflash, RefusesWhatLies) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {dataflash_format(10, 15, "RCOU", "QHHH", "TimeUS,C1,C3"), "4 fields and 3 names"},
-      {dataflash_format(10, 16, "RCOU", "QHH", "TimeUS,C1,C3"), "16 bytes by its length and 15"},
-      {dataflash_format(10, 0, "RCOU", "QHH", "TimeUS,C1,C3"), "0 bytes by its length"},
+      {dataflash_format(10, 16, "RCOU", "QHH", "TimeUS,C1,C3"),
+       "declares 16 bytes, but its fields have 15"},
+      {dataflash_format(10, 0, "RCOU", "QHH", "TimeUS,C1,C3"), "declares 0 bytes"},
       {dataflash_format(10, 15, "RCOU", "Q?H", "TimeUS,C1,C3"), "unknown kind '?'"},
       {formats() + dataflash_format(10, 15, "RCOU", "QHH", "TimeUS,C1,C4"),
-       "a second, other format"},
+       "a second, different format"},
       {formats() + imu(~std::uint64_t{0}, 0, 1.0F), "no time that can be"}};
   for (const auto& [bytes, words] : cases) {
     const auto signals = read(bytes);

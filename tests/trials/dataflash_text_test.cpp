@@ -41,10 +41,10 @@ std::string binary_imu(std::uint64_t time_us, std::uint8_t instance, float rate)
 }
 
 /// Times and values by signal name.
-using Told =
+using Columns =
     std::map<std::string, std::pair<std::vector<std::int64_t>, std::vector<double>>, std::less<>>;
-Told told(const Signals& signals) {
-  Told all;
+Columns columns_of(const Signals& signals) {
+  Columns all;
   for (const Topic& topic : signals.topics) {
     for (std::size_t i = 0; i < topic.columns.size(); ++i) {
       all[signals.header[topic.columns[i]]] = {topic.time_ns, topic.values[i]};
@@ -80,7 +80,7 @@ TEST(DataflashText, HasTheSignalsOfTheSameDriveInTheBinaryForm) {
   ASSERT_TRUE(of_text) << to_text(of_text.error());
   ASSERT_TRUE(of_binary) << to_text(of_binary.error());
   EXPECT_THAT(of_text->header, UnorderedElementsAreArray(of_binary->header));
-  const Told a = told(*of_text), b = told(*of_binary);
+  const Columns a = columns_of(*of_text), b = columns_of(*of_binary);
   ASSERT_EQ(a.size(), b.size());
   for (const auto& [name, signal] : b) {
     ASSERT_TRUE(a.count(name)) << name;
@@ -106,7 +106,7 @@ TEST(DataflashText, LinesThatAreNotAllThereArePassedOverAndNoted) {
                             "RCOU, 1000, 1500, 1600\nRCOU, 2000, 1500\nWHAT, 1, 2\n"
                             "MSG, hello, world\nIMU, 1, x, 2, 3\nRCOU, 3000, 1501, 16");
   ASSERT_TRUE(signals) << to_text(signals.error());
-  EXPECT_THAT(told(*signals)["RCOU.C1"].second, ElementsAre(1500.0));
+  EXPECT_THAT(columns_of(*signals)["RCOU.C1"].second, ElementsAre(1500.0));
   ASSERT_EQ(signals->notes.size(), 1U);
   EXPECT_EQ(signals->notes[0].code, "log-damaged");
   EXPECT_THAT(signals->notes[0].message, StartsWith("4 of 13 lines"));
@@ -119,14 +119,14 @@ TEST(DataflashText, LinesThatAreNotAllThereArePassedOverAndNoted) {
 TEST(DataflashText, RefusesWhatLiesWithItsLine) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"FMT, 10, 15, RCOU, QHHH, TimeUS,C1,C3\n", "a.log:1: RCOU has 4 fields and 3 names"},
-      {"FMT, 10, 16, RCOU, QHH, TimeUS,C1,C3\n", "16 bytes by its length and 15"},
+      {"FMT, 10, 16, RCOU, QHH, TimeUS,C1,C3\n", "declares 16 bytes, but its fields have 15"},
       {"FMT, 10, 15, RCOU, Q?H, TimeUS,C1,C3\n", "unknown kind '?'"},
       {"FMT, 300, 15, RCOU, QHH, TimeUS,C1,C3\n", "a.log:1: no format"},
       {"FMT, 10\n", "a.log:1: no format"},
-      {kFormats + "FMT, 10, 15, RCOU, QHH, TimeUS,C1,C4\n", "a.log:8: a second, other format"},
+      {kFormats + "FMT, 10, 15, RCOU, QHH, TimeUS,C1,C4\n", "a.log:8: a second, different format"},
       {kFormats + "RCOU, 99999999999999999999, 1, 2\n", "no time that can be"},
       {kFormats + "RCOU, -5, 1, 2\n", "a.log:8: a record of RCOU has no time that can be"},
-      {kFormats + "RCOU, 1000, 1500, full\n", "a.log:8: RCOU.C3 is no number: full"}};
+      {kFormats + "RCOU, 1000, 1500, full\n", "a.log:8: RCOU.C3 is not a number: full"}};
   for (const auto& [text, words] : cases) {
     const auto signals = read(text);
     ASSERT_FALSE(signals) << words;

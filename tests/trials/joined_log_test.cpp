@@ -166,7 +166,7 @@ TEST(RunsOfALog, EachHasToBeLongEnough) {
                           HasSubstr("the run from line 11 has 9 rows")));
 }
 
-TEST(RunsOfALog, WhereOneWasRequestedAreRefused) {
+TEST(RunsOfALog, RefuseAFileWithSeveralWhereOneIsRequested) {
   const ScratchFile file("log.csv", two_runs(12, true));
   std::vector<Finding> findings;
   const auto log = read_log(file.path(), {}, findings);
@@ -174,7 +174,7 @@ TEST(RunsOfALog, WhereOneWasRequestedAreRefused) {
   EXPECT_THAT(to_text(log.error()), HasSubstr("2 runs"));
 }
 
-TEST(LogFormat, IsTold) {
+TEST(LogFormat, IsReported) {
   std::string text = "# time_ms;force_left;force_right;steering_cmd_deg;speed_mps\r\n";
   for (int i = 0; i < 12; ++i) {
     text += std::to_string(100 * i) + ";0,1;0,1;0;1," + std::to_string(10 + i) + "\r\n";

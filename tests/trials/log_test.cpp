@@ -136,7 +136,7 @@ TEST(Log, RefusesWhatItCannotUse) {
       ElementsAre(StartsWith("7:")));
   std::string text = log_text("speed_mps", [](int) { return std::string("1"); });
   text += "0.5,0.2,0.2,5,1\n";
-  EXPECT_THAT(faults_of(read_log, text), ElementsAre(HasSubstr("time has to rise")));
+  EXPECT_THAT(faults_of(read_log, text), ElementsAre(HasSubstr("time must increase")));
   EXPECT_THAT(faults_of(read_log, log_text(
                                       "speed_mps", [](int) { return std::string("1"); }, 5)),
               ElementsAre(HasSubstr("at least 10")));

@@ -175,7 +175,7 @@ TEST(Ulog, TimeThatGoesBackAndSignalsThatAreNotThereAreRefused) {
   std::vector<Finding> findings;
   const ScratchFile back("a.ulg", drive() + ulog_data(2, 5, le(1.0F) + le(1.0F)));
   EXPECT_THAT(to_text(read_log(back.path(), kDrive, findings).error()),
-              HasSubstr("time has to rise within a topic"));
+              HasSubstr("time must increase within a topic"));
   const ScratchFile file("a.ulg", drive());
   TrialOptions wrong = kDrive;
   wrong.columns[3] = *parse_column("speed_mps=odometry.vv*1");

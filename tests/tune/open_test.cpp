@@ -116,7 +116,7 @@ TEST(Open, GainsSuitEveryVariationAndTheFileListsIt) {
   const std::string text =
       gains_text(*tuning, options, {.command = "tune", .options = {}, .inputs = {}});
   EXPECT_THAT(text, HasSubstr("\"mass_factors\""));
-  EXPECT_THAT(text, HasSubstr("\"drawn_from\": \"what is open\""));
+  EXPECT_THAT(text, HasSubstr("\"drawn_from\": \"unmodelled variation\""));
   EXPECT_THAT(text, ::testing::Not(HasSubstr("wheel_forces")));
 }
 

@@ -119,7 +119,7 @@ TEST_F(TuneShard, NamesTheFirstWrongLineOfATable) {
   const std::size_t third = table.find('\n', second) + 1;
   EXPECT_THAT(fault_of(table.substr(0, second) + table.substr(third)), HasSubstr("judged.csv:2:1"));
   EXPECT_THAT(fault_of(table.substr(0, third) + table.substr(second)), HasSubstr("judged.csv:3:1"));
-  EXPECT_THAT(fault_of(table + "x\n"), HasSubstr("is none of the part's runs"));
+  EXPECT_THAT(fault_of(table + "x\n"), HasSubstr("is not a run of this part"));
   EXPECT_THAT(fault_of(table.substr(0, table.size() - 20)), HasSubstr("run the part again"));
   EXPECT_THAT(fault_of("a" + table), HasSubstr("judged.csv:1:1"));
 }

@@ -53,9 +53,9 @@ std::vector<std::optional<Metrics>> driven_with(const Course& course, YawMode mo
   return driven;
 }
 
-/// Whether a run still does what the other mode does with the same scrub, and scores no worse. What it
-/// lost of the metrics that it had without scrub (it settles no more, it does not arrive) it is behind for.
-/// A run of the other mode that failed decides nothing.
+/// True if the run with scrub completes and scores no worse than the other mode with the same
+/// scrub. False if it lost a metric that it had without scrub (it no longer settles, or does not
+/// arrive). True if the run of the other mode failed.
 bool is_ahead(const std::optional<Metrics>& run, const Metrics& without,
               const std::optional<Metrics>& other, const std::vector<ScoredMetric>& scoring) {
   if (!run || (without.completed && !run->completed)) return false;
@@ -137,7 +137,7 @@ ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::stri
   return rows;
 }
 
-/// The entry of a pair of modes without its answer, and what the answer follows from.
+/// A pair of modes without its result, and the inputs of the result.
 struct Question {
   Course course;
   std::vector<ScoredMetric> scoring;
@@ -239,13 +239,14 @@ std::string decided(const std::vector<const BreakEven*>& all) {
   if (at_other_rates > 0) {
     const Interval rates = *all.front()->measured_degps;
     text += fmt::format(
-        "    {} of the undecided reach {:.3g} to {:.3g} deg/s; scrub was measured at {:.3g} to "
+        "    {} of the undecided results reach {:.3g} to {:.3g} deg/s; scrub was measured at "
+        "{:.3g} to "
         "{:.3g}\n",
         at_other_rates, slowest, fastest, rates.lo, rates.hi);
   }
   if (turns) {
     text += fmt::format(
-        "    about {} differential turns in total would decide the first of the undecided\n",
+        "    about {} differential turns in total would decide the first undecided result\n",
         *turns);
   }
   return text;

@@ -136,7 +136,7 @@ struct Completion {
   std::size_t of = 0;  ///< > 0
 };
 
-/// Who is first in a scenario in another setting than the comparison's own.
+/// The first modes of a scenario in a setting other than the comparison's own.
 struct Change {
   std::string scenario;
   ChangeKind kind{};
@@ -169,7 +169,7 @@ struct Comparison {
 /// comparison is a smaller one. Errors (input): the model lacks a parameter, or, with samples, a
 /// covariance to draw from, or an interval that a scenario's corner needs; no scenario, or two of
 /// the same name; a negative number of samples or threads; more than kMaxRuns runs; a finished row
-/// that is none of this comparison's.
+/// of another comparison.
 Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
 Result<Comparison> compare(const Model& model, const Gains<double>& gains,

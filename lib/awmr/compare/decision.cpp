@@ -74,7 +74,7 @@ Change change_of_weights(const ScenarioRows& scenario,
   return change;
 }
 
-/// Who is first and who completes by these rows of one scenario.
+/// Finds the modes of the first rank, and counts the completed runs, in the rows of one scenario.
 void evaluate(const std::vector<ComparisonRow>& rows, const CompareOptions& options,
               Change& change) {
   const Comparison comparison{.rows = rows};

@@ -1,5 +1,5 @@
-/// Whether a ranking survives what it should not depend on: the plant, the weights within a factor
-/// 2 and the gains. Private to this folder.
+/// Robustness of a ranking against changes of the plant, of the weights within a factor 2 and of
+/// the gains. Private to this folder.
 #pragma once
 
 #include <cstdint>
@@ -49,9 +49,9 @@ struct Decision {
 inline constexpr std::string_view kDifferentialTurns = "differential-turns";
 inline constexpr std::string_view kSteerWhileCoasting = "steer-while-coasting";
 
-/// Who is first on the other plant and, where there is one set of gains, with slower and faster ones:
-/// at most as many samples as are run at a time, the same draws as the comparison's. A setting in
-/// which a scenario cannot be run says why.
+/// The first modes on the other plant and, for one set of gains, with slower and faster gains: at
+/// most as many samples as are run at a time, the same draws as the comparison's. A setting in
+/// which a scenario cannot be run has the reason.
 std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedGains>& gains,
                                     const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options);

@@ -21,7 +21,7 @@ struct MetricTally {
   std::vector<int> best_or_tied;  ///< by contender, as ScenarioRows::modes
 };
 
-/// One scenario with what was found out about it.
+/// One scenario with its results.
 struct EvaluatedScenario {
   ScenarioRows rows;
   std::vector<PairedDifference> differences;

@@ -43,8 +43,8 @@ Entry entry_of(const ModeRows& rows, const std::vector<ScoredMetric>& scoring) {
   return entry;
 }
 
-/// Whether the two shares of completed runs are not distinguishable: by the exact McNemar test, or by
-/// being equal where there is a single run, or where one completes each and the other none.
+/// True if the two shares of completed runs are not distinguishable: by the exact McNemar test, or
+/// by being equal where there is a single run, or where one completes each and the other none.
 bool complete_alike(const ModeRows& a, const ModeRows& b) {
   const auto first = a.counted();
   const auto second = b.counted();
@@ -192,7 +192,7 @@ bool equivalent_in_all(const Contender& a, const Contender& b,
   return any;
 }
 
-/// Whether `other` is relevantly better in a scored metric, and in none relevantly worse.
+/// True if `other` is relevantly better in a scored metric, and relevantly worse in none.
 bool dominates(const Contender& other, const Contender& own,
                const std::vector<ScoredMetric>& scoring,
                const std::vector<PairedDifference>& differences) {

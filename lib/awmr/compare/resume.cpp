@@ -32,7 +32,7 @@ bool read_number(const std::string& text, Number& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// None where the cells are no row as comparison_csv writes it.
+/// Returns nothing if the cells are not a row as written by comparison_csv().
 std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool with_gains) {
   constexpr std::size_t kFirst = 4;
   if (cells.size() != kFirst + kMetricColumns.size() + (with_gains ? 1 : 0)) return std::nullopt;
@@ -116,7 +116,7 @@ Result<std::vector<ComparisonRow>> comparison_rows(std::string_view text, const 
     if (!row) {
       const auto line = 1 + std::count(before.begin(), before.end(), '\n');
       return input_error(ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line),
-                         "is no row of a comparison; compare into another directory");
+                         "is not a row of a comparison; compare into another directory");
     }
     rows.push_back(std::move(*row));
   }

@@ -9,7 +9,7 @@
 namespace awmr {
 
 struct SampledPlants {
-  Plant<double> nominal{};              ///< the model's own values: what the controller knows
+  Plant<double> nominal{};              ///< the model's own values, which the controller uses
   std::vector<Plant<double>> vehicles;  ///< samples 0, 1, ... of one scenario, then of another
   std::vector<std::size_t> first;       ///< by scenario: where its sample 0 is in `vehicles`
 

@@ -16,7 +16,7 @@ struct ScoredMetric {
   const MetricColumn* metric = nullptr;
   double weight = 0.0;   ///< in (0, 1], the weights of a scenario sum to 1
   double offset = 0.0;   ///< f of log_loss(), in the metric's unit, > 0
-  double missing = 0.0;  ///< what a run without the metric counts as: the worst of all runs
+  double missing = 0.0;  ///< value for a run without the metric: the worst of all runs
 };
 
 /// The metrics with a weight that some run of the scenario has. Empty where there is none.

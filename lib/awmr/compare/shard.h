@@ -16,11 +16,11 @@ namespace awmr {
 /// Parts of a comparison: comparison.csv has the rows.
 const ShardKind& comparison_shards();
 
-/// The part of a comparison that options.shard is.
+/// Text of the part of a comparison that options.shard selects.
 PartText comparison_part(const Comparison& part, const CompareOptions& options,
                          const Provenance& provenance, const std::vector<Finding>& findings = {});
 
-/// A whole comparison with what its files are written from.
+/// A whole comparison with the data for its files.
 struct Merged {
   Comparison comparison;
   CompareOptions options;  ///< samples, seed and preferences
@@ -29,7 +29,7 @@ struct Merged {
 };
 
 /// Puts the parts in the directories together, in any order. Errors (input): as read_parts(); a row
-/// that is none of its part's, or missing.
+/// of another part, or missing.
 Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directories);
 
 }  // namespace awmr

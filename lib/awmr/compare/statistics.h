@@ -77,17 +77,17 @@ struct PairedDifference {
   std::optional<double> mean;     ///< over those, in the metric's unit
   std::optional<Interval> ci95;   ///< of the mean; absent for fewer than 2
   std::optional<double> p;        ///< of the paired t test, in [0, 1]; absent for fewer than 2
-  /// p corrected for all differences of the scenario (Holm): below 0.05 the difference is real,
-  /// with at most a 5 % risk of a single wrong word in the whole scenario.
+  /// p corrected for all differences of the scenario (Holm): below 0.05 the difference is
+  /// significant, with at most a 5 % risk of any false positive in the whole scenario.
   std::optional<double> p_holm;
-  /// In the metric's unit, >= 0: a smaller difference does not matter. The metric's floor, or the
-  /// relevance's share of the lesser mean, whichever is more.
+  /// In the metric's unit, >= 0: a smaller difference does not matter. The larger of the
+  /// metric's floor and the relevance times the smaller mean.
   double margin = 0.0;
   /// p-value of two one-sided t tests (TOST), in [0, 1]: below 0.05 the difference is within the
   /// margin. Absent below 2 samples.
   std::optional<double> p_equivalent;
-  /// Relevant where Holm's p is below 0.05 and the whole interval beyond the margin; for a single
-  /// run, whether it is beyond the margin or not. Absent where no mean is.
+  /// Relevant if Holm's p is below 0.05 and the whole interval is beyond the margin; for a single
+  /// run, if the difference is beyond the margin. Absent without a mean.
   std::optional<Conclusion> conclusion;
 
   bool is_between(const Contender& a, const Contender& b) const {

@@ -54,9 +54,10 @@ AWMR_INLINE T steering_angle_rad(const SteeringGeometry& geometry, const Allocat
 /// (steering_geometry.h): with four driven wheels, q = tan(d_r/2) and k = (1 + q^2)/4.
 ///   l_f tau_speed q = s tau_turn
 ///   F'R,L           = (tau_speed +- (1 - s) tau_turn/d) k                 [paper (42), corrected]
-/// It inverts generalised_forces(). Corrected: the paper prints the combined mode with L and R
-/// swapped against its (41), and with d instead of l_f in d_r. Its small angles are a form of the
-/// geometry, which omits 3 % of the thrust at 20 deg. The result is finite for finite input.
+/// Inverse of generalised_forces(). Corrected: the paper prints the combined mode with L and R
+/// swapped against its (41), and with d instead of l_f in d_r. The paper's small-angle form, also
+/// available (steering_geometry.h), omits 3 % of the thrust at 20 deg. The result is finite for
+/// finite input.
 template <class T>
 AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& split,
                           const T& tau_speed, const T& tau_turn_m, const AllocationConstants<T>& c,
@@ -71,7 +72,7 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
   const T limit = steering_limit(c, speed);
   detail::Steering<T> steering = detail::steer(c, speed, steered_m, limit);
 
-  // The forces make the rest, with what the stop leaves if they may.
+  // The forces make the rest, including the moment lost at the stop if the split redistributes it.
   const Mask<T> leaves = split.redistributes && (steering.limited || steering.powerless);
   T moment_m = tau_turn_m - steered_m;
   if (any(leaves))

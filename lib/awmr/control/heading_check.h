@@ -128,12 +128,12 @@ class StepCheck {
 /// not fall by a quarter is wrong.
 class TurnCheck {
  public:
-  /// rad/s of a word, and the time between two words, s.
+  /// rate_per_word: rad/s per count of the gyroscope. dt_s: time between two readings, s.
   void begin(float rate_per_word, float dt_s) {
     quarter_turn_words_ = static_cast<int32_t>(float_math::kPiBy2 / (rate_per_word * dt_s));
   }
-  /// A word of the gyroscope, its offset taken off, and the moment commanded since the last one, m; 0: the
-  /// motors are off. In whole numbers, which cost the chip little.
+  /// Adds a reading of the gyroscope without its offset, and the moment commanded since the last
+  /// one, m; 0: the motors are off. Integer arithmetic, which is fast on the chip.
   AWMR_CALLED_MEMBER void take(int16_t word, float moment_m) {
     if (word <= kTurning && word >= -kTurning) {
       if (is_wrong_ && float_math::magnitude_bits(moment_m) == 0) restart();

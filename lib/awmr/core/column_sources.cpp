@@ -144,7 +144,7 @@ class Search {
     auto time = find_time(header_, samples_);
     if (!time) {
       fault(ErrorCode::kAmbiguous,
-            fmt::format("{}; say which: {}", time.error(), option_text("column t_s=EXPRESSION")));
+            fmt::format("{}; select one: {}", time.error(), option_text("column t_s=EXPRESSION")));
       return true;
     }
     if (!*time) return false;

@@ -243,14 +243,13 @@ std::vector<CsvNote> format_notes(const CsvHeader& header, bool has_decimal_comm
           ? ""
           : fmt::format(", without the {} line{} above the header", header.skipped_lines,
                         header.skipped_lines == 1 ? "" : "s");
-  return {
-      {header.line, "csv-format",
-       fmt::format("read with cells between {}{}{}{}", between,
-                   has_decimal_commas ? ", decimal commas" : "",
-                   header.is_comment      ? ", the columns' names behind #"
-                   : header.is_positional ? ", the columns by their position, as there is no header"
-                                          : "",
-                   skipped)}};
+  return {{header.line, "csv-format",
+           fmt::format("read with cells between {}{}{}{}", between,
+                       has_decimal_commas ? ", decimal commas" : "",
+                       header.is_comment      ? ", column names behind #"
+                       : header.is_positional ? ", the columns by position (no header)"
+                                              : "",
+                       skipped)}};
 }
 
 std::string message_of(CsvScanner::Outcome outcome) {

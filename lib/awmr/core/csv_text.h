@@ -10,7 +10,7 @@
 
 namespace awmr {
 
-/// As read_csv, from text; `file` names it in errors.
+/// Like read_csv(), but from text. `file` is the name in error messages.
 Result<CsvTable> read_csv_text(std::string_view bytes, const std::string& file,
                                std::span<const CsvColumn> columns,
                                std::span<const ColumnMapping> mappings = {});

@@ -75,7 +75,7 @@ Result<std::string_view> text_of(std::string_view bytes, const std::string& file
   for (const KnownFile& known : kKnownFiles) {
     if (bytes.starts_with(known.begin)) {
       return input_error(ErrorCode::kWrongFile, file,
-                         fmt::format("this file is no CSV but {}", known.words));
+                         fmt::format("this file is not a CSV but {}", known.words));
     }
   }
   if (bytes.find('\0') != std::string_view::npos) {

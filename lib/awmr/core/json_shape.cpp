@@ -6,7 +6,7 @@
 namespace awmr {
 namespace {
 
-/// Stands for any key: what is read of it applies to all keys of the object.
+/// Represents any key: the checks on it apply to all keys of the object.
 constexpr std::string_view kAnyKey = "*";
 
 /// True if the way makes all of these choices.

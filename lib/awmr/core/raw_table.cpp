@@ -123,7 +123,7 @@ void check_pair(const ColumnSource& source, std::span<const double> inputs, std:
   if (inputs[0] == std::floor(inputs[0]) && inputs[1] >= 0.0 && inputs[1] < 1e9) return;
   faults.add(ErrorCode::kAmbiguous, row, character_of(faults.raw, source, row),
              fmt::format("{}: expected whole seconds and nanoseconds below 1e9, found {} and {}; "
-                         "say what the time is: {}",
+                         "define the time: {}",
                          source.time->meaning, inputs[0], inputs[1],
                          option_text("column t_s=EXPRESSION")));
 }

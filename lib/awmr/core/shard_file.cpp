@@ -70,7 +70,7 @@ Result<Part> read_part(const ShardKind& kind, const std::filesystem::path& direc
   if (!found.empty() && found != kind.schema) {
     return input_error(ErrorCode::kStaleResult, place + ":/schema",
                        fmt::format("expected \"{}\", found \"{}\": this is a part of another kind "
-                                   "of work; merge each kind by itself",
+                                   "of work; merge each kind separately",
                                    kind.schema, found));
   }
   std::vector<Fault> faults;
@@ -97,7 +97,7 @@ std::string difference(const ShardKind& kind, const Part& first, const Part& par
                        first.origin.shard.count);
   }
   if (shard.index > shard.count) {
-    return fmt::format("is part {} of {}: there is none", shard.index, shard.count);
+    return fmt::format("is part {} of {}: the number is too large", shard.index, shard.count);
   }
   const std::string other =
       origin_difference(part.origin.provenance, part.origin.version, first.origin.provenance, name);

@@ -5,7 +5,7 @@
 
 namespace awmr {
 
-/// Ceres says on stderr why it stopped, through its logging library; here that is in the result.
+/// Stops Ceres from logging to stderr why a search ended: the result contains the reason.
 inline void silence_ceres() {
   static const int level = FLAGS_minloglevel =
       google::GLOG_FATAL;  // once, whichever thread is first

@@ -169,7 +169,7 @@ double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
   return std::min(most, kMost_mrad);
 }
 
-/// Refuses what the simulated controller does and the firmware does not.
+/// Refuses the form of the allocation that only the simulated controller supports.
 Status check_allocation(const Model& model) {
   if (model.vehicle.allocation == AllocationForm::kExact) return {};
   return input_error(ErrorCode::kUnsupported, file_name(model) + ":/vehicle/allocation",
@@ -190,7 +190,7 @@ Status check_drive(const Plant<double>& plant, const Model& model) {
 Status check_family(const Plant<double>& plant, ResistanceForm form) {
   if (form == ResistanceForm::kPowf && !is_power_law(plant)) {
     return input_error(ErrorCode::kUnsupported, option_text("resistance"),
-                       "powf knows the power law alone; this model's family needs the table");
+                       "powf supports only the power law; this model's family needs the table");
   }
   return {};
 }

@@ -240,7 +240,8 @@ std::string extrapolated(const Model& model) {
     if (trial.kind == TrialKind::kSurge) reached = std::max(reached, trial.input);
   }
   if (!(reached > 0.0) || reached >= 4.0) return "";
-  return fmt::format("; extrapolated, the trials reach tau_speed {:g}: drive it once", reached);
+  return fmt::format("; extrapolated: the trials reach only tau_speed {:g}; verify by a drive",
+                     reached);
 }
 
 }  // namespace

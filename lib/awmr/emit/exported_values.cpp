@@ -85,8 +85,8 @@ void export_gains(const Gains<double>& gains, std::vector<ExportedValue>& values
   if (!gains.observer.is_on()) return;
   add("observer_bandwidth_radps", gains.observer.bandwidth_radps, "rad/s",
       "L: bandwidth of the disturbance observer");
-  add("observer_yaw_max_m", gains.observer.yaw_max_m, "m", "largest moment that it takes off");
-  add("observer_surge_max", gains.observer.surge_max, "1", "largest force that it takes off");
+  add("observer_yaw_max_m", gains.observer.yaw_max_m, "m", "largest moment that it compensates");
+  add("observer_surge_max", gains.observer.surge_max, "1", "largest force that it compensates");
 }
 
 }  // namespace

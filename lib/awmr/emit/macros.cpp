@@ -93,9 +93,9 @@ void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std
   add("AWMR_OBSERVER_BANDWIDTH_RADPS", gains.observer.bandwidth_radps,
       "L, rad/s: bandwidth of the disturbance observer", "/observer/bandwidth_radps");
   add("AWMR_OBSERVER_YAW_MAX_M", gains.observer.yaw_max_m,
-      "m: largest moment over F_max that it takes off", "/observer/yaw_max_m");
+      "m: largest moment over F_max that it compensates", "/observer/yaw_max_m");
   add("AWMR_OBSERVER_SURGE_MAX", gains.observer.surge_max,
-      "1: largest force over F_max that it takes off", "/observer/surge_max");
+      "1: largest force over F_max that it compensates", "/observer/surge_max");
 }
 
 /// True if a float32 has full precision for the value: 0 and normal numbers. False for NaN.

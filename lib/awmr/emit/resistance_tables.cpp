@@ -121,8 +121,8 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
   if (!error_share) return closest;
   return refusal(
       ErrorCode::kNoTable,
-      fmt::format("the {} resistance has no table of at most {} lines with an error below {}; "
-                  "the best has {:.2g}: allow a larger {}, or use {}",
+      fmt::format("the {} resistance has no table of at most {} entries with an error below "
+                  "{}; the smallest error is {:.2g}: raise {}, or use {}",
                   name, kMaxLines, option_text(fmt::format("table-error {:g}", *error_share)),
                   closest.worst_share(), option_text("table-error"),
                   option_text("resistance powf")));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "awmr/core/gravity.h"
+#include "awmr/identify/identify.h"
 
 namespace awmr {
 namespace {
@@ -58,6 +59,8 @@ double log_variance_of(const Interval& range) {
 
 }  // namespace
 
+double assumed_sway_factor() { return std::sqrt(kTyreStiffness.hi / kTyreStiffness.lo); }
+
 void assume_sway(const TrialData& data, MainValues& values) {
   Model& model = values.model;
   Estimate& sway = model[ParameterId::kSwayAlpha];
@@ -85,10 +88,11 @@ void assume_sway(const TrialData& data, MainValues& values) {
   model.record.findings.push_back(
       {"", 0, Severity::kWarning, "assumed-sway",
        fmt::format(
-           "no trial shows the sway resistance: {} is assumed to be {:.3g} s/m ({:.3g} to {:.3g}), "
+           "no trial identifies the sway resistance: {} is assumed to be {:.3g} s/m ({:.3g} to "
+           "{:.3g}), "
            "that of common tyres ({:.1f} g m'/u) at u = {:.2g} m/s, half of the highest speed "
            "driven. Gains are tuned for that range, and sideslip results have the same "
-           "uncertainty. Give sway_alpha in vehicle.json, or record a driven log with sway_mps",
+           "uncertainty. Give sway_alpha in vehicle.json, or record a driving log with sway_mps",
            info(ParameterId::kSwayAlpha).name, value, sway.ci95->lo, sway.ci95->hi, stiffness,
            speed_mps)});
 }

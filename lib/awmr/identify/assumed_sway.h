@@ -20,7 +20,7 @@ namespace awmr {
 /// The name of this origin in model.json (`method`).
 inline constexpr const char* kAssumedSwayMethod = "assumed of common tyres";
 
-/// Sets it, with its share of the covariance, and adds a finding (`assumed-sway`). Nothing where
+/// Sets it, with its share of the covariance, and adds a finding (`assumed-sway`). Does nothing if
 /// the model has a value, knows nothing of turning or no m', or no trial has a speed.
 void assume_sway(const TrialData& data, MainValues& values);
 

@@ -39,8 +39,8 @@ inline std::string stop_reason(const ceres::Solver::Summary& summary) {
   }
 }
 
-/// The residuals at the problem's present point. None where one of them cannot be computed there or is
-/// not finite: Ceres then hands out nothing, or a part.
+/// The residuals at the problem's present point. Empty if one of them cannot be computed there or
+/// is not finite: Ceres then hands out nothing, or a part.
 inline std::optional<Eigen::VectorXd> evaluated_residuals(
     ceres::Problem& problem, const ceres::Problem::EvaluateOptions& options) {
   std::vector<double> values;

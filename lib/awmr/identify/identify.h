@@ -24,4 +24,8 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
 /// The same for trials that load_trials() read; their findings come first in the record.
 Result<Identification> identify(const Trials& trials, const IdentifyOptions& options);
 
+/// Factor from the assumed sway resistance (`assumed-sway`) to each end of its 95 % range, > 1.
+/// Uncertainty of m' is not included.
+double assumed_sway_factor();
+
 }  // namespace awmr

@@ -39,8 +39,8 @@ void set_beta_of_curve(const CoastFit& curve, Model& model) {
                                     "coast-down curve"};
 }
 
-/// The errors of a law's parameters, whose values are in the model, from the first numbers of a
-/// posterior whose covariance begins at `first`.
+/// Sets the errors of a law's parameters, whose values are in the model, from the first entries of
+/// the posterior. Its covariance begins at `first`.
 void set_law_errors(const Subject& subject, const SteadyFit& law, const Posterior& posterior,
                     Eigen::Index first, MainValues& values) {
   for (std::size_t i = 0; i < law.free.size(); ++i) {

@@ -1,4 +1,4 @@
-/// The model as it grows: what each source of evidence sets, with its share of the covariance.
+/// The model under construction: the values set by each kind of trial, with their covariance.
 /// Private to identify/.
 #pragma once
 

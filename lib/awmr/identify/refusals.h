@@ -15,13 +15,13 @@ namespace awmr {
 std::vector<ParameterId> requested_parameters(const Vehicle& vehicle, const TrialData& data,
                                               const IdentifyOptions& options);
 
-/// Why a parameter has no value, beyond what the presence of trials says.
+/// Reason why a parameter has no value although its trials are present.
 struct Reasons {
   std::string surge;         ///< why no fit of the surge rows will do, although they show a law
   std::string turning;       ///< the same of the turning rows
   std::string mass;          ///< why the coast-downs give no m'
   bool curve_alone = false;  ///< curves without a surge law: `mass` is why a1 is missing, too
-  /// Fitted, but not finite or outside of what a model can hold.
+  /// Fitted, but not finite or outside of the range of a model.
   std::map<ParameterId, std::string> inadmissible;
   std::map<ParameterId, std::string> logs;  ///< free in the fit of the logs, but not identifiable
 };

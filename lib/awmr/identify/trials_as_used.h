@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// Every row of the tables with what the model's main values predict for it, where they can.
+/// Every row of the tables with its prediction by the model's main values, where possible.
 std::vector<TrialPoint> trials_as_used(const TrialData& data, const Model& model);
 
 }  // namespace awmr

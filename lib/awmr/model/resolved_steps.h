@@ -61,14 +61,14 @@ State<T> blend(const Mask<T>& mask, const State<T>& a, const State<T>& b) {
           select(mask, a.steering_rad, b.steering_rad)};
 }
 
-/// Whether the steps of a run can follow it.
+/// Result of the step control: whether the integration steps of a run were short enough.
 template <class T>
 struct Resolution {
   T halves = T(0.0);                 ///< steps that were halved so far
   Mask<T> resolved = Mask<T>(true);  ///< false: no step is short enough, or a number is not finite
 };
 
-/// `body` is a Plant or what else has a fastest_rate() of its own (tyres.h); here and below.
+/// `body`, here and below: a Plant, or another type with its own fastest_rate() (tyres.h).
 template <class Body, class T, class Rates>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution);

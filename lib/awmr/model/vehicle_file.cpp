@@ -172,7 +172,7 @@ Vehicle vehicle_from_json(JsonObject& json) {
     steering_from_json(json.object("steering"), vehicle);
   } else if (json.has("steering")) {
     json.fault(ErrorCode::kConflict, "steering",
-               "a vehicle of drive \"differential\" has none; take it out, or take "
+               "a vehicle of drive \"differential\" has none; remove it, or choose "
                "another drive");
   }
   vehicle.sample_time_s = json.number("sample_time_s", kSampleTime_s);

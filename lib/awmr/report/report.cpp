@@ -57,7 +57,7 @@ void round_numbers(Json& json) {
   for (Json& value : json) round_numbers(value);
 }
 
-/// Rounds what the page only shows. The gains themselves are simulated and copied.
+/// Rounds the numbers that the page only displays. The gains themselves are simulated and copied.
 void round_shown(Json& data) {
   for (const char* name : {"model", "validation", "comparison", "pil", "suggest"}) {
     if (data.contains(name)) round_numbers(data[name]);

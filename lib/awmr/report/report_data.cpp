@@ -47,7 +47,7 @@ std::optional<Finding> foreign_result(const std::string& result, const Json& jso
   if (*is_of_model && is_of_gains) return std::nullopt;
   return Finding{result, 0, Severity::kWarning, "result-of-another-model",
                  fmt::format("was made from another {} than the one in this directory, and is not "
-                             "shown. Make it again, or take it out of the directory",
+                             "shown. Make it again, or remove it from the directory",
                              *is_of_model ? "gains.json" : "model.json")};
 }
 

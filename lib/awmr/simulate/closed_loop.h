@@ -51,7 +51,7 @@ class ClosedLoop {
   /// End of a run, with its rows if they are kept. RunEnd::kFailed: a number was not finite, or no
   /// step was short enough.
   Run take_run(std::size_t run);
-  /// None where the run failed.
+  /// Empty if the run failed.
   std::optional<Metrics> metrics(std::size_t run) const;
 
  private:
@@ -247,8 +247,7 @@ RunRow ClosedLoop<Row>::row_of(std::size_t run, double t_s) const {
                                                         run_of<double>(v.plant.rear_driven, run))};
 }
 
-/// Keeps the sample's rows. A run fails where its row is not finite; such a row is kept only if it is
-/// the first.
+/// Appends a row to each active run. A non-finite row ends the run, and is kept only at k = 0.
 template <class Row>
 void ClosedLoop<Row>::keep_rows(std::size_t k, double t_s) {
   if (!options_.keeps_rows) return;

@@ -222,7 +222,7 @@ void measure_speed_error(const MetricsRow<T>& row, const MetricsTime& time,
   m.speed_error_m = error_m;
 }
 
-/// Motion, and what the commands vary.
+/// Motion, and variation of the commands.
 template <class T>
 void measure_motion(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, bool is_first,
                     MetricsAccumulator<T>& m) {
@@ -271,7 +271,7 @@ void measure_work(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, bo
   m.steering_rate2_degps2 += rate_degps * rate_degps;
 }
 
-/// Keeps what the next row asks of this one.
+/// Stores the previous sample for finite differences.
 template <class T>
 void remember(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, double t_s,
               MetricsAccumulator<T>& m) {

@@ -12,7 +12,7 @@ namespace awmr {
 /// Below this speed a vehicle that was commanded to stop counts as stopped.
 inline constexpr double kStopped_mps = 1e-3;
 
-/// The controller with what the scenario changes of it.
+/// The controller with the scenario's changes.
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller);
 
 /// Properties that the controllers of a scenario share; the allocation is that of one of them. is_observed

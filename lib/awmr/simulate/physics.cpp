@@ -35,7 +35,8 @@ double slipping(const Plant<double>& plant, double command, double wheel_mps, do
   return with_dead_zone(math::saturate(force, most) + k * wheel_mps, plant.wheel_dead_zone);
 }
 
-/// Steps of a sample; with room for rounding, so that a sample of exactly n steps takes n.
+/// Number of integration steps per sample. Allows for rounding: a sample of exactly n steps takes
+/// n.
 double steps_of_sample(const Plant<double>& plant, bool on_tyres, double sample_time_s) {
   return std::max(1.0, std::ceil(sample_time_s / step_limit(plant, on_tyres).step_s - 1e-9));
 }

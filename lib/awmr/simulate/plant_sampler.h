@@ -1,4 +1,4 @@
-/// Plants drawn from what the trials leave uncertain.
+/// Plants drawn from the uncertainty of the model.
 #pragma once
 
 #include <cstdint>
@@ -52,8 +52,9 @@ class PlantSampler {
   /// place within it from the seed. One that is not admissible is draw()'s of its number.
   Result<std::vector<Plant<double>>> draw_evenly(std::uint64_t seed, int count) const;
 
-  /// The plant at standard normals n, one for each parameter of the covariance: z = centre + L n. None where
-  /// an exponent or a term is negative there. The mass that the grip demands is drawn only.
+  /// The plant at standard normals n, one for each parameter of the covariance: z = centre + L n.
+  /// Empty if an exponent or a term is negative there. The mass that the grip demands is drawn
+  /// only.
   std::optional<Plant<double>> plant_at(std::span<const double> normals) const;
   /// Degrees of freedom: the parameters lie in |n| <= r with the probability of a chi-squared of as many
   /// below r^2. Derived parameters (m' from a1, b1) add none.
@@ -67,8 +68,8 @@ class PlantSampler {
   std::size_t normals_of_a_draw() const {
     return centre_.size() + (model_.mass_norm_by_grip ? 1 : 0);
   }
-  /// The model at these normals, those of a draw or of plant_at(); none where an exponent or a term is
-  /// negative there.
+  /// The model at these normals, those of a draw or of plant_at(); empty if an exponent or a term
+  /// is negative there.
   std::optional<Model> model_at(std::span<const double> normals) const;
   /// The model with a scrub `normal` standard errors from its own; as it is without one.
   Model with_scrub(Model drawn, double normal) const;

@@ -122,7 +122,7 @@ Result<Model> model_at_corner(Model model, const Scenario& scenario) {
       faults.push_back({ErrorCode::kNotIdentified,
                         model.file + ":" + std::string(info(corner.id).pointer),
                         "has no 95 % interval (ci95), whose end the scenario '" + scenario.name +
-                            "' asks for; identify it from trials, or take it out of the "
+                            "' uses; identify it from trials, or remove it from the "
                             "scenario's corner"});
       continue;
     }
@@ -145,7 +145,8 @@ Status check_tyres(const Scenario& scenario) {
   return {};
 }
 
-/// Weights that ask for a law faster than the controller's samples are an error, not a run that swings.
+/// Weights whose gains are unstable at the controller's sample time are an error, not a run that
+/// oscillates.
 Status check_lqi(const Scenario& scenario, const Model& model) {
   const auto& inertia_norm = model[ParameterId::kInertiaNorm].value;
   if (!scenario.control.lqi || !inertia_norm) return {};
@@ -155,7 +156,7 @@ Status check_lqi(const Scenario& scenario, const Model& model) {
   return input_error(
       ErrorCode::kDiverges, fmt::format("scenario '{}':/control/heading_law", scenario.name),
       fmt::format(
-          "its weights ask for gains ({:.3g} 1/s on the yaw rate) that swing up when they are "
+          "its weights give gains ({:.3g} 1/s on the yaw rate) that become unstable when they are "
           "held over sample_time_s {:g}: give a smaller tau_turn_m, or larger heading_deg, "
           "yaw_rate_degps and integral_deg_s",
           gains.rate_per_s, sample_time_s));

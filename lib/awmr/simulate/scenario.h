@@ -84,7 +84,7 @@ enum class PlantKind { kModel, kFourWheel };
 inline constexpr NameTable<PlantKind, 2> kPlantKindNames{
     {{"model", PlantKind::kModel}, {"four-wheel", PlantKind::kFourWheel}}};
 
-/// One run to simulate. What is optional is off where it is absent.
+/// One run to simulate. Absent optional fields are off.
 struct Scenario {
   std::string name;
   double duration_s = 0.0;  ///< s, > 0
@@ -131,11 +131,11 @@ struct TyreConflict {
 };
 std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario);
 
-/// Errors (input): the scenario has tyres and what has no meaning on them.
+/// Errors (input): the scenario has tyres together with a key that has no meaning on tyres.
 Status check_tyres(const Scenario& scenario);
 
-/// Errors (input): what the scenario asks of a controller with the model's own values is not possible: as
-/// check_tyres and check_observer_rate, and an LQI law that is unstable at the sample time.
+/// Errors (input): a controller with the model's own values cannot run the scenario: as check_tyres
+/// and check_observer_rate, and an LQI law that is unstable at the sample time.
 Status check_scenario(const Scenario& scenario, const Model& model);
 
 /// Description of the plant: "model", or "four-wheel, friction 0.8, ..." with the numbers of the

@@ -53,7 +53,7 @@ struct RunRow {
 enum class RunEnd {
   kDuration,   ///< at the scenario's duration
   kFinished,   ///< the last waypoint was reached, or the end of the line
-  kNoPassage,  ///< obstacles leave no way to where the guidance leads: the vehicle stopped
+  kNoPassage,  ///< obstacles leave no way to the guidance target: the vehicle stopped
   /// Before its time, and of no use (see failure_of): a number was no longer finite, no step was
   /// short enough for the motion, or the run is beyond kMostRows or kMostSteps.
   kFailed,

@@ -71,10 +71,10 @@ std::optional<Finding> extrapolation_finding(const std::string& file, double mea
                                              double fastest_degps, const std::string& where,
                                              bool is_rate_limited);
 
-/// Adds a warning (`beyond-trials`) where a turn of `fastest_degps`, >= 0, is clearly faster than
-/// that: what the model says there is extrapolated. `where` names the run: "C3, combined". `is_rate_limited`:
-/// the heading's rate was limited to what was measured, and the vehicle turns faster than its heading
-/// is led.
+/// Adds a warning (`beyond-trials`) if a turn of `fastest_degps`, >= 0, is clearly faster than
+/// that: the model is extrapolated there. `where` names the run: "C3, combined". `is_rate_limited`:
+/// the heading's rate was limited to the measured one, and the vehicle turns faster than its
+/// commanded heading.
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
                         std::vector<Finding>& findings, bool is_rate_limited = false);
 

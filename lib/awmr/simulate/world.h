@@ -89,7 +89,7 @@ struct Battery {
   double sag = 0.0;
 };
 
-/// The errors of one sensor, in the unit of what it measures.
+/// Errors of one sensor, in the unit of its reading.
 struct Channel {
   double noise = 0.0;    ///< >= 0: standard deviation
   double bias = 0.0;     ///< constant over a run; its sign counts

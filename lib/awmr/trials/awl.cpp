@@ -58,7 +58,7 @@ void tell_of_scan(const Scan& scan, const std::string& file, AwlLog& log) {
   }
   if (log.damaged_bytes > 0) {
     warn(log, file, "log-damaged",
-         fmt::format("{} bytes are neither header nor whole row and are passed over: {}",
+         fmt::format("{} bytes are neither a header nor a complete row and are skipped: {}",
                      log.damaged_bytes, list_of(scan.damaged, [](const Damage& damage) {
                        return fmt::format("bytes {} to {}", damage.begin, damage.end - 1);
                      })));
@@ -89,11 +89,11 @@ std::vector<Place> usable_rows(std::string_view bytes, const Scan& scan, const s
     }
   }
   if (!not_measured_s.empty()) {
-    warn(
-        log, file, "rows-not-measured",
-        fmt::format("{} rows set aside, in which heading or speed was too old or no number (no fix "
-                    "or no compass yet), the first at {:.6g} s, the last at {:.6g} s",
-                    not_measured_s.size(), not_measured_s.front(), not_measured_s.back()));
+    warn(log, file, "rows-not-measured",
+         fmt::format(
+             "{} rows set aside, in which heading or speed was too old or not a number (no fix "
+             "or no compass yet), the first at {:.6g} s, the last at {:.6g} s",
+             not_measured_s.size(), not_measured_s.front(), not_measured_s.back()));
   }
   return measured;
 }
@@ -167,7 +167,7 @@ Result<AwlLog> read_awl(std::string_view bytes, const std::string& file) {
       without_short_runs(usable_rows(bytes, scan, file, log), file, log);
   if (rows.empty()) {
     return refusal(ErrorCode::kTooFewData,
-                   fmt::format("{}: of {} whole rows none can be used{}", file, scan.rows.size(),
+                   fmt::format("{}: none of {} complete rows can be used{}", file, scan.rows.size(),
                                log.findings.empty() ? "" : "; " + log.findings.back().message));
   }
   fill_columns(bytes, scan.layout, rows, log);

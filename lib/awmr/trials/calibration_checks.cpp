@@ -136,7 +136,7 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
                    found->scatter};
 }
 
-/// How many times as far the heading turns as the yaw rate says.
+/// Ratio of the heading's change to the integral of the yaw rate.
 std::optional<Calibration> heading_over_rate(const DrivingLog& log) {
   if (!log[LogChannel::kHeading] || !log[LogChannel::kYawRate]) return std::nullopt;
   const std::vector<LogWindow> windows = calibration_windows(log);
@@ -190,7 +190,7 @@ std::optional<Finding> rate_mismatch(const DrivingLog& log,
   const auto scale = heading_over_rate(log);
   if (!scale || !is_off_one(*scale)) return std::nullopt;
   const std::string compared =
-      fmt::format("heading_deg turns {:.3f} +- {:.3f} times as far as yaw_rate_radps says",
+      fmt::format("heading_deg turns {:.3f} +- {:.3f} times the integral of yaw_rate_radps",
                   scale->value, scale->std_error);
   const std::string rate = mapping_option(mappings, "yaw_rate_radps", scale->value);
   const std::string heading = mapping_option(mappings, "heading_deg", 1.0 / scale->value);
@@ -220,7 +220,7 @@ std::optional<Finding> speed_mismatch(const DrivingLog& log, const CourseFit& co
   if (!is_off_one(scale)) return std::nullopt;
   return scale_finding(
       log,
-      fmt::format("x_m and y_m move {:.3f} +- {:.3f} times as far as speed_mps says: the scale "
+      fmt::format("x_m and y_m move {:.3f} +- {:.3f} times the integral of speed_mps: the scale "
                   "of the speed is off (wheel radius, gear, slip; map it by {}) or that of the "
                   "positions ({} and {})",
                   scale.value, scale.std_error, mapping_option(mappings, "speed_mps", scale.value),

@@ -151,10 +151,11 @@ std::vector<CoastCurve> read_curves(TrialReader& reader) {
       curves.push_back(new_curve(reader, i));
       run = this_run;
     } else if (!(t_s > curves.back().t_s.back())) {
-      reader.fault(ErrorCode::kWrongOrder, i, "t_s",
-                   fmt::format("found {} after {}: time has to rise within a run; number several "
-                               "runs in a column run",
-                               t_s, curves.back().t_s.back()));
+      reader.fault(
+          ErrorCode::kWrongOrder, i, "t_s",
+          fmt::format("found {} after {}: time must increase within a run; number the runs "
+                      "in a column run",
+                      t_s, curves.back().t_s.back()));
     }
     curves.back().t_s.push_back(t_s);
     curves.back().speed_mps.push_back(*reader.cell(i, "speed_mps"));

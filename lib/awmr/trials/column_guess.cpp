@@ -98,7 +98,7 @@ Scale scale_of(const std::string& quoted, const Words& words, Dimension dimensio
         fmt::format("the values reach {:.4g}, beyond a turn in radians: degrees", largest(values))};
   }
   return {times(quoted, 1.0), Confidence::kUnsure,
-          "the name says no unit, and the values fit several"};
+          "the name has no unit, and the values fit several"};
 }
 
 /// Returns the name as written in an expression.
@@ -144,7 +144,7 @@ void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
     guesses.push_back({std::string(kTimeName), "", Confidence::kUnsure, time.error()});
   } else if (*time) {
     guesses.push_back({std::string(kTimeName), (*time)->expression, Confidence::kLikely,
-                       (*time)->meaning + "; it is taken without a mapping as well"});
+                       (*time)->meaning + "; it is also read without a mapping"});
   }
   if (!guesses.empty()) return;
   // `ms`, `millis`: the name may mean metres per second, but those do not grow from row to row.

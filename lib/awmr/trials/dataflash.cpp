@@ -94,7 +94,7 @@ Result<Contents> contents_of(std::string_view bytes, const std::string& file) {
       const auto [known, is_new] = formats.try_emplace(defined, *std::move(format));
       if (!is_new && known->second.definition != record) {
         return input_error(ErrorCode::kBrokenFile, file,
-                           fmt::format("byte {}: a second, other format of {}", offset,
+                           fmt::format("byte {}: a second, different format of {}", offset,
                                        printable(known->second.name)));
       }
     } else if (const dataflash::Format& format = formats.at(type); format.name == "FMTU") {
@@ -192,7 +192,7 @@ Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
   AWMR_RETURN_IF_ERROR(for_each_record(bytes, contents.formats, take));
   if (contents.skipped > 0) {
     signals.notes.push_back({0, "log-damaged",
-                             fmt::format("{} of {} bytes belong to no record and are passed over",
+                             fmt::format("{} of {} bytes belong to no record and are skipped",
                                          contents.skipped, bytes.size())});
   }
   return signals;

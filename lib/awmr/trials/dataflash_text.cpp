@@ -128,7 +128,7 @@ Status define(const Cells& cells, const std::string& file, int line, NamedFormat
   const auto [known, is_new] = formats.try_emplace(std::string(cells[3]), *std::move(format));
   if (is_new || known->second.definition == *record) return {};
   return error_at(file, line,
-                  fmt::format("a second, other format of {}", printable(known->second.name)));
+                  fmt::format("a second, different format of {}", printable(known->second.name)));
 }
 
 /// A topic: name and instance.
@@ -225,7 +225,7 @@ Status take_line(const Cells& cells, int line, const std::string& file,
     if (!value) {
       return error_at(
           file, line,
-          fmt::format("{}.{} is no number: {}", printable(format.name),
+          fmt::format("{}.{} is not a number: {}", printable(format.name),
                       printable(format.fields[listed.fields[i]].name), printable(cell)));
     }
     topic.values[i].push_back(*value);
@@ -267,10 +267,9 @@ Result<Signals> read_dataflash_text(std::string_view bytes, const std::string& f
                      signals.topics[entry->second.topic]);
   }));
   if (contents.skipped > 0) {
-    signals.notes.push_back(
-        {0, "log-damaged",
-         fmt::format("{} of {} lines are of no known format and are passed over", contents.skipped,
-                     contents.lines)});
+    signals.notes.push_back({0, "log-damaged",
+                             fmt::format("{} of {} lines are of no known format and are skipped",
+                                         contents.skipped, contents.lines)});
   }
   return signals;
 }

@@ -60,7 +60,7 @@ Result<FieldRecord> read_field(const std::filesystem::path& path,
     if (record.t_s[i] > record.t_s[i - 1]) continue;
     faults.push_back(
         {ErrorCode::kWrongOrder, table.place(i, "t_s"),
-         fmt::format("found {} after {}: time has to rise", record.t_s[i], record.t_s[i - 1])});
+         fmt::format("found {} after {}: time must increase", record.t_s[i], record.t_s[i - 1])});
   }
   if (table.rows() < kShortestField) {
     faults.push_back(

@@ -154,7 +154,7 @@ void check_time(TrialReader& reader, RowSpan run) {
     if (t_s[i] > t_s[i - 1]) continue;
     reader.fault(
         ErrorCode::kWrongOrder, i, "t_s",
-        fmt::format("found {} after {}: time has to rise{}", t_s[i], t_s[i - 1],
+        fmt::format("found {} after {}: time must increase{}", t_s[i], t_s[i - 1],
                     t_s[i] == t_s[i - 1] ? "; delete repeated rows, or write the time with "
                                            "more digits (from the start of the log)"
                     : reader.has("run")  ? ""

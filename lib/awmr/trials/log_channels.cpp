@@ -40,14 +40,14 @@ void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQualit
   }
   if (quality.saturated > 0) {
     warn(0, "saturated-channel",
-         fmt::format("{} reads {:.4g} in {} rows and nothing beyond: the end of its range "
-                     "(saturated); these rows are set aside, and rows near it lean to one side",
+         fmt::format("{} reads {:.4g} in {} rows and never beyond: the end of its range "
+                     "(saturated); these rows are set aside, and readings near it are biased",
                      about.column, quality.saturated_at / about.to_si, quality.saturated));
   }
   if (quality.repeats == Repeats::kCoarse) {
     warn(0, "quantised-samples",
-         fmt::format("{} comes in steps of {:.4g}, a coarse (quantised) sensor: every row counts, "
-                     "and the rounding counts as its error",
+         fmt::format("{} has steps of {:.4g}, a coarse (quantised) sensor: every row is used, "
+                     "and the rounding is part of its error",
                      about.column, quality.quantum / about.to_si));
   }
 }
@@ -147,9 +147,10 @@ void note_stale_command(std::string_view column, const DrivingLog& log,
   if (longest_s < std::max(kLong_s, kGapSteps * mean_s)) return;
   findings.push_back(
       {log.file, 0, Severity::kWarning, "command-held",
-       fmt::format("{} is not renewed for {:.3g} s from {:.4g} s on: its last value is taken to "
-                   "act all the while; cut the log there if the vehicle drops it by itself",
-                   column, longest_s, since_s)});
+       fmt::format(
+           "{} is not renewed for {:.3g} s from {:.4g} s on: its last value is "
+           "used until then; cut the log there if the vehicle stops by itself without commands",
+           column, longest_s, since_s)});
 }
 
 void note_gaps(const DrivingLog& log, std::vector<Finding>& findings) {
@@ -158,8 +159,8 @@ void note_gaps(const DrivingLog& log, std::vector<Finding>& findings) {
     const double step_s = log.t_s[i] - log.t_s[i - 1];
     if (step_s <= longest_s) continue;
     findings.push_back({log.file, log.line[i], Severity::kNote, "log-gap",
-                        fmt::format("nothing logged for {:.3g} s before this row: what was "
-                                    "commanded then is unknown, and the fit starts anew here",
+                        fmt::format("nothing was logged for {:.3g} s before this row: what was "
+                                    "commanded then is unknown, and the fit restarts here",
                                     step_s)});
   }
 }

@@ -147,7 +147,7 @@ std::string Recording::damage_of(const std::string& line) {
   }
   const auto same = [](const CsvCell& cell, const std::string& name) { return cell.text == name; };
   if (std::equal(cells.begin(), cells.end(), header_.names.begin(), same)) {
-    return "it is the header again: did the recorder restart?";
+    return "it repeats the header: the recorder may have restarted";
   }
   if (is_number_.empty()) {
     for (const CsvCell& cell : cells) is_number_.push_back(is_number(cell, header_.delimiter));
@@ -157,7 +157,7 @@ std::string Recording::damage_of(const std::string& line) {
     if (!is_number_[i] || is_number(cells[i], header_.delimiter)) continue;
     // Words such as "nan" are intended by the recorder and left to the reader.
     if (std::any_of(text.begin(), text.end(), is_digit)) {
-      return fmt::format("its cell of {} is \"{}\", no number", header_.names[i],
+      return fmt::format("its cell {} is \"{}\", which is not a number", header_.names[i],
                          shortened(text, 40));
     }
   }

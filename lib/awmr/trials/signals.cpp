@@ -24,8 +24,8 @@ Status check(const Topic& topic, const Signals& signals, const std::string& file
   for (std::size_t i = 1; i < topic.time_ns.size(); ++i) {
     if (topic.time_ns[i] > topic.time_ns[i - 1]) continue;
     fault(ErrorCode::kWrongOrder, i,
-          fmt::format("its time is {:.3g} s after that of the message before; time has to rise "
-                      "within a topic: cut the file where it begins anew",
+          fmt::format("its time is {:.3g} s after that of the message before; time must increase "
+                      "within a topic: cut the file where the time restarts",
                       1e-9 * (static_cast<double>(topic.time_ns[i]) -
                               static_cast<double>(topic.time_ns[i - 1]))));
     break;

@@ -149,7 +149,8 @@ double SysIdReader::read_metres_per_rotation() {
   const auto unit = std::ranges::find(kSysIdLengths, units, &SysIdLength::name);
   if (unit == kSysIdLengths.end()) {
     fault(ErrorCode::kUnknownName, "/units",
-          fmt::format("\"{}\" is no length, and the wheel's circumference is not in this file; set "
+          fmt::format("\"{}\" is not a unit of length, and the wheel's circumference is not in "
+                      "this file; set "
                       "units to \"Meters\" and unitsPerRotation to the circumference in metres",
                       units));
     return 1.0;
@@ -195,7 +196,7 @@ void SysIdReader::read_run(std::string_view test, const SysIdRow& form) {
     if (log_.rows() == begin) first_s = t_s;
     if (log_.rows() > begin && !(t_s > last_s)) {
       fault(ErrorCode::kWrongOrder, pointer + "/0",
-            fmt::format("found {} after {}: time has to rise", t_s, last_s));
+            fmt::format("found {} after {}: time must increase", t_s, last_s));
       continue;
     }
     last_s = t_s;
@@ -284,8 +285,8 @@ Result<SysIdLog> SysIdReader::read() {
       form->is_drivetrain ? "left_volts and right_volts are" : "volts is");
   if (!unsigned_tests_.empty()) {
     message += fmt::format(
-        "; the voltages of {} have no sign and are taken negative, as the wheels turned "
-        "backward",
+        "; the voltages of {} have no sign and are used as negative, because the wheels "
+        "turned backward",
         fmt::join(unsigned_tests_, ", "));
   }
   log_.notes.push_back({0, "sysid-log", std::move(message)});

@@ -23,8 +23,8 @@ namespace {
 /// steers its rear wheels; 4 for differential turns, where u is interpolated twice.
 constexpr double kMostSteered = 3.0;
 constexpr double kMostBySides = 4.0;
-/// Below this the vehicle has not turned: a wheelbase of five times l_f and the worst understeer
-/// leave several times more.
+/// Below this the vehicle has not turned: even with a wheelbase of five times l_f and the worst
+/// understeer, the ratio of a real turn is several times larger.
 constexpr double kLeastSteered = 0.01;
 constexpr double kMostAcceleration_mps2 = 60.0;
 constexpr double kFastestTurn_radps = 25.0;

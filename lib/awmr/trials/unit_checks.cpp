@@ -192,7 +192,7 @@ std::optional<Contradiction> judge_rates(const Evidence& evidence) {
        {1e-3, "mrad/s"}}};
   const auto unit = known_factor(size, kUnits);
   const std::string compared =
-      fmt::format("the heading turns {:.4g} times as far as the yaw rate says", size);
+      fmt::format("the heading turns {:.4g} times the integral of the yaw rate", size);
   if (unit && unit->factor == 1.0 / 57.29578) {
     if (heading_spans_radians(evidence.log) || turning_rate(evidence) < kSlowTurn) {
       return Contradiction{"heading_deg", compared + ": the heading looks like radians",
@@ -298,7 +298,7 @@ double position_variance_m2(const DrivingLog& log) {
 }
 
 /// The distance between the ends of the windows against that by the speed. The noise of the two
-/// positions makes the distance longer, E moved^2 = true^2 + 4 sigma^2, and is subtracted. None where
+/// positions makes the distance longer, E moved^2 = true^2 + 4 sigma^2, and is subtracted. Empty if
 /// the vehicle, in the half of the windows in which it drives further, hardly moves beyond that noise.
 std::optional<RobustRatio> moved_over_driven(const Evidence& evidence) {
   constexpr double kClear = 4.0;  // twice as far as noise alone
@@ -336,7 +336,7 @@ std::optional<Contradiction> judge_speed(const Evidence& evidence) {
   static constexpr std::array<UnitFactor, 4> kPositionUnits{
       {{1e3, "mm"}, {100.0, "cm"}, {1.0 / 0.0254, "inches"}, {1.0 / 0.3048, "feet"}}};
   const std::string compared =
-      fmt::format("the positions move {:.4g} times as far as the speed says", ratio->ratio);
+      fmt::format("the positions move {:.4g} times the integral of the speed", ratio->ratio);
   if (const auto unit = known_factor(ratio->ratio, kPositionUnits)) {
     return Contradiction{"x_m", compared + fmt::format(": the positions look like {}", unit->words),
                          scaled_mapping(evidence, "x_m", 1.0 / unit->factor) + "' and column '" +
@@ -486,7 +486,7 @@ std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
   if (times < kImpossible) return std::nullopt;
   return Contradiction{
       column,
-      fmt::format("the vehicle turns {:.3g} times as sharply as its front axle points, whose "
+      fmt::format("the vehicle turns {:.3g} times as sharply as its front wheels allow; their "
                   "largest angle is {:.3g} % of the stop: the angle looks like radians",
                   times, 100.0 * largest_deg / stop_deg),
       scaled_mapping(evidence, column, degree)};

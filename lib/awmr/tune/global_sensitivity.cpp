@@ -115,7 +115,7 @@ LoopConditions conditions_at(const Sample& sample, LoopConditions c) {
   return c;
 }
 
-/// The figures of one sample, by mode, then figure: means over the scenarios. None where a run
+/// The figures of one sample, by mode, then figure: means over the scenarios. Empty if a run
 /// breaks off.
 std::vector<double> figures_at(const Sample& sample, const ObjectiveSetting& setting,
                                const LoopConditions& assumed,

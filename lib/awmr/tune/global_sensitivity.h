@@ -1,4 +1,4 @@
-/// Which of what was assumed moves the tuned loop. Private to this folder.
+/// Sensitivity of the tuned loop to its assumptions. Private to this folder.
 #pragma once
 
 #include "awmr/core/result.h"

@@ -27,7 +27,7 @@ double figure_of_run(std::string_view name, const RunOutcome& outcome);
 /// "settling_time_s <= 2, overshoot_deg <= 1 in 95 % of draws"
 std::string in_words(const TuningGoal& goal);
 
-/// The largest share of a limit that a run takes, >= 0; at most 1 where the goal holds in it.
+/// Largest ratio of a run's metric to its limit, >= 0. At most 1 if the run meets the goal.
 double excess_of(const TuningGoal& goal, const RunOutcome& outcome);
 
 /// A goal in one of the modes that it is for.

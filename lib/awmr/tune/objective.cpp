@@ -16,7 +16,7 @@
 namespace awmr {
 namespace {
 
-/// Runs fill registers by fours or eights: what is shared out among threads is a multiple of four.
+/// Runs fill registers by fours or eights, so the share of a thread is a multiple of four.
 constexpr std::size_t kFour = 4;
 
 /// Number of runs driven together, out of `count` in each scenario, so that every thread has work.

@@ -1,4 +1,5 @@
-/// Gains by pole placement, from the model alone: where a search starts and what it is normalised by.
+/// Gains by pole placement, from the model alone: the start of a search, and the baseline of its
+/// objective.
 /// Private to tune/.
 #pragma once
 

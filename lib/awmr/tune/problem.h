@@ -57,7 +57,7 @@ struct Candidate {
 /// the others by their violation.
 bool better(const Candidate& a, const Candidate& b);
 
-/// A point with what was found there.
+/// A point with its evaluation.
 struct Looked {
   Point point{};
   Candidate candidate{};
@@ -78,7 +78,8 @@ class Problem {
   const SearchSpace& space() const { return space_; }
   unsigned constraints() const { return static_cast<unsigned>(names_.size()); }
   bool simulate_all = false;  ///< also points that break a constraint, as a local model needs
-  /// By constraint: the residual up to which it counts as met. 0, but for what a wider limit is worth.
+  /// By constraint: the residual up to which it counts as met. 0, except to find the benefit of a
+  /// wider limit.
   std::vector<double> tolerated;
   Candidate nearest;
   int evaluations = 0;

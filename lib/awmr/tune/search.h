@@ -15,8 +15,8 @@ namespace awmr {
 struct SearchResult {
   std::optional<Candidate> best;  ///< the best feasible one, if any was met
   Candidate nearest;              ///< the best of all by better()
-  /// Where there is no best: what the nearest breaks most, and by how much of the larger of its two
-  /// sides.
+  /// Without a best: the constraint that the nearest candidate violates most, and the violation as
+  /// a fraction of the larger of the constraint's two sides.
   std::string broken_most = {};
   double broken_by = 0.0;
   int evaluations = 0;

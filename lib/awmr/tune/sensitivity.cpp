@@ -9,11 +9,11 @@
 namespace awmr {
 namespace {
 
-/// Halvings of what is left of either side of a stretch.
+/// Bisection steps on either side of an interval.
 constexpr int kHalvings = 6;
 /// A residual above this is that of an active constraint.
 constexpr double kActive = -0.01;
-/// Evaluations of the search for what a wider limit is worth.
+/// Evaluations of the search for the benefit of a wider limit.
 constexpr int kPriceEvaluations = 30;
 
 /// The places of a mu and its epsilon in a Point.
@@ -34,8 +34,8 @@ Interval room(const Point& from, const Pair& pair, const SearchSpace& space) {
           std::min(upper[pair[0]] - from[pair[0]], upper[pair[1]] - from[pair[1]])};
 }
 
-/// The stretch around 0 over which the logarithms of a pair can be moved together and the objective is
-/// at most `most`: it rises towards both ends.
+/// Interval around 0 by which the logarithms of a pair can be moved together while the objective is
+/// at most `most`. The objective increases towards both ends.
 Interval stretch(Problem& problem, const Point& from, const Pair& pair, double most) {
   const auto is_good = [&](double by_ln) {
     const Point point = scaled(from, pair, by_ln);

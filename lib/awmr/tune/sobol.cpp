@@ -24,7 +24,7 @@ FirstAndTotal indices_over(const std::vector<std::size_t>& places, const std::ve
     least = std::min({least, of_a[j], of_b[j]});
     most = std::max({most, of_a[j], of_b[j]});
   }
-  // Rounding of the mean would leave something of what does not vary.
+  // Rounding of the mean would give a constant output a nonzero variance.
   if (!(most > least)) return {};
   mean /= 2.0 * static_cast<double>(places.size());
   double squares = 0.0, without_first = 0.0, of_total = 0.0;

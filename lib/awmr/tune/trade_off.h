@@ -12,7 +12,7 @@ namespace awmr {
 /// The points that no other beats in both figures, by settling time.
 std::vector<TradeOffPoint> front_of(std::vector<TradeOffPoint> points);
 
-/// The front of what a search met, and the named gains on the draws that it ran.
+/// The Pareto front of the points that a search evaluated, and the named gains on its draws.
 TradeOff trade_off_of(const Objective& searched, const ConstraintContext& context,
                       std::vector<TradeOffPoint> met, const Gains<double>& tuned,
                       const Gains<double>& baseline);

@@ -89,7 +89,7 @@ inline constexpr const char* kPaperSource = "paper";
 /// A disturbance observer that is searched with the gains: its bandwidth.
 struct ObserverSearch {
   Interval bandwidth_radps{0.2, 20.0};  ///< rad/s
-  /// Largest moment and force that it takes off, m and dimensionless, > 0. Absent: kObserverShare
+  /// Largest moment and force that it compensates, m and dimensionless, > 0. Absent: kObserverShare
   /// of the weaker mode's turning authority, and of the force that the wheels have left at the
   /// largest u_d.
   std::optional<double> yaw_max_m, surge_max;

@@ -45,7 +45,7 @@ void read_bounds(JsonObject json, GainBounds& bounds) {
     const std::optional<Interval> read = json.optional_interval(key);
     if (!read) continue;
     if (read->lo <= 0.0 || read->hi > kGainLimit) {
-      json.fault(ErrorCode::kOutOfRange, key, "both ends have to be above 0 and at most 1e6");
+      json.fault(ErrorCode::kOutOfRange, key, "both ends must be above 0 and at most 1e6");
     }
     *target = *read;
   }
@@ -122,7 +122,7 @@ ObserverSearch read_observer(JsonObject json) {
   ObserverSearch observer;
   if (const auto read = json.optional_interval("bandwidth_radps")) {
     if (read->lo < kObserverBandwidth.min || read->hi > kObserverBandwidth.max) {
-      json.fault(ErrorCode::kOutOfRange, "bandwidth_radps", "both ends have to be in [1e-6, 1e4]");
+      json.fault(ErrorCode::kOutOfRange, "bandwidth_radps", "both ends must be in [1e-6, 1e4]");
     }
     observer.bandwidth_radps = *read;
   }
@@ -234,7 +234,7 @@ Json history_json(const SearchHistory& history) {
 
 std::string_view drawn_from(const RobustTuning& robust, const TuneOptions& options) {
   if (options.open.any()) {
-    return robust.from_covariance ? "covariance and what is open" : "what is open";
+    return robust.from_covariance ? "covariance and unmodelled variation" : "unmodelled variation";
   }
   return robust.from_covariance ? "covariance" : "noise alone";
 }

@@ -1,4 +1,4 @@
-/// tune.json: what the search is to do.
+/// tune.json: the options of the search.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-/// Findings of a tuning: what limits the gains, or what the user should know about them.
+/// Findings of a tuning: limits of the gains, and warnings.
 #pragma once
 
 #include <vector>

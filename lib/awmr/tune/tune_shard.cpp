@@ -60,12 +60,12 @@ std::string head_of_table() {
   return head;
 }
 
-/// The cells of a row that say which run it is, with a comma behind.
+/// The cells of a row that identify its run, with a comma at the end.
 std::string place_of_row(const std::string& gains, int draw, YawMode mode, std::size_t scenario) {
   return fmt::format("{},{},{},{},", gains, draw, name_of(mode), scenario + 1);
 }
 
-/// None where the cells are no row that begins with `place`.
+/// Empty if the cells are not a row that begins with `place`.
 std::optional<RunOutcome> outcome_in(std::string_view line, std::string_view place, YawMode mode) {
   if (!line.starts_with(place)) return std::nullopt;
   std::string_view rest = line.substr(place.size());
@@ -91,8 +91,8 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// The runs of a part: by gains, draw, mode, scenario. Errors (input), by line: a run that is none of
-/// the part's, in another place, or missing.
+/// The runs of a part: by gains, draw, mode, scenario. Errors (input), by line: a run of another
+/// part, a run in the wrong order, or a missing run.
 Result<std::vector<RunOutcome>> evaluated_runs_from_text(const Payload& payload, const Shard& shard,
                                                          std::string_view text,
                                                          const std::string& file) {
@@ -122,7 +122,7 @@ Result<std::vector<RunOutcome>> evaluated_runs_from_text(const Payload& payload,
   }
   if (!rest.empty()) {
     return input_error(ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line + 1),
-                       "is none of the part's runs");
+                       "is not a run of this part");
   }
   return runs;
 }

@@ -31,7 +31,7 @@ struct MergedTuning {
 };
 
 /// Puts the parts in the directories together, in any order. Errors (input): as read_parts(); a file
-/// that is not the one that shard.json was written with; a row that is none of its part's, or
+/// that is not the one that shard.json was written with; a row of another part, or
 /// missing.
 Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>& directories);
 

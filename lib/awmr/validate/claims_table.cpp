@@ -50,7 +50,7 @@ std::string claims_table(const std::vector<Claim>& claims) {
     text += wrapped("counts as reproduced: " + claim.tolerance, 5);
     text += wrapped("why: " + claim.why, 5);
     if (const std::string open = over_open_cases(claim); !open.empty()) {
-      text += wrapped("over what the paper leaves open: " + open, 5);
+      text += wrapped("over the settings that the paper leaves open: " + open, 5);
     }
   }
   const auto reproduced = std::count_if(claims.begin(), claims.end(),
@@ -64,13 +64,14 @@ std::string claims_markdown(const std::vector<Claim>& claims, std::string_view m
       "Made by `{}` with the model identified from the paper's tables\n"
       "and the paper's gains; the runs are those of `configs/paper/scenarios`. The last column is "
       "over "
-      "all\ncombinations of what the paper leaves open: the allocation exact or for small angles, "
+      "all\ncombinations of the settings that the paper leaves open: the allocation exact or for "
+      "small angles, "
       "F' in [-1, 1],\n[0, 1] or [0, 0.5], m' as identified or as large as a tyre's friction of "
       "0.8 "
       "demands, the moment of the\ncombined mode redistributed or in fixed halves. \"Decided by "
       "allocation (4 of 12)\": in 4 of the 12\ncombinations of the other settings the allocation "
-      "alone turns the verdict.\n\n"
-      "| claim | verdict | found | counts as reproduced | why | over what is open |\n"
+      "alone changes the verdict.\n\n"
+      "| claim | verdict | found | counts as reproduced | why | over all open settings |\n"
       "|---|---|---|---|---|---|\n",
       made_by);
   for (const Claim& claim : claims) {

@@ -77,7 +77,7 @@ void add_sensors(std::vector<Change>& changes) {
                        [=](PerturbedModel& v, double bias) {
                          ((*v.scenario.sensors).*which).bias += bias / to_unit;
                        }});
-    changes.push_back({std::string("lateness of the ") + sensor,
+    changes.push_back({std::string("latency of the ") + sensor,
                        "s",
                        {0.0, 0.5},
                        0.0,

@@ -133,10 +133,10 @@ Claim obstacles_avoided(const ModeRuns& line, const ModeRuns& points) {
               "waypoints",
           .reproduced = avoided && same,
           .figure = "on a line: " + figure(line) + "; between waypoints: " + figure(points),
-          .tolerance = fmt::format("clearance above 0 and the course completed in every mode; "
+          .tolerance = fmt::format("clearance above 0 and the path completed in every mode; "
                                    "finishing times within {:.0f} % of each other",
                                    100.0 * kAlikeShare),
-          .why = !avoided ? "a mode does not complete its course, see the figure"
+          .why = !avoided ? "a mode does not complete its path, see the figure"
                  : !same  ? "the modes keep clear, but not equally fast: one turns wider"
                           : "MMD is chosen for the widest turn, so every mode has room; the "
                             "paper's own rule is lost with its figure, this is the project's"};
@@ -193,7 +193,7 @@ Claim timed_path_followed(const ModeRuns& open, const OffPath& closed_off_m) {
           .why = all ? "no turn of the path is tighter than the modes can make; nothing disturbs "
                        "the open form here"
                      : fmt::format("the path turns with a radius down to {:.2f} m, too tight for "
-                                   "{}; open in position, what is lost there stays lost",
+                                   "{}; without position feedback, a position error remains",
                                    radius_m, slow),
           .modes = verdicts_by_mode(open, followed)};
 }
@@ -232,11 +232,11 @@ Claim best_modes(const ModeRuns& points, const ModeRuns& path) {
           .reproduced = way && speed,
           .figure = "waypoints: " + figure(points) + "; polyline: " + figure(path),
           .tolerance = fmt::format("combined within {0:.0f} % of the least finishing time and "
-                                   "cross-track RMS on both courses, differential within {0:.0f} % "
+                                   "cross-track RMS on both paths, differential within {0:.0f} % "
                                    "of the least speed drop on both",
                                    100.0 * kAsGoodShare),
           .why = fmt::format(
-              "combined is {} for the course{}; differential is {} for the speed. `awmr compare` "
+              "combined is {} for the path{}; differential is {} for the speed. `awmr compare` "
               "gives intervals",
               way ? "best or as good" : "not best",
               !way && differential_close ? ": differential keeps closer to it" : "",

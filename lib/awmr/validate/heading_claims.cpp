@@ -33,7 +33,7 @@ std::string why_heading_converges_or_not(const HeadingSetting& setting, const Mo
   std::string why = reproduced ? "every mode follows the sliding surface once its limits release it"
                     : !none_over ? "a limited actuator or the servo's lag carries the heading past "
                                    "its command in the modes named in the figure"
-                                 : "the law, or what the actuators leave of it, takes longer than "
+                                 : "the law, as limited by the actuators, takes longer than "
                                    "the paper's time constants";
   const auto settled_s = [&](YawMode mode) {
     return settling_s(in_mode(runs, mode)).value_or(setting.hold_s());

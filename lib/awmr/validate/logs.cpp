@@ -22,7 +22,7 @@ std::optional<std::size_t> first_turning_row(const DrivingLog& log) {
   return std::nullopt;
 }
 
-/// The log's commands and its speed, the only prediction of straight motion. Errors (input): the
+/// The log's commands and speed: a straight model predicts no other channel. Errors (input): the
 /// log turns; it has no speed.
 Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   if (const auto row = first_turning_row(log)) {

@@ -109,7 +109,7 @@ namespace {
 /// Reason why the speed does not settle at g1(u) = tau_speed.
 std::string why_not_settled(const Model& model) {
   return model.vehicle.driven_wheels() * model.vehicle.wheel_force.hi < kFullThrust
-             ? "the force limits keep tau_speed 2 from the wheels"
+             ? "the force limits do not allow tau_speed = 2"
              : "the speed has not settled within 60 s";
 }
 
@@ -172,7 +172,7 @@ Claim check_circle(const Model& model, const Plant<double>& plant, const Control
   }
   claim.why = fmt::format(
       "constant forces settle at constant u, v and r, which is a circle; the diameters differ by "
-      "the moment that each mode's limits let through: {}",
+      "the moment that each mode's limits allow: {}",
       delivered_moments(model, plant));
   return claim;
 }

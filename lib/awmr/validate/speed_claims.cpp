@@ -59,8 +59,8 @@ Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs)
                                kAccepted_mps),
       .why = none_over && no_error
                  ? "the law is of first order in u and knows the resistance exactly here; the "
-                   "excess at a step comes from the servo's lag: the forces follow from the "
-                   "commanded angle, the thrust from the angle as it is"
+                   "excess at a step comes from the servo's lag: forces are allocated for the "
+                   "commanded angle but act at the actual one"
              : !no_error ? "the error that remains is what the force limits or a turn that is "
                            "still going on leave"
                          : "while the front wheels move, their lag and the force limits make "

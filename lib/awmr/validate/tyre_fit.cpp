@@ -138,10 +138,8 @@ std::string comparison_text(const TyreFit& tyres) {
                               : *tyres.better == PlantKind::kFourWheel
                                   ? "four wheels on tyres predict better than the model"
                                   : "the model predicts better than four wheels on tyres";
-  return fmt::format(
-      "over {} windows of {:g} s that the tyres were not fitted to, {} (root mean square "
-      "errors: {})",
-      tyres.windows, kWindow_s, verdict, text);
+  return fmt::format("over {} held-out windows of {:g} s, {} (RMS errors: {})", tyres.windows,
+                     kWindow_s, verdict, text);
 }
 
 /// The intervals' numbers, or a finding that says that the parameter is held.
@@ -231,7 +229,8 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   const Windows windows = evenly_chosen(all);
   auto shown = fit_what_is_shown(windows, plants);
   if (!shown)
-    return refuse("tyres-not-converged", "no step is short enough to replay these logs on tyres");
+    return refuse("tyres-not-converged",
+                  "even the shortest integration step cannot replay these logs on tyres");
   if (!shown->is_free[kFriction] && !shown->is_free[kCornering]) {
     return refuse(
         "tyres-not-shown",

@@ -24,7 +24,7 @@ struct Fit {
 std::optional<Fit> fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                        const LogTyres& from);
 
-/// The fit of what the windows show: a parameter that they do not is held at its default.
+/// Fits the parameters that the windows identify; the others are held at their defaults.
 struct ShownFit {
   Fit fit;
   IsFree is_free{true, true};

@@ -28,8 +28,8 @@ std::vector<Fault> trial_faults(const Model& model) {
     const std::string place = fmt::format("{}:/trials/{}", model.file, i);
     if (!(trial.input > 0.0) || !(trial.measured > 0.0)) {
       faults.push_back({ErrorCode::kOutOfRange, place,
-                        fmt::format("input {} and measured {} have to be above 0; take the "
-                                    "row out or identify again",
+                        fmt::format("input {} and measured {} must be above 0; remove the "
+                                    "row or identify again",
                                     trial.input, trial.measured)});
     }
   }

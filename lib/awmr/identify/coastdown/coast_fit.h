@@ -18,7 +18,7 @@ struct TermOverAlpha {
   double variance = 0.0;        ///< 0 where it came out as 0, the end of its range
 };
 
-/// What the curves are fitted with.
+/// Fit of coast-down curves to
 ///   m' u_dot = -g1(u), u(0) = u0:
 ///   u(t)^(1-b) = u0^(1-b) - (1-b) (a/m') t,   u = u0 exp(-(a/m') t) for b -> 1       [paper (58)]
 /// for a power law; other families are integrated. Each run has its own u0, and its own moment of

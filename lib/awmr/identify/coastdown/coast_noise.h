@@ -1,4 +1,4 @@
-/// The noise of coast-down curves and what it leaves of the estimates. Private to
+/// Noise of coast-down curves, and the resulting uncertainty of the estimates. Private to
 /// identify/coastdown/.
 #pragma once
 

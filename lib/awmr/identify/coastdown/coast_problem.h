@@ -39,10 +39,10 @@ class CoastProblem {
   void solve();
   const ceres::Solver::Summary& summary() const { return summary_; }
 
-  /// m/s, by sample; none where one is not finite.
+  /// m/s, by sample; empty if one is not finite.
   std::optional<Eigen::VectorXd> residuals();
   /// Samples by columns: `first` in order, then each run's initial state (u0, and t0 where free).
-  /// None where a derivative is not finite.
+  /// Empty if a derivative is not finite.
   std::optional<Eigen::MatrixXd> jacobian(const std::vector<double*>& first);
 
   /// Moves theta, ln m' and each run's initial state, in that order.

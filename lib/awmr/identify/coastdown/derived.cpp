@@ -85,11 +85,11 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
     findings.push_back(
         {coastdown.file, run.line, Severity::kWarning, "implausible-deceleration",
          fmt::format(
-             "stopping from {:.3g} m/s in {:.3g} s means a first deceleration of {:.1f} m/s^2 "
-             "({:.1f} g), more than a tyre gives, and F_max = {:.0f} N a motor; tyres of friction "
-             "{:g} ask for m' = {:.3g}, which a quarter of the samples of compare and validate "
-             "have. "
-             "Check the stop time, or record the coast-down curve",
+             "stopping from {:.3g} m/s in {:.3g} s means an initial deceleration of {:.1f} m/s^2 "
+             "({:.1f} g), more than a tyre can give, and F_max = {:.0f} N a motor; tyres of "
+             "friction "
+             "{:g} require m' = {:.3g}, which a quarter of the samples of compare and validate "
+             "have. Check the stop time, or record the coast-down curve",
              run.initial_speed_mps, run.stop_time_s, deceleration, deceleration / kGravity_mps2,
              mass_kg / mass_norm, kTyreFriction, mass_norm_by_grip(surge, run.initial_speed_mps))});
   }
@@ -97,9 +97,8 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
     findings.push_back(
         {coastdown.file, coastdown.rows.front().line, Severity::kNote, "single-stop-time",
          fmt::format(
-             "one stop time shows no scatter: the standard error of mass_norm takes the "
-             "timing as good to {:.2g} s, from the way it is written; repeat the coast-down "
-             "or record its curve",
+             "a single stop time has no scatter: the standard error of mass_norm assumes a timing "
+             "error of {:.2g} s, from the digits given; repeat the coast-down or record its curve",
              coastdown.rows.front().timing_std_s)});
   }
   if (relative_std_error && *relative_std_error > kFragileShare) {

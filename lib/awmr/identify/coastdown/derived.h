@@ -20,7 +20,8 @@ struct MassFromStopTime {
 };
 
 /// t_a = m' int_0^u dw/g1(w), so m' = t_a / int; the mean of its logarithm over the runs. For a
-/// power law m' = (1 - b1) a1 t_a / u_max^(1 - b1). [paper (60)] None where the law never stops.
+/// power law m' = (1 - b1) a1 t_a / u_max^(1 - b1). [paper (60)] Returns nothing if
+/// the law never stops the vehicle.
 /// Precondition: at least one run.
 std::optional<MassFromStopTime> mass_from_stop_time(const SteadyFit& surge,
                                                     const std::vector<StopTimeRow>& runs);
@@ -30,7 +31,8 @@ std::optional<MassFromStopTime> mass_from_stop_time(const SteadyFit& surge,
 void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& coastdown,
                 double mass_kg, double mass_norm, std::optional<double> relative_std_error,
                 std::vector<Finding>& findings);
-/// `implausible-deceleration` where a curve begins with more than a tyre gives: g1(u)/m' > g.
+/// `implausible-deceleration` if a curve begins with a deceleration above that of any tyre:
+/// g1(u)/m' > g.
 void check_mass(const Resistance<double>& surge, const std::vector<CoastCurve>& curves,
                 double mass_norm, std::vector<Finding>& findings);
 

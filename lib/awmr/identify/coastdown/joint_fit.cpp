@@ -80,7 +80,8 @@ Eigen::VectorXd gauss_newton_step(const Stacked& s, const Rows& rows, const BySe
                           s.coast.transpose() * rows.coast_residuals / variance.coast);
 }
 
-/// Rows less what each set spends on the parameters, n - tr(C J^T J)/v.
+/// Residual degrees of freedom of each set: rows minus their share of the parameters,
+/// n - tr(C J^T J)/v.
 BySet degrees_of_freedom(const Stacked& s, const Rows& rows, const BySet& variance) {
   const double surge_spent =
       (s.covariance * (s.surge.transpose() * s.surge)).trace() / variance.surge;
@@ -141,7 +142,7 @@ void keep(const Stacked& s, const Rows& rows, CoastProblem& problem, const BySet
   joint.surge.covariance = joint.covariance.topLeftCorner(count - 1, count - 1);
 }
 
-/// None where a curve or a derivative is not finite at theta.
+/// Empty if a curve or a derivative is not finite at theta.
 std::optional<Rows> rows_at(const SteadyProblem& surge, const TransformedParameters& theta,
                             const std::vector<TransformedParameter>& free,
                             const SharedColumns& shared, CoastProblem& problem) {

@@ -213,10 +213,11 @@ void check_noise(const std::vector<NoiseAlternative>& laws, const std::string& f
   result.findings.push_back(
       {file, 0, Severity::kWarning, "noise-model",
        fmt::format(
-           "mass_norm depends on where the errors of the surge runs lie, which is not known: "
+           "mass_norm depends on which measurement of the surge runs has the error, which is "
+           "unknown: "
            "{:.3g} with errors on {}, median {:.3g} over all that the runs allow (weight in "
            "/estimates); its interval and the draws of tune and compare hold all of them. "
-           "{} says where they lie; a coast-down curve needs no surge law as much",
+           "{} selects the error location; a coast-down curve depends less on the surge law",
            std::exp(result.estimate->log_mass_norm), name_of(laws.front().noise), std::exp(median),
            option_text("noise"))});
 }

@@ -13,8 +13,8 @@ namespace awmr {
 
 struct MassResult {
   std::optional<MassEstimate> estimate;  ///< by the chosen surge law: the value that is shown
-  /// Over SteadyFit::free of the surge law, then ln m'; empty where the surge fit has no covariance. Laws
-  /// under which the vehicle would never have stopped are not in it.
+  /// Coordinates: SteadyFit::free of the surge law, then ln m'. Empty if the surge fit has no
+  /// covariance. Excludes laws under which the vehicle would never stop.
   Posterior posterior;
   std::optional<double> by_grip;  ///< Model::mass_norm_by_grip
   std::optional<JointFit> joint;  ///< where requested and usable

@@ -192,8 +192,8 @@ Status check_turn(const FieldRecord& record, double turned, std::vector<Finding>
                              record.file, degrees(turned), degrees(gyro), 100.0 * kTurnTolerance));
 }
 
-/// Errors (refused): the vehicle's float cannot hold the centre against the field, or the field is so
-/// much weaker one way than the other that noise decides on the heading.
+/// Errors (refused): the vehicle's float cannot represent the field next to the centre, or the
+/// field is so much weaker along one axis that noise determines the heading.
 Status check_usable(const std::string& file, const CompassCalibration& c) {
   constexpr double kRounding = 1e-3;  // of the field: 0.06 deg
   constexpr double kRoundest = 10.0;  // longer axis over the shorter one
@@ -204,7 +204,7 @@ Status check_usable(const std::string& file, const CompassCalibration& c) {
     return refusal(
         ErrorCode::kCompassUnusable,
         fmt::format("{}: the centre {:.9g} is too large compared with the field {:.4g} for the "
-                    "vehicle's 24-bit numbers: take the offset off the readings, or "
+                    "vehicle's 24-bit numbers: subtract the offset from the readings, or "
                     "move the magnet away",
                     file, centre, field));
   }
@@ -216,9 +216,10 @@ Status check_usable(const std::string& file, const CompassCalibration& c) {
   if (ratio > 0.0 && ratio <= kRoundest) return {};
   return refusal(
       ErrorCode::kCompassUnusable,
-      fmt::format("{}: the field is {:.3g} times weaker one way than the other: one axis "
-                  "of the compass is dead, or iron is too near",
-                  file, ratio));
+      fmt::format(
+          "{}: the field is {:.3g} times weaker along one axis than along the other: one axis "
+          "of the compass is dead, or iron is too near",
+          file, ratio));
 }
 
 /// det S = 1: |c| is then the field, in the unit of f.

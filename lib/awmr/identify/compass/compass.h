@@ -15,11 +15,11 @@ struct CompassFit {
   std::vector<Finding> findings = {};
 };
 
-/// The ellipse of least squares of its distances, over its size. Intervals allow for residuals that
-/// go together within 10 degrees of the turn. Findings: `compass-residual` (the field is no ellipse
-/// within 5 %), `turn-not-checked` (no yaw rate). Errors (refused): the turn leaves more than 30 degrees
-/// out; the field is no ellipse; compass and gyroscope turn by amounts that are more than 10 % apart, or
-/// against each other.
+/// Fits the ellipse with the least squares of the distances, divided by its size. Intervals allow
+/// for residuals that are correlated within 10 degrees of the turn. Findings: `compass-residual`
+/// (the field is no ellipse within 5 %), `turn-not-checked` (no yaw rate). Errors (refused): the
+/// turn leaves more than 30 degrees out; the field is no ellipse; compass and gyroscope turn by
+/// amounts that are more than 10 % apart, or against each other.
 Result<CompassFit> fit_compass(const FieldRecord& record, double declination_deg);
 
 }  // namespace awmr

@@ -27,7 +27,7 @@ Eigen::Matrix<double, 1, 5> residual_gradient(const Ellipse& ellipse, const Eige
 /// dc/dp
 Eigen::Matrix<double, 2, 5> circle_gradient(const Ellipse& ellipse, const Eigen::Vector2d& f);
 
-/// The ellipse of least squares of the residuals. Nothing where the points make none.
+/// The ellipse of least squares of the residuals. Empty if the points determine no ellipse.
 std::optional<Ellipse> fit_ellipse(const Points& points);
 
 }  // namespace awmr::compass

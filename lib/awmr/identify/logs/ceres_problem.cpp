@@ -86,8 +86,8 @@ class Evaluator : public ceres::EvaluationCallback {
   std::vector<bool> held_;  ///< by coordinate
 };
 
-/// Hands Ceres what the Evaluator made of one window, a few rows in place of many: blocks coordinates,
-/// initial state.
+/// Passes the Evaluator's results for one window to Ceres, a few rows in place of many: blocks
+/// coordinates, initial state.
 class WindowCost : public ceres::CostFunction {
  public:
   WindowCost(const Evaluator& evaluator, std::size_t window)

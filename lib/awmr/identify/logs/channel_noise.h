@@ -10,25 +10,25 @@
 
 namespace awmr {
 
-/// The error of a sample is the sum of two: what the sensor adds, new at every sample, and a drift
-/// with a memory, which is what the model misses and what a sensor's filter leaves.
+/// The error of a sample has two parts: white noise of the sensor, independent from sample to
+/// sample, and a correlated drift, caused by model errors and by the sensor's filter.
 ///
 ///     e_k = d(t_k) + white_k,   E[white_k^2] = sigma_w^2,   E[d^2] = sigma_d^2
 ///
 ///     first order    d'  = -d/tau                          + white noise
 ///     second order   d'' = -2 zeta omega d' - omega^2 d    + white noise
 ///
-/// The second is what a suspension, a filter or a smoothed sensor leaves: an error that swings for
-/// zeta < 1, and one that is smooth from sample to sample in any case.
+/// The second order describes a suspension, a filter or a smoothed sensor: the error is smooth from
+/// sample to sample, and oscillates for zeta < 1.
 struct ChannelNoise {
   double white_std = 1.0;        ///< sigma_w, SI
   double drift_std = 0.0;        ///< sigma_d, SI; 0: none was found
-  double correlation_s = 0.0;    ///< tau, or how long the swings last; 0 without a drift
+  double correlation_s = 0.0;    ///< tau, or the duration of the oscillations; 0 without a drift
   double frequency_radps = 0.0;  ///< omega of a drift of second order; 0: first order
   double damping = 0.0;          ///< zeta of a drift of second order, > 0
-  double sensor_std = 0.0;       ///< what the signal's own roughness shows, without a model, SI
-  int count = 0;                 ///< samples
-  double cost = 0.0;             ///< -2 ln L of the channel's errors, but for a constant
+  double sensor_std = 0.0;  ///< noise from the roughness of the signal alone, without a model, SI
+  int count = 0;            ///< samples
+  double cost = 0.0;        ///< -2 ln L of the channel's errors, but for a constant
 
   double std() const { return std::hypot(white_std, drift_std); }
   bool second_order() const { return frequency_radps > 0.0; }

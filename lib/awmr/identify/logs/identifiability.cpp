@@ -66,7 +66,7 @@ bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
   return coordinate <= bounds.lo || coordinate >= bounds.hi;
 }
 
-/// The variances of the coordinates by the scatter of the blocks' scores: the diagonal of
+/// Variances of the coordinates from the scatter of the blocks' scores: the diagonal of
 /// m/(m - 1) C (sum s_b s_b^T) C.
 Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
                                      const std::vector<Eigen::VectorXd>& scores) {
@@ -90,7 +90,7 @@ void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
   }
 }
 
-/// Widens the standard errors to what the scatter of blocks and of logs demands.
+/// Widens the standard errors to the scatter of blocks and of logs.
 void widen(const Scores& scores, Identifiability& found) {
   constexpr double kManyDegrees = 1e6;  // normal
   constexpr std::size_t kEnoughLogs = 3;
@@ -105,7 +105,7 @@ void widen(const Scores& scores, Identifiability& found) {
   found.covariance = factor.asDiagonal() * found.covariance * factor.asDiagonal();
 }
 
-/// Refuses what is correlated with a refused coordinate that was stopped.
+/// Refuses coordinates that are correlated with a refused coordinate that was stopped.
 void refuse_what_hangs_on(Eigen::Index stopped, const std::vector<FreeQuantity>& quantities,
                           Identifiability& found) {
   constexpr double kHangs = 0.3;  // of a correlation

@@ -19,11 +19,12 @@ struct FitEvidence {
 };
 FitEvidence fit_evidence(const std::vector<WindowSums>& sums, Eigen::Index n);
 
-/// The scores of parts b of the logs (n: g_t - J_t^T J_s (J_s^T J_s)^-1 g_s of the gradients g =
-/// J_b^T r_b). Their scatter gives the possible error of the fit, whatever the noise is.
+/// Score vectors of length n, one per block b of a log: g_t - J_t^T J_s (J_s^T J_s)^-1 g_s with the
+/// block's gradients g = J_b^T r_b. Their scatter gives the variance of the fit without a noise
+/// model.
 struct Scores {
-  std::vector<Eigen::VectorXd> blocks;  ///< of some seconds within a window
-  std::vector<Eigen::VectorXd> logs;    ///< of whole logs: the sums of their blocks
+  std::vector<Eigen::VectorXd> blocks;  ///< blocks of some seconds within a window
+  std::vector<Eigen::VectorXd> logs;    ///< whole logs: the sums of their blocks
 };
 
 /// The scores of the blocks that were summed up, and of the logs that they make.

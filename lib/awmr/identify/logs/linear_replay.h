@@ -55,7 +55,7 @@ struct CommandPath {
   bool switches_off = false;
 };
 
-/// The columns of what is free in a command path.
+/// Columns of the free quantities of a command path.
 struct LateColumns {
   std::optional<std::size_t> delay = {};
   std::optional<std::size_t> steering_delay = {};
@@ -65,7 +65,8 @@ struct LateColumns {
 };
 LateColumns columns_of(const CommandPath& path);
 
-/// The commands as they reach the wheels, and their derivatives by what is free in their path.
+/// The commands as they reach the wheels, and their derivatives with respect to the free quantities
+/// of their path.
 struct DelayedCommand {
   HeldCommand command;
   HeldCommand by_delay{};
@@ -105,9 +106,10 @@ class LinearStepper {
   void note_late(const HeldCommand& by, std::size_t column, double* driven) const;
   /// The rates and their derivatives at `s`, friction included.
   void find_rates(const DelayedCommand& command, const State<double>& s);
-  /// Which way `motion` slides from here on. What is held has no derivatives left.
+  /// Sets the direction in which each speed of `motion` moves from here on. A speed held at 0 by
+  /// friction has zero derivatives.
   void find_way(const DelayedCommand& command, LinearMotion& motion);
-  /// The state h seconds on, and what the derivatives need to follow.
+  /// Returns the state after h seconds, and keeps what move_to() needs for the derivatives.
   State<double> state_after(const DelayedCommand& command, double h_s, const State<double>& from);
   /// Moves the state to `next`, that of the last state_after(), and its derivatives with it.
   void move_to(const State<double>& next, double h_s, LinearMotion& motion);

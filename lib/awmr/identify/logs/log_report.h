@@ -17,11 +17,11 @@ struct LogReportInput {
   const std::vector<Interval>& bootstrap95;  ///< of the value, by quantity; empty: not requested
 };
 
-/// Values of all quantities, errors of those that the logs show, and tests whether the standardised
-/// residuals of each channel are white and normal. The multistart is not in it.
+/// Values of all quantities, standard errors of those that the logs identify, and tests whether the
+/// standardised residuals of each channel are white and normal. Excludes the multistart.
 EstimatorReport log_report(const LogReportInput& input);
 
-/// Leaves the values without standard errors and intervals.
+/// Removes the standard errors and intervals; the values stay.
 void withdraw_intervals(EstimatorReport& report);
 
 }  // namespace awmr

@@ -152,7 +152,8 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
     if (!can_be_requested(parameter) || !wanted) continue;
     const std::string why = cannot_show(logs, parameter.id);
     if (!why.empty()) reasons[parameter.id] = why;
-    // In a turn, what is not shown still acts on what is: it stays free, and is refused.
+    // In a turn, parameters that are not identified affect those that are: they stay free, and are
+    // refused.
     if (!why.empty() && (!turning || back_emf)) continue;
     fit.free.push_back(parameter.id);
     if (!known.value) fit.guessed.push_back(parameter.id);
@@ -434,13 +435,14 @@ std::vector<Finding> speed_findings(const Vehicle& vehicle, const std::vector<Dr
       !is_linear(stage.yaw_family, ParameterId::kYawBeta) || !(std::abs(ratio - 1.0) < kOfRatio)) {
     return {};
   }
-  return {{logs.front().file, 0, Severity::kWarning, "speed-controlled",
-           fmt::format(
-               "each wheel rolls at {:.3g} m/s per unit of its command, in turns too: either the "
-               "drag of its motor is all the resistance there is, or force_left and "
-               "force_right are set-points of a speed controller; then a1, a3, m' and I'z "
-               "are that controller's, not the vehicle's: log what reaches the motors",
-               vehicle.driven_wheels() / surge)}};
+  return {
+      {logs.front().file, 0, Severity::kWarning, "speed-controlled",
+       fmt::format(
+           "each wheel rolls at {:.3g} m/s per unit of its command, also in turns. Either motor "
+           "drag is the only resistance, or force_left and force_right are set-points of a "
+           "speed controller; then a1, a3, m' and I'z describe that controller, not the "
+           "vehicle: log the commands that reach the motors",
+           vehicle.driven_wheels() / surge)}};
 }
 
 }  // namespace

@@ -34,9 +34,9 @@ LogProblem rough_problem(const LogProblem& problem) {
   return rough;
 }
 
-/// The initial guess with every guessed quantity drawn anew: a factor up to e^2 either way for a
-/// logarithm, anywhere in [0.3, 1.3] for an exponent; a family's term stays. One random number per
-/// quantity, drawn or not.
+/// Random start of the search: each guessed quantity is multiplied by a factor in [e^-2, e^2]; an
+/// exponent is drawn from [0.3, 1.3]; the terms of a family stay. Uses one random number per
+/// quantity, even if the quantity is not drawn.
 std::vector<double> drawn(const LogProblem& problem, const std::vector<ParameterId>& guessed,
                           Random& random) {
   std::vector<double> coordinates = problem.initial;

@@ -33,7 +33,7 @@ class ProductSums {
 struct Triangle {
   Eigen::MatrixXd r;
   Eigen::VectorXd z;
-  double rest = 0.0;  ///< norm of what no step removes
+  double rest = 0.0;  ///< norm of the residual that no step removes
 };
 /// By L D L^T with pivots of the products, columns scaled to 1; a pivot below 1e-14 is a direction that
 /// the rows do not show.

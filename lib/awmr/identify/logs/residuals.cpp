@@ -179,7 +179,7 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
                 });
 }
 
-/// The weak pull of a component of the initial state to what was measured.
+/// Weak prior of a component of the initial state, centred on its measurement.
 double pull(const InitialComponent& component, const FitWindow& window, double initial) {
   return (initial - channel_of(window.measured, component.channel)) / component.prior_std;
 }

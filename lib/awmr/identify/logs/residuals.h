@@ -1,4 +1,4 @@
-/// The residuals of one window of a log and what a search needs of their derivatives. Private to
+/// Residuals of one window of a log, and the derivatives that a search needs. Private to
 /// identify/.
 ///
 /// The model is driven by the logged commands and compared with everything that was measured. Where

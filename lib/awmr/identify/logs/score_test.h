@@ -19,9 +19,9 @@ struct ScoreTest {
 ///
 ///     value = -(g_c - H_ct H_tt^-1 g_t) / (H_cc - H_ct H_tt^-1 H_tc)
 ///
-/// Drifts are taken as white noise of the same size: what a candidate would explain must not pass for
-/// a drift. The blocks' scatter then makes the standard error. `point`: the solution without the
-/// candidates. Precondition: candidates are linear quantities.
+/// Drift is replaced by white noise of equal variance, so that it cannot absorb the effect of a
+/// candidate. The standard error is then that of the blocks' scatter. `point`: the solution without
+/// the candidates. Precondition: candidates are linear quantities.
 std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& point,
                                   const std::vector<FreeQuantity>& candidates);
 

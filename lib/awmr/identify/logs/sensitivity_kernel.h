@@ -1,9 +1,9 @@
 /// The two inner loops of a fit of logs, over columns that do not depend on each other. Private to
 /// identify/.
 ///
-/// Compiled for several instruction sets, of which the processor's best is taken when it runs. None
-/// of them fuses products and sums and every column is summed in the same order, so that all give the
-/// same bits.
+/// Compiled for several instruction sets; the best one of the processor is selected at run time.
+/// None uses fused multiply-add, and every column is summed in the same order, so all give the same
+/// bits.
 #pragma once
 
 #include <array>

@@ -10,7 +10,7 @@
 namespace awmr {
 
 /// Propagation of a drift over a time h: x <- F x + noise with the covariance (P - F P F^T), where
-/// x = (d, d'/omega) and P = sigma_d^2 I is what it has in the long run, so that F = e^(-h/tau) for
+/// x = (d, d'/omega) and P = sigma_d^2 I is its stationary covariance, so that F = e^(-h/tau) for
 /// the first order, of which only f[0][0] counts, and for the second, with s = zeta omega and nu =
 /// omega sqrt(1 - zeta^2),
 ///

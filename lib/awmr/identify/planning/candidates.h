@@ -1,4 +1,4 @@
-/// The trials that could be recorded next, each with what it would measure. Private to this folder.
+/// Candidate trials to record next, each with its predicted measurements. Private to this folder.
 #pragma once
 
 #include <functional>

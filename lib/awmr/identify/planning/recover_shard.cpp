@@ -42,7 +42,7 @@ Error read_error(JsonObject json) {
     fault.reject_unknown_keys();
   }
   if (error.faults.empty()) {
-    json.fault(ErrorCode::kMissing, "faults", "is empty: an error names what is wrong");
+    json.fault(ErrorCode::kMissing, "faults", "is empty: each error needs a message");
   }
   json.reject_unknown_keys();
   return error;
@@ -99,7 +99,7 @@ Status check_runs(std::string_view text, const std::string& file, const std::str
   return {};
 }
 
-/// The runs of a part. Errors (input): a run that is none of the part's, in another place, or
+/// The runs of a part. Errors (input): a run of another part, in the wrong order, or
 /// missing.
 Result<std::vector<RecoverRun>> read_runs(const Part& part, const RecoverPart& payload) {
   const ShardFile& table = recover_shards().files.front();

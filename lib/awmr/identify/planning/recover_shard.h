@@ -26,7 +26,7 @@ struct MergedRecovery {
 };
 
 /// Puts the parts in the directories together, in any order. Errors (input): as read_parts(); a row
-/// that is none of its part's, or missing.
+/// of another part, or missing.
 Result<MergedRecovery> merge_recover_shards(const std::vector<std::filesystem::path>& directories);
 
 }  // namespace awmr

@@ -75,7 +75,7 @@ std::optional<int> index_in(const std::string& cell) {
   return index;
 }
 
-/// None where the cells are no row as recover_csv() writes it.
+/// Empty if the cells are not a row as written by recover_csv().
 std::optional<RecoverRun> run_in(const std::vector<std::string>& cells,
                                  const std::vector<std::size_t>& places, std::size_t truths) {
   if (cells.size() != kRunColumns + kEstimateColumns * places.size()) return std::nullopt;

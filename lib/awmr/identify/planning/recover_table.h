@@ -10,15 +10,16 @@
 
 namespace awmr {
 
-/// No estimate of a run is larger: the squares of a million of them have a finite sum.
+/// Upper bound of an estimate: the sum of a million squares stays finite.
 inline constexpr double kLargestEstimate = 1e150;
 
-/// The text of recovery.csv, a row for each run: `run,refused`, and of every parameter that some run
-/// gave `NAME,NAME.std_error,NAME.ci95_lo,NAME.ci95_hi`, empty where this run did not.
+/// The text of recovery.csv, a row for each run: `run,refused`, and, for every parameter that at
+/// least one run gave, `NAME,NAME.std_error,NAME.ci95_lo,NAME.ci95_hi`, empty where this run did
+/// not.
 std::string recover_csv(const RecoverPart& part);
 
 /// The rows of a text that recover_csv() wrote, with their estimates by `truths`; `file` names it in
-/// errors. Errors (input), by line: it is none.
+/// errors. Errors (input), by line: text that is not such a table.
 Result<std::vector<RecoverRun>> recover_runs(std::string_view text, const std::string& file,
                                              const std::vector<RecoverTruth>& truths);
 

@@ -71,8 +71,8 @@ Plant<double> moved(Model model, ParameterId id, double step) {
   return model.plant_as_known();
 }
 
-/// d values / d z by differences, a row per value, a column per parameter. Central, but for a term
-/// that a step back would make negative: there the step back ends at 0.
+/// d values / d z by central differences: one row per value, one column per parameter. For a term
+/// that a backward step would make negative, that step ends at 0.
 template <class Values>
 Eigen::MatrixXd jacobian_of(const Model& model, const std::vector<ParameterId>& ids,
                             const Values& values_at) {
@@ -103,8 +103,8 @@ struct Target {
   }
 };
 
-/// The resistance that a term is a part of, at 1 m/s or 1 rad/s, over the term's own unit. A term
-/// may be 0 and has no error relative to itself.
+/// The whole resistance at 1 m/s or 1 rad/s in the unit of the term. The error of a term is
+/// relative to it, because a term may be 0.
 double whole_of(ParameterId id, const Plant<double>& plant) {
   if (id == ParameterId::kYawCoulomb || id == ParameterId::kYawQuadratic) return plant.yaw(1.0);
   const bool of_a_wheel = id == ParameterId::kWheelDeadZone || id == ParameterId::kBackEmf;

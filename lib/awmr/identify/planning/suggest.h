@@ -1,4 +1,4 @@
-/// Which trial to record next: what each candidate would do to the model's uncertainty.
+/// Ranks the trials to record next by the reduction of the model's uncertainty.
 #pragma once
 
 #include <functional>
@@ -35,7 +35,7 @@ struct SuggestedTrial {
   TrialKind kind = TrialKind::kSurge;
   std::string settings;                                 ///< text for the field sheet
   std::vector<std::pair<std::string, double>> numbers;  ///< the same, units in the names
-  std::string parameter = {};                           ///< what it is ranked by
+  std::string parameter = {};                           ///< criterion of the ranking
   double std_error_before = 0.0;                        ///< of that, in its unit, >= 0
   double std_error_after = 0.0;  ///< of that, in its unit, in [0, std_error_before]
   double d_gain = 0.0;           ///< ln det C before - after, >= 0: D-optimality
@@ -71,7 +71,7 @@ struct Suggestion {
   std::vector<MissingParameter> missing;  ///< no value at all: their trials come before any other
   std::vector<SuggestedTrial> trials;     ///< best first
   std::vector<ScrubTurn> scrub_turns;     ///< empty where `about_scrub` says why
-  std::string about_scrub;  ///< what they are for, or why there are none; empty: no steering
+  std::string about_scrub;  ///< their purpose, or why there are none; empty: no steering
   std::vector<std::string> assumptions;
   std::optional<CoastingTurn> coasting = {};  ///< absent: no steering, or no surge resistance yet
 };

@@ -15,7 +15,7 @@ namespace {
 /// A row is influential where leaving it out moves a parameter by this many standard errors.
 constexpr double kInfluential = 1.0;
 
-/// Theta of the rest; none where the rest shows no curve.
+/// Theta of the rest; empty if the rest shows no curve.
 std::optional<TransformedParameters> refit_without(std::size_t row, const Subject& subject,
                                                    const SteadyProblem& problem, bool log_linear,
                                                    const SteadyFit& fit) {
@@ -55,7 +55,7 @@ class OneStep {
     }
   }
 
-  /// None where the run alone shows a parameter, or nothing is known of the fit.
+  /// Empty if the run alone shows a parameter, or nothing is known of the fit.
   std::optional<TransformedParameters> without(std::size_t row) const {
     constexpr double kAlone = 1e-12;
     const Eigen::Index i = eigen_index(row);

@@ -1,4 +1,4 @@
-/// Robust losses: what they are, and the covariance under them. Private to identify/.
+/// Robust losses: definitions, and the covariance with them. Private to identify/.
 #pragma once
 
 #include <ceres/loss_function.h>

@@ -20,7 +20,7 @@ bool is_at(double bound, double value) {
   return std::isfinite(bound) && std::abs(value - bound) <= kAtBound;
 }
 
-/// Singular values of J, the largest over the least; infinite where the rank lacks.
+/// Condition number of J: largest over smallest singular value; infinite if J is rank deficient.
 double condition_of(const Eigen::MatrixXd& jacobian) {
   const Eigen::VectorXd singular = singular_values(jacobian);
   const double least = jacobian.rows() >= jacobian.cols() ? singular(singular.size() - 1) : 0.0;

@@ -92,7 +92,7 @@ struct SteadyRows {
   Eigen::VectorXd residuals;  ///< by point
   Eigen::MatrixXd jacobian;   ///< points x coordinates
 };
-/// None where the curve or a derivative is not finite.
+/// Empty if the curve or a derivative is not finite.
 std::optional<SteadyRows> steady_rows(const SteadyProblem& problem,
                                       const TransformedParameters& theta,
                                       const std::vector<TransformedParameter>& by);

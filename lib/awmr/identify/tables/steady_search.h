@@ -22,15 +22,15 @@ class SteadySearch {
   SteadySearch(const SteadySearch&) = delete;
   SteadySearch& operator=(const SteadySearch&) = delete;
 
-  /// Down to where nothing moves any more. A coordinate that stops at a bound is fixed there while
-  /// the others are found, and freed again if the cost falls inwards.
+  /// Minimises until no coordinate changes. A coordinate at a bound is fixed there while the others
+  /// are fitted, and freed again if the cost decreases inwards.
   void solve();
-  /// The loss takes its scale from the residuals, which it changes: a few rounds settle both.
+  /// Repeats solve() until the scale of the loss, computed from the residuals, has converged.
   void solve_robustly();
 
-  /// By point, in the unit of the noise, without the loss. None where the curve cannot be evaluated.
+  /// By point, in the unit of the noise, without the loss. Empty if the curve cannot be evaluated.
   std::optional<Eigen::VectorXd> residuals();
-  /// Points by columns, without the loss. None where a derivative is not finite.
+  /// Points by columns, without the loss. Empty if a derivative is not finite.
   std::optional<Eigen::MatrixXd> jacobian(const std::vector<TransformedParameter>& columns);
 
   const TransformedParameters& theta() const { return theta_; }

@@ -127,7 +127,7 @@ std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wante
                                        : std::string()))};
 }
 
-/// Tests, outliers and influence of single runs, into the chosen report and the findings.
+/// Adds residual tests, outliers and influential runs to the chosen report and the findings.
 void judge(const Subject& subject, std::size_t report, SubjectFit& result) {
   const SteadyFit& fit = *result.chosen;
   EstimatorReport& chosen = result.reports[report];
@@ -164,7 +164,7 @@ std::optional<Finding> obstacle(const Subject& subject, const SubjectOptions& op
   return std::nullopt;
 }
 
-/// Takes what was chosen into the result, with what is doubtful about it.
+/// Copies the chosen fit into the result, with its warnings.
 void take(const Subject& subject, Choice choice, SubjectFit& result) {
   result.method = std::move(choice.method);
   if (!choice.fit) result.why_not = choice.findings.back().message;

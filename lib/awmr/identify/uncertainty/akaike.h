@@ -16,7 +16,7 @@ inline constexpr double kFamilyAicThreshold = 20.0;
 ///
 ///     AICc = n ln(SSE/n) + 2 k + 2 k (k + 1)/(n - k - 1)
 ///
-/// Nothing where n <= k + 1, or SSE is not positive and finite.
+/// Empty if n <= k + 1, or SSE is not positive and finite.
 inline std::optional<double> aicc(double sum_of_squares, double n, double free) {
   const double k = free + 1.0;
   if (n <= k + 1.0 || !(sum_of_squares > 0.0) || !std::isfinite(sum_of_squares)) {

@@ -1,4 +1,4 @@
-/// Tests of what a fit assumes of its residuals. Private to identify/.
+/// Tests of a fit's assumptions about its residuals. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>

@@ -19,7 +19,7 @@ class JointCovariance {
 
   /// Puts a block after those before it and returns the place of its first element.
   Eigen::Index add_block(const Eigen::MatrixXd& covariance);
-  /// Says how a parameter depends on the blocks; setting it again replaces what was set before.
+  /// Sets the dependence of a parameter on the blocks; replaces an earlier one.
   void set(ParameterId id, Gradient gradient) { gradients_[id] = std::move(gradient); }
   bool has(ParameterId id) const { return gradients_.contains(id); }
   double variance(const Gradient& gradient) const;

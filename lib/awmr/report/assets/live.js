@@ -166,7 +166,7 @@ async function liveSection(data) {
   const buttons = add(box, "p");
   const copy = add(buttons, "button", "Copy these gains as JSON", {type: "button"});
   const back = add(buttons, "button", "Back to the tuned gains", {type: "button"});
-  const said = add(buttons, "span", "", {role: "status", class: "small"});
+  const status = add(buttons, "span", "", {role: "status", class: "small"});
   const shownGains = add(box, "pre");
   const redraw = liveCharts(box, run(settings));
   const tables = add(box, "div");
@@ -178,11 +178,11 @@ async function liveSection(data) {
     requestAnimationFrame(() => {
       waiting = false;
       const result = run(settings);
-      const besides = run({...settings, ...gains});
-      redraw(result, besides, settings.mode);
-      liveTables(tables, result, besides);
+      const comparison = run({...settings, ...gains});
+      redraw(result, comparison, settings.mode);
+      liveTables(tables, result, comparison);
       shownGains.textContent = JSON.stringify(gainsDocument(settings, observer));
-      said.textContent = result.ended ? "" : " The simulation diverges with these gains.";
+      status.textContent = result.ended ? "" : " The simulation diverges with these gains.";
     });
   }
   select.onchange = () => {
@@ -198,9 +198,9 @@ async function liveSection(data) {
     try {
       await navigator.clipboard.writeText(JSON.stringify(gainsDocument(settings, observer), null,
         1));
-      said.textContent = " Copied. Save them as a file for --gains of simulate, compare and emit.";
+      status.textContent = " Copied. Save them as a file for --gains of simulate, compare and emit.";
     } catch {
-      said.textContent = " This browser does not permit copying; the gains are below.";
+      status.textContent = " This browser does not permit copying; the gains are below.";
     }
   };
   changed();

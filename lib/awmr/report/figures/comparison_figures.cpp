@@ -70,9 +70,9 @@ Figure difference_figure(const std::string& stem, const std::string& first,
     metrics.rows.push_back(row.metric);
   }
   Figure figure{.name = figure_name("differences_" + stem, first + "_" + second),
-                .meaning = fmt::format("Paired differences of {} less {} with 95 % intervals, {}",
+                .meaning = fmt::format("Paired differences of {} minus {} with 95 % intervals, {}",
                                        first, second, stem),
-                .x = {.quantity = fmt::format("{} less {}", first, second),
+                .x = {.quantity = fmt::format("{} minus {}", first, second),
                       .unit = "% of the larger mean",
                       .zero = true},
                 .panels = {{.y = std::move(metrics), .series = {}}}};

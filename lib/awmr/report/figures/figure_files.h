@@ -1,4 +1,5 @@
-/// The files of print figures: a CSV each, figures.json and plot.py. Private to this folder.
+/// The files of print figures: one CSV per figure, figures.json and plot.py. Private to this
+/// folder.
 #pragma once
 
 #include <string>

@@ -42,7 +42,7 @@ Figure log_figure(const Json& log) {
   Figure figure{.name = figure_name("log", std::filesystem::path(file).stem().string()),
                 .meaning = "Measured channels of " + file +
                            " and what the commands alone predict, "
-                           "anew from what was measured at the beginning of every window",
+                           "restarted from the measurements at the start of every window",
                 .x = {"t", "s"},
                 .panels = {}};
   for (const auto& [name, channel] : log.at("channels").items()) {

@@ -116,7 +116,7 @@ Series points_of_course(const Json& scenario) {
   Series points{.name = "", .shape = SeriesShape::kPoints, .role = Role::kReference};
   if (!scenario.contains("guidance")) return points;
   const Json& guidance = scenario["guidance"];
-  points.name = guidance.value("type", "") == "waypoints" ? "waypoints" : "course";
+  points.name = guidance.value("type", "") == "waypoints" ? "waypoints" : "path";
   std::vector<Json> list;
   for (const char* key : {"from_m", "to_m"}) {
     if (guidance.contains(key)) list.push_back(guidance[key]);

@@ -22,8 +22,8 @@ namespace AWMR_LANES {
 using Register = xsimd::batch<double, xsimd::AWMR_LANES_ARCH>;
 using RegisterMask = xsimd::batch_bool<double, xsimd::AWMR_LANES_ARCH>;
 
-/// Registers of a batch. With two of them one computes while the other waits for its last result; it
-/// takes a processor with 32 registers not to run out of them.
+/// Registers per batch. With two, one register computes while the other waits for its last result.
+/// That needs a processor with 32 registers.
 constexpr int kRegisters = AWMR_LANES_REGISTERS;
 
 /// Truth by lane.

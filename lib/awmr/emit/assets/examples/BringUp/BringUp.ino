@@ -61,7 +61,7 @@ void step() {
     input.r_radps = imu.r_radps;
     input.heading_ms =
         awmr_board::time_or_old(imu.has_heading(), imu.time_ms, input.now_ms, AWMR_HEADING_TIMEOUT_MS);
-    // The vehicle stands on a box: it has no speed and needs no fix.
+    // The vehicle is on a box: it has no speed and needs no fix.
     input.speed_ms = input.command_ms = input.now_ms;
     awmr_step(&input, &output);
     output.force_left = cut(output.force_left);
@@ -97,7 +97,7 @@ void end(const __FlashStringHelper* why) {
   }
 }
 
-void ask(const __FlashStringHelper* question) {
+void prompt(const __FlashStringHelper* question) {
   Serial.print(question);
   Serial.println(F("  y?"));
   if (!read_yes()) end(question);
@@ -115,11 +115,11 @@ void wait_ms(uint32_t limit_ms) {
 // Moves an actuator for two seconds, then asks for the observation.
 void show(float left, float right, float steering_rad, const __FlashStringHelper* warning,
           const __FlashStringHelper* question) {
-  ask(warning);
+  prompt(warning);
   want(left, right, steering_rad);
   wait_ms(2000);
   want(0.0f, 0.0f, 0.0f);
-  ask(question);
+  prompt(question);
 }
 
 // The gyroscope is calibrated in the first second at rest.
@@ -131,7 +131,7 @@ void wait_still() {
 }
 
 void check_turn() {
-  ask(F("2. Next: lift it and turn it by hand to the LEFT by a quarter turn, within 20 s."));
+  prompt(F("2. Next: lift it and turn it by hand to the LEFT by a quarter turn, within 20 s."));
   wait_still();
   if (!imu.has_heading()) end(F("no heading: magnetometer or its wiring"));
   const float before = atomically(imu.psi_rad);
@@ -151,7 +151,7 @@ void check_turn() {
 }
 
 void check_autopilot() {
-  ask(F("8. The autopilot holds the heading, wheels in the air; then turn it by hand 30 deg to the LEFT. Next?"));
+  prompt(F("8. The autopilot holds the heading, wheels in the air; then turn it by hand 30 deg to the LEFT. Next?"));
   noInterrupts();
   input.mode = AWMR_COMBINED;
   input.psi_ref_rad = imu.psi_rad;
@@ -171,7 +171,7 @@ void check_autopilot() {
 }
 
 void walk() {
-  ask(F("1. Wheels off the ground, a hand at the battery's plug, nobody near the wheels."));
+  prompt(F("1. Wheels off the ground, a hand at the battery's plug, nobody near the wheels."));
   check_turn();
   show(0.0f, 0.0f, kAngleRad, F("3. Next: the front wheels turn LEFT."), F("   Did they turn left, by half of the stop?"));
   show(0.0f, 0.0f, -kAngleRad, F("   Next: RIGHT."), F("   Right?"));
@@ -180,7 +180,7 @@ void walk() {
   if (AWMR_WHEEL_FORCE_MIN < 0.0f) {
     show(-kForce, -kForce, 0.0f, F("   Next: all wheels turn BACKWARD."), F("   All, and backward?"));
   }
-  ask(F("6. GPS: under the open sky. Is its light on?"));
+  prompt(F("6. GPS: under the open sky. Is its light on?"));
   const uint32_t start_ms = millis();
   while (!has_fix && millis() - start_ms < 60000) {
   }
@@ -189,7 +189,7 @@ void walk() {
   if (!SD.begin(awmr_board::kSdSelectPin)) end(F("7. no SD card"));
 #endif
   check_autopilot();
-  ask(F("9. Next: wheels turn, the step hangs. The motors have to stop within a second and this sketch to begin anew."));
+  prompt(F("9. Next: wheels turn, the step hangs. The motors have to stop within a second and this sketch to begin anew."));
   want(kForce, kForce, 0.0f);
   wait_ms(1000);
   shall_hang = true;

@@ -41,13 +41,13 @@ awmr_board::Safety safety;
 Recorder recorder(kRuns, kCount, kSettings);
 File surge, turning, coastdown;
 
-struct Told {
+struct Pending {
   Event event;
   uint8_t number;
   Row row;
 };
-Told told;                  // written by the step, for loop() to record
-volatile bool has_told = false;
+Pending pending;            // written by the step, for loop() to record
+volatile bool has_pending = false;
 uint16_t rows_lost = 0;
 
 void receive() {
@@ -86,14 +86,14 @@ void step() {
   awmr_board::drive(output);
 
   if (event == kNothing) return;
-  if (has_told) {
+  if (has_pending) {
     ++rows_lost;
     return;
   }
-  told.event = event;
-  told.number = number;
-  told.row = recorder.row();
-  has_told = true;
+  pending.event = event;
+  pending.number = number;
+  pending.row = recorder.row();
+  has_pending = true;
 }
 
 File table(const char* name, const __FlashStringHelper* header) {
@@ -143,26 +143,26 @@ void print_cells(Print& to, float first, float second) {
 }
 
 void write_row(Print& to) {
-  const Trial& run = kRuns[told.number];
-  if (told.event == kCurveRow) {
-    to.print(told.number + 1);
+  const Trial& run = kRuns[pending.number];
+  if (pending.event == kCurveRow) {
+    to.print(pending.number + 1);
     to.print(',');
-    print_cells(to, told.row.t_s, told.row.value);
+    print_cells(to, pending.row.t_s, pending.row.value);
   } else if (run.kind == kTurning) {
-    to.print(told.row.steering_rad * 57.2957795f, 4);
+    to.print(pending.row.steering_rad * 57.2957795f, 4);
     to.print(',');
-    print_cells(to, told.row.force, told.row.value);
+    print_cells(to, pending.row.force, pending.row.value);
   } else {
-    print_cells(to, told.row.force, told.row.value);
+    print_cells(to, pending.row.force, pending.row.value);
   }
 }
 
 void loop() {
   command.speak();
-  if (!has_told) return;
-  const Event event = told.event;
+  if (!has_pending) return;
+  const Event event = pending.event;
   File& file = event == kCurveRow || event == kCoasted ? coastdown
-               : kRuns[told.number].kind == kTurning   ? turning
+               : kRuns[pending.number].kind == kTurning   ? turning
                                                        : surge;
   if (event == kRow || event == kCurveRow) {
     write_row(Serial);
@@ -172,7 +172,7 @@ void loop() {
   if (event == kSensorLost) Serial.println(F("a sensor is not believed: once more"));
   if (event == kLetGo) Serial.println(F("let go: once more"));
   if (event != kCurveRow) file.flush();
-  has_told = false;
+  has_pending = false;
   if (rows_lost > 0) Serial.println(F("the card was too slow for a row: record this run again"));
   rows_lost = 0;
   if (event != kCurveRow) announce();
