@@ -18,8 +18,7 @@ namespace awmr {
 /// measured.
 std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model);
 
-/// Warnings about parts of a scenario without effect on this vehicle: a latency of a fraction of a
-/// sample (`rounded-latency`), a step behind the end (`late-step`), a waypoint within an obstacle
+/// Warnings about parts of a scenario without effect on this vehicle: a step behind the end (`late-step`), a waypoint within an obstacle
 /// (`blocked-waypoint`), a speed beyond the motors (`unreachable-speed`).
 std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model);
 

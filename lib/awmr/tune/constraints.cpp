@@ -88,7 +88,7 @@ std::vector<ExaminedLoop> at_end_rates(const ConstraintContext& context) {
 
 /// The worst of the three modes in each of the loops.
 double heading_damping(const Gains<double>& gains, const ConstraintContext& context,
-                       std::span<const ExaminedLoop> loops, int late_samples,
+                       std::span<const ExaminedLoop> loops, double latency_s,
                        double motor_time_constant_s) {
   constexpr YawMode kAll[] = {YawMode::kDifferential, YawMode::kCombined, YawMode::kSteering};
   const auto modes = context.mode ? std::span(&*context.mode, 1)
@@ -99,7 +99,7 @@ double heading_damping(const Gains<double>& gains, const ConstraintContext& cont
       SampledHeadingLoop loop =
           heading_loop(gains, context, *examined.plant, examined.rate_radps, mode);
       loop.motor_time_constant_s = motor_time_constant_s;
-      loop.late_samples = late_samples;
+      loop.command_delay_s = latency_s;
       worst = std::min(worst, damping_ratio(loop));
     }
   }
@@ -164,14 +164,14 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
     const std::vector<ExaminedLoop> ends = at_end_rates(context);
     std::vector<ExaminedLoop> loops = at_all_rates(context.plant, context);
     loops.insert(loops.end(), ends.begin(), ends.end());
-    const auto latency = static_cast<int>(std::lround(context.latency_s / context.sample_time_s));
     const double lag_s = context.motor_time_constant_s;
     worst.push_back(at_least(
-        "late damping", heading_damping(gains, context, loops, latency, lag_s),
+        "late damping", heading_damping(gains, context, loops, context.latency_s, lag_s),
         context.limits.late_damping,
         "smallest damping ratio of the loop with latency and motor lag as well >= required"));
     worst.push_back(at_least("delay margin",
-                             heading_damping(gains, context, ends, 2 * latency + 1, lag_s),
+    const double doubled_s = 2.0 * context.latency_s + context.sample_time_s;
+                             heading_damping(gains, context, ends, doubled_s, lag_s),
                              context.limits.delayed_damping,
                              "the same at twice the latency plus one sample >= required"));
   }
@@ -289,7 +289,8 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
       at_most("T2 < T1 (strict)", 2.0 * reaching_s, context.margin * sliding_s,
               "epsilon/mu <= margin/lambda, s: S itself decays before the error slides", strict),
       at_least(
-          "heading damping", heading_damping(gains, context, at_all_rates(plant, context), 0, 0.0),
+          "heading damping",
+          heading_damping(gains, context, at_all_rates(plant, context), 0.0, 0.0),
           context.limits.damping,
           "smallest damping ratio of the sampled heading loop with hold and servo >= required"),
       at_most("speed gain", speed_rate * context.sample_time_s, kSpeedGainPerSample,

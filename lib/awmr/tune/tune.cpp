@@ -234,10 +234,10 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
 /// The work of a constraint grows with the cube of the latency in samples.
 Status check_latency(const ConstraintContext& context, const std::string& model_file) {
   const double samples = context.latency_s / context.sample_time_s;
-  if (samples < kMostLateSamples + 0.5) return {};
+  if (samples < kMostLateSamples + 1e-9) return {};
   return input_error(
       ErrorCode::kTooLarge, model_file + ":/vehicle/latency_s",
-      fmt::format("{:g} s are {:.0f} samples of {:g} s, more than the limit of {}; give a longer "
+      fmt::format("{:g} s are {:.4g} samples of {:g} s, more than the limit of {}; give a longer "
                   "sample_time_s, or tune without latency ({})",
                   context.latency_s, samples, context.sample_time_s, kMostLateSamples,
                   option_text("nominal")));

@@ -229,14 +229,17 @@ RunFigures drive(const Body& body, const Geometry& vehicle, const SensorErrors& 
                  double step_s) {
   const double ts = vehicle.sample_s;
   const int steps = std::max(1, static_cast<int>(std::ceil(ts / step_s - 1e-9)));
-  const auto late = [ts](double s) { return static_cast<std::size_t>(std::lround(s / ts)); };
-  const std::size_t late_psi = late(errors.heading_late_s);
-  const std::size_t late_r = late(errors.yaw_rate_late_s);
-  const std::size_t late_u = late(errors.speed_late_s);
   const std::size_t readings = readings_of(course, vehicle);
   std::vector<State> past;
   past.reserve(readings);
-  const auto at = [&past](std::size_t k, std::size_t by) { return past[k > by ? k - by : 0]; };
+  // The readings of `late` seconds before the k-th sample.
+  const auto read = [&](std::size_t k, double late, double State::*quantity) {
+    const double time = std::max(0.0, static_cast<double>(k) - late / ts) + 1e-9;
+    const auto before = static_cast<std::size_t>(time);
+    const double share = time - static_cast<double>(before);
+    const double old = past[before].*quantity;
+    return before < k ? old + share * (past[before + 1].*quantity - old) : old;
+  };
   State state;
   Reference ref;
   Meter meter(vehicle, course);
@@ -244,9 +247,10 @@ RunFigures drive(const Body& body, const Geometry& vehicle, const SensorErrors& 
   for (std::size_t k = 0; k < readings; ++k) {
     const double t = static_cast<double>(k) * ts;
     past.push_back(state);
-    const Readings m{at(k, late_psi).psi + errors.heading_rad * noise[0][k],
-                     at(k, late_r).r + errors.yaw_rate_radps * noise[1][k],
-                     at(k, late_u).u + errors.speed_mps * noise[2][k], state.v};
+    const Readings m{
+        read(k, errors.heading_late_s, &State::psi) + errors.heading_rad * noise[0][k],
+        read(k, errors.yaw_rate_late_s, &State::r) + errors.yaw_rate_radps * noise[1][k],
+        read(k, errors.speed_late_s, &State::u) + errors.speed_mps * noise[2][k], state.v};
     const std::size_t now = std::min(static_cast<std::size_t>(std::floor(t / course.hold_s + 1e-9)),
                                      course.headings_rad.size() - 1);
     const double goal = course.headings_rad[now];
