@@ -115,8 +115,12 @@ void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context) {
       std::min(vehicle.steering_max_rate_degps, 2.0 * degrees(context.plant.steering_max_rad) /
                                                     context.plant.steering_time_constant_s);
   const Gains<double> none{{0.0, 0.0, 1.0}, {0.0, 1.0}};
-  context.limits.steering_rate_rms_degps = std::max(
-      kShareOfServo * servo_degps, kOverFeedForward * steering_rate_rms_degps(none, context));
+  // A wider friction width makes Coulomb friction as calm as it has to be.
+  ConstraintContext without_friction = context;
+  without_friction.plant.yaw.coulomb = 0.0;
+  context.limits.steering_rate_rms_degps =
+      std::max(kShareOfServo * servo_degps,
+               kOverFeedForward * steering_rate_rms_degps(none, without_friction));
 }
 
 /// Gives an observer the limits that the user did not. Errors (input): there is nothing left to take
@@ -197,6 +201,10 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
   AWMR_ASSIGN_OR_RETURN(std::vector<ActiveConstraint> active,
                         active_constraints(options, context, some, *found.best));
   const Evaluation tuned = all(settled.gains);
+  const auto settles = [](const ModeScore& score) { return score.metrics.completed; };
+  if (std::ranges::none_of(tuned.scores, settles)) {
+    return never_settles(settled.gains, tuned.scores.size(), active);
+  }
   AWMR_ASSIGN_OR_RETURN(Certificate certificate,
                         certify(model, context, options.open, settled.gains));
   TradeOff trade_off = trade_off_of(some, context, found.met, settled.gains, baseline.gains);

@@ -100,30 +100,50 @@ double least_damping(const Controls& c, const Geometry& g, const Body& body, dou
   return least;
 }
 
-/// RMS rate of the steering command by noise while a heading is held, deg/s.
-double steering_rate_degps(const Controls& c, const Geometry& g, const SensorErrors& errors,
-                           double speed_mps) {
-  const double k = c.gains.mu / c.gains.epsilon;
+/// E[f(z) g(z)], z standard normal.
+template <class F, class G>
+double mean(const F& f, const G& g) {
   constexpr int kPoints = 2000;
-  double squares = 0.0;
+  double sum = 0.0;
   double weights = 0.0;
   for (int i = 0; i < kPoints; ++i) {
     const double z = -5.0 + 10.0 * (i + 0.5) / kPoints;
     const double weight = std::exp(-0.5 * z * z);
-    const double n = z * errors.yaw_rate_radps;
-    double fed = 0.0;
-    if (c.fed_forward == FedForward::kMeasured) {
-      const bool rests = c.known.yaw.coulomb > 0.0 && std::abs(n) < 0.02;
-      fed = rests ? c.known.yaw.of_magnitude(0.02) * n / 0.02
-                  : std::copysign(c.known.yaw.of_magnitude(std::abs(n)), n);
-    }
-    const double w = fed / c.known.inertia - (c.gains.lambda + k) * n;
-    squares += weight * w * w;
+    sum += weight * f(z) * g(z);
     weights += weight;
   }
-  const double by_heading = c.gains.lambda * k * errors.heading_rad;
-  const double rms = std::sqrt(2.0 * (squares / weights + by_heading * by_heading));
-  return 2.0 * c.known.inertia * rms /
+  return sum / weights;
+}
+
+/// RMS rate of the steering command by noise while a heading is held, deg/s. The yaw acceleration is
+///   a(n) + 1{|n| < w0} b(m) + c(m),   n, m: noise of the yaw rate and of the heading
+/// with dry friction b of a vehicle at rest; a, b and c are odd.
+double steering_rate_degps(const Controls& c, const Geometry& g, const SensorErrors& errors,
+                           double speed_mps) {
+  const LawGains& gains = c.gains;
+  const double k = gains.mu / gains.epsilon;
+  const Friction& yaw = c.known.yaw;
+  const bool is_fed = c.fed_forward == FedForward::kMeasured;
+  const double rest = is_fed && yaw.coulomb > 0.0 ? gains.friction_width_radps : 0.0;
+  const auto rests = [&](double z) {
+    return std::abs(z) * errors.yaw_rate_radps < rest ? 1.0 : 0.0;
+  };
+  const auto by_rate = [&](double z) {
+    const double n = z * errors.yaw_rate_radps;
+    const double fed =
+        is_fed && !(rests(z) > 0.0) ? std::copysign(yaw.of_magnitude(std::abs(n)), n) : 0.0;
+    return fed / c.known.inertia - (gains.lambda + k) * n;
+  };
+  const auto friction = [&](double z) {
+    if (!(rest > 0.0)) return 0.0;
+    const double intent = gains.lambda * errors.heading_rad * z;
+    return yaw.of_magnitude(rest) / c.known.inertia * std::clamp(intent / rest, -1.0, 1.0);
+  };
+  const auto by_heading = [&](double z) { return gains.lambda * k * errors.heading_rad * z; };
+  const double share = rest > 0.0 ? mean(rests, rests) : 0.0;
+  const double squares = mean(by_rate, by_rate) + mean(by_heading, by_heading) +
+                         share * (mean(friction, friction) + 2.0 * mean(friction, by_heading));
+  return 2.0 * c.known.inertia * std::sqrt(2.0 * squares) /
          (g.front_axle_m * c.known.surge.of_magnitude(speed_mps) * g.sample_s) * 180.0 /
          std::numbers::pi;
 }
@@ -169,7 +189,7 @@ double excess(const Controls& c, const Geometry& g, const SensorErrors& errors,
     if (worst > 0.0) return worst;
     for (const double share : {1.0 / 60.0, 1.0 / 12.0, 1.0 / 3.0, 1.0}) {
       const double r = std::max(share * examined.fastest_radps, slowest);
-      take(below(least_damping(c, g, *body, r, 0, 0.0), limits.damping));
+      take(below(least_damping(c, g, *body, r, 0.0, 0.0), limits.damping));
       if (share > 0.5 || share < 0.05) {
         take(below(least_damping(c, g, *body, r, late_s, g.motor_s), limits.late_damping));
         take(below(least_damping(c, g, *body, r, 2.0 * late_s + g.sample_s, g.motor_s),

@@ -37,11 +37,10 @@ double after_step(const Friction& friction, double inertia, double w, double pus
   return next / (1.0 + h);
 }
 
-/// g(w) that a law adds; dry friction as a chord below 0.02, in the direction of `intent`.
-double fed_forward(const Friction& friction, double w, double intent) {
-  constexpr double kRest = 0.02;
-  if (friction.coulomb > 0.0 && std::abs(w) < kRest) {
-    return friction.of_magnitude(kRest) * std::clamp((w + intent) / kRest, -1.0, 1.0);
+/// g(w) that a law adds; dry friction as a chord below `rest`, in the direction of `intent`.
+double fed_forward(const Friction& friction, double w, double intent, double rest = 0.02) {
+  if (friction.coulomb > 0.0 && std::abs(w) < rest) {
+    return friction.of_magnitude(rest) * std::clamp((w + intent) / rest, -1.0, 1.0);
   }
   if (!(std::abs(w) > 0.0)) return 0.0;
   return std::copysign(friction.of_magnitude(std::abs(w)), w);
@@ -123,7 +122,7 @@ Commands commands_of(const Controls& c, const Geometry& g, Mode mode, const Read
   const double rate_error = ref.rate - m.r;
   const double s = rate_error + k.lambda * wrapped(ref.psi - m.psi);
   const double w = c.fed_forward == FedForward::kMeasured ? m.r : ref.rate;
-  const double moment = fed_forward(c.known.yaw, w, s) +
+  const double moment = fed_forward(c.known.yaw, w, s, k.friction_width_radps) +
                         c.known.inertia * (ref.acceleration + k.lambda * rate_error +
                                            k.mu * std::clamp(s / k.epsilon, -1.0, 1.0));
   const double e = speed_mps - m.u;
