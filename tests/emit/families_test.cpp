@@ -165,6 +165,36 @@ TEST(Families, WithFrictionAtRestHaveATableFromTheRestSpeedOnAndTheValueThere) {
   EXPECT_FALSE(autopilot_parameters(paper_robot(), kPaperGains, paper_inputs(), {})->rest);
 }
 
+TEST(Families, WithFrictionInYawHaveTheFrictionWidthOfTheGains) {
+  Model model = coulomb_robot();
+  model.yaw_family = Family::kCoulombPower;
+  model[ParameterId::kYawCoulomb] = {0.03, 0.001, {}, Source::kFitted, "nonlinear"};
+  Gains<double> gains = kPaperGains;
+  gains.heading.friction_width_radps = 0.15;
+  const auto p = autopilot_parameters(model, gains, paper_inputs(), {});
+  ASSERT_TRUE(p) << to_text(p.error());
+  EXPECT_EQ(p->rest->surge_rest_speed, 0.02F);
+  EXPECT_EQ(p->rest->yaw_rest_speed, 0.15F);
+  const Resistance<double> law = feed_forward(model.plant().value().yaw, 0.15);
+  EXPECT_EQ(p->rest->yaw_at_rest, static_cast<float>(law.at(0.15)));
+  // Like the simulated controller's feed-forward.
+  const RestingTable chip{p->yaw.view(), p->rest->yaw_rest_speed, p->rest->yaw_at_rest};
+  for (const float rate : {-1.0F, -0.149F, 0.0F, 0.1F, 0.151F}) {
+    for (const float error : {-0.2F, -0.03F, 0.0F, 0.1F}) {
+      const double exact = fed_forward(law, static_cast<double>(rate), static_cast<double>(error));
+      EXPECT_NEAR(static_cast<double>(fed_forward(chip, rate, error)), exact,
+                  5e-4 * std::max(std::abs(exact), 0.2) + 1e-6)
+          << rate << " " << error;
+    }
+  }
+  const auto has_width = [&](const Gains<double>& of) {
+    return params_header(model, of, paper_inputs()).value().find("FRICTION_WIDTH") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(has_width(gains));
+  EXPECT_FALSE(has_width(kPaperGains));
+}
+
 TEST(Families, WithADeadZoneAllocateWhatIsLeftBeyondIt) {
   Model zone = paper_robot();
   zone.surge_family = Family::kDeadZone;

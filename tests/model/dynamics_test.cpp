@@ -136,6 +136,7 @@ TEST(Resistance, IsFedForwardWithAChordAtRestWhereItWouldJump) {
   Resistance<double> law = paper_plant().surge;
   EXPECT_EQ(feed_forward(law).rest_speed, law.rest_speed);
   law.coulomb = 0.05;
+  EXPECT_EQ(feed_forward(law, 0.3).rest_speed, 0.3);
   law = feed_forward(law);
   EXPECT_EQ(law.rest_speed, 0.02);
   EXPECT_DOUBLE_EQ(law(0.01), 0.5 * law(0.02));

@@ -61,6 +61,15 @@ TEST(GainsFile, WritesAndReadsAnObserverWhereThereIsOne) {
   EXPECT_THAT(to_text(too_fast.error()), ::testing::HasSubstr("/observer/bandwidth_radps"));
 }
 
+TEST(GainsFile, WritesAndReadsAFrictionWidthWhereItIsNotTheDefault) {
+  const ScratchFile file("gains.json", kText);
+  EXPECT_EQ(read_gains(file.path())->heading.friction_width_radps, 0.02);
+  ASSERT_TRUE(write_gains({{3.0, 50.0, 12.0}, {5.0, 1.2}}, file.path()));
+  EXPECT_FALSE(read_json_file(file.path())->at("heading").contains("friction_width_radps"));
+  ASSERT_TRUE(write_gains({{3.0, 50.0, 12.0, 0.15}, {5.0, 1.2}}, file.path()));
+  EXPECT_EQ(read_gains(file.path())->heading.friction_width_radps, 0.15);
+}
+
 TEST(GainsFile, PassesOverTheContractsOtherKeys) {
   Json json = Json::parse(kText);
   for (const char* key : {"command", "version", "options", "inputs", "time_constants",

@@ -270,15 +270,6 @@ TEST(Validity, WarnsOfScenarioPartsWithoutEffect) {
   const Model model = fitted_paper_model();
   EXPECT_EQ(codes_of(unattainable_requests(kSteps, model)), Codes{});
 
-  Scenario late = kSteps;
-  late.sensors.emplace();
-  late.sensors->heading.late_s = 0.02;  // two samples
-  EXPECT_EQ(codes_of(unattainable_requests(late, model)), Codes{});
-  late.sensors->heading.late_s = 0.004;
-  late.sensors->speed.late_s = 0.025;
-  EXPECT_EQ(codes_of(unattainable_requests(late, model)),
-            (Codes{"rounded-latency", "rounded-latency"}));
-
   Scenario after = kSteps;
   after.guidance = HeadingSteps{{{0.0, 0.1}, {3.9, 0.2}}};
   EXPECT_EQ(codes_of(unattainable_requests(after, model)), Codes{});

@@ -314,7 +314,8 @@ TEST(SensorChannels, HaveNoiseWithACorrelationTime) {
 TEST(SensorChannels, ReturnTheValueFromOneLatencyAgo) {
   Sensors sensors;
   sensors.heading.late_s = 0.03;
-  sensors.yaw_rate.late_s = 0.014;  // to the nearest sample: one
+  sensors.yaw_rate.late_s = 0.014;
+  sensors.speed.late_s = 0.001;
   Sensing sensing(sensors, 0.01, run_seed(0, 0, 0));
   for (int k = 0; k < 10; ++k) {
     State<double> truth{};
@@ -323,8 +324,8 @@ TEST(SensorChannels, ReturnTheValueFromOneLatencyAgo) {
     truth.u_mps = 100.0 * k;
     const Sensed sensed = sensing.at(static_cast<std::size_t>(k), truth);
     EXPECT_EQ(sensed.motion.psi_rad, std::max(0, k - 3));
-    EXPECT_EQ(sensed.motion.r_radps, 10.0 * std::max(0, k - 1));
-    EXPECT_EQ(sensed.motion.u_mps, 100.0 * k);
+    EXPECT_NEAR(sensed.motion.r_radps, 10.0 * std::max(0.0, k - 1.4), 1e-12);
+    EXPECT_NEAR(sensed.motion.u_mps, 100.0 * std::max(0.0, k - 0.1), 1e-10);
   }
 }
 

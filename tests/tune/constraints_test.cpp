@@ -11,6 +11,8 @@
 
 #include "awmr/control/disturbance_observer.h"
 #include "awmr/model/gains_file.h"
+#include "awmr/simulate/metrics.h"
+#include "awmr/simulate/simulate.h"
 #include "awmr/tune/pole_placement.h"
 #include "awmr/tune/sampled_loop.h"
 #include "tune/paper_model.h"
@@ -212,6 +214,112 @@ TEST(SteeringRate, OfCorrelatedReadingsIsThatOfDrawnPairs) {
   // The series neglects higher terms: the rate is a little too large, never too small.
   EXPECT_GT(correlated, 0.99 * drawn);
   EXPECT_LT(correlated, 1.05 * drawn);
+}
+
+/// Coulomb friction in yaw, with steering, as of an 18 kg rover and a 165 kg hauler.
+ConstraintContext coulomb_context(bool is_heavy) {
+  ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  Plant<double>& plant = context.plant;
+  plant.yaw = is_heavy ? Resistance<double>{.alpha = 0.3015, .beta = 1.0, .coulomb = 0.04998}
+                       : Resistance<double>{.alpha = 0.1208, .beta = 1.0, .coulomb = 0.02991};
+  plant.inertia_norm = is_heavy ? 0.2697 : 0.05004;
+  plant.steering_max_rad = 0.5;
+  context.sample_time_s = is_heavy ? 0.04 : 0.01;
+  return context;
+}
+
+/// RMS rate of the steering command in a simulated minute of a held heading, deg/s.
+double simulated_rate_degps(const Gains<double>& gains, const ConstraintContext& context) {
+  Scenario held{.name = "held", .guidance = HeadingSteps{{{0.0, 0.0}}}};
+  held.duration_s = 60.0;
+  held.initial.u_mps = held.speed_mps = context.speed_mps;
+  held.sensors.emplace();
+  held.sensors->heading.noise = context.heading_noise_rad;
+  held.sensors->yaw_rate.noise = context.yaw_rate_noise_radps;
+  Model model = paper_model();
+  model.vehicle.sample_time_s = context.sample_time_s;
+  const auto controller = make_controller(context.plant, model.vehicle, gains);
+  SimulateOptions options;
+  options.sample_time_s = context.sample_time_s;
+  const Run run = simulate(context.plant, controller, held, YawMode::kSteering, options);
+  return metrics_of(run, held, controller).steering_rate_rms_degps;
+}
+
+/// The friction that the law feeds forward at rest follows the measured heading error.
+TEST(SteeringRate, WithCoulombFrictionIsThatOfASimulatedHeldHeading) {
+  for (const bool is_heavy : {false, true}) {
+    ConstraintContext context = coulomb_context(is_heavy);
+    for (const double noise_deg : {1.0, 0.2}) {
+      context.heading_noise_rad = radians(noise_deg);
+      context.yaw_rate_noise_radps = radians(noise_deg / 2.0);
+      for (const double lambda : {2.0, 1.0, 0.3}) {
+        for (const double width : {0.02, 0.06, 0.2}) {
+          const Gains<double> gains{{lambda, 2.6 * lambda, 2.0, width}, {5.0, 1.2}};
+          const double simulated = simulated_rate_degps(gains, context);
+          EXPECT_NEAR(steering_rate_rms_degps(gains, context), simulated, 0.1 * simulated)
+              << is_heavy << " " << noise_deg << " " << lambda << " " << width;
+        }
+      }
+    }
+  }
+}
+
+/// The same law by a million pairs of correlated readings, slow noise included.
+TEST(SteeringRate, WithCoulombFrictionOfCorrelatedReadingsIsThatOfDrawnPairs) {
+  ConstraintContext context = coulomb_context(false);
+  context.heading_correlation = 0.95;
+  context.yaw_rate_correlation = 0.6;
+  const Gains<double> gains{{1.0, 5.2, 2.0, 0.03}, {5.0, 1.2}};
+  const Resistance<double> g3 = feed_forward(context.plant.yaw, 0.03);
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  const auto after = [&](double reading, double correlation) {
+    return correlation * reading + std::sqrt(1.0 - correlation * correlation) * normal(random);
+  };
+  const auto law = [&](double heading, double rate) {
+    const double n = context.yaw_rate_noise_radps * rate;
+    const double s = -n - context.heading_noise_rad * heading;  // lambda = 1
+    return fed_forward(g3, n, s) / context.plant.inertia_norm - n + 2.6 * s;
+  };
+  double squares = 0.0;
+  constexpr int kPairs = 1'000'000;
+  for (int i = 0; i < kPairs; ++i) {
+    const double heading = normal(random);
+    const double rate = normal(random);
+    const double change = law(after(heading, 0.95), after(rate, 0.6)) - law(heading, rate);
+    squares += change * change;
+  }
+  const double per_moment = 2.0 / (context.plant.front_axle_m * context.plant.surge(1.0));
+  const double drawn = degrees(per_moment * context.plant.inertia_norm *
+                               std::sqrt(squares / kPairs) / context.sample_time_s);
+  // Above: higher terms of the series of the yaw rate's part are neglected.
+  EXPECT_NEAR(steering_rate_rms_degps(gains, context), drawn, 0.03 * drawn);
+}
+
+TEST(FrictionWidth, IsTheNarrowestThatKeepsTheSteeringRate) {
+  ConstraintContext context = coulomb_context(true);
+  const Gains<double> gains{{1.0, 2.6, 2.0}, {5.0, 1.2}};
+  const auto rate_at = [&](double width) {
+    Gains<double> there = gains;
+    there.heading.friction_width_radps = width;
+    return steering_rate_rms_degps(there, context);
+  };
+  const double widest = context.plant.yaw.coulomb / (context.plant.inertia_norm * 1.3);
+  EXPECT_LT(rate_at(widest), 0.7 * rate_at(0.02));
+  const auto width = [&](double wider = 0.0) {
+    return with_friction_width(gains, context, wider).heading.friction_width_radps;
+  };
+  EXPECT_EQ(width(), 0.02);  // no limit
+  context.limits.steering_rate_rms_degps = 1.01 * rate_at(0.02);
+  EXPECT_EQ(width(), 0.02);
+  context.limits.steering_rate_rms_degps = 0.5 * (rate_at(0.02) + rate_at(widest));
+  EXPECT_LE(rate_at(width()), *context.limits.steering_rate_rms_degps);
+  EXPECT_GT(rate_at(width() - 1e-5), *context.limits.steering_rate_rms_degps);
+  EXPECT_LT(width(0.1), width());
+  context.limits.steering_rate_rms_degps = 0.9 * rate_at(widest);
+  EXPECT_NEAR(width(), widest, 1e-12);
+  context.plant.yaw.coulomb = 0.0;
+  EXPECT_EQ(width(), 0.02);
 }
 
 /// No pole pair whose slower pole is faster by a twentieth meets every constraint.

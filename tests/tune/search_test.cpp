@@ -583,6 +583,18 @@ TEST(Robust, ALatencyOfManySamplesIsRefusedBeforeItTakesForEver) {
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("100 samples"));
 }
 
+TEST(Search, RefusesGainsWithWhichNoRunSettles) {
+  TuneOptions options = short_options();
+  options.global_evaluations = 40;
+  options.local_evaluations = 10;
+  options.scenarios[0].guidance = HeadingSteps{{{0.0, radians(30.0)}}};
+  options.scenarios[0].duration_s = 0.3;
+  const Result<Tuning> tuning = tune(paper_model(), options);
+  ASSERT_FALSE(tuning);
+  EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
+  EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("no run settles"));
+}
+
 TEST(Robust, WithoutDrawsAndWithoutACovarianceNoiseAloneIsDrawn) {
   TuneOptions options = short_options();
   options.nominal = false;

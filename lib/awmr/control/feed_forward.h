@@ -12,7 +12,7 @@ namespace awmr {
 ///   g(rest_speed) sat((w + intent)/rest_speed)  below
 /// The second line is for curves that jump at rest (feed_forward() in resistance.h). There the
 /// curve does not give the force that starts the motion, but the sign of `intent`, the speed error,
-/// gives its direction.
+/// gives its direction. w + intent has no noise of w: in the heading law it is psi_d_dot + lambda e.
 template <class T>
 T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
   using math::abs;

@@ -46,18 +46,19 @@ bool is_power_law(const Plant<double>& plant) {
 
 /// Parameters at rest and of the motors; none for a law without friction at rest and motors without
 /// dead zone or back-EMF.
-std::optional<RestBlock> rest_of(const Plant<double>& plant) {
+std::optional<RestBlock> rest_of(const Plant<double>& plant, const Gains<double>& gains) {
   const bool jumps = plant.surge.coulomb > 0.0 || plant.yaw.coulomb > 0.0;
   if (!jumps && !(plant.wheel_dead_zone > 0.0) && !(plant.back_emf_s_per_m > 0.0)) return {};
   const auto at_rest = [](const Resistance<double>& law) {
-    const double speed = feed_forward(law).rest_speed;
-    return speed > 0.0 ? single(law.at(speed)) : 0.0F;
+    return law.rest_speed > 0.0 ? single(law.at(law.rest_speed)) : 0.0F;
   };
+  const Resistance<double> surge = feed_forward(plant.surge);
+  const Resistance<double> yaw = feed_forward(plant.yaw, gains.heading.friction_width_radps);
   return RestBlock{single(plant.wheel_dead_zone),
-                   single(feed_forward(plant.surge).rest_speed),
-                   at_rest(plant.surge),
-                   single(feed_forward(plant.yaw).rest_speed),
-                   at_rest(plant.yaw),
+                   single(surge.rest_speed),
+                   at_rest(surge),
+                   single(yaw.rest_speed),
+                   at_rest(yaw),
                    single(plant.back_emf_s_per_m)};
 }
 
@@ -204,9 +205,10 @@ struct ChipLaw {
   double rest_speed;  ///< m/s or rad/s: below it the table is not used
 };
 
-ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_scale) {
+ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_scale,
+                 double rest_speed = feed_forward_rest_speed<double>()) {
   ChipLaw chip{std::move(name), [law](double speed) { return law(speed); }, full_scale, 0.0,
-               feed_forward(law).rest_speed};
+               feed_forward(law, rest_speed).rest_speed};
   chip.top = table_top(chip.law, full_scale);
   return chip;
 }
@@ -243,7 +245,8 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
 
   const double full_force = 4.0 * force_beyond_dead_zone(plant, model.vehicle).hi;
   const ChipLaw surge = chip_law("surge", plant.surge, full_force);
-  const ChipLaw yaw = chip_law("yaw", plant.yaw, full_force * plant.half_track_m);
+  const ChipLaw yaw = chip_law("yaw", plant.yaw, full_force * plant.half_track_m,
+                               gains.heading.friction_width_radps);
 
   AutopilotParameters parameters;
   parameters.resistance = options.resistance;
@@ -269,7 +272,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   if (options.resistance == ResistanceForm::kTable) {
     AWMR_RETURN_IF_ERROR(add_tables(surge, yaw, options.table_error, parameters));
   }
-  parameters.rest = rest_of(plant);
+  parameters.rest = rest_of(plant, gains);
   parameters.crc = crc32_of_parameters(&parameters.block, parameters.surge.lines.data(),
                                        parameters.surge.lines.size(), parameters.yaw.lines.data(),
                                        parameters.yaw.lines.size(),

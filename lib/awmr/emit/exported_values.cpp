@@ -80,6 +80,10 @@ void export_gains(const Gains<double>& gains, std::vector<ExportedValue>& values
   add("heading_lambda", gains.heading.lambda, "1/s", "lambda: slope of the sliding surface");
   add("heading_mu", gains.heading.mu, "rad/s^2", "mu: largest corrective yaw acceleration");
   add("heading_epsilon", gains.heading.epsilon, "rad/s", "epsilon: half width of its layer");
+  if (gains.heading.friction_width_radps > feed_forward_rest_speed<double>()) {
+    add("heading_friction_width", gains.heading.friction_width_radps, "rad/s",
+        "w0: below it Coulomb friction is fed forward in proportion to rate and error");
+  }
   add("speed_mu", gains.speed.mu, "m/s^2", "mu_s: largest corrective acceleration");
   add("speed_epsilon", gains.speed.epsilon, "m/s", "eps_s: half width of its layer");
   if (!gains.observer.is_on()) return;

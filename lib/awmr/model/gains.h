@@ -1,6 +1,8 @@
 /// Controller gains and their time constants. Freestanding C++14.
 #pragma once
 
+#include "awmr/model/resistance.h"
+
 namespace awmr {
 
 /// Gains of the heading law, heading_law() in control/heading_law.h, on S = e_dot + lambda e.
@@ -13,6 +15,9 @@ struct HeadingGains {
   /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
   /// is proportional to S. Larger: less chattering, a softer response.
   T epsilon;
+  /// w0, rad/s, >= 0.02: with Coulomb friction in yaw, the rest_speed of the g3 that is fed forward
+  /// (fed_forward()). Wider: less of the heading's noise passes, and a larger error is left at rest.
+  T friction_width_radps = feed_forward_rest_speed<T>();
 
   /// T1, s: on the surface S = 0 the error falls as exp(-t/T1).
   ///   T1 = 1/lambda                                                              [paper (90)-(91)]

@@ -17,7 +17,10 @@ Gains<double> gains_from_json(JsonObject& root) {
   Gains<double> gains{
       .heading = {.lambda = heading.number("lambda", kGain),
                   .mu = heading.number("mu", kGain),
-                  .epsilon = heading.number("epsilon", kGain)},
+                  .epsilon = heading.number("epsilon", kGain),
+                  .friction_width_radps =
+                      heading.optional_number("friction_width_radps", kFrictionWidth_radps)
+                          .value_or(feed_forward_rest_speed<double>())},
       .speed = {.mu = speed.number("mu", kGain), .epsilon = speed.number("epsilon", kGain)}};
   heading.reject_unknown_keys();
   speed.reject_unknown_keys();

@@ -8,14 +8,17 @@ namespace awmr {
 
 inline constexpr std::string_view kGainsSchema = "awmr.gains/1";
 
-/// {"heading": {lambda, mu, epsilon}, "speed": {mu, epsilon}} and, with an observer, "observer":
-/// {bandwidth_radps, yaw_max_m, surge_max}.
+/// {"heading": {lambda, mu, epsilon}, "speed": {mu, epsilon}}; "friction_width_radps" of the heading
+/// where it is not the default, and with an observer "observer": {bandwidth_radps, yaw_max_m, surge_max}.
 inline Json gains_to_json(const Gains<double>& gains) {
   Json json = {{"heading",
                 {{"lambda", gains.heading.lambda},
                  {"mu", gains.heading.mu},
                  {"epsilon", gains.heading.epsilon}}},
                {"speed", {{"mu", gains.speed.mu}, {"epsilon", gains.speed.epsilon}}}};
+  if (gains.heading.friction_width_radps > feed_forward_rest_speed<double>()) {
+    json["heading"]["friction_width_radps"] = gains.heading.friction_width_radps;
+  }
   if (gains.observer.is_on()) {
     json["observer"] = {{"bandwidth_radps", gains.observer.bandwidth_radps},
                         {"yaw_max_m", gains.observer.yaw_max_m},

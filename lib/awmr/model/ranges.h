@@ -5,6 +5,7 @@
 
 #include "awmr/core/json.h"
 #include "awmr/model/parameters.h"
+#include "awmr/model/resistance.h"
 
 namespace awmr {
 
@@ -32,6 +33,8 @@ inline constexpr NumberRule kExponent{.min = 0.0, .max = 20.0};
 inline constexpr NumberRule kTyreFrictionRule{.min = 0.01, .max = 5.0};
 inline constexpr NumberRule kCorneringStiffnessRule_per_rad{.min = 0.1, .max = 100.0};
 inline constexpr NumberRule kGain{.min = 1e-9, .max = 1e9};
+inline constexpr NumberRule kFrictionWidth_radps{.min = feed_forward_rest_speed<double>(),
+                                                 .max = 1e3};
 /// Also below 1/sample_time_s, which is not known when gains are read.
 inline constexpr NumberRule kObserverBandwidth{.min = 1e-6, .max = 1e4};
 inline constexpr NumberRule kObserverLimit{.min = 1e-9, .max = 1e6};

@@ -61,10 +61,10 @@ template <class T>
 constexpr T feed_forward_rest_speed() {
   return T(0.02);
 }
-/// The law for a controller's feed-forward: with a chord at rest if it would jump there.
+/// The law for a controller's feed-forward: with a chord below rest_speed if it would jump at rest.
 template <class T>
-Resistance<T> feed_forward(Resistance<T> law) {
-  if (law.coulomb > T(0.0)) law.rest_speed = feed_forward_rest_speed<T>();
+Resistance<T> feed_forward(Resistance<T> law, const T& rest_speed = feed_forward_rest_speed<T>()) {
+  if (law.coulomb > T(0.0)) law.rest_speed = rest_speed;
   return law;
 }
 

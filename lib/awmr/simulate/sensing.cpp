@@ -11,7 +11,8 @@ namespace {
 /// Streams of RunSeed::random, apart from those of the disturbances.
 enum Use : std::uint64_t { kHeading = 1, kYawRate, kSpeed, kGps };
 
-/// Room for the rounding of times that are multiples of the sample time.
+/// Room for the rounding of times that are multiples of the sample time, in samples and in seconds.
+constexpr double kTimeRounding = 1e-9;
 constexpr double kTimeRounding_s = 1e-9;
 
 bool is_noisy(const Channel& channel) { return channel.noise > 0.0 || channel.noise < 0.0; }
@@ -48,7 +49,8 @@ DrawnNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std
 Sensing::Sensor::Sensor(const Channel& its_channel, double sample_time_s, const Random& its_random,
                         const std::vector<double>* its_normals)
     : channel(its_channel),
-      latency(static_cast<std::size_t>(std::lround(its_channel.late_s / sample_time_s))),
+      latency(static_cast<std::size_t>(its_channel.late_s / sample_time_s + kTimeRounding)),
+      part(its_channel.late_s / sample_time_s - static_cast<double>(latency)),
       correlation(noise_correlation(its_channel.correlation_s, sample_time_s)),
       random(its_random),
       normals(its_normals) {}
@@ -76,18 +78,24 @@ Sensing::Sensing(const std::optional<Sensors>& sensors, double sample_time_s, co
       speed_(sensors ? sensors->speed : Channel{}, sample_time_s, seed.random(kSpeed),
              noise ? &noise->speed : nullptr),
       gps_(seed.random(kGps)),
-      motion_(1 + std::max({heading_.latency, yaw_rate_.latency, speed_.latency})) {}
+      motion_(2 + std::max({heading_.latency, yaw_rate_.latency, speed_.latency})) {}
+
+double Sensing::truth_at(std::size_t k, const Sensor& sensor,
+                         double Measurement<double>::*quantity) const {
+  const auto at = [&](std::size_t sample) { return motion_[sample % motion_.size()].*quantity; };
+  const std::size_t newer = k > sensor.latency ? k - sensor.latency : 0;
+  if (newer == 0 || sensor.part <= kTimeRounding) return at(newer);
+  return at(newer) + sensor.part * (at(newer - 1) - at(newer));
+}
 
 Sensed Sensing::at(std::size_t k, const State<double>& truth) {
   Sensed sensed{{truth.psi_rad, truth.u_mps, truth.v_mps, truth.r_radps}, {truth.x_m, truth.y_m}};
   if (!sensors_) return sensed;
   motion_[k % motion_.size()] = sensed.motion;
-  const auto motion_for = [&](const Sensor& sensor) -> const Measurement<double>& {
-    return motion_[sensor.sample_read_at(k) % motion_.size()];
-  };
-  sensed.motion.psi_rad = heading_.read(k, motion_for(heading_).psi_rad);
-  sensed.motion.r_radps = yaw_rate_.read(k, motion_for(yaw_rate_).r_radps);
-  sensed.motion.u_mps = speed_.read(k, motion_for(speed_).u_mps);
+  using M = Measurement<double>;
+  sensed.motion.psi_rad = heading_.read(k, truth_at(k, heading_, &M::psi_rad));
+  sensed.motion.r_radps = yaw_rate_.read(k, truth_at(k, yaw_rate_, &M::r_radps));
+  sensed.motion.u_mps = speed_.read(k, truth_at(k, speed_, &M::u_mps));
   if (!sensors_->speed_signed) sensed.motion.u_mps = std::abs(sensed.motion.u_mps);
   if (!sensors_->sway_measured) sensed.motion.v_mps = 0.0;
   if (sensors_->gps) sensed.position_m = navigate(k, truth, sensed.motion);

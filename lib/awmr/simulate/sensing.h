@@ -40,16 +40,19 @@ class Sensing {
     /// The next of the noise's standard normals:
     ///   n_0 = w_0,   n_k = rho n_{k-1} + sqrt(1 - rho^2) w_k,   rho = exp(-T_s/tau)
     double next_noise(std::size_t k);
-    /// The sample whose truth is read at the k-th: before the first one, the first.
-    std::size_t sample_read_at(std::size_t k) const { return k > latency ? k - latency : 0; }
 
     Channel channel;
-    std::size_t latency;  ///< samples
+    std::size_t latency;  ///< whole samples
+    double part;          ///< of a sample more, [0, 1)
     double correlation;   ///< rho
     double noise = 0.0;   ///< n_{k-1}
     Random random;
     const std::vector<double>* normals;  ///< null: drawn from `random`
   };
+  /// The true quantity that the sensor reads at the k-th sample, the latency before it: on the line
+  /// between the two samples around that time, and before the first sample as at the first.
+  double truth_at(std::size_t k, const Sensor& sensor, double Measurement<double>::*quantity) const;
+
   std::optional<Sensors> sensors_;
   double sample_time_s_;
   Sensor heading_, yaw_rate_, speed_;

@@ -131,7 +131,7 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
   const double zone = plant.wheel_dead_zone;
   const double backward = vehicle.wheel_force.lo < -zone ? vehicle.wheel_force.lo + zone : 0.0;
   return {.surge = feed_forward(plant.surge),
-          .yaw = feed_forward(plant.yaw),
+          .yaw = feed_forward(plant.yaw, gains.heading.friction_width_radps),
           .mass_norm = plant.mass_norm,
           .inertia_norm = plant.inertia_norm,
           .gains = gains,

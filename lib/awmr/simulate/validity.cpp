@@ -22,20 +22,6 @@
 namespace awmr {
 namespace {
 
-/// A reading is driven as of the nearest sample: reported if that is off by more than one.
-constexpr double kLittleOfASample = 0.1;
-
-void note_latency(const char* name, double late_s, double sample_time_s, const Scenario& scenario,
-                  std::vector<Finding>& findings) {
-  const double samples = late_s / sample_time_s;
-  if (std::abs(samples - std::round(samples)) <= kLittleOfASample) return;
-  findings.push_back(
-      {"", 0, Severity::kWarning, "rounded-latency",
-       fmt::format("{}: the {} is {:g} s and is rounded to {:.0f} samples of {:g} s; give whole "
-                   "samples, or a shorter sample_time_s",
-                   scenario.name, name, late_s, std::round(samples), sample_time_s)});
-}
-
 void note_late_steps(const Scenario& scenario, std::vector<Finding>& findings) {
   const auto* headings = std::get_if<HeadingSteps>(&scenario.guidance);
   if (headings == nullptr || headings->steps.back().t_s < scenario.duration_s) return;
@@ -133,12 +119,6 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
 
 std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model) {
   std::vector<Finding> findings;
-  if (scenario.sensors) {
-    const double sample_time_s = model.vehicle.sample_time_s;
-    note_latency("heading", scenario.sensors->heading.late_s, sample_time_s, scenario, findings);
-    note_latency("yaw rate", scenario.sensors->yaw_rate.late_s, sample_time_s, scenario, findings);
-    note_latency("speed", scenario.sensors->speed.late_s, sample_time_s, scenario, findings);
-  }
   note_late_steps(scenario, findings);
   note_blocked_waypoints(scenario, findings);
   note_speed(scenario, model, findings);

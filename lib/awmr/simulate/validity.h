@@ -22,9 +22,9 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
 /// not vary them.
 std::optional<Finding> missing_intervals(const Model& model);
 
-/// Warnings about parts of a scenario without effect on this vehicle: a latency of a fraction of a
-/// sample (`rounded-latency`), a step behind the end (`late-step`), a waypoint within an obstacle
-/// (`blocked-waypoint`), a speed beyond the motors (`unreachable-speed`).
+/// Warnings about parts of a scenario without effect on this vehicle: a step behind the end
+/// (`late-step`), a waypoint within an obstacle (`blocked-waypoint`), a speed beyond the motors
+/// (`unreachable-speed`).
 std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model);
 
 /// A warning (`unsigned-speed-runs-away`) where the speed law, fed with the size of the speed alone, as

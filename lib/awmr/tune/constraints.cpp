@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -88,7 +89,7 @@ std::vector<ExaminedLoop> at_end_rates(const ConstraintContext& context) {
 
 /// The worst of the three modes in each of the loops.
 double heading_damping(const Gains<double>& gains, const ConstraintContext& context,
-                       std::span<const ExaminedLoop> loops, int late_samples,
+                       std::span<const ExaminedLoop> loops, double latency_s,
                        double motor_time_constant_s) {
   constexpr YawMode kAll[] = {YawMode::kDifferential, YawMode::kCombined, YawMode::kSteering};
   const auto modes = context.mode ? std::span(&*context.mode, 1)
@@ -99,7 +100,7 @@ double heading_damping(const Gains<double>& gains, const ConstraintContext& cont
       SampledHeadingLoop loop =
           heading_loop(gains, context, *examined.plant, examined.rate_radps, mode);
       loop.motor_time_constant_s = motor_time_constant_s;
-      loop.late_samples = late_samples;
+      loop.command_delay_s = latency_s;
       worst = std::min(worst, damping_ratio(loop));
     }
   }
@@ -164,19 +165,19 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
     const std::vector<ExaminedLoop> ends = at_end_rates(context);
     std::vector<ExaminedLoop> loops = at_all_rates(context.plant, context);
     loops.insert(loops.end(), ends.begin(), ends.end());
-    const auto latency = static_cast<int>(std::lround(context.latency_s / context.sample_time_s));
     const double lag_s = context.motor_time_constant_s;
     worst.push_back(at_least(
-        "late damping", heading_damping(gains, context, loops, latency, lag_s),
+        "late damping", heading_damping(gains, context, loops, context.latency_s, lag_s),
         context.limits.late_damping,
         "smallest damping ratio of the loop with latency and motor lag as well >= required"));
+    const double doubled_s = 2.0 * context.latency_s + context.sample_time_s;
     worst.push_back(at_least("delay margin",
-                             heading_damping(gains, context, ends, 2 * latency + 1, lag_s),
+                             heading_damping(gains, context, ends, doubled_s, lag_s),
                              context.limits.delayed_damping,
                              "the same at twice the latency plus one sample >= required"));
   }
   if (const auto& limit = context.limits.steering_rate_rms_degps; limit && context.steers()) {
-    worst.push_back(at_most("steering rate", steering_rate_rms_degps(gains, context), *limit,
+    worst.push_back(at_most(kSteeringRate, steering_rate_rms_degps(gains, context), *limit,
                             "RMS rate of the steering command from the readings' noise, deg/s"));
   }
   return worst;
@@ -242,6 +243,50 @@ double mean_of_correlated(const W& w, double rho) {
   return mean;
 }
 
+double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
+double normal_density(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * pi<double>()); }
+
+/// E[sat(x)], x normal with the mean m and the standard deviation s > 0.
+double mean_saturated(double m, double s) {
+  const double above = (m + 1.0) / s;
+  const double below = (m - 1.0) / s;
+  return (m + 1.0) * normal_cdf(above) - (m - 1.0) * normal_cdf(below) +
+         s * (normal_density(above) - normal_density(below)) - 1.0;
+}
+
+/// Mean square of a change from reading to reading, over 2, of what the heading law feeds forward at rest:
+///   b = 1{|n| < rest} B,   B = g3(rest)/I'z sat(-lambda n_psi/rest)
+/// and of twice its product with -lambda k n_psi. The rate n and the heading n_psi are independent.
+///   E[b^2] - E[b b'] = P(|n| < rest) E[B^2] - P(|n| < rest, |n'| < rest) E[B B']
+double resting_mean_square(const Resistance<double>& g3, const Gains<double>& gains,
+                           const ConstraintContext& context) {
+  const double slope = gains.heading.lambda * context.heading_noise_rad / g3.rest_speed;
+  const double step = g3.at(g3.rest_speed) / context.plant.inertia_norm;
+  const double reach = g3.rest_speed / std::max(context.yaw_rate_noise_radps, 1e-12);
+  const double by_slope =
+      gains.heading.lambda * gains.heading.mu / gains.heading.epsilon * context.heading_noise_rad;
+  const auto rests = [&](double z) { return std::abs(z) < reach ? 1.0 : 0.0; };
+  const auto friction = [&](double z) { return step * std::clamp(slope * z, -1.0, 1.0); };
+  const auto linear = [&](double z) { return by_slope * z; };
+  const double rests_share = 2.0 * normal_cdf(reach) - 1.0;
+  double both_rest = rests_share * rests_share;
+  if (const double rho = context.yaw_rate_correlation; rho > 0.0) {
+    const double s = std::sqrt(1.0 - rho * rho);
+    both_rest = mean_of_product(rests, [&](double z) {
+      return normal_cdf((reach - rho * z) / s) - normal_cdf((-reach - rho * z) / s);
+    });
+  }
+  double friction_pair = 0.0;  // E[B B']
+  const double rho = context.heading_correlation;
+  if (rho > 0.0 && slope > 0.0) {
+    const double s = slope * std::sqrt(1.0 - rho * rho);
+    friction_pair = mean_of_product(
+        friction, [&](double z) { return step * mean_saturated(rho * slope * z, s); });
+  }
+  return rests_share * mean_of_product(friction, friction) - both_rest * friction_pair +
+         2.0 * rests_share * mean_of_product(friction, linear) * (1.0 - rho);
+}
+
 }  // namespace
 
 double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context) {
@@ -250,19 +295,47 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
   if (!context.steers() || !(tau_speed > 0.0)) return 0.0;
   const double k = gains.heading.mu / gains.heading.epsilon;
   const double rate_gain = gains.heading.lambda + k + gains.observer.bandwidth_radps;
-  const Resistance<double> g3 = feed_forward(plant.yaw);
+  const Resistance<double> g3 = feed_forward(plant.yaw, gains.heading.friction_width_radps);
   const auto w = [&](double z) {  // z = n/sigma_r
     const double n = z * context.yaw_rate_noise_radps;
-    return fed_forward(g3, n, 0.0) / plant.inertia_norm - rate_gain * n;
+    const double moment = std::abs(n) < g3.rest_speed ? 0.0 : g3(n);
+    return moment / plant.inertia_norm - rate_gain * n;
   };
   double mean_square = mean_of_product(w, w) - mean_of_correlated(w, context.yaw_rate_correlation);
   const double by_heading = gains.heading.lambda * k * context.heading_noise_rad;
   mean_square += by_heading * by_heading * (1.0 - context.heading_correlation);
+  if (g3.rest_speed > 0.0) mean_square += resting_mean_square(g3, gains, context);
   const double share = context.mode == YawMode::kCombined ? 0.5 : 1.0;
   const double per_moment =
       share * (plant.rear_driven > 0.0 ? 2.0 : 1.0) / (plant.front_axle_m * tau_speed);
   return degrees(per_moment * plant.inertia_norm * std::sqrt(2.0 * mean_square) /
                  context.sample_time_s);
+}
+
+Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
+                                  double wider) {
+  constexpr int kBisections = 20;
+  double& width = gains.heading.friction_width_radps;
+  width = feed_forward_rest_speed<double>();
+  const auto& limit = context.limits.steering_rate_rms_degps;
+  const Plant<double>& plant = context.plant;
+  if (!limit || !context.steers() || !(plant.yaw.coulomb > 0.0)) return gains;
+  const auto is_calm = [&](double radps) {
+    width = radps;
+    return steering_rate_rms_degps(gains, context) <= *limit * (1.0 + wider);
+  };
+  Interval widths{
+      width, plant.yaw.coulomb * gains.heading.epsilon / (plant.inertia_norm * gains.heading.mu)};
+  if (is_calm(widths.lo) || widths.hi <= widths.lo) {
+    width = widths.lo;
+    return gains;
+  }
+  for (int i = 0; i < kBisections && is_calm(widths.hi); ++i) {
+    const double middle = std::sqrt(widths.lo * widths.hi);
+    (is_calm(middle) ? widths.hi : widths.lo) = middle;
+  }
+  width = widths.hi;
+  return gains;
 }
 
 namespace {
@@ -289,7 +362,8 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
       at_most("T2 < T1 (strict)", 2.0 * reaching_s, context.margin * sliding_s,
               "epsilon/mu <= margin/lambda, s: S itself decays before the error slides", strict),
       at_least(
-          "heading damping", heading_damping(gains, context, at_all_rates(plant, context), 0, 0.0),
+          "heading damping",
+          heading_damping(gains, context, at_all_rates(plant, context), 0.0, 0.0),
           context.limits.damping,
           "smallest damping ratio of the sampled heading loop with hold and servo >= required"),
       at_most("speed gain", speed_rate * context.sample_time_s, kSpeedGainPerSample,

@@ -16,6 +16,7 @@ inline constexpr int kMostLateSamples = 20;
 /// Part of the modelled resistance that the corrective terms have to dominate: more than the model
 /// may be wrong by on its own trials (0.15 is validate's default tolerance).
 inline constexpr double kUnmodelledShare = 0.2;
+inline constexpr const char* kSteeringRate = "steering rate";
 /// mu_s/eps_s T_s at most: the sampled integrator is unstable from 2 on, so the gain margin is 4.
 inline constexpr double kSpeedGainPerSample = 0.5;
 
@@ -121,11 +122,21 @@ Interval examined_rates_radps(const ConstraintContext& context);
 
 /// RMS rate of the steering command, deg/s, from independent readings of standard deviations sigma_psi and
 /// sigma_r while a heading is held in steering mode. With n the noise of the yaw rate, the law makes
-///   w = g3(n)/I'z - (lambda + k + L) n - lambda k n_psi,   k = mu/eps,
-/// of it, the command is d = c I'z w/(l_f g1(u_d)), c = 2 (front-wheel drive: 1), and from one sample to the
-/// next it changes by sqrt(2 E[w^2]) of that; in combined mode alone, by half. With gains of 0 it is what g3 makes by itself. 0 without
-/// steering, or where the vehicle has no thrust to steer with.
+///   w = G(n, n_psi)/I'z - (lambda + k + L) n - lambda k n_psi,   k = mu/eps,
+///   G = g3(n);   of a curve that jumps at rest, for |n| < rest: g3(rest) sat(-lambda n_psi/rest)
+/// of it (fed_forward() with the intent S), the command is d = c I'z w/(l_f g1(u_d)), c = 2 (front-wheel drive:
+/// 1), and from one sample to the next it changes by sqrt(2 E[w^2]) of that; in combined mode alone, by half.
+/// With gains of 0 it is what g3 makes by itself. 0 without steering, or where the vehicle has no thrust to steer
+/// with. The vehicle is taken to be at rest on its heading: noise that turns it is not counted.
 double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context);
+
+/// The gains with the narrowest friction width that keeps the limit of the steering rate, or one wider
+/// by the share `wider`:
+///   0.02 <= w0 <= c3 eps/(I'z mu)
+/// At the upper end the friction fed forward grows with S as the corrective term does. Where that
+/// does not keep the limit either, w0 is the upper end; without a limit or Coulomb friction, 0.02.
+Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
+                                  double wider = 0.0);
 
 /// (value - limit)/max(|value|, |limit|) of each required constraint: <= 0 exactly when it holds.
 std::vector<double> residuals(const std::vector<ConstraintReport>& constraints);

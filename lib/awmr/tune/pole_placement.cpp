@@ -60,7 +60,7 @@ class HeadingPoles {
  private:
   Gains<double> gains_at(double ratio, double k) const {
     const double lambda = ratio * k;
-    return {{lambda, mu_, mu_ / k}, speed_};
+    return with_friction_width({{lambda, mu_, mu_ / k}, speed_}, context_);
   }
 
   bool is_met(const Gains<double>& gains) {

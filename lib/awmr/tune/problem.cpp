@@ -88,6 +88,7 @@ Problem::Problem(const TuneOptions& options, const ConstraintContext& context,
   nearest.violation = std::numeric_limits<double>::infinity();
   for (const ConstraintReport& c :
        constraints_of(Gains<double>{{1.0, 1.0, 1.0}, {1.0, 1.0}}, context_)) {
+    if (c.required && c.name == kSteeringRate) steering_rate_ = names_.size();
     if (c.required) names_.push_back(c.name);
   }
   before_runs_ = names_.size();
@@ -105,7 +106,10 @@ Problem::Problem(const TuneOptions& options, const ConstraintContext& context,
 }
 
 Looked Problem::before_runs(const Point& point) const {
-  Looked looked{.point = point, .candidate = {.gains = space_.gains_at(point)}};
+  const double wider = steering_rate_ ? tolerated[*steering_rate_] : 0.0;
+  Looked looked{
+      .point = point,
+      .candidate = {.gains = with_friction_width(space_.gains_at(point), context_, wider)}};
   looked.residuals = awmr::residuals(constraints_of(looked.candidate.gains, context_));
   for (std::size_t i = 0; i < looked.residuals.size(); ++i) looked.residuals[i] -= tolerated[i];
   looked.candidate.violation = *std::ranges::max_element(looked.residuals);

@@ -99,8 +99,9 @@ class Problem {
   const ConstraintContext& context_;
   const Objective& objective_;
   std::vector<std::string> names_;
-  std::size_t before_runs_ = 0;          ///< constraints that are known without a run
-  std::vector<std::size_t> hard_goals_;  ///< their places in Evaluation::goal_quantile
+  std::optional<std::size_t> steering_rate_;  ///< its place among the names
+  std::size_t before_runs_ = 0;               ///< constraints that are known without a run
+  std::vector<std::size_t> hard_goals_;       ///< their places in Evaluation::goal_quantile
 };
 
 }  // namespace awmr

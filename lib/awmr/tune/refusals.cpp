@@ -120,4 +120,18 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
                   is_activity ? "raise activity_max of tune.json" : advice_on(found.broken_most)));
 }
 
+tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,
+                                    const std::vector<ActiveConstraint>& active) {
+  const auto costliest = std::ranges::max_element(active, {}, &ActiveConstraint::wider_gains);
+  const std::string advice =
+      costliest == active.end()
+          ? "give the headings of the scenarios more time"
+          : fmt::format("'{}' is at its limit: {}", costliest->name, advice_on(costliest->name));
+  return refusal(
+      ErrorCode::kNoGains,
+      fmt::format("no run settles with gains within the limits: none of {} does with the "
+                  "best ({}); {}",
+                  runs, in_words(gains), advice));
+}
+
 }  // namespace awmr

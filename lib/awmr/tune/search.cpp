@@ -162,7 +162,7 @@ struct Feasibility {
   Candidate best;
 
   double look_at(const Point& point) {
-    Candidate c{.gains = space.gains_at(point)};
+    Candidate c{.gains = with_friction_width(space.gains_at(point), context)};
     const std::vector<double> r = residuals(constraints_of(c.gains, context));
     c.violation = *std::max_element(r.begin(), r.end());
     if (better(c, best)) best = c;

@@ -115,8 +115,12 @@ void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context) {
       std::min(vehicle.steering_max_rate_degps, 2.0 * degrees(context.plant.steering_max_rad) /
                                                     context.plant.steering_time_constant_s);
   const Gains<double> none{{0.0, 0.0, 1.0}, {0.0, 1.0}};
-  context.limits.steering_rate_rms_degps = std::max(
-      kShareOfServo * servo_degps, kOverFeedForward * steering_rate_rms_degps(none, context));
+  // A wider friction width makes Coulomb friction as calm as it has to be.
+  ConstraintContext without_friction = context;
+  without_friction.plant.yaw.coulomb = 0.0;
+  context.limits.steering_rate_rms_degps =
+      std::max(kShareOfServo * servo_degps,
+               kOverFeedForward * steering_rate_rms_degps(none, without_friction));
 }
 
 /// Gives an observer the limits that the user did not. Errors (input): there is nothing left to take
@@ -197,6 +201,10 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
   AWMR_ASSIGN_OR_RETURN(std::vector<ActiveConstraint> active,
                         active_constraints(options, context, some, *found.best));
   const Evaluation tuned = all(settled.gains);
+  const auto settles = [](const ModeScore& score) { return score.metrics.completed; };
+  if (std::ranges::none_of(tuned.scores, settles)) {
+    return never_settles(settled.gains, tuned.scores.size(), active);
+  }
   AWMR_ASSIGN_OR_RETURN(Certificate certificate,
                         certify(model, context, options.open, settled.gains));
   TradeOff trade_off = trade_off_of(some, context, found.met, settled.gains, baseline.gains);
@@ -234,10 +242,10 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
 /// The work of a constraint grows with the cube of the latency in samples.
 Status check_latency(const ConstraintContext& context, const std::string& model_file) {
   const double samples = context.latency_s / context.sample_time_s;
-  if (samples < kMostLateSamples + 0.5) return {};
+  if (samples < kMostLateSamples + 1e-9) return {};
   return input_error(
       ErrorCode::kTooLarge, model_file + ":/vehicle/latency_s",
-      fmt::format("{:g} s are {:.0f} samples of {:g} s, more than the limit of {}; give a longer "
+      fmt::format("{:g} s are {:.4g} samples of {:g} s, more than the limit of {}; give a longer "
                   "sample_time_s, or tune without latency ({})",
                   context.latency_s, samples, context.sample_time_s, kMostLateSamples,
                   option_text("nominal")));

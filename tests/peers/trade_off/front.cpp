@@ -11,17 +11,25 @@
 namespace awmr::peers {
 namespace {
 
-using Vector = std::array<double, 5>;  ///< ln of lambda, mu/epsilon, mu, mu_s/epsilon_s, mu_s
+/// ln of lambda, mu/epsilon, mu, mu_s/epsilon_s, mu_s, and of the friction width where there is dry friction.
+using Vector = std::array<double, 6>;
+constexpr double kLeastWidth_radps = 0.02;
 
 Vector logarithms(const LawGains& k) {
-  return {std::log(k.lambda), std::log(k.mu / k.epsilon), std::log(k.mu),
-          std::log(k.speed_mu / k.speed_epsilon), std::log(k.speed_mu)};
+  return {std::log(k.lambda),   std::log(k.mu / k.epsilon),
+          std::log(k.mu),       std::log(k.speed_mu / k.speed_epsilon),
+          std::log(k.speed_mu), std::log(k.friction_width_radps)};
 }
 
 LawGains gains_at(const Vector& x) {
   const double mu = std::exp(x[2]);
   const double speed_mu = std::exp(x[4]);
-  return {std::exp(x[0]), mu, mu / std::exp(x[1]), speed_mu, speed_mu / std::exp(x[3])};
+  return {std::exp(x[0]),
+          mu,
+          mu / std::exp(x[1]),
+          speed_mu,
+          speed_mu / std::exp(x[3]),
+          std::max(std::exp(x[5]), kLeastWidth_radps)};
 }
 
 struct Member {
@@ -76,6 +84,7 @@ LawGains least_settling(const Case& one, const std::vector<Trial>& trials, const
                         const FrontOptions& options) {
   std::mt19937_64 random(options.seed);
   const Vector centre = logarithms(near);
+  const std::size_t dimensions = one.model.yaw.coulomb > 0.0 ? 6 : 5;
   const auto look = [&](const Vector& x) -> Member {
     const Controls c{one.model, gains_at(x), fed_forward};
     const Means m = means_of(one, trials, c);
@@ -108,7 +117,7 @@ LawGains least_settling(const Case& one, const std::vector<Trial>& trials, const
                       points.size() < static_cast<std::size_t>(options.scattered);
        ++tries) {
     Vector x = centre;
-    for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t i = 0; i < dimensions; ++i) {
       const double width = std::log(i < 3 ? 30.0 : 5.0);
       x[i] += std::uniform_real_distribution<double>(-width, width)(random);
     }
@@ -124,7 +133,7 @@ LawGains least_settling(const Case& one, const std::vector<Trial>& trials, const
                         points.size() < static_cast<std::size_t>(options.offspring);
          ++tries) {
       Vector x = best[static_cast<std::size_t>(tries) % best.size()].x;
-      for (double& value : x) value += width * normal(random);
+      for (std::size_t i = 0; i < dimensions; ++i) x[i] += width * normal(random);
       if (is_admissible(x)) points.push_back(x);
     }
     look_at_all(points, best);

@@ -19,11 +19,11 @@ struct Loop {
   double gain = 1.0;        ///< I'z of the model over the body's
   double by_forces = 0.0;   ///< share of the moment
   double motor_s = 0.0;
-  int late = 0;
+  double late_s = 0.0;
 };
 
-/// The body over a sample by the classical Runge-Kutta method, the command held.
-Vector4 held(const Loop& loop, const Geometry& g, Vector4 x, double command) {
+/// The body over a time by the classical Runge-Kutta method, the command held.
+Vector4 held(const Loop& loop, const Geometry& g, Vector4 x, double command, double time_s) {
   const double servo_s = g.servo_s > 0.0 ? g.servo_s : g.sample_s;
   const auto rates = [&](const Vector4& y) {
     const double forces = loop.motor_s > 0.0 ? y[3] : command;
@@ -35,8 +35,8 @@ Vector4 held(const Loop& loop, const Geometry& g, Vector4 x, double command) {
   };
   double fastest = std::max(loop.own_rate, 1.0 / servo_s);
   if (loop.motor_s > 0.0) fastest = std::max(fastest, 1.0 / loop.motor_s);
-  const int steps = std::max(4, static_cast<int>(std::ceil(5.0 * fastest * g.sample_s)));
-  const double h = g.sample_s / steps;
+  const int steps = std::max(4, static_cast<int>(std::ceil(5.0 * fastest * time_s)));
+  const double h = time_s / steps;
   for (int i = 0; i < steps; ++i) {
     const Vector4 a = rates(x);
     const Vector4 b = rates(x + 0.5 * h * a);
@@ -51,7 +51,12 @@ Vector4 held(const Loop& loop, const Geometry& g, Vector4 x, double command) {
 /// each unit state. A mode of which less than a tenth is left after a sample does not count.
 double damping(const Loop& loop, const Geometry& g, const LawGains& k) {
   const double k_s = k.mu / k.epsilon;
-  const Eigen::Index n = 4 + loop.late;
+  // Commands under way, the oldest first: it acts in the first part of the sample, the next one after that.
+  const double late = loop.late_s / g.sample_s;
+  const auto whole = static_cast<Eigen::Index>(late + 1e-9);
+  const double part = std::max(0.0, late - static_cast<double>(whole));
+  const bool is_split = part > 1e-9;
+  const Eigen::Index n = 4 + whole + (is_split ? 1 : 0);
   Eigen::RowVectorXd law = Eigen::RowVectorXd::Zero(n);
   law[0] = -k.lambda * k_s;
   law[1] = loop.known_rate - k.lambda - k_s;
@@ -59,10 +64,12 @@ double damping(const Loop& loop, const Geometry& g, const LawGains& k) {
   for (Eigen::Index i = 0; i < n; ++i) {
     Eigen::VectorXd x = Eigen::VectorXd::Unit(n, i);
     const double ordered = law * x;
-    const double acts = loop.late > 0 ? x[4] : ordered;
-    map.col(i).head<4>() = held(loop, g, x.head<4>(), acts);
+    const double acts = whole > 0 ? x[is_split ? 5 : 4] : ordered;
+    Vector4 body = x.head<4>();
+    if (is_split) body = held(loop, g, body, x[4], part * g.sample_s);
+    map.col(i).head<4>() = held(loop, g, body, acts, (is_split ? 1.0 - part : 1.0) * g.sample_s);
     for (Eigen::Index j = 4; j + 1 < n; ++j) map(j, i) = x[j + 1];
-    if (loop.late > 0) map(n - 1, i) = ordered;
+    if (n > 4) map(n - 1, i) = ordered;
   }
   const Eigen::VectorXcd poles = Eigen::EigenSolver<Eigen::MatrixXd>(map, false).eigenvalues();
   double least = 1.0;
@@ -74,8 +81,8 @@ double damping(const Loop& loop, const Geometry& g, const LawGains& k) {
   return least;
 }
 
-double least_damping(const Controls& c, const Geometry& g, const Body& body, double rate, int late,
-                     double motor_s) {
+double least_damping(const Controls& c, const Geometry& g, const Body& body, double rate,
+                     double late_s, double motor_s) {
   Loop loop{.own_rate = body.yaw.slope(rate) / body.inertia,
             .known_rate = c.fed_forward == FedForward::kMeasured
                               ? c.known.yaw.slope(rate) / c.known.inertia
@@ -83,7 +90,7 @@ double least_damping(const Controls& c, const Geometry& g, const Body& body, dou
             .gain = c.known.inertia / body.inertia,
             .by_forces = 1.0,
             .motor_s = motor_s,
-            .late = late};
+            .late_s = late_s};
   double least = damping(loop, g, c.gains);
   if (!(g.servo_s > 0.0)) return least;
   for (const double share : {0.5, 0.0}) {
@@ -93,30 +100,50 @@ double least_damping(const Controls& c, const Geometry& g, const Body& body, dou
   return least;
 }
 
-/// RMS rate of the steering command by noise while a heading is held, deg/s.
-double steering_rate_degps(const Controls& c, const Geometry& g, const SensorErrors& errors,
-                           double speed_mps) {
-  const double k = c.gains.mu / c.gains.epsilon;
+/// E[f(z) g(z)], z standard normal.
+template <class F, class G>
+double mean(const F& f, const G& g) {
   constexpr int kPoints = 2000;
-  double squares = 0.0;
+  double sum = 0.0;
   double weights = 0.0;
   for (int i = 0; i < kPoints; ++i) {
     const double z = -5.0 + 10.0 * (i + 0.5) / kPoints;
     const double weight = std::exp(-0.5 * z * z);
-    const double n = z * errors.yaw_rate_radps;
-    double fed = 0.0;
-    if (c.fed_forward == FedForward::kMeasured) {
-      const bool rests = c.known.yaw.coulomb > 0.0 && std::abs(n) < 0.02;
-      fed = rests ? c.known.yaw.of_magnitude(0.02) * n / 0.02
-                  : std::copysign(c.known.yaw.of_magnitude(std::abs(n)), n);
-    }
-    const double w = fed / c.known.inertia - (c.gains.lambda + k) * n;
-    squares += weight * w * w;
+    sum += weight * f(z) * g(z);
     weights += weight;
   }
-  const double by_heading = c.gains.lambda * k * errors.heading_rad;
-  const double rms = std::sqrt(2.0 * (squares / weights + by_heading * by_heading));
-  return 2.0 * c.known.inertia * rms /
+  return sum / weights;
+}
+
+/// RMS rate of the steering command by noise while a heading is held, deg/s. The yaw acceleration is
+///   a(n) + 1{|n| < w0} b(m) + c(m),   n, m: noise of the yaw rate and of the heading
+/// with dry friction b of a vehicle at rest; a, b and c are odd.
+double steering_rate_degps(const Controls& c, const Geometry& g, const SensorErrors& errors,
+                           double speed_mps) {
+  const LawGains& gains = c.gains;
+  const double k = gains.mu / gains.epsilon;
+  const Friction& yaw = c.known.yaw;
+  const bool is_fed = c.fed_forward == FedForward::kMeasured;
+  const double rest = is_fed && yaw.coulomb > 0.0 ? gains.friction_width_radps : 0.0;
+  const auto rests = [&](double z) {
+    return std::abs(z) * errors.yaw_rate_radps < rest ? 1.0 : 0.0;
+  };
+  const auto by_rate = [&](double z) {
+    const double n = z * errors.yaw_rate_radps;
+    const double fed =
+        is_fed && !(rests(z) > 0.0) ? std::copysign(yaw.of_magnitude(std::abs(n)), n) : 0.0;
+    return fed / c.known.inertia - (gains.lambda + k) * n;
+  };
+  const auto friction = [&](double z) {
+    if (!(rest > 0.0)) return 0.0;
+    const double intent = gains.lambda * errors.heading_rad * z;
+    return yaw.of_magnitude(rest) / c.known.inertia * std::clamp(intent / rest, -1.0, 1.0);
+  };
+  const auto by_heading = [&](double z) { return gains.lambda * k * errors.heading_rad * z; };
+  const double share = rest > 0.0 ? mean(rests, rests) : 0.0;
+  const double squares = mean(by_rate, by_rate) + mean(by_heading, by_heading) +
+                         share * (mean(friction, friction) + 2.0 * mean(friction, by_heading));
+  return 2.0 * c.known.inertia * std::sqrt(2.0 * squares) /
          (g.front_axle_m * c.known.surge.of_magnitude(speed_mps) * g.sample_s) * 180.0 /
          std::numbers::pi;
 }
@@ -140,7 +167,6 @@ double excess(const Controls& c, const Geometry& g, const SensorErrors& errors,
   const LawGains& k = c.gains;
   const double speed_rate = k.speed_mu / k.speed_epsilon;
   const double late_s = std::max(errors.heading_late_s, errors.yaw_rate_late_s);
-  const int late = static_cast<int>(std::lround(late_s / g.sample_s));
   const double slowest = std::numbers::pi / 180.0;
   double worst = above(k.epsilon / k.mu * k.lambda, limits.margin);
   if (g.servo_s > 0.0) {
@@ -163,10 +189,11 @@ double excess(const Controls& c, const Geometry& g, const SensorErrors& errors,
     if (worst > 0.0) return worst;
     for (const double share : {1.0 / 60.0, 1.0 / 12.0, 1.0 / 3.0, 1.0}) {
       const double r = std::max(share * examined.fastest_radps, slowest);
-      take(below(least_damping(c, g, *body, r, 0, 0.0), limits.damping));
+      take(below(least_damping(c, g, *body, r, 0.0, 0.0), limits.damping));
       if (share > 0.5 || share < 0.05) {
-        take(below(least_damping(c, g, *body, r, late, g.motor_s), limits.late_damping));
-        take(below(least_damping(c, g, *body, r, 2 * late + 1, g.motor_s), limits.delayed_damping));
+        take(below(least_damping(c, g, *body, r, late_s, g.motor_s), limits.late_damping));
+        take(below(least_damping(c, g, *body, r, 2.0 * late_s + g.sample_s, g.motor_s),
+                   limits.delayed_damping));
       }
       if (worst > 0.0) return worst;
     }

@@ -37,11 +37,10 @@ double after_step(const Friction& friction, double inertia, double w, double pus
   return next / (1.0 + h);
 }
 
-/// g(w) that a law adds; dry friction as a chord below 0.02, in the direction of `intent`.
-double fed_forward(const Friction& friction, double w, double intent) {
-  constexpr double kRest = 0.02;
-  if (friction.coulomb > 0.0 && std::abs(w) < kRest) {
-    return friction.of_magnitude(kRest) * std::clamp((w + intent) / kRest, -1.0, 1.0);
+/// g(w) that a law adds; dry friction as a chord below `rest`, in the direction of `intent`.
+double fed_forward(const Friction& friction, double w, double intent, double rest = 0.02) {
+  if (friction.coulomb > 0.0 && std::abs(w) < rest) {
+    return friction.of_magnitude(rest) * std::clamp((w + intent) / rest, -1.0, 1.0);
   }
   if (!(std::abs(w) > 0.0)) return 0.0;
   return std::copysign(friction.of_magnitude(std::abs(w)), w);
@@ -123,7 +122,7 @@ Commands commands_of(const Controls& c, const Geometry& g, Mode mode, const Read
   const double rate_error = ref.rate - m.r;
   const double s = rate_error + k.lambda * wrapped(ref.psi - m.psi);
   const double w = c.fed_forward == FedForward::kMeasured ? m.r : ref.rate;
-  const double moment = fed_forward(c.known.yaw, w, s) +
+  const double moment = fed_forward(c.known.yaw, w, s, k.friction_width_radps) +
                         c.known.inertia * (ref.acceleration + k.lambda * rate_error +
                                            k.mu * std::clamp(s / k.epsilon, -1.0, 1.0));
   const double e = speed_mps - m.u;
@@ -229,14 +228,17 @@ RunFigures drive(const Body& body, const Geometry& vehicle, const SensorErrors& 
                  double step_s) {
   const double ts = vehicle.sample_s;
   const int steps = std::max(1, static_cast<int>(std::ceil(ts / step_s - 1e-9)));
-  const auto late = [ts](double s) { return static_cast<std::size_t>(std::lround(s / ts)); };
-  const std::size_t late_psi = late(errors.heading_late_s);
-  const std::size_t late_r = late(errors.yaw_rate_late_s);
-  const std::size_t late_u = late(errors.speed_late_s);
   const std::size_t readings = readings_of(course, vehicle);
   std::vector<State> past;
   past.reserve(readings);
-  const auto at = [&past](std::size_t k, std::size_t by) { return past[k > by ? k - by : 0]; };
+  // The readings of `late` seconds before the k-th sample.
+  const auto read = [&](std::size_t k, double late, double State::*quantity) {
+    const double time = std::max(0.0, static_cast<double>(k) - late / ts) + 1e-9;
+    const auto before = static_cast<std::size_t>(time);
+    const double share = time - static_cast<double>(before);
+    const double old = past[before].*quantity;
+    return before < k ? old + share * (past[before + 1].*quantity - old) : old;
+  };
   State state;
   Reference ref;
   Meter meter(vehicle, course);
@@ -244,9 +246,10 @@ RunFigures drive(const Body& body, const Geometry& vehicle, const SensorErrors& 
   for (std::size_t k = 0; k < readings; ++k) {
     const double t = static_cast<double>(k) * ts;
     past.push_back(state);
-    const Readings m{at(k, late_psi).psi + errors.heading_rad * noise[0][k],
-                     at(k, late_r).r + errors.yaw_rate_radps * noise[1][k],
-                     at(k, late_u).u + errors.speed_mps * noise[2][k], state.v};
+    const Readings m{
+        read(k, errors.heading_late_s, &State::psi) + errors.heading_rad * noise[0][k],
+        read(k, errors.yaw_rate_late_s, &State::r) + errors.yaw_rate_radps * noise[1][k],
+        read(k, errors.speed_late_s, &State::u) + errors.speed_mps * noise[2][k], state.v};
     const std::size_t now = std::min(static_cast<std::size_t>(std::floor(t / course.hold_s + 1e-9)),
                                      course.headings_rad.size() - 1);
     const double goal = course.headings_rad[now];

@@ -40,6 +40,8 @@ struct SensorErrors {
 struct LawGains {
   double lambda = 0.0, mu = 0.0, epsilon = 0.0;
   double speed_mu = 0.0, speed_epsilon = 0.0;
+  double friction_width_radps =
+      0.02;  ///< dry friction in yaw is fed forward in proportion below it
 };
 
 /// The yaw rate whose g3 the heading law adds: the measured one (the paper's) or that of the reference.

@@ -121,7 +121,12 @@ TEST(Refusals, NameTheLimitThatNoGainsKeep) {
   // that were found keep theirs.
   const LawGains found = law_gains(wider->gains);
   const auto kept = [&](double lambda, double k) {
-    const LawGains gains{lambda, found.mu, found.mu / k, found.speed_mu, found.speed_epsilon};
+    const LawGains gains{lambda,
+                         found.mu,
+                         found.mu / k,
+                         found.speed_mu,
+                         found.speed_epsilon,
+                         found.friction_width_radps};
     return excess({one.model, gains}, one.vehicle, one.errors, {}, one.limits, one.examined) <= 0.0;
   };
   for (double lambda = 1e-4; lambda < 100.0; lambda *= 1.1) {

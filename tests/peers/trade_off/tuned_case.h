@@ -114,7 +114,8 @@ inline Case case_of(const Model& model, const std::vector<Scenario>& scenarios,
 }
 
 inline LawGains law_gains(const Gains<double>& g) {
-  return {g.heading.lambda, g.heading.mu, g.heading.epsilon, g.speed.mu, g.speed.epsilon};
+  return {g.heading.lambda, g.heading.mu,    g.heading.epsilon,
+          g.speed.mu,       g.speed.epsilon, g.heading.friction_width_radps};
 }
 
 }  // namespace awmr::peers

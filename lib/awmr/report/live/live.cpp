@@ -117,11 +117,13 @@ AWMR_EXPORT(live_run)
 bool live_run(double lambda, double mu, double epsilon, double speed_mu, double speed_epsilon,
               double observer_radps, int mode, double sample_time_s, double mass, double friction,
               double heading_noise_deg) {
-  const Gains<double> gains{{lambda, mu, epsilon},
-                            {speed_mu, speed_epsilon},
-                            {observer_radps, setup.observer_yaw_max_m, setup.observer_surge_max}};
   ConstraintContext context = setup.context;
   context.sample_time_s = sample_time_s;
+  const Gains<double> gains =
+      with_friction_width({{lambda, mu, epsilon},
+                           {speed_mu, speed_epsilon},
+                           {observer_radps, setup.observer_yaw_max_m, setup.observer_surge_max}},
+                          context);
   const Vehicle vehicle = vehicle_of_setup(sample_time_s);
   const Controller<double> controller = make_controller(context.plant, vehicle, gains);
   Plant<double> plant = context.plant;
