@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "awmr/core/units.h"
 #include "awmr/trials/replay.h"
@@ -13,8 +14,10 @@
 namespace awmr::testing::log_test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
@@ -142,6 +145,43 @@ TEST(Log, RefusesWhatItCannotUse) {
               ElementsAre(HasSubstr("at least 10")));
   EXPECT_THAT(faults_of(read_log, log_text("latitude_deg", [](int) { return std::string("1"); })),
               ElementsAre(HasSubstr("go together")));
+}
+
+/// 1 m/s at 90 deg, with rest before and in between; `course` is the heading at rest.
+std::string with_rests(const std::function<double(int)>& course, double after_deg = 90.0) {
+  const auto cell = [&](int i) {
+    const bool rests = i < 10 || (i >= 30 && i < 40);
+    const double heading = rests ? course(i) : i < 30 ? 90.0 : after_deg;
+    return std::to_string(rests ? 0.0 : 1.0 + 0.01 * (i % 3)) + "," +
+           std::to_string(heading + 0.1 * (i % 2));
+  };
+  return log_text("speed_mps,heading_deg", cell, 60);
+}
+
+std::vector<std::string> codes(const Read<DrivingLog>& read) {
+  std::vector<std::string> all;
+  for (const Finding& finding : read.findings) all.push_back(finding.code);
+  return all;
+}
+
+TEST(Log, ACourseAtRestIsSetAside) {
+  for (const auto& course : {std::function<double(int)>([](int) { return 0.0; }),
+                             std::function<double(int)>([](int i) { return 77.0 * i; })}) {
+    const auto read = accepted_log(with_rests(course));
+    EXPECT_THAT(codes(read), Contains("course-at-rest"));
+    const Measured& heading = *read.set[LogChannel::kHeading];
+    EXPECT_FALSE(heading.fresh[5] || heading.fresh[35]);
+    EXPECT_TRUE(heading.fresh[20]);
+    EXPECT_NEAR(heading.value[55], radians(90.1), 1e-9);  // without whole turns from the noise
+  }
+}
+
+TEST(Log, ACompassAtRestIsKept) {
+  const auto compass = [](int) { return 90.0; };
+  EXPECT_THAT(codes(accepted_log(with_rests(compass))), Not(Contains("course-at-rest")));
+  // turned by hand during the second rest
+  const auto turned = [](int i) { return i < 10 ? 90.0 : 90.0 + 9.0 * (i - 30); };
+  EXPECT_THAT(codes(accepted_log(with_rests(turned, 180.0))), Not(Contains("course-at-rest")));
 }
 
 TEST(Log, TimesThatAreNotUsedAreLeftOut) {

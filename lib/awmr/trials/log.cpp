@@ -5,6 +5,7 @@
 #include <GeographicLib/LocalCartesian.hpp>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "awmr/core/csv_text.h"
 #include "awmr/core/units.h"
@@ -13,6 +14,7 @@
 #include "awmr/trials/robust_ratio.h"
 #include "awmr/trials/trial_columns.h"
 #include "constant_channels.h"
+#include "course_at_rest.h"
 #include "log_channels.h"
 #include "read_table.h"
 #include "trial_reader.h"
@@ -289,18 +291,61 @@ std::vector<LogChannel> find_unmeasured(const TrialReader& reader, std::vector<F
   return unmeasured;
 }
 
+/// The last speed that was read, by row; the first one before it. Empty: there is none.
+std::vector<double> last_speeds(const TrialReader& reader, RowSpan rows) {
+  if (!reader.has("speed_mps")) return {};
+  const std::vector<std::size_t> present = rows_present(reader, rows, "speed_mps");
+  if (present.empty()) return {};
+  const std::span<const double> cells = reader.table().column("speed_mps").subspan(rows.begin);
+  std::vector<double> speeds(rows.end - rows.begin, cells[present.front()]);
+  for (std::size_t i = 0; i < present.size(); ++i) {
+    const std::size_t end = i + 1 < present.size() ? present[i + 1] : speeds.size();
+    std::fill(speeds.begin() + static_cast<std::ptrdiff_t>(present[i]),
+              speeds.begin() + static_cast<std::ptrdiff_t>(end), cells[present[i]]);
+  }
+  return speeds;
+}
+
+/// Takes heading readings at rest out of `present` where they are none, and makes them those of the
+/// next row. Adds a finding.
+void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> speed_mps,
+                              std::vector<double>& heading_rad, std::vector<std::size_t>& present,
+                              std::vector<Finding>& findings) {
+  const CourseAtRest found = course_at_rest(speed_mps, heading_rad, present);
+  if (found.rows.empty() || found.rows.size() == present.size()) return;
+  std::vector<std::size_t> kept;
+  std::ranges::set_difference(present, found.rows, std::back_inserter(kept));
+  present = std::move(kept);
+  for (std::size_t row = 0; row < heading_rad.size(); ++row) {
+    const auto next = std::ranges::lower_bound(present, row);
+    heading_rad[row] = heading_rad[next != present.end() ? *next : present.back()];
+  }
+  findings.push_back(
+      {log.file, log.line[found.rows.front()], Severity::kWarning, "course-at-rest",
+       fmt::format(
+           "heading_deg: {} readings at rest (below {:.2g} m/s) are up to {:.0f} deg off the "
+           "heading in motion, as of a GPS, which measures the course: set aside",
+           found.rows.size(), found.rest_mps, degrees(found.off_rad))});
+}
+
 DrivingLog log_of(TrialReader& reader, RowSpan rows, std::span<const LogChannel> unmeasured,
                   std::vector<Finding>& findings) {
   DrivingLog log = commands_of(reader, rows);
   if (reader.has("latitude_deg")) add_geographic(reader, rows, log, findings);
   if (!reader.faults().empty()) return log;
+  const std::vector<double> speed_mps = last_speeds(reader, rows);
   for (const LogChannel channel : kChannels) {
     const ChannelInfo& about = info(channel);
     if (!reader.has(about.column) || std::ranges::count(unmeasured, channel) > 0) continue;
     std::vector<double> values = values_of(reader, rows, about.column, about.to_si);
-    if (channel == LogChannel::kHeading) unwrap(values);
-    log[channel] = measured_of(channel, log, rows_present(reader, rows, about.column),
-                               std::move(values), findings);
+    std::vector<std::size_t> present = rows_present(reader, rows, about.column);
+    if (channel == LogChannel::kHeading) {
+      if (!speed_mps.empty()) {
+        set_aside_course_at_rest(log, speed_mps, values, present, findings);
+      }
+      unwrap(values);
+    }
+    log[channel] = measured_of(channel, log, present, std::move(values), findings);
   }
   join_position(log);
   note_held(log, findings);
