@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <random>
 
 #include "awmr/core/index.h"
@@ -232,6 +233,21 @@ TEST(Families, SearchesAgainFromABetterAlternative) {
   EXPECT_LT(aic_lead(alternative.fit, again.fit), 10.0);
   const FamilyFit kept = searched_again(logs, options, again, unlucky);
   EXPECT_EQ(kept.fit.coordinates, again.fit.coordinates) << "a rival without a fit is no rival";
+}
+
+TEST(Families, ReportALimitThatEndsTheLastSearch) {
+  const std::vector<DrivingLog> logs = with_coulomb_friction(0.2);
+  const auto compared = [&](std::int64_t limit) {
+    LogFitOptions options = from_nothing(logs);
+    options.effort = std::make_shared<Effort>(limit);
+    FamilyFit first = fit_family(logs, options, Family::kPower, Family::kPower);
+    const FamilyContest contest{.surge = true, .yaw = false, .only_suspects = false};
+    const BestFamily found = best_family(logs, options, std::move(first), contest);
+    return std::pair(found.is_out_of_time, options.effort->spent());
+  };
+  const auto [is_over, spent] = compared(std::numeric_limits<std::int64_t>::max());
+  EXPECT_FALSE(is_over);
+  EXPECT_TRUE(compared(spent - 1).first);
 }
 
 TEST(Families, ComparesFamiliesAtTheirOwnOptima) {

@@ -40,7 +40,7 @@ struct ChannelNoise {
   /// Errors many times the sensor's own, which a bound on the model's share cannot come from: the
   /// model is not that of the vehicle.
   bool overwhelms_sensor() const {
-    constexpr double kMany = 5.0;
+    constexpr double kMany = 2.5;
     return of_the_model() && drift_std > kMany * sensor_std;
   }
   /// A drift that a missing term of the model may be behind.

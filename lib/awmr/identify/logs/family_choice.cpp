@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "awmr/core/index.h"
@@ -198,6 +199,15 @@ Finding not_compared(const std::string& file, const FamilyFit& first) {
               families_in_words(first.surge, first.yaw), option_text("family surge=..."))};
 }
 
+Finding terms_not_searched(const std::string& file, const FamilyFit& best) {
+  return {
+      file, 0, Severity::kWarning, "families-not-compared",
+      fmt::format("the search reached its limit before delays, lags and errors of the commands "
+                  "were searched with {}; the intervals are withdrawn. Name the family ({}), or "
+                  "give a part of the logs",
+                  families_in_words(best.surge, best.yaw), option_text("family surge=..."))};
+}
+
 struct Contender {
   Family surge;
   Family yaw;
@@ -222,21 +232,23 @@ LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_l
   std::vector<FamilyFit> alternatives;
   std::size_t best = 0;
   for (const Contender& other : others) {
-    if (is_over(power_law)) {
-      result.is_out_of_time = true;
-      break;
-    }
+    if (is_over(power_law)) break;
     const FamilyFit& from = alternatives.empty() ? first : alternatives[best];
     alternatives.push_back(fit_from(logs, power_law, from, other.surge, other.yaw));
     if (aic_lead(alternatives.back().fit, alternatives[best].fit) > 0.0)
       best = alternatives.size() - 1;
   }
-  if (result.is_out_of_time) result.findings.push_back(not_compared(logs.front().file, first));
+  if (!alternatives.empty()) {
+    first = searched_again(logs, power_law, std::move(first), alternatives[best]);
+  }
+  if (is_over(power_law)) {
+    result.is_out_of_time = true;
+    result.findings.push_back(not_compared(logs.front().file, first));
+  }
   if (alternatives.empty()) {
     result.best = std::move(first);
     return result.best.fit;
   }
-  first = searched_again(logs, power_law, std::move(first), alternatives[best]);
   const LogFit of_first = first.fit;
   if (aic_lead(alternatives[best].fit, first.fit) > lead) {
     std::swap(first, alternatives[best]);
@@ -248,17 +260,37 @@ LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_l
   return of_first;
 }
 
-/// The best families with delays of their own, where those that they took over from other families do
-/// worse: a wrong resistance hides behind delays, and hides delays.
-FamilyFit with_delays_of_its_own(const std::vector<DrivingLog>& logs,
-                                 const LogFitOptions& power_law, FamilyFit best) {
-  if (!best.fit.usable || is_over(power_law)) return best;
+/// Gives the best families delays, lags and errors of the commands of their own, where those that they
+/// took over from other families do worse: a wrong resistance hides behind them, and hides them.
+void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                        BestFamily& result) {
+  FamilyFit& best = result.best;
+  if (!best.fit.usable || result.is_out_of_time) return;
   LogFitOptions options = from_optimum(best.options, best);
   options.finds_delays = true;
   options.terms = power_law.terms;
   options.candidate_terms = power_law.candidate_terms;
   FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
-  return aic_lead(own.fit, best.fit) > 0.0 ? std::move(own) : std::move(best);
+  if (is_over(power_law)) {
+    result.is_out_of_time = true;
+    result.findings.push_back(terms_not_searched(logs.front().file, best));
+  }
+  if (aic_lead(own.fit, best.fit) > 0.0) best = std::move(own);
+}
+
+/// Families of an axis that lost to `winner` by less than the fit has improved since, by families of the
+/// other axis and by terms: errors of that size may have decided. They leave `others`.
+std::vector<Contender> close_losers(const LogFit& winner, bool of_yaw, const FamilyFit& best,
+                                    std::vector<FamilyFit>& others) {
+  const double improved = aic_lead(best.fit, winner);
+  std::vector<Contender> close;
+  std::erase_if(others, [&](const FamilyFit& other) {
+    const bool is_of_axis = of_yaw ? other.yaw != best.yaw : other.surge != best.surge;
+    if (!is_of_axis || !other.fit.usable || !(aic_lead(winner, other.fit) < improved)) return false;
+    close.push_back(of_yaw ? Contender{best.surge, other.yaw} : Contender{other.surge, best.yaw});
+    return true;
+  });
+  return close;
 }
 
 /// Whether other families of yaw, or of surge, are fitted against the first one.
@@ -345,14 +377,26 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
   const auto [first_surge, first_yaw] = std::pair(first.surge, first.yaw);
   BestFamily result;
   result.best = std::move(first);
+  std::optional<std::pair<bool, LogFit>> first_winner;  // of which axis, without terms of its own
+  const auto contest_axis = [&](bool of_yaw, const std::vector<Contender>& others) {
+    const auto before = std::pair(result.best.surge, result.best.yaw);
+    LogFit of_first = compete(logs, power_law, others, contest.lead, result);
+    if (!first_winner) first_winner = {of_yaw, result.best.fit};
+    const bool is_other = std::pair(result.best.surge, result.best.yaw) != before;
+    if (is_other) search_terms_again(logs, power_law, result);
+    if (before == std::pair(first_surge, first_yaw)) power_fit = std::move(of_first);
+  };
   for (const bool of_yaw : {yaw_first, !yaw_first}) {
-    if (!(of_yaw ? yaw : surge)) continue;
-    const bool is_first = result.best.surge == first_surge && result.best.yaw == first_yaw;
-    LogFit fit = compete(logs, power_law, contenders(result.best, of_yaw), contest.lead, result);
-    if (is_first) power_fit = std::move(fit);
+    const bool is_open = of_yaw ? yaw : surge;
+    if (!is_open || result.is_out_of_time) continue;
+    contest_axis(of_yaw, contenders(result.best, of_yaw));
+  }
+  if (first_winner && !result.is_out_of_time) {
+    const auto& [of_yaw, winner] = *first_winner;
+    const auto others = close_losers(winner, of_yaw, result.best, result.others);
+    if (!others.empty()) contest_axis(of_yaw, others);
   }
   const bool other = result.best.surge != Family::kPower || result.best.yaw != Family::kPower;
-  if (other) result.best = with_delays_of_its_own(logs, power_law, std::move(result.best));
   if (other && aic_lead(result.best.fit, power_fit) > kFamilyAicThreshold) {
     result.findings.push_back(taken(logs.front().file, result.best, power_fit));
   }

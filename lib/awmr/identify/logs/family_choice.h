@@ -50,7 +50,7 @@ struct BestFamily {
   std::vector<FamilyFit> others;
   std::vector<Finding>
       findings;  ///< `power-law-inadequate`, `family-undecided`, `families-not-compared`
-  bool is_out_of_time = false;  ///< the limit was reached before every family was compared
+  bool is_out_of_time = false;  ///< the limit was reached before every comparison was made
 };
 
 /// Their reports, with the AIC of each under the noise of `reference`.

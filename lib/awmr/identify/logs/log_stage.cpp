@@ -299,9 +299,12 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
   }
   if (!shows_back_emf(same, ideal.best)) {
     if (!same.fit.usable) {
+      ideal.is_out_of_time = is_over(power_law);
       ideal.findings.push_back(
           {logs.front().file, 0, Severity::kWarning, "families-not-compared",
-           "the back-EMF model was not compared on these logs: " + same.fit.report.stop_reason});
+           fmt::format("the back-EMF model was not compared on these logs: {}{}",
+                       same.fit.report.stop_reason,
+                       ideal.is_out_of_time ? "; the intervals are withdrawn" : "")});
     }
     ideal.others.push_back(same);
     return ideal;
