@@ -121,7 +121,7 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
 }
 
 tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,
-                                    const std::vector<ActiveConstraint>& active) {
+                                    const std::vector<ActiveConstraint>& active, bool is_held) {
   const auto costliest = std::ranges::max_element(active, {}, &ActiveConstraint::wider_gains);
   const std::string advice =
       costliest == active.end()
@@ -130,8 +130,12 @@ tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs
   return refusal(
       ErrorCode::kNoGains,
       fmt::format("no run settles with gains within the limits: none of {} does with the "
-                  "best ({}); {}",
-                  runs, in_words(gains), advice));
+                  "best ({}); {}{}",
+                  runs, in_words(gains), advice,
+                  is_held ? fmt::format("; an observer ({}) compensates the friction that holds "
+                                        "the vehicle off its heading",
+                                        option_text("observer"))
+                          : ""));
 }
 
 }  // namespace awmr

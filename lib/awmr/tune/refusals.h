@@ -18,8 +18,9 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
 tl::unexpected<Error> not_found(const SearchResult& found, const Objective& objective,
                                 const std::vector<Scenario>& scenarios);
 
-/// Gains that meet every limit but with which no run settles: names the limit that costs the most.
+/// Gains that meet every limit but with which no run settles: names the limit that costs the most, and
+/// --observer where friction at rest holds the vehicle off its heading.
 tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,
-                                    const std::vector<ActiveConstraint>& active);
+                                    const std::vector<ActiveConstraint>& active, bool is_held);
 
 }  // namespace awmr

@@ -203,7 +203,8 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
   const Evaluation tuned = all(settled.gains);
   const auto settles = [](const ModeScore& score) { return score.metrics.completed; };
   if (std::ranges::none_of(tuned.scores, settles)) {
-    return never_settles(settled.gains, tuned.scores.size(), active);
+    const bool is_held = context.plant.yaw.coulomb > 0.0 && !options.observer;
+    return never_settles(settled.gains, tuned.scores.size(), active, is_held);
   }
   AWMR_ASSIGN_OR_RETURN(Certificate certificate,
                         certify(model, context, options.open, settled.gains));
