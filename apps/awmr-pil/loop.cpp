@@ -9,6 +9,7 @@
 #include "awmr/control/arming.h"
 #include "awmr/simulate/one_run.h"
 #include "awmr/simulate/physics.h"
+#include "awmr/simulate/positioning.h"
 #include "awmr/simulate/scenario_guidance.h"
 #include "awmr/simulate/sensing.h"
 #include "command_injection.h"
@@ -162,7 +163,9 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
   const SimulateOptions options{.sample_time_s = setup.sample_time_s, .substeps = {}};
   Physics physics(setup.plant, setup.force_max, setup.scenario, options);
   Sensing sensing(setup.scenario.sensors, setup.sample_time_s, run_seed(setup.scenario.seed, 0, 0));
+  Positioning positioning(setup.scenario, setup.sample_time_s);
   Sensed sensed = sensing.at(0, physics.state());
+  sensed.position_m = positioning.step(0.0, sensed);
   ScenarioGuidance guidance(setup.scenario, setup.sample_time_s, sensed);
   if (!setup.mission.points.points_m.empty()) {
     AWMR_RETURN_IF_ERROR(executor.follow(setup.mission.points));
@@ -179,7 +182,10 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     LoopRow& row = rows.emplace_back();
     row.t_s = static_cast<double>(k) * setup.sample_time_s;
     row.state = physics.state();
-    if (k > 0) sensed = sensing.at(k, row.state);
+    if (k > 0) {
+      sensed = sensing.at(k, row.state);
+      sensed.position_m = positioning.step(row.t_s, sensed);
+    }
     const GuidanceOutput output = guidance.step(row.t_s, sensed);
     AutopilotInput input = input_of(setup, row.t_s, sensed, output);
     if (is_checked) {

@@ -39,6 +39,13 @@ std::string end_of(const Run& run, const Scenario& scenario) {
   return fmt::format("  at the end of its course, {} waypoint(s) missed\n", run.missed_waypoints);
 }
 
+/// Reports resets of the position's estimate.
+std::string resets_of(const Run& run) {
+  if (run.position_resets == 0) return "";
+  return fmt::format("  the position's estimate was reset {} time(s), after rejected fixes\n",
+                     run.position_resets);
+}
+
 std::string summary_of(const Run& run, const Scenario& scenario, const SimulateCommand& command) {
   const State<double>& last = run.rows.back().state;
   const std::string plant =
@@ -49,7 +56,7 @@ std::string summary_of(const Run& run, const Scenario& scenario, const SimulateC
              scenario.name, name_of(command.mode), run.rows.size(), run.substeps,
              run.rows.back().t_s, last.x_m, last.y_m, degrees(last.psi_rad), last.u_mps,
              degrees(last.r_radps)) +
-         plant + end_of(run, scenario);
+         plant + end_of(run, scenario) + resets_of(run);
 }
 
 /// Formats the path metrics that are available.
@@ -83,6 +90,7 @@ std::string document_of(const Run& run, const Scenario& scenario, YawMode mode,
   json["substeps"] = run.substeps;
   json["end"] = name_in(kRunEndNames, run.end);
   json["missed_waypoints"] = run.missed_waypoints;
+  if (estimates_position(scenario)) json["position_resets"] = run.position_resets;
   json["completed"] = metrics.completed;
   for (const auto& [name, value] : named_metrics(metrics)) {
     json["metrics"][std::string(name)] = value ? Json(*value) : Json(nullptr);

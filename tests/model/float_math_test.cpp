@@ -1,6 +1,7 @@
 /// float_math.h compared with the C library's double functions, whose error (1e-16) is negligible.
 #include "awmr/model/float_math.h"
 #include "awmr/model/float_bearing.h"
+#include "awmr/model/quick_sin.h"
 #include "awmr/model/scalar_math.h"
 
 #include <gtest/gtest.h>
@@ -54,6 +55,23 @@ TEST(FloatMath, SineAndCosineKeepTheirStatedErrorUpToTheLargestAngle) {
       kLeast, float_math::kAngleMax, [](float x) { return float_math::cos(x); },
       [](double x) { return std::cos(x); });
   EXPECT_LT(cosine.absolute, 7.9e-8);
+}
+
+TEST(FloatMath, QuickSineAndCosineKeepTheirStatedError) {
+  double largest = 0.0;
+  for (int i = -1'000'000; i <= 1'000'000; ++i) {
+    const float x = 1e-4F * static_cast<float>(i);
+    const double exact = static_cast<double>(x);
+    largest =
+        std::max(largest, std::abs(static_cast<double>(math::quick_sin(x)) - std::sin(exact)));
+    largest =
+        std::max(largest, std::abs(static_cast<double>(math::quick_cos(x)) - std::cos(exact)));
+  }
+  EXPECT_LT(largest, 9e-5);
+  EXPECT_EQ(math::quick_sin(0.0F), 0.0F);
+  EXPECT_LE(std::abs(math::quick_cos(0.0F)), 1.0F);
+  EXPECT_TRUE(std::isnan(math::quick_sin(std::nanf(""))));
+  EXPECT_TRUE(std::isnan(math::quick_cos(8193.0F)));
 }
 
 TEST(FloatMath, ArcTangentKeepsItsStatedErrorOverAllFloats) {

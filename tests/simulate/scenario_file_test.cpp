@@ -132,6 +132,7 @@ const std::string kFull = R"({
               "yaw_rate_degps": {"noise": 0.3}, "speed_mps": {"bias": 0.1}, "sway_measured": false, "speed_signed": false,
               "gps": {"rate_hz": 10, "latency_s": 0.1, "noise_m": 0.05, "quantum_m": 0.01,
                       "dropouts": [{"from_s": 1, "to_s": 2}]}},
+  "estimator": "none",
   "actuators": {"servo": {"us_per_deg": 10, "step_us": 4}, "pwm_counts": 255},
   "control": {"combined_split": "fixed_half", "allocation": "paper",
               "heading_law": {"type": "lqi", "heading_deg": 5, "yaw_rate_degps": 20,
@@ -163,6 +164,7 @@ TEST(ScenarioFile, ReadsTheWholeWorldInSiUnits) {
   EXPECT_FALSE(s->sensors->sway_measured);
   EXPECT_FALSE(s->sensors->speed_signed);
   EXPECT_EQ(s->sensors->gps->y.quantum, 0.01);
+  EXPECT_EQ(s->estimator, PositionMethod::kNone);
   EXPECT_NEAR(s->actuators->steering_quantum_rad, radians(0.4), 1e-15);
   EXPECT_EQ(s->control.split, CombinedSplit::kFixedHalf);
   EXPECT_EQ(s->control.allocation, AllocationForm::kPaper);

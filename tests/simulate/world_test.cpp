@@ -259,11 +259,20 @@ Scenario with_gps(double latency_s, std::vector<Window> dropouts) {
 }
 
 TEST(GpsReceiver, BetweenFixesAndForItsLatencyThePositionIsCarriedOn) {
-  // Dead reckoning runs for at most 0.2 s + latency and drifts by 0.1 m/s. The speed held over a
-  // sample adds less than 0.01 m where speed or heading changes.
-  EXPECT_LT(largest_error_m(run_of(with_gps(0.0, {})), 1.0, 60.0), 0.1 * 0.2 + 0.01);
-  EXPECT_LT(largest_error_m(run_of(with_gps(0.5, {})), 1.0, 60.0), 0.1 * 0.7 + 0.01);
+  // Dead reckoning runs for at most 0.2 s + latency and 0.17 s until a correction is complete, and
+  // drifts by 0.1 m/s. The motion held over three samples adds less than 0.02 m where speed or
+  // heading changes.
+  EXPECT_LT(largest_error_m(run_of(with_gps(0.0, {})), 1.0, 60.0), 0.1 * 0.37 + 0.02);
+  EXPECT_LT(largest_error_m(run_of(with_gps(0.5, {})), 1.0, 60.0), 0.1 * 0.87 + 0.02);
   EXPECT_GT(largest_error_m(run_of(with_gps(0.5, {})), 1.0, 60.0), 0.1 * 0.5);
+}
+
+/// The last fix is up to 0.19 s + latency old, at 1 m/s.
+TEST(GpsReceiver, WithoutAnEstimateTheLastFixIsHeld) {
+  Scenario s = with_gps(0.5, {});
+  s.sensors->speed.bias = 0.0;
+  s.estimator = PositionMethod::kNone;
+  EXPECT_NEAR(largest_error_m(run_of(s), 1.0, 60.0), 0.69, 0.01);
 }
 
 TEST(GpsReceiver, InADropOutThePositionDriftsAndComesBack) {

@@ -18,6 +18,7 @@
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/one_run.h"
 #include "awmr/simulate/physics.h"
+#include "awmr/simulate/positioning.h"
 #include "awmr/simulate/scenario_guidance.h"
 #include "awmr/simulate/sensing.h"
 
@@ -58,6 +59,7 @@ class ClosedLoop {
   /// State that each run has by itself.
   struct Parts {
     Sensing sensing;
+    Positioning positioning;
     RunDisturbance disturbance;
     Sensed sensed = {};
     std::optional<ScenarioGuidance> guidance = {};  ///< once the first sample is sensed
@@ -74,7 +76,7 @@ class ClosedLoop {
   template <class Body>
   void for_active(const Body& body);
 
-  void sense(std::size_t k);
+  void sense(std::size_t k, double t_s);
   void guide(std::size_t k, double t_s);
   void follow(std::size_t run, const GuidanceOutput& output);
   void quantise_commands();
@@ -113,6 +115,7 @@ ClosedLoop<Row>::ClosedLoop(std::span<const BatchRun> runs, const Scenario& scen
   for (const BatchRun& run : runs) {
     const RunSeed seed = run_seed(scenario.seed, run.seed, run.sample);
     parts_.push_back({Sensing(scenario.sensors, options.sample_time_s, seed, run.noise),
+                      Positioning(scenario, options.sample_time_s),
                       RunDisturbance(scenario.disturbance, options.sample_time_s, seed)});
     if (options.keeps_rows) parts_.back().rows.reserve(options.samples + 1);
   }
@@ -157,7 +160,7 @@ void ClosedLoop<Row>::for_active(const Body& body) {
 
 /// Measurements of the controllers.
 template <class Row>
-void ClosedLoop<Row>::sense(std::size_t k) {
+void ClosedLoop<Row>::sense(std::size_t k, double t_s) {
   const State<Row>& state = runs_->vehicles.state;
   if (!scenario_.sensors) {
     runs_->measured = {state.psi_rad, state.u_mps, state.v_mps, state.r_radps};
@@ -166,6 +169,7 @@ void ClosedLoop<Row>::sense(std::size_t k) {
   for_active([&](std::size_t run) {
     Parts& parts = parts_[run];
     parts.sensed = parts.sensing.at(k, run_of<State<double>>(state, run));
+    parts.sensed.position_m = parts.positioning.step(t_s, parts.sensed);
     put(parts.sensed.motion, run, runs_->measured);
   });
 }
@@ -277,7 +281,7 @@ void ClosedLoop<Row>::drive() {
   for (std::size_t k = 0; k <= options_.samples && any_active(v); ++k) {
     const double t_s = static_cast<double>(k) * options_.sample_time_s;
     runs_->time = clock_.next(t_s);
-    sense(k);
+    sense(k, t_s);
     guide(k, t_s);
     steps_.control(*runs_);
     quantise_commands();
@@ -302,6 +306,7 @@ Run ClosedLoop<Row>::take_run(std::size_t run) {
   taken.rows = std::move(parts.rows);
   taken.substeps = static_cast<int>(run_of<double>(runs_->vehicles.substeps, run));
   taken.end = parts.end ? parts.end->end : RunEnd::kFailed;
+  taken.position_resets = parts.positioning.resets();
   taken.missed_waypoints = parts.guidance ? parts.guidance->missed() : 0;
   return taken;
 }

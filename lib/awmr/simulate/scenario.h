@@ -82,6 +82,14 @@ enum class PlantKind { kModel, kFourWheel };
 inline constexpr NameTable<PlantKind, 2> kPlantKindNames{
     {{"model", PlantKind::kModel}, {"four-wheel", PlantKind::kFourWheel}}};
 
+/// Position of the guidance from the fixes of a GPS.
+enum class PositionMethod {
+  kFilter,  ///< the firmware's estimate (control/position_estimate.h)
+  kNone,    ///< the last fix as it is
+};
+inline constexpr NameTable<PositionMethod, 2> kPositionMethodNames{
+    {{"filter", PositionMethod::kFilter}, {"none", PositionMethod::kNone}}};
+
 /// One run to simulate. What is optional is off where it is absent.
 struct Scenario {
   std::string name;
@@ -95,8 +103,9 @@ struct Scenario {
   Disturbance disturbance = {};
   std::vector<WheelFault> faults = {};
   std::vector<SlipperyPatch> patches = {};
-  std::optional<Battery> battery = {};      ///< absent: it never runs down
-  std::optional<Sensors> sensors = {};      ///< absent: the controller knows the true state
+  std::optional<Battery> battery = {};  ///< absent: it never runs down
+  std::optional<Sensors> sensors = {};  ///< absent: the controller knows the true state
+  PositionMethod estimator = PositionMethod::kFilter;  ///< for scenarios with a GPS
   std::optional<Actuators> actuators = {};  ///< absent: any force and angle can be commanded
   ControlOptions control = {};
   std::vector<CornerParameter> corner = {};  ///< of the plant; the controller does not know
@@ -109,6 +118,11 @@ struct Scenario {
   /// True where something in the scenario is drawn from a seed.
   bool random() const;
 };
+
+/// True if the position is estimated from the fixes of a GPS.
+inline bool estimates_position(const Scenario& scenario) {
+  return scenario.sensors && scenario.sensors->gps && scenario.estimator == PositionMethod::kFilter;
+}
 
 struct HeadingStepsOptions {
   double hold_s = 10.0;    ///< > 0: how long each heading is held

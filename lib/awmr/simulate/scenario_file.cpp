@@ -46,6 +46,10 @@ void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
       json.fault(ErrorCode::kConflict, key, "open loop has no use for it; remove it");
     }
   }
+  if (json.has("estimator") && !(scenario.sensors && scenario.sensors->gps)) {
+    json.fault(ErrorCode::kConflict, "estimator",
+               "is for the fixes of a GPS; add sensors/gps or remove it");
+  }
   if (scenario.tyres) {
     for (const TyreConflict& conflict : tyre_conflicts(scenario)) {
       json.fault(ErrorCode::kConflict, conflict.key, conflict.message);

@@ -90,19 +90,18 @@ Sensed Sensing::at(std::size_t k, const State<double>& truth) {
   sensed.motion.u_mps = speed_.read(k, motion_for(speed_).u_mps);
   if (!sensors_->speed_signed) sensed.motion.u_mps = std::abs(sensed.motion.u_mps);
   if (!sensors_->sway_measured) sensed.motion.v_mps = 0.0;
-  if (sensors_->gps) sensed.position_m = navigate(k, truth, sensed.motion);
+  if (sensors_->gps) receive_fixes(k, truth, sensed);
   return sensed;
 }
 
-/// Dead reckoning from the measured motion; a fix that arrives at t for the time t - latency sets
-/// it right by what dead reckoning was off then. The first position is known.
-Position<double> Sensing::navigate(std::size_t k, const State<double>& truth,
-                                   const Measurement<double>& motion) {
+/// The last fix that has arrived. Before the first one, it is the true position at the start, as if
+/// taken a period before.
+void Sensing::receive_fixes(std::size_t k, const State<double>& truth, Sensed& sensed) {
   const Gps& gps = *sensors_->gps;
   true_m_.push_back({truth.x_m, truth.y_m});
   if (k == 0) {
-    travelled_m_.push_back({0.0, 0.0});
-    fix_offset_m_ = true_m_.front();
+    fix_m_ = true_m_.front();
+    fix_taken_s_ = -1.0 / gps.rate_hz;
   }
   const double now_s = static_cast<double>(k) * sample_time_s_ + kTimeRounding_s;
   for (;; ++next_fix_) {
@@ -116,15 +115,12 @@ Position<double> Sensing::navigate(std::size_t k, const State<double>& truth,
     const Position<double> fix{read(gps.x, true_m_[sample].x_m, next_normal),
                                read(gps.y, true_m_[sample].y_m, next_normal)};
     if (lost) continue;
-    fix_offset_m_ = {fix.x_m - travelled_m_[sample].x_m, fix.y_m - travelled_m_[sample].y_m};
+    fix_m_ = fix;
+    fix_taken_s_ = static_cast<double>(sample) * sample_time_s_;
+    sensed.is_fix_new = true;
   }
-  const Position<double> travelled = travelled_m_[k];
-  const double cos_psi = std::cos(motion.psi_rad);
-  const double sin_psi = std::sin(motion.psi_rad);
-  travelled_m_.push_back(
-      {travelled.x_m + sample_time_s_ * (motion.u_mps * cos_psi - motion.v_mps * sin_psi),
-       travelled.y_m + sample_time_s_ * (motion.u_mps * sin_psi + motion.v_mps * cos_psi)});
-  return {travelled.x_m + fix_offset_m_.x_m, travelled.y_m + fix_offset_m_.y_m};
+  sensed.position_m = fix_m_;
+  sensed.fix_taken_s = fix_taken_s_;
 }
 
 }  // namespace awmr

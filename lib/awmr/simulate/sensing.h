@@ -17,7 +17,9 @@ namespace awmr {
 /// Measurements of one sample.
 struct Sensed {
   Measurement<double> motion;
-  Position<double> position_m;
+  Position<double> position_m;  ///< without a GPS the true one, else that of the last fix
+  double fix_taken_s = 0.0;     ///< when the last fix was taken
+  bool is_fix_new = false;      ///< it arrived since the sample before
 };
 
 /// The sensors of one run, with their noise, latency and drop-outs.
@@ -30,8 +32,7 @@ class Sensing {
   Sensed at(std::size_t k, const State<double>& truth);
 
  private:
-  Position<double> navigate(std::size_t k, const State<double>& truth,
-                            const Measurement<double>& motion);
+  void receive_fixes(std::size_t k, const State<double>& truth, Sensed& sensed);
   /// A sensor's channel with its noise.
   struct Sensor {
     Sensor(const Channel& channel, double sample_time_s, const Random& random,
@@ -54,10 +55,10 @@ class Sensing {
   double sample_time_s_;
   Sensor heading_, yaw_rate_, speed_;
   Random gps_;
-  std::vector<Measurement<double>> motion_;    ///< true, of the latest samples that are still read
-  std::vector<Position<double>> true_m_;       ///< by sample
-  std::vector<Position<double>> travelled_m_;  ///< by sample: dead reckoning from the first
-  Position<double> fix_offset_m_{};            ///< position = travelled + this
+  std::vector<Measurement<double>> motion_;  ///< true, of the latest samples that are still read
+  std::vector<Position<double>> true_m_;     ///< by sample
+  Position<double> fix_m_{};                 ///< the last one
+  double fix_taken_s_ = 0.0;
   std::size_t next_fix_ = 0;
 };
 

@@ -65,6 +65,7 @@ struct Run {
   int substeps = 0;          ///< RK4 steps per sample
   RunEnd end = RunEnd::kDuration;
   int missed_waypoints = 0;  ///< passed by, or covered by an obstacle
+  int position_resets = 0;   ///< of the position's estimate, after rejected fixes (up to 255)
 };
 
 /// Options of a run.

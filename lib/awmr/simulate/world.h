@@ -104,8 +104,7 @@ inline double noise_correlation(double correlation_s, double apart_s) {
   return correlation_s > 0.0 ? std::exp(-apart_s / correlation_s) : 0.0;
 }
 
-/// A receiver with its own rate and latency. Between fixes the position is carried on by the
-/// measured heading and speed (dead reckoning).
+/// A receiver with its own rate and latency.
 struct Gps {
   double rate_hz = 0.0;    ///< > 0
   double latency_s = 0.0;  ///< >= 0

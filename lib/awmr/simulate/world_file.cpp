@@ -1,4 +1,4 @@
-// scenario.json: disturbance, faults, slippery, battery, sensors, actuators, control, corner, tyres.
+// scenario.json: disturbance, faults, slippery, battery, sensors, estimator, actuators, control, corner, tyres.
 
 #include <array>
 #include <string>
@@ -264,6 +264,7 @@ void read_world(JsonObject& json, Scenario& scenario) {
   }
   if (auto object = json.optional_object("battery")) scenario.battery = read_battery(*object);
   if (auto object = json.optional_object("sensors")) scenario.sensors = read_sensors(*object);
+  if (json.has("estimator")) scenario.estimator = json.choice("estimator", kPositionMethodNames);
   if (auto object = json.optional_object("actuators")) {
     scenario.actuators = read_actuators(*object);
   }

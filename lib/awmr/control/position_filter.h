@@ -1,0 +1,63 @@
+/// Constants of the position's estimate (position_estimate.h). Freestanding C++14.
+#pragma once
+
+#include <stdint.h>
+
+namespace awmr {
+
+/// q, m^2/s: variance of the drift of dead reckoning by the errors of heading and speed, per time.
+constexpr double kDrift_m2ps = 0.05;
+/// Time over which a correction is spread, s.
+constexpr double kSpread_s = 0.08;
+/// Least standard deviation of a fix, m: that of a receiver without noise.
+constexpr double kFixNoiseMin_m = 0.01;
+/// Largest innovation in standard deviations. Of 300,000 fixes with normal errors, one is beyond it.
+constexpr double kInnovationMax = 5.0;
+/// Rejected fixes in a row that reset the estimate.
+constexpr uint8_t kRejections = 5;
+/// Travelled positions in the ring, a power of two.
+constexpr uint8_t kTravelled = 8;
+
+template <class T>
+struct PositionFilter {
+  T sample_time_s;       ///< T_s, s
+  T sample_rate_hz;      ///< 1/T_s
+  T fix_variance_m2;     ///< R, of one axis of a fix
+  T drift_m2;            ///< q T_s, growth of P in a step
+  T stride_inverse;      ///< 1/stride
+  T spread_inverse;      ///< 1/spread_steps
+  uint8_t stride;        ///< steps between two travelled positions of the ring
+  uint8_t spread_steps;  ///< over which a correction is spread
+  bool spreads_work;     ///< the work on a fix is spread over several steps, as in GpsLimits
+};
+
+namespace detail {
+
+template <class T>
+constexpr PositionFilter<T> position_filter(double sample_time_s, double variance_m2,
+                                            uint8_t stride, uint8_t spread_steps) {
+  return {
+      T(sample_time_s),      T(1.0 / sample_time_s), T(variance_m2), T(kDrift_m2ps * sample_time_s),
+      T(1.0 / stride),       T(1.0 / spread_steps),  stride,         spread_steps,
+      sample_time_s < 0.0151};
+}
+constexpr double squared(double x) { return x * x; }
+/// x in 1 to 255, rounded down.
+constexpr uint8_t to_count(double x) {
+  return static_cast<uint8_t>(x > 255.0 ? 255.0 : x < 1.0 ? 1.0 : x);
+}
+
+}  // namespace detail
+
+/// The filter for fixes with this standard deviation of an axis that are late by `latency_s`. The ring
+/// reaches back 0.1 s further, because the work on a fix waits.
+template <class T>
+constexpr PositionFilter<T> position_filter(double noise_m, double latency_s,
+                                            double sample_time_s) {
+  return detail::position_filter<T>(
+      sample_time_s, detail::squared(noise_m > kFixNoiseMin_m ? noise_m : kFixNoiseMin_m),
+      detail::to_count(1.0 + (latency_s + 0.1) / ((kTravelled - 2) * sample_time_s)),
+      detail::to_count(kSpread_s / sample_time_s + 0.5));
+}
+
+}  // namespace awmr
