@@ -18,8 +18,8 @@ constexpr unsigned kAnyCount = std::numeric_limits<unsigned>::max();
 void add_bounds(CLI::App& command, PilOptions& options) {
   command
       .add_option("--cycles-max", options.cycles_max,
-                  "Most cycles of a step [12000 by table, 24000 by powf; with parts three quarters "
-                  "of the sample time]")
+                  "Most cycles of a step [12000 by table, 24000 by powf; with parts or a GPS three "
+                  "quarters of the sample time]")
       ->check(within(1U, kAnyCount));
   command.add_option("--flash-max", options.flash_max, "Most bytes of flash")
       ->check(within(1U, kAnyCount))
