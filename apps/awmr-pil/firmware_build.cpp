@@ -100,6 +100,8 @@ Result<fs::path> build_firmware(const fs::path& directory, const std::vector<Emi
   call.arguments.insert(call.arguments.end(), flags.begin(), flags.end());
   call.arguments.push_back(kind.is_directed ? "-DAWMR_WITH_DIRECTION=1"
                                             : "-DAWMR_WITH_DIRECTION=0");
+  call.arguments.push_back(kind.is_estimated ? "-DAWMR_WITH_POSITION_ESTIMATE=1"
+                                             : "-DAWMR_WITH_POSITION_ESTIMATE=0");
   call.arguments.insert(call.arguments.end(), {"pil/" + program + ".cpp", "-o", program + ".elf"});
   AWMR_ASSIGN_OR_RETURN(const ProgramEnd built, run_program(call));
   if (built.timed_out) {

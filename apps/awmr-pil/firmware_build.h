@@ -17,8 +17,9 @@ enum class LinkKind { kMemory, kUart };
 struct FirmwareKind {
   LinkKind link = LinkKind::kMemory;
   cli::Optimize optimize = cli::Optimize::kSpeed;
-  std::string mission;       ///< mission_header()
-  bool is_directed = false;  ///< the speed sensor has no sign; the firmware computes the direction
+  std::string mission;        ///< mission_header()
+  bool is_directed = false;   ///< the speed sensor has no sign; the firmware computes the direction
+  bool is_estimated = false;  ///< the position is a receiver's fix; the firmware estimates it
 };
 
 /// Writes the emitted library and the link's program to `directory`, which is private and empty,

@@ -61,6 +61,7 @@ class HostExecutor : public Executor {
   void set_up() {
     const Mission& mission = *mission_;
     const float sample_time_s = parameters_->sample_time_s;
+    filter_position(autopilot_, parameters_->position);
     if (mission.path) follow_path(autopilot_, mission.path->path, mission.path->gain_per_s);
     if (mission.slow_down_m) part_of<SlowDown<float>>(autopilot_).distance_m = *mission.slow_down_m;
     if (mission.avoidance) {

@@ -38,6 +38,8 @@ AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed
   const auto now_ms = static_cast<std::uint32_t>(std::llround(t_s * 1000.0));
   in.times = {now_ms, now_ms, now_ms, now_ms};
   in.speed_unsigned = has_unsigned_speed(setup.scenario) ? 1 : 0;
+  in.position_is_fix = estimates_position(setup.scenario) ? 1 : 0;
+  in.fix_ms = static_cast<std::uint32_t>(std::llround(sensed.fix_taken_s * 1000.0));
   return in;
 }
 
@@ -119,6 +121,11 @@ Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) 
 
 }  // namespace
 
+void know_receiver(const Gps& gps, Model& model) {
+  model.vehicle.sensors.position_m = fix_noise_m(gps);
+  model.vehicle.sensors.position_late_s = gps.latency_s;
+}
+
 bool has_unsigned_speed(const Scenario& scenario) {
   return scenario.sensors && !scenario.sensors->speed_signed;
 }
@@ -160,8 +167,9 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
   Sensing sensing(setup.scenario.sensors, setup.sample_time_s, run_seed(setup.scenario.seed, 0, 0));
   Positioning positioning(setup.scenario, setup.sample_time_s);
   Sensed sensed = sensing.at(0, physics.state());
-  sensed.position_m = positioning.step(0.0, sensed);
-  ScenarioGuidance guidance(setup.scenario, setup.sample_time_s, sensed);
+  Sensed located = sensed;  // for the guidance in double; the chip estimates the position itself
+  located.position_m = positioning.step(0.0, sensed);
+  ScenarioGuidance guidance(setup.scenario, setup.sample_time_s, located);
   if (!setup.mission.points.points_m.empty()) {
     AWMR_RETURN_IF_ERROR(executor.follow(setup.mission.points));
   }
@@ -178,10 +186,10 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     row.t_s = static_cast<double>(k) * setup.sample_time_s;
     row.state = physics.state();
     if (k > 0) {
-      sensed = sensing.at(k, row.state);
-      sensed.position_m = positioning.step(row.t_s, sensed);
+      located = sensed = sensing.at(k, row.state);
+      located.position_m = positioning.step(row.t_s, sensed);
     }
-    const GuidanceOutput output = guidance.step(row.t_s, sensed);
+    const GuidanceOutput output = guidance.step(row.t_s, located);
     AutopilotInput input = input_of(setup, row.t_s, sensed, output);
     if (is_checked) {
       const bool fails = k >= window.first;

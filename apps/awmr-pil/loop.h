@@ -35,6 +35,9 @@ struct LoopRow {
   double steering_command_rad = 0.0;  ///< likewise
 };
 
+/// The receiver of the scenario as that of the vehicle, so that the firmware's filter is the simulator's.
+void know_receiver(const Gps& gps, Model& model);
+
 /// True if the simulated speed sensor gives |u|, so that the firmware computes the direction.
 bool has_unsigned_speed(const Scenario& scenario);
 

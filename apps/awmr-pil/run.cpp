@@ -69,6 +69,7 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   if (!plant) return tl::unexpected(plant.error());
   const auto names = cli::emit_inputs(options.model, options.gains);
   if (!names) return tl::unexpected(names.error());
+  if (estimates_position(*scenario)) know_receiver(*scenario->sensors->gps, *model);
   const Mission mission = mission_of(*scenario);
   in.emit = options.emit;
   in.emit.parts.merge(parts_of(mission));
@@ -189,7 +190,8 @@ Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in, const Watc
       {.link = options.link == cli::PilLink::kMemory ? LinkKind::kMemory : LinkKind::kUart,
        .optimize = *options.optimize,
        .mission = mission_header(in.setup.mission),
-       .is_directed = has_unsigned_speed(in.setup.scenario)});
+       .is_directed = has_unsigned_speed(in.setup.scenario),
+       .is_estimated = estimates_position(in.setup.scenario)});
   if (!elf) return tl::unexpected(elf.error());
   if (options.build_directory) {
     AWMR_RETURN_IF_ERROR(keep_firmware(folder->path(), *options.build_directory));
@@ -216,16 +218,17 @@ Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in, const Watc
 PilOptions resolved(PilOptions options, const Inputs& in) {
   const std::set<FirmwarePart>& parts = in.emit.parts;
   const bool avoids = parts.contains(FirmwarePart::kAvoidance);
+  const std::size_t count = parts.size() + (estimates_position(in.setup.scenario) ? 1 : 0);
   options.emit = in.emit;
   if (!options.optimize) {
-    const bool large = avoids || parts.contains(FirmwarePart::kPath) || parts.size() > 1;
+    const bool large = avoids || parts.contains(FirmwarePart::kPath) || count > 1;
     options.optimize = large ? cli::Optimize::kSize : cli::Optimize::kSpeed;
   }
   if (!options.cycles_max) {
     const bool by_table = in.emit.resistance == ResistanceForm::kTable;
     const double period_cycles = in.setup.sample_time_s * kClockHz;
     options.cycles_max =
-        parts.empty() ? (by_table ? 12000U : 24000U) : static_cast<unsigned>(0.75 * period_cycles);
+        count == 0 ? (by_table ? 12000U : 24000U) : static_cast<unsigned>(0.75 * period_cycles);
   }
   if (!options.heading_max_deg) {
     options.heading_max_deg = avoids || in.setup.scenario.sensors ? 2.0 : 0.05;

@@ -10,7 +10,7 @@
 
 namespace awmr::pil {
 
-inline constexpr std::size_t kInputBytes = 62;
+inline constexpr std::size_t kInputBytes = 67;
 inline constexpr std::size_t kOutputBytes = 30;
 
 class Writer {
@@ -54,7 +54,7 @@ inline std::vector<std::uint8_t> pack(const AutopilotInput& in) {
   }
   writer.put(in.times.now_ms).put(in.times.heading_ms);
   writer.put(in.times.speed_ms).put(in.times.command_ms);
-  writer.put(in.speed_unsigned);
+  writer.put(in.speed_unsigned).put(in.position_is_fix).put(in.fix_ms);
   return writer.bytes();
 }
 

@@ -19,7 +19,7 @@ void add_bounds(CLI::App& command, PilOptions& options) {
   command
       .add_option("--cycles-max", options.cycles_max,
                   "Maximum cycles of a step [12000 by table, 24000 by powf; with optional features "
-                  "three quarters of the sample time]")
+                  "or a GPS three quarters of the sample time]")
       ->check(within(1U, kAnyCount));
   command.add_option("--flash-max", options.flash_max, "Maximum bytes of flash")
       ->check(within(1U, kAnyCount))

@@ -123,7 +123,7 @@ struct PilOptions {
   EmitOptions emit;
   std::optional<Optimize> optimize;    ///< absent: size if obstacles are avoided, else speed
   std::optional<unsigned> cycles_max;  ///< absent: 12,000 by table, 24,000 by powf
-  unsigned flash_max = 16384;          ///< bytes
+  unsigned flash_max = 20480;          ///< bytes
   unsigned ram_max = 1024;             ///< bytes, without the stack
   /// bound on the difference from the host's float run; absent: 0 and 1e-6
   std::optional<double> difference_max;

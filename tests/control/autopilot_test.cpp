@@ -381,6 +381,62 @@ TEST_F(AutopilotLeads, ByWhatWasRequestedLast) {
   EXPECT_EQ(heading(), 0.3F);
 }
 
+/// The same fix in each step: the estimate goes on with speed and heading, backward too.
+TEST_F(AutopilotLeads, ByAPositionEstimatedFromTheFixesOfAReceiver) {
+  filter_position(autopilot_, position_filter<float>(1.5, 0.2, 0.03));
+  follow_waypoints(autopilot_, {kPoints, 1, 0.5F, false});
+  in_.measured = {0.0F, 1.0F, 0.0F, 0.0F};
+  in_.position_is_fix = 1;
+  in_.fix_ms = in_.times.now_ms;
+  PositionEstimate<float> estimate(position_filter<float>(1.5, 0.2, 0.03));
+  Position<float> at{};
+  for (int i = 0; i < 60; ++i) {
+    const bool is_new = i == 40;
+    const std::uint32_t now_ms = in_.times.now_ms + 30;
+    if (is_new) in_.fix_ms = now_ms - 200;
+    at = estimate.step({{1.0F, 2.0F}, is_new ? 0.2F : 0.0F, is_new}, in_.measured);
+    const AutopilotOutput out = step_at({1.0F, 2.0F});
+    EXPECT_EQ(out.psi_ref_rad, math::bearing(5.0F - at.y_m, 5.0F - at.x_m)) << i;
+  }
+  EXPECT_GT(at.x_m, 1.9F);
+  EXPECT_LT(at.x_m, 2.7F);
+}
+
+TEST_F(AutopilotLeads, ByAnEstimateThatGoesOnWithoutACommandAndIsStartedAgainWithoutAFix) {
+  filter_position(autopilot_, position_filter<float>(1.5, 0.2, 0.03));
+  follow_waypoints(autopilot_, {kPoints, 1, 0.5F, false});
+  in_.measured = {0.0F, 1.0F, 0.0F, 0.0F};
+  in_.position_is_fix = 1;
+  step_at({0.0F, 0.0F});
+  const auto step_without = [this](std::uint32_t InputTimes::*time) {
+    AutopilotOutput out{};
+    for (int i = 0; i < 20; ++i) {
+      const std::uint32_t now_ms = in_.times.now_ms + 30;
+      in_.times = {now_ms, now_ms, now_ms, now_ms};
+      in_.times.*time = now_ms - 2000;
+      autopilot_step(autopilot_, in_, out);
+    }
+    return out.fault;
+  };
+  EXPECT_EQ(step_without(&InputTimes::command_ms), kFaultCommandTimeout);
+  // 22 steps of 0.03 m.
+  EXPECT_NEAR(step_at({0.0F, 0.0F}).psi_ref_rad, std::atan2(5.0F, 5.0F - 0.63F), 1e-4F);
+  EXPECT_EQ(step_without(&InputTimes::speed_ms), kFaultSpeedStale);
+  EXPECT_NEAR(step_at({0.0F, 0.0F}).psi_ref_rad, std::atan2(5.0F, 5.0F), 1e-4F);
+}
+
+TEST_F(AutopilotLeads, AFixWithoutTheEstimateIsAFault) {
+  Autopilot<Resistance<float>, NoParts> plain{};
+  start_autopilot(plain, &block_, nullptr, 0, nullptr, 0, crc_);
+  AutopilotInput in = good();
+  AutopilotOutput out{};
+  autopilot_step(plain, in, out);
+  EXPECT_EQ(out.fault, kFaultNone);
+  in.position_is_fix = 1;
+  autopilot_step(plain, in, out);
+  EXPECT_EQ(out.fault, kFaultRange);
+}
+
 TEST_F(AutopilotLeads, AGuidanceThatIsNoNumberIsAFaultInEveryMode) {
   static constexpr Position<float> kNowhere[] = {{kNaN, 5.0F}, {10.0F, kNaN}};
   constexpr std::uint8_t kModes[] = {0, 1, 2};

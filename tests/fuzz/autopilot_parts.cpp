@@ -76,6 +76,8 @@ AutopilotInput input_of(InputBytes& bytes) {
   in.position_m = bytes.next<Position<float>>();
   in.reference = bytes.next<Reference<float>>();
   in.times = bytes.next<InputTimes>();
+  in.position_is_fix = bytes.next<std::uint8_t>() & 1U;
+  in.fix_ms = bytes.next<std::uint32_t>();
   return in;
 }
 
@@ -116,6 +118,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(
       start_autopilot(autopilot, &kRobot.block, nullptr, 0, nullptr, 0, kRobot.crc, &kRobot.rest),
       "the parameters are good");
+  filter_position(autopilot, position_filter<float>(1.5, 0.2, kSampleTime_s));
   if ((use & kWaypoints) != 0) follow_waypoints(autopilot, {corners, kMostPoints, 1.0F, true});
   if ((use & kLine) != 0)
     follow_line(autopilot, {corners, kMostPoints, 0.5F, {1.0F, 2.0F, true}}, 0.01F);

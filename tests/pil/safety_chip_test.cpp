@@ -77,10 +77,10 @@ TEST_F(SafetyChip, SensorChecksCommandsArmingAndDirectionGiveTheHostsBitsWithinT
             << ", while a fix is worked on " << fix << "; " << emulator_->flash_bytes()
             << " bytes of flash, " << emulator_->ram_bytes() << " of RAM\n";
   // The budget of a step is 20,000 cycles. The bounds are those of avr-gcc 5.4 plus 1 %.
-  EXPECT_LE(step, 17090U);
-  EXPECT_LE(whole, 19830U);
-  EXPECT_LE(fix, 20000U);
-  EXPECT_LE(emulator_->flash_bytes(), 26600U);
+  EXPECT_LE(step, 16830U);
+  EXPECT_LE(whole, 19130U);
+  EXPECT_LE(fix, 19950U);
+  EXPECT_LE(emulator_->flash_bytes(), 29050U);
   EXPECT_LE(emulator_->ram_bytes(), 1012U);
 }
 

@@ -5,6 +5,7 @@
 #include "awmr.h"
 #include "awmr/control/arming.h"
 #include "awmr/control/command_line.h"
+#include "awmr/control/flash.h"
 #include "awmr/control/gps_receiver.h"
 #include "awmr/control/heading_check.h"
 
@@ -33,7 +34,7 @@ struct Sequence {
   uint32_t seed, now_ms, utc_ms, hash;
   int16_t word;
   int16_t field[3];
-  char sentence[96];
+  char sentence[80];
   uint8_t arrived, taken;  // characters that arrived at the port, and that were read from it
   uint8_t causes[awmr::kSensorFaultCount];  // steps with each sensor fault, at most 255
   uint8_t disarmed;                         // how often
@@ -74,11 +75,24 @@ inline void sense(Sequence& s, uint16_t step) {
   s.heading.step.take(fails(step, 3) && step % 200 < 30 ? 0.5F : 0.01F, 0.01F);
 }
 
+// A character in flash on the chip, whose RAM is for the firmware.
+inline char character(const char* place) {
+#ifdef __AVR__
+  return static_cast<char>(pgm_read_byte(place));
+#else
+  return *place;
+#endif
+}
+inline char digit(int value) {
+  return static_cast<char>(value < 10 ? '0' + value : 'A' + value - 10);
+}
+
 // Sends a sentence followed by its checksum.
 inline void say_fix(Sequence& s, uint16_t step) {
-  const char* pattern = "$GPRMC,120000.00,A,4806.0000000,N,01130.0000000,E,1.900,,230394,,,A*";
+  static const char kPattern[] AWMR_IN_FLASH =
+      "$GPRMC,120000.00,A,4806.0000000,N,01130.0000000,E,1.900,,230394,,,A*";
   char* text = s.sentence;
-  for (uint8_t i = 0; pattern[i] != '\0'; ++i) text[i] = pattern[i];
+  for (uint8_t i = 0; i < sizeof kPattern; ++i) text[i] = character(kPattern + i);
   const uint32_t ticks = s.utc_ms / 10 % 6000;
   text[11] = static_cast<char>('0' + ticks / 1000);
   text[12] = static_cast<char>('0' + ticks / 100 % 10);
@@ -90,9 +104,8 @@ inline void say_fix(Sequence& s, uint16_t step) {
   uint8_t sum = 0;
   uint8_t end = 1;
   for (; text[end] != '*'; ++end) sum = static_cast<uint8_t>(sum ^ static_cast<uint8_t>(text[end]));
-  const char* digits = "0123456789ABCDEF";
-  text[++end] = digits[sum >> 4];
-  text[++end] = digits[sum & 15];
+  text[++end] = digit(sum >> 4);
+  text[++end] = digit(sum & 15);
   text[++end] = '\n';
   text[++end] = '\0';
 }
@@ -133,6 +146,8 @@ inline void read_gps(Sequence& s) {
   const awmr::GpsContext at = {0.0F, s.output.psi_ref_rad, 1, s.arming.is_armed()};
   Projection projection;
   s.gps.step(projection, at);
+  s.input.position_is_fix = 1;
+  s.input.fix_ms = s.gps.time_ms - 200;
   s.input.x_m = s.gps.x_m;
   s.input.y_m = s.gps.y_m;
   s.input.u_mps = s.gps.speed_mps;
@@ -140,12 +155,15 @@ inline void read_gps(Sequence& s) {
 }
 
 inline void listen(Sequence& s, uint16_t step) {
-  const char* text = step % 200 == 150   ? "ARM\n"
-                     : step % 20 == 0    ? "KEEP\n"
-                     : step % 200 == 199 ? "....S 1\n"
-                                         : "";
-  for (const char* c = text; *c != '\0'; ++c) {
-    if (s.commands.take(*c) != awmr::CommandVerdict::kTaken) continue;
+  static const char kArm[] AWMR_IN_FLASH = "ARM\n";
+  static const char kKeep[] AWMR_IN_FLASH = "KEEP\n";
+  static const char kSpeed[] AWMR_IN_FLASH = "....S 1\n";
+  const char* text = step % 200 == 150   ? kArm
+                     : step % 20 == 0    ? kKeep
+                     : step % 200 == 199 ? kSpeed
+                                         : 0;
+  for (const char* c = text; c != 0 && character(c) != '\0'; ++c) {
+    if (s.commands.take(character(c)) != awmr::CommandVerdict::kTaken) continue;
     s.input.command_ms = s.now_ms;
     if (s.commands.word == awmr::CommandWord::kArm) s.arming.arm(s.output.fault, 0);
   }

@@ -36,11 +36,14 @@ AWMR_INLINE uint8_t check_input(Autopilot<G, P>& a, const AutopilotInput& in) {
   unsigned fault = a.are_parameters_good ? kFaultNone : kFaultParameters;
   if (in.mode > static_cast<uint8_t>(YawMode::kCombined)) fault |= kFaultRange;
   if (!P::kIsDirected && in.speed_unsigned != 0) fault |= kFaultRange;
+  if (in.position_is_fix != 0 && !estimates_position(part_of<typename P::Positioning>(a))) {
+    fault |= kFaultRange;
+  }
   fault |= check_measurement(a.limits, in.measured);
   fault |= check_reference(a.limits, in.reference);
   fault |= check_times(a.limits, in.times);
   fault |= check_period(a, in.times.now_ms);
-  if (in.speed_unsigned != 0 || guidance_needs_position(a)) {
+  if (in.speed_unsigned != 0 || in.position_is_fix != 0 || guidance_needs_position(a)) {
     fault |= check_magnitude(in.position_m.x_m, kPositionMax);
     fault |= check_magnitude(in.position_m.y_m, kPositionMax);
   }
@@ -50,8 +53,8 @@ AWMR_INLINE uint8_t check_input(Autopilot<G, P>& a, const AutopilotInput& in) {
 /// Guidance, obstacle avoidance and heading shaping. True when the route is finished.
 template <class G, class P>
 AWMR_INLINE bool update_reference(Autopilot<G, P>& a, const AutopilotInput& in,
-                                  Reference<float>& ref) {
-  const VehiclePose<float, uint32_t> at = {in.position_m, in.measured, in.times.now_ms};
+                                  const Position<float>& position_m, Reference<float>& ref) {
+  const VehiclePose<float, uint32_t> at = {position_m, in.measured, in.times.now_ms};
   const GuidanceTarget<float> target = guide_by_route(a, at, ref);
   steer_around_obstacles(part_of<typename P::Avoidance>(a), at, target, ref);
   shape_heading(part_of<typename P::Shaping>(a), at, ref);
@@ -68,14 +71,12 @@ AWMR_CALLED void predict_direction(Autopilot<G, P>& a, uint32_t now_ms) {
   predict_speed(a.direction, a.controller.surge, a.mass_inverse, a.limits.speed_max_mps, dt_s);
 }
 
-/// Gives the measured speed its sign; see apply_direction().
+/// Corrects the predicted speed by a new reading.
 template <class G, class P>
-AWMR_CALLED void direct(Autopilot<G, P>& a, const AutopilotInput& in, Measurement<float>& measured,
-                        Reference<float>& ref) {
+AWMR_CALLED void read_speed(Autopilot<G, P>& a, const AutopilotInput& in) {
   const bool is_new = !a.direction.has_fix || in.times.speed_ms != a.direction_ms;
   a.direction_ms = in.times.speed_ms;
-  correct_speed(a.direction, {measured.u_mps, in.position_m, measured.psi_rad, is_new});
-  apply_direction(a.direction, measured, ref);
+  correct_speed(a.direction, {in.measured.u_mps, in.position_m, in.measured.psi_rad, is_new});
 }
 
 /// True if the reference and both laws are finite. The command alone cannot show this: in steering
@@ -120,14 +121,21 @@ void autopilot_step(Autopilot<G, P>& a, const AutopilotInput& in, AutopilotOutpu
   if (is_directed) detail::predict_direction(a, in.times.now_ms);
   if (P::kIsDirected) a.direction.tau_speed = 0.0F;
   out.fault = detail::check_input(a, in);
+  // While only the command is too old, as before a drive, direction and position are estimated on.
+  const bool is_sensed = (out.fault & static_cast<uint8_t>(~kFaultCommandTimeout)) == 0;
+  if (is_directed && is_sensed) detail::read_speed(a, in);
+  typename P::Positioning& positioning = part_of<typename P::Positioning>(a);
+  if (!is_sensed) reset(positioning);
+  const Position<float>& position_m =
+      is_sensed ? position_now(positioning, in, a.direction.predicted_mps) : in.position_m;
   if (out.fault == kFaultNone) {
     Reference<float> ref = in.reference;
-    out.arrived = detail::update_reference(a, in, ref);
+    out.arrived = detail::update_reference(a, in, position_m, ref);
     Measurement<float> directed;
     const Measurement<float>* measured = &in.measured;
     if (is_directed) {
       directed = in.measured;
-      detail::direct(a, in, directed, ref);
+      apply_direction(a.direction, directed, ref);
       measured = &directed;
     }
     detail::control(a, in, *measured, ref, out);

@@ -60,6 +60,12 @@ void shape_headings(Autopilot<G, P>& a, const HeadingShaping<float>& filter, flo
   part.is_started = false;
 }
 
+/// Estimates the position with this filter from the next step with a fix on.
+template <class G, class P>
+void filter_position(Autopilot<G, P>& a, const PositionFilter<float>& filter) {
+  part_of<Positioner<>>(a).estimate = PositionEstimate<float>(filter);
+}
+
 /// Estimates the disturbance from the next step on, starting from 0.
 template <class G, class P>
 void observe_disturbance(Autopilot<G, P>& a, const Observers<float>& observers,

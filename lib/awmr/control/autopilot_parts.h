@@ -4,11 +4,13 @@
 
 #include <stdint.h>
 
+#include "awmr/control/autopilot_signals.h"
 #include "awmr/control/control_step.h"
 #include "awmr/control/flash.h"
 #include "awmr/control/guidance/parts.h"
 #include "awmr/control/motor_command.h"
 #include "awmr/control/optional_part.h"
+#include "awmr/control/position_estimate.h"
 #include "awmr/control/yaw_mode.h"
 
 namespace awmr {
@@ -28,6 +30,13 @@ struct MotorCurve {
   float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
 };
 
+/// Estimates the position from the fixes of a receiver. Filter: as in PositionEstimate.
+template <class Filter = PositionFilter<float>>
+struct Positioner {
+  PositionEstimate<float, Filter> estimate{};
+  uint32_t fix_ms = 0;  ///< when the last fix was taken, valid in an estimate that is started
+};
+
 /// List of the compiled parts. A firmware defines its own struct with these names.
 struct NoParts {
   typedef Disabled<LineFollower<float>> Line;
@@ -37,6 +46,7 @@ struct NoParts {
   typedef Disabled<Shaper<float>> Shaping;
   typedef Disabled<Observer> Observation;
   typedef Disabled<MotorCurve> Motors;
+  typedef Disabled<Positioner<>> Positioning;
   static constexpr CombinedSplit kSplit = CombinedSplit::kRedistribute;
   static constexpr bool kIsDirected = true;  ///< AutopilotInput::speed_unsigned is supported
 };
@@ -51,6 +61,7 @@ struct AllParts {
   typedef Shaper<float> Shaping;
   typedef Observer Observation;
   typedef MotorCurve Motors;
+  typedef Positioner<> Positioning;
   static constexpr CombinedSplit kSplit = split;
   static constexpr bool kIsDirected = true;
 };
@@ -64,6 +75,42 @@ inline void enable(Observer& part, const Observers<float>& observers, float samp
 }
 inline void disable(Observer& part) { part.is_on = false; }
 inline void reset(Observer& part) { part.is_started = false; }
+
+/// True if the part is compiled in.
+template <class Filter>
+AWMR_INLINE bool estimates_position(const Disabled<Positioner<Filter>>&) {
+  return false;
+}
+template <class Filter>
+AWMR_INLINE bool estimates_position(const Positioner<Filter>&) {
+  return true;
+}
+
+template <class Filter>
+AWMR_INLINE void reset(Positioner<Filter>& part) {
+  part.estimate.restart();
+}
+
+/// The position now, for a step without a fault. `speed_mps` has the sign of the direction of travel.
+template <class Filter>
+AWMR_INLINE const Position<float>& position_now(const Disabled<Positioner<Filter>>&,
+                                                const AutopilotInput& in, const float&) {
+  return in.position_m;
+}
+template <class Filter>
+AWMR_CALLED Position<float> position_now(Positioner<Filter>& part, const AutopilotInput& in,
+                                         const float& speed_mps) {
+  if (in.position_is_fix == 0) {
+    part.estimate.restart();
+    return in.position_m;
+  }
+  const bool is_new = in.fix_ms != part.fix_ms;
+  part.fix_ms = in.fix_ms;
+  const float age_s = is_new ? 0.001F * static_cast<float>(in.times.now_ms - in.fix_ms) : 0.0F;
+  Measurement<float> motion = in.measured;
+  if (in.speed_unsigned != 0) motion.u_mps = math::with_sign(motion.u_mps, speed_mps);
+  return part.estimate.step({in.position_m, age_s, is_new}, motion);
+}
 
 /// Motor commands that make the forces with a dead zone.
 AWMR_INLINE void make_up_dead_zone(const Disabled<MotorCurve>&, SideForces<float>&) {}

@@ -16,7 +16,7 @@ namespace awmr {
 /// State of the autopilot between two steps. G is the type of the resistances, as in Controller; P
 /// lists the compiled parts (autopilot_parts.h).
 template <class G, class P = NoParts>
-struct Autopilot : GuidanceLaws<float, P>, P::Observation, P::Motors {
+struct Autopilot : GuidanceLaws<float, P>, P::Observation, P::Motors, P::Positioning {
   PreparedController<float, G> controller;
   SafetyLimits limits;
   uint32_t last_step_ms;           ///< valid once has_stepped
@@ -66,6 +66,7 @@ bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
   read_flash(&block->safety, a.limits);
   disable_guidance(a);
   disable(part_of<typename P::Observation>(a));
+  reset(part_of<typename P::Positioning>(a));
   set_observer(observer, part_of<typename P::Observation>(a));
   a.has_stepped = false;
   a.direction = DirectedSpeed<float>();

@@ -1,17 +1,14 @@
 /// Displacement along a heading. Freestanding C++14, and free of names that Arduino defines as macros.
 #pragma once
 
-#include "awmr/model/float_math.h"
+#include "awmr/model/quick_sin.h"
 
 namespace awmr {
 
 /// The part of a displacement along a heading, m:
 ///   ahead = dx cos psi + dy sin psi
 AWMR_CALLED inline float displacement_ahead_m(float dx_m, float dy_m, float psi_rad) {
-  float sine = 0.0F;
-  float cosine = 0.0F;
-  float_math::sin_cos(psi_rad, sine, cosine);
-  return dx_m * cosine + dy_m * sine;
+  return dx_m * math::quick_cos(psi_rad) + dy_m * math::quick_sin(psi_rad);
 }
 inline double displacement_ahead_m(double dx_m, double dy_m, double psi_rad) {
   return dx_m * ::cos(psi_rad) + dy_m * ::sin(psi_rad);

@@ -66,6 +66,33 @@ constexpr std::string_view kParts = R"(
 #define AWMR_FIXED_HALF {}
 )";
 
+constexpr std::string_view kPosition = R"(
+/* Position from the fixes of a GPS (src/awmr/control/position_estimate.h). Variance of a fix, m^2 of one
+   axis: noise/position_m of the vehicle, else 1.5 m; ms between a fix and its sentence:
+   latency_s/position, else 200 */
+#define AWMR_FIX_VARIANCE_M2 {}
+#define AWMR_FIX_LATENCY_MS {}UL
+/* m^2: growth of the position's variance in a step */
+#define AWMR_DRIFT_M2 {}
+#define AWMR_SAMPLE_RATE_HZ {}
+/* steps between two travelled positions that are kept; steps over which a correction is spread */
+#define AWMR_TRAVELLED_STRIDE {}
+#define AWMR_TRAVELLED_STRIDE_INVERSE {}
+#define AWMR_CORRECTION_STEPS {}
+#define AWMR_CORRECTION_STEPS_INVERSE {}
+/* 1: the work on a fix is spread over several steps */
+#define AWMR_SPREADS_FIXES {}
+)";
+
+std::string position_text(const AutopilotParameters& parameters) {
+  const auto literal = [](float value) { return float_literal(static_cast<double>(value)); };
+  const PositionFilter<float>& filter = parameters.position;
+  return fmt::format(kPosition, literal(filter.fix_variance_m2), parameters.position_latency_ms,
+                     literal(filter.drift_m2), literal(filter.sample_rate_hz), filter.stride,
+                     literal(filter.stride_inverse), filter.spread_steps,
+                     literal(filter.spread_inverse), filter.spreads_work ? 1 : 0);
+}
+
 /// Macro of a part: AWMR_WITH_SLOW_DOWN for slow_down.
 std::string macro_of(std::string_view part) {
   std::string macro = "AWMR_WITH_";
@@ -156,6 +183,7 @@ std::string autopilot_header(const AutopilotParameters& parameters) {
                   parameters.sample_time_s, parameters.crc);
   text += parts_text(parameters);
   text += rest_text(parameters);
+  text += position_text(parameters);
   if (by_table) {
     text += table_text(parameters.surge, {"Surge", "AWMR_SURGE_TABLE", "m/s", "of F_max"},
                        parameters.table_error);

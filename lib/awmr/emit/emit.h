@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "awmr/control/parameters_block.h"
+#include "awmr/control/position_filter.h"
 #include "awmr/control/resistance_table.h"
 #include "awmr/control/yaw_mode.h"
 #include "awmr/core/name_table.h"
@@ -110,6 +111,10 @@ struct EmittedTable {
   ResistanceTable view() const;
 };
 
+/// Noise of a fix, m, and its latency, s, of vehicles that do not give them.
+inline constexpr double kUsualFixNoise_m = 1.5;
+inline constexpr double kUsualFixLatency_s = 0.2;
+
 /// The firmware's numbers in the chip's form.
 struct AutopilotParameters {
   ParameterBlock block{};
@@ -126,8 +131,10 @@ struct AutopilotParameters {
   float route_speed_mps = 0.0F;  ///< of the sketches: 1 m/s, at most 60 % of what can be reached
   float on_course_rad = 0.0F;    ///< of the sketches: largest steady error of the heading
   float off_course_mrad = 0.0F;  ///< of the sketches: driven with a larger one before a fault
-  std::set<FirmwarePart> parts;  ///< as in EmitOptions, and the observer of the gains
-  std::size_t line_law = 0;      ///< as in EmitOptions
+  PositionFilter<float> position{};       ///< of the receiver's fixes
+  std::uint32_t position_latency_ms = 0;  ///< of the sketches' GPS
+  std::set<FirmwarePart> parts;           ///< as in EmitOptions, and the observer of the gains
+  std::size_t line_law = 0;               ///< as in EmitOptions
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< as in EmitOptions
   std::uint32_t crc = 0;                               ///< crc32_of_parameters() of all parameters
 };

@@ -10,11 +10,9 @@
 
 namespace awmr {
 
-/// The filter for the fixes of this receiver.
-inline PositionFilter<double> position_filter_for(const Gps& gps, double sample_time_s) {
-  const double steps_m2 = gps.x.quantum * gps.x.quantum / 12.0;
-  return position_filter<double>(std::sqrt(gps.x.noise * gps.x.noise + steps_m2), gps.latency_s,
-                                 sample_time_s);
+/// Standard deviation of a fix of this receiver, m, of one axis.
+inline double fix_noise_m(const Gps& gps) {
+  return std::sqrt(gps.x.noise * gps.x.noise + gps.x.quantum * gps.x.quantum / 12.0);
 }
 
 /// The firmware's estimate if the scenario has a GPS and does not disable it; else the position as sensed.
@@ -22,7 +20,8 @@ class Positioning {
  public:
   Positioning(const Scenario& scenario, double sample_time_s) {
     if (!estimates_position(scenario)) return;
-    estimate_.emplace(position_filter_for(*scenario.sensors->gps, sample_time_s));
+    const Gps& gps = *scenario.sensors->gps;
+    estimate_.emplace(position_filter<double>(fix_noise_m(gps), gps.latency_s, sample_time_s));
   }
 
   /// The position at `t_s`. Call it once per sample, in order.

@@ -92,6 +92,19 @@ namespace {
 
 typedef awmr::LineLaws<awmr::LineLawAt<AWMR_LINE_LAW>::Of, float>::Law LineLaw;
 
+/// As awmr::PositionFilter.
+struct PositionFilter {
+  static constexpr float sample_time_s = AWMR_SAMPLE_TIME_S;
+  static constexpr float sample_rate_hz = AWMR_SAMPLE_RATE_HZ;
+  static constexpr float fix_variance_m2 = AWMR_FIX_VARIANCE_M2;
+  static constexpr float drift_m2 = AWMR_DRIFT_M2;
+  static constexpr float stride_inverse = AWMR_TRAVELLED_STRIDE_INVERSE;
+  static constexpr float spread_inverse = AWMR_CORRECTION_STEPS_INVERSE;
+  static constexpr uint8_t stride = AWMR_TRAVELLED_STRIDE;
+  static constexpr uint8_t spread_steps = AWMR_CORRECTION_STEPS;
+  static constexpr bool spreads_work = AWMR_SPREADS_FIXES;
+};
+
 struct Parts {
   typedef awmr::Optional<AWMR_WITH_LINE, awmr::LineFollower<float, LineLaw>>::type Line;
   typedef awmr::Optional<AWMR_WITH_PATH, awmr::PathFollower<float, uint32_t>>::type Path;
@@ -100,6 +113,8 @@ struct Parts {
   typedef awmr::Optional<AWMR_WITH_SHAPING, awmr::Shaper<float>>::type Shaping;
   typedef awmr::Optional<AWMR_WITH_OBSERVER, awmr::Observer>::type Observation;
   typedef awmr::Optional<AWMR_FRICTION_AT_REST, awmr::MotorCurve>::type Motors;
+  typedef awmr::Optional<AWMR_WITH_POSITION_ESTIMATE, awmr::Positioner<PositionFilter>>::type
+      Positioning;
   static constexpr bool kIsDirected = AWMR_WITH_DIRECTION;
   static constexpr awmr::CombinedSplit kSplit =
       AWMR_FIXED_HALF ? awmr::CombinedSplit::kFixedHalf : awmr::CombinedSplit::kRedistribute;
@@ -138,6 +153,7 @@ static_assert(offsetof(awmr_input, x_m) == offsetof(awmr::AutopilotInput, positi
 static_assert(offsetof(awmr_input, psi_ref_rad) == offsetof(awmr::AutopilotInput, reference), "");
 static_assert(offsetof(awmr_input, now_ms) == offsetof(awmr::AutopilotInput, times), "");
 static_assert(offsetof(awmr_input, speed_unsigned) == offsetof(awmr::AutopilotInput, speed_unsigned), "");
+static_assert(offsetof(awmr_input, fix_ms) == offsetof(awmr::AutopilotInput, fix_ms), "");
 static_assert(sizeof(awmr_point) == sizeof(awmr::Position<float>), "");
 static_assert(sizeof(awmr_output) == sizeof(awmr::AutopilotOutput), "");
 static_assert(offsetof(awmr_output, tau_speed) == offsetof(awmr::AutopilotOutput, tau_speed), "");
@@ -160,6 +176,12 @@ __attribute__((noinline)) void awmr_follow_skipping(const awmr_point* points, in
                                                     float acceptance_m) {
   follow(points, count, acceptance_m, true);
 }
+
+#if AWMR_WITH_POSITION_ESTIMATE
+uint8_t awmr_position_resets(void) {
+  return awmr::part_of<awmr::Positioner<PositionFilter>>(autopilot).estimate.resets;
+}
+#endif
 
 #if AWMR_WITH_LINE
 namespace {

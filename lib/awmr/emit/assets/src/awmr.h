@@ -13,6 +13,17 @@
 #include "awmr_autopilot_params.h"
 #include "awmr_params.h"
 
+/* 1: the position can be estimated from a receiver's fixes (awmr_input.position_is_fix); needs 2.9 kB of
+   flash and 140 bytes of RAM. 0: position_is_fix is AWMR_FAULT_RANGE; the default of the Uno, whose
+   flash the sketches fill without it. */
+#ifndef AWMR_WITH_POSITION_ESTIMATE
+#ifdef __AVR_ATmega328P__
+#define AWMR_WITH_POSITION_ESTIMATE 0
+#else
+#define AWMR_WITH_POSITION_ESTIMATE 1
+#endif
+#endif
+
 /* mode: method of making a yaw moment */
 #define AWMR_DIFFERENTIAL 0 /* by left and right wheel forces, wheels straight */
 #define AWMR_STEERING 1     /* by the front wheels, equal forces on both sides */
@@ -50,6 +61,10 @@ typedef struct awmr_input {
   uint32_t command_ms;     /* and of the last command */
   uint8_t speed_unsigned;  /* 1: u_mps is the magnitude of the speed, as from a GPS, and x_m, y_m
                               are measured: the direction is computed. 0: u_mps has its sign */
+  uint8_t position_is_fix; /* 1: x_m, y_m are the last fix of a receiver, taken at fix_ms: the
+                              position now is estimated from it, heading and speed. 0: they are the
+                              position now */
+  uint32_t fix_ms;
 } awmr_input;
 
 typedef struct awmr_output {
@@ -153,6 +168,12 @@ void awmr_follow(const awmr_point* points, int16_t count, float acceptance_m);
 
 /* As above, but skips a waypoint that was passed by, for a vehicle that cannot turn back to it. */
 void awmr_follow_skipping(const awmr_point* points, int16_t count, float acceptance_m);
+
+#if AWMR_WITH_POSITION_ESTIMATE
+/* How often the position was reset to a fix, since the start, up to 255: after five fixes in a row that
+   were too far away. */
+uint8_t awmr_position_resets(void);
+#endif
 
 #if AWMR_WITH_LINE
 /* Follows the line through `count` corners from the next step on, instead of waypoints. The corners

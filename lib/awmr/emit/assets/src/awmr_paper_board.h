@@ -72,6 +72,8 @@ inline void measure(const Imu& imu, const Gps& gps, const Command& command, awmr
   input.speed_unsigned = 1;
   input.x_m = gps.x_m;
   input.y_m = gps.y_m;
+  input.position_is_fix = AWMR_WITH_POSITION_ESTIMATE;
+  input.fix_ms = gps.time_ms - AWMR_FIX_LATENCY_MS;
   input.speed_ms = time_or_old(gps.has_fix(), gps.time_ms, input.now_ms, AWMR_SPEED_TIMEOUT_MS);
   input.command_ms =
       time_or_old(command.has_heard, command.heard_ms, input.now_ms, AWMR_COMMAND_TIMEOUT_MS);

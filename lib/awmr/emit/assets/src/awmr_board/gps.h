@@ -6,6 +6,7 @@
 
 #include "../awmr/control/crc.h"
 #include "../awmr/control/gps_receiver.h"
+#include "../awmr/model/quick_sin.h"
 #include "steps.h"
 
 namespace awmr_board {
@@ -62,10 +63,8 @@ class Gps : public awmr::GpsReceiver<GpsLimits> {
     float west_m_per_e7 = 0.0f; /* of longitude */
 
     void set_latitude() {
-      float sine = 0.0f;
-      float cosine = 0.0f;
-      awmr::float_math::sin_cos(static_cast<float>(kept_origin.lat_e7) * kRadPerE7, sine, cosine);
-      west_m_per_e7 = kMetresPerE7 * cosine;
+      const float latitude_rad = static_cast<float>(kept_origin.lat_e7) * kRadPerE7;
+      west_m_per_e7 = kMetresPerE7 * awmr::math::quick_cos(latitude_rad); /* within 1e-4 */
     }
     awmr::GpsPlace operator()(const awmr::GpsFix& fix) {
       if (!is_kept()) {
