@@ -200,8 +200,8 @@ void PilGuidance::expect_leads_by_itself(const std::string& scenario) {
   EXPECT_EQ(largest(json["difference"]), 0.0);
   EXPECT_EQ(json["hostile"]["differing"].get<int>(), 0);
   EXPECT_LE(json["flash_bytes"].get<int>(), 16384);
-  const Json given = Json::parse(
-      read_all(std::string(AWMR_SOURCE_DIR "/configs/") + GetParam() + ".json"));
+  const Json given =
+      Json::parse(read_all(std::string(AWMR_SOURCE_DIR "/configs/") + GetParam() + ".json"));
   const bool is_estimated = given.contains("sensors") && given["sensors"].contains("gps");
   EXPECT_LE(json["ram_bytes"].get<int>(), is_estimated ? 640 : 512);
   EXPECT_LT(json["cycles_bound"].get<int>(), 160000);
