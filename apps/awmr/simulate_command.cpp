@@ -47,13 +47,6 @@ std::string resets_of(const Run& run) {
                      run.position_resets);
 }
 
-/// Reports resets of the position's estimate.
-std::string resets_of(const Run& run) {
-  if (run.position_resets == 0) return "";
-  return fmt::format("  the position's estimate was reset {} time(s), after rejected fixes\n",
-                     run.position_resets);
-}
-
 std::string summary_of(const Run& run, const Scenario& scenario, const SimulateCommand& command) {
   const State<double>& last = run.rows.back().state;
   const std::string plant =
