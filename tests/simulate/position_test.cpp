@@ -43,7 +43,7 @@ Scenario waypoints() {
 }
 Scenario line() {
   return with_gps(LineCourse{.points_m = {{0.0, 0.0}, {80.0, 0.0}},
-                             .law = LineLaw<double>{radians(60.0), 4.0, false},
+                             .law = LineOfSight<double>{radians(60.0), 4.0, false},
                              .slow_down_m = {}});
 }
 
