@@ -9,6 +9,7 @@
 namespace awmr::testing::bad_number_test {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 struct NumericOption {
@@ -18,8 +19,6 @@ struct NumericOption {
 };
 
 constexpr NumericOption kOptions[] = {
-    {"identify", "--from", false},
-    {"identify", "--until", false},
     {"identify", "--starts", true},
     {"identify", "--bootstrap", true},
     {"identify", "--seed", true},
@@ -69,6 +68,21 @@ TEST(BadNumber, IsRefusedByEveryNumericOption) {
       EXPECT_EQ(result.exit_code, 2) << option.command << " " << option.option << "=" << text;
       EXPECT_THAT(result.err, HasSubstr(option.option)) << option.command << " " << text;
     }
+  }
+}
+
+/// Of a log's clock, which may be negative.
+TEST(BadNumber, IsRefusedAsATime) {
+  const std::string files =
+      "identify --vehicle configs/paper/vehicle.json "
+      "--log datasets/synthetic/drive_1.csv -o /dev/null ";
+  for (const char* option :
+       {"--from=nan", "--until=1x", "--from=1e13", "--exclude=5", "--exclude=5:", "--exclude=5:5",
+        "--exclude=:5", "--exclude=1:nan", "--from=9 --until=3", "--from=1e6"}) {
+    const ProcessResult result = awmr(files + option);
+    EXPECT_EQ(result.exit_code, 2) << option;
+    const std::string name = std::string(option).substr(0, std::string(option).find('='));
+    EXPECT_THAT(result.err, AnyOf(HasSubstr(name), HasSubstr("--until"))) << option;
   }
 }
 

@@ -46,7 +46,7 @@ TEST(CoastdownTrial, ReadsCurvesByRun) {
 
 TEST(CoastdownTrial, RefusesACurveWhoseTimeDoesNotRiseOrThatIsTooShort) {
   EXPECT_THAT(faults_of(read_coastdown, "t_s,speed_mps\n0,3\n0.1,2\n0.1,1\n0.2,1\n0.3,1\n"),
-              ElementsAre(AllOf(StartsWith("4:1: "), HasSubstr("rise"))));
+              ElementsAre(AllOf(StartsWith("4:1: "), HasSubstr("increase"))));
   EXPECT_THAT(faults_of(read_coastdown, "t_s,speed_mps\n0,3\n0.1,2\n"),
               ElementsAre(AllOf(StartsWith("2:1: "), HasSubstr("2 speeds"))));
 }
