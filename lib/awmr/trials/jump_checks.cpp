@@ -126,6 +126,17 @@ std::optional<Contradiction> jump_contradiction(const Evidence& evidence) {
   const auto moves = moves_between(log, rows_with(log, {LogChannel::kHeading}), size);
   const auto jump = jump_in(moves, kLeastTurn_rad, size);
   if (!jump) return std::nullopt;
+  constexpr double kAboutHalfATurn_rad = radians(20.0);
+  if (std::abs(jump->size - pi<double>()) < kAboutHalfATurn_rad) {
+    return Contradiction{
+        "heading_deg",
+        fmt::format(
+            "it jumps by {:.3g} deg between lines {} and {}, within {:.3g} s: the course of a "
+            "GPS while the vehicle rolls backward, or two runs in one file; leave the cells "
+            "of backward motion empty, or give each run its number in a column run",
+            degrees(jump->size), log.line[jump->from], log.line[jump->to], jump->span_s),
+        ""};
+  }
   return described(log, *jump, "heading_deg", fmt::format("{:.3g} deg", degrees(jump->size)));
 }
 

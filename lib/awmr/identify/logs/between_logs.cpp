@@ -1,6 +1,7 @@
 #include "awmr/identify/logs/between_logs.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
+#include "awmr/identify/logs/identifiability.h"
 #include "awmr/identify/uncertainty/quantiles.h"
 #include "awmr/model/sensor_delay_name.h"
 
@@ -56,7 +58,7 @@ ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& 
 /// Result of Cochran's Q test that the logs agree on a quantity.
 struct Heterogeneity {
   double p_value = 1.0;
-  double widening = 1.0;     ///< of the standard error, for the mean of such vehicles
+  double std_error = 0.0;    ///< of the mean of such vehicles, of the coordinate
   double mean_square = 0.0;  ///< Q/(L - 1)
 };
 
@@ -76,12 +78,15 @@ Heterogeneity heterogeneity(const ByLog& by_log) {
   }
   const double degrees = static_cast<double>(by_log.weights.size()) - 1.0;
   const double between = std::max(0.0, (q - degrees) / (sum - squares / sum));
-  return {chi_squared_tail(q, degrees), std::sqrt(1.0 + between * squares / sum), q / degrees};
+  return {chi_squared_tail(q, degrees), std::sqrt((1.0 + between * squares / sum) / sum),
+          q / degrees};
 }
 
-/// Widens the i-th quantity of the common fit, known from this many logs.
-void widen(std::size_t i, double by, std::size_t logs, LogFit& fit) {
+/// Widens the i-th quantity of the common fit, known from this many logs, to this standard error. The
+/// common fit's own may be larger: it has the scatter of rows that one value does not describe.
+void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   const Eigen::Index row = eigen_index(i);
+  const double by = std::max(1.0, std_error / std::sqrt(fit.covariance(row, row)));
   fit.covariance.row(row) *= by;
   fit.covariance.col(row) *= by;
   const FreeQuantity& q = fit.quantities[i];
@@ -121,9 +126,15 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
     if (by_log.files.size() < 2) continue;
     const Heterogeneity between = heterogeneity(by_log);
     if (!(between.p_value < level)) continue;
-    widen(i, between.widening, by_log.files.size(), common.fit);
-    LogDisagreement one{q.name(), between.p_value, by_log.files, {}, false};
+    widen(i, between.std_error, by_log.files.size(), common.fit);
+    LogDisagreement one{q.name(), between.p_value, by_log.files, {}, false, false};
     for (const double x : by_log.coordinates) one.values.push_back(q.value(x));
+    const Eigen::Index row = eigen_index(i);
+    one.refuses = std::sqrt(common.fit.covariance(row, row)) > kUnknown * q.large_change;
+    if (one.refuses) {
+      common.fit.why_not[i] =
+          fmt::format("the logs disagree on it: {:.4g}", fmt::join(one.values, ", "));
+    }
     disagreements.push_back(one);
   }
   return disagreements;

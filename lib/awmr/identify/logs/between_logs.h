@@ -17,6 +17,7 @@ struct LogDisagreement {
   std::vector<std::string> files;  ///< those that show the quantity on their own
   std::vector<double> values;      ///< by file
   bool withdraws = false;          ///< no interval of the common fit holds
+  bool refuses = false;            ///< widened, it is not known: LogFit::why_not has it
 };
 
 /// Differences between fits of single logs, or of the halves of a single one.
@@ -33,7 +34,8 @@ struct LogComparison {
 ///     tau^2 = (Q - (L - 1)) / (sum w - sum w^2 / sum w)                    (DerSimonian and Laird)
 ///
 /// Where p < 0.001 over all quantities, the standard error and the interval of the common fit are
-/// widened by tau: they then hold for the mean of vehicles like these. A bias may differ. A delay
+/// at least those of the mean of such logs: they then hold for the mean of vehicles like these; a quantity whose standard error
+/// then exceeds kUnknown is refused. A bias may differ. A delay
 /// or an error of the commands that the common fit does not have, as a trim that was set anew
 /// between two logs, is freed where the score tests of the logs differ most. If the logs disagree
 /// on it, or on a trim or an imbalance that the common fit has, no interval of the common fit

@@ -367,6 +367,7 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements)
                      one.name, each, one.p_value,
                      one.withdraws ? "the fit takes one value for all of them. The intervals are "
                                      "withdrawn; identify each log by itself"
+                     : one.refuses ? "widened for it, the interval would say nothing: it is refused"
                                    : "its interval is widened and covers the mean over such logs, "
                                      "not an individual log")});
   }
