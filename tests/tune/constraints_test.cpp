@@ -180,6 +180,30 @@ TEST(SteeringRate, IsThatOfIndependentReadingsThroughTheLaw) {
   EXPECT_EQ(steering_rate_rms_degps(kPaperGains, context), 0.0);
 }
 
+/// RMS rate of the steering command that `law`, w of the noise of heading and yaw rate in standard
+/// deviations, makes of a million pairs of readings with the context's correlations.
+template <class Law>
+double drawn_rate_degps(const ConstraintContext& context, const Law& law) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  const auto after = [&](double reading, double correlation) {
+    return correlation * reading + std::sqrt(1.0 - correlation * correlation) * normal(random);
+  };
+  double squares = 0.0;
+  constexpr int kPairs = 1'000'000;
+  for (int i = 0; i < kPairs; ++i) {
+    const double heading = normal(random);
+    const double rate = normal(random);
+    const double change = law(after(heading, context.heading_correlation),
+                              after(rate, context.yaw_rate_correlation)) -
+                          law(heading, rate);
+    squares += change * change;
+  }
+  const double per_moment = 2.0 / (context.plant.front_axle_m * context.plant.surge(1.0));
+  return degrees(per_moment * context.plant.inertia_norm * std::sqrt(squares / kPairs) /
+                 context.sample_time_s);
+}
+
 /// Of the power law, whose w is no straight line, by a million pairs of readings with the correlation.
 TEST(SteeringRate, OfCorrelatedReadingsIsThatOfDrawnPairs) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
@@ -188,29 +212,14 @@ TEST(SteeringRate, OfCorrelatedReadingsIsThatOfDrawnPairs) {
   context.heading_correlation = 0.5;
   context.yaw_rate_correlation = 0.9;
   const double correlated = steering_rate_rms_degps(kPaperGains, context);
-  std::mt19937_64 random(1);
-  std::normal_distribution<double> normal;
   const Resistance<double> g3 = feed_forward(context.plant.yaw);
   const double k = 50.0 / 12.0;
-  const auto after = [&](double reading, double correlation) {
-    return correlation * reading + std::sqrt(1.0 - correlation * correlation) * normal(random);
-  };
   const auto law = [&](double heading, double rate) {
     const double n = 0.05 * rate;
     return fed_forward(g3, n, 0.0) / context.plant.inertia_norm - (3.0 + k) * n -
            3.0 * k * 0.02 * heading;
   };
-  double squares = 0.0;
-  constexpr int kPairs = 1'000'000;
-  for (int i = 0; i < kPairs; ++i) {
-    const double heading = normal(random);
-    const double rate = normal(random);
-    const double change = law(after(heading, 0.5), after(rate, 0.9)) - law(heading, rate);
-    squares += change * change;
-  }
-  const double per_moment = 2.0 / (context.plant.front_axle_m * context.plant.surge(1.0));
-  const double drawn = degrees(per_moment * context.plant.inertia_norm *
-                               std::sqrt(squares / kPairs) / context.sample_time_s);
+  const double drawn = drawn_rate_degps(context, law);
   // The series neglects higher terms: the rate is a little too large, never too small.
   EXPECT_GT(correlated, 0.99 * drawn);
   EXPECT_LT(correlated, 1.05 * drawn);
@@ -271,27 +280,12 @@ TEST(SteeringRate, WithCoulombFrictionOfCorrelatedReadingsIsThatOfDrawnPairs) {
   context.yaw_rate_correlation = 0.6;
   const Gains<double> gains{{1.0, 5.2, 2.0, 0.03}, {5.0, 1.2}};
   const Resistance<double> g3 = feed_forward(context.plant.yaw, 0.03);
-  std::mt19937_64 random(1);
-  std::normal_distribution<double> normal;
-  const auto after = [&](double reading, double correlation) {
-    return correlation * reading + std::sqrt(1.0 - correlation * correlation) * normal(random);
-  };
   const auto law = [&](double heading, double rate) {
     const double n = context.yaw_rate_noise_radps * rate;
     const double s = -n - context.heading_noise_rad * heading;  // lambda = 1
     return fed_forward(g3, n, s) / context.plant.inertia_norm - n + 2.6 * s;
   };
-  double squares = 0.0;
-  constexpr int kPairs = 1'000'000;
-  for (int i = 0; i < kPairs; ++i) {
-    const double heading = normal(random);
-    const double rate = normal(random);
-    const double change = law(after(heading, 0.95), after(rate, 0.6)) - law(heading, rate);
-    squares += change * change;
-  }
-  const double per_moment = 2.0 / (context.plant.front_axle_m * context.plant.surge(1.0));
-  const double drawn = degrees(per_moment * context.plant.inertia_norm *
-                               std::sqrt(squares / kPairs) / context.sample_time_s);
+  const double drawn = drawn_rate_degps(context, law);
   // Above: higher terms of the series of the yaw rate's part are neglected.
   EXPECT_NEAR(steering_rate_rms_degps(gains, context), drawn, 0.03 * drawn);
 }

@@ -243,6 +243,7 @@ double mean_of_correlated(const W& w, double rho) {
   return mean;
 }
 
+/// As in core/distributions.h, whose Boost.Math is not in the report's page.
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 double normal_density(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * pi<double>()); }
 

@@ -29,7 +29,7 @@ bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candid
 /// Whether a fit with k_e free is significantly better than one without, and identifies k_e.
 bool shows_back_emf(const FamilyFit& with, const FamilyFit& without);
 
-/// `back-emf`: the chosen model, and by how much it improves the fit.
+/// `back-emf`: the chosen model and the improvement of the fit.
 Finding back_emf_finding(const std::string& file, const FamilyFit& with, const FamilyFit& without);
 
 }  // namespace awmr

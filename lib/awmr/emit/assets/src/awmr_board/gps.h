@@ -26,7 +26,7 @@ struct GpsLimits {
   static constexpr float off_course_mrad = AWMR_OFF_COURSE_MRAD;
   static constexpr uint32_t timeout_ms = AWMR_SPEED_TIMEOUT_MS;
   /* A long sample time has room for all of a sentence's work, and too few steps to spread it. */
-  static constexpr bool spreads_work = AWMR_SAMPLE_TIME_S < 0.0151f;
+  static constexpr bool spreads_work = AWMR_SPREADS_FIXES;
 };
 
 /* x_m, y_m: north and west of the origin, the first fix; speed_mps without a sign; time_ms of the
