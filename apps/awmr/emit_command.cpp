@@ -99,6 +99,19 @@ std::vector<Finding> unstable_gains(const Gains<double>& gains, double sample_ti
   return findings;
 }
 
+/// Warns if motors that differ by 16 % turn the vehicle further than the sketches allow (fault 17).
+void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& command,
+                      Outcome& outcome) {
+  if (2.0 * parameters.steady_error_rad <= kMostOnCourse_rad) return;
+  outcome.findings.push_back(
+      {command.gains.string(), 0, Severity::kWarning, "weak-heading",
+       fmt::format(
+           "lambda mu/epsilon holds the heading so weakly that motors of 16 % unequal force turn "
+           "the vehicle by {:.0f} deg: the sketches take that for a failure (fault 17) and "
+           "disarm. Use faster gains, or tune with --observer",
+           degrees(parameters.steady_error_rad))});
+}
+
 /// Warns if samples are shorter than the chip's longest step, or longer than half the heading timeout.
 std::vector<Finding> sample_time(double sample_time_s, const EmitCommand& command) {
   constexpr double kLongestStep_s = 20000.0 / 16e6;
@@ -131,12 +144,13 @@ Status check_vehicle(const EmitCommand& command, const Vehicle& vehicle) {
       "Correct vehicle.json and identify again, or give " + option_text("as-is"));
 }
 
-/// Reports the accuracy of the resistance tables; nothing if powf is called instead.
-Status add_tables(const Model& model, const Gains<double>& gains, const EmitInputs& inputs,
-                  const EmitCommand& command, Outcome& outcome) {
-  if (command.emit.resistance != ResistanceForm::kTable) return {};
+/// Warns of weak gains, and reports the accuracy of the resistance tables; powf has none.
+Status add_parameters(const Model& model, const Gains<double>& gains, const EmitInputs& inputs,
+                      const EmitCommand& command, Outcome& outcome) {
   AWMR_ASSIGN_OR_RETURN(const auto parameters,
                         autopilot_parameters(model, gains, inputs, command.emit));
+  add_weak_heading(parameters, command, outcome);
+  if (command.emit.resistance != ResistanceForm::kTable) return {};
   add_coarse("surge", parameters.surge, command, outcome);
   add_coarse("yaw", parameters.yaw, command, outcome);
   outcome.summary += table_line("surge", parameters.surge) + table_line("yaw", parameters.yaw);
@@ -177,7 +191,7 @@ Result<Outcome> execute(const EmitCommand& command) {
     files.push_back({"awmr_params.h", std::move(header)});
   } else {
     AWMR_ASSIGN_OR_RETURN(files, firmware_library(model, gains, inputs, command.emit));
-    AWMR_RETURN_IF_ERROR(add_tables(model, gains, inputs, command, outcome));
+    AWMR_RETURN_IF_ERROR(add_parameters(model, gains, inputs, command, outcome));
   }
   AWMR_RETURN_IF_ERROR(check_replaceable(command.output, files));
   AWMR_RETURN_IF_ERROR(note_other_model(command.gains, command.model, outcome.findings));

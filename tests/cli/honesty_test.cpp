@@ -110,6 +110,24 @@ TEST_F(Honesty, OwnGainsAndGainsWrittenByHandHaveNoFinding) {
   EXPECT_THAT(codes_in(run.at("findings")), Not(Contains(kForeignGains)));
 }
 
+TEST_F(Honesty, EmitWarnsOfGainsThatHoldTheHeadingWeakly) {
+  const auto codes_of_slower = [&](double share) {
+    const Json tuned = Json::parse(read_all(kept("gains.json")));
+    Json gains = {{"heading", tuned.at("heading")}, {"speed", tuned.at("speed")}};
+    Json& heading = gains["heading"];
+    heading["lambda"] = share * heading["lambda"].get<double>();
+    heading["mu"] = share * share * heading["mu"].get<double>();
+    heading["epsilon"] = share * heading["epsilon"].get<double>();
+    write_all(path("gains.json"), gains.dump());
+    const Json result =
+        result_of(fmt::format("emit --model {} --gains {} -o {}", kept("model.json"),
+                              path("gains.json"), path(fmt::format("firmware_{}", share))));
+    return codes_in(result.at("findings"));
+  };
+  EXPECT_THAT(codes_of_slower(0.05), Contains("weak-heading"));
+  EXPECT_THAT(codes_of_slower(1.0), Not(Contains("weak-heading")));
+}
+
 TEST_F(Honesty, AReportLeavesOutWhatIsNotOfItsModel) {
   for (const char* name : {"model.json", "gains.json"}) fs::copy(kept(name), path(name));
   ASSERT_EQ(awmr(simulate_line("model.json", "run_own_combined_tuned.csv")).exit_code, 0);

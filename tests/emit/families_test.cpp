@@ -110,6 +110,7 @@ TEST(OnCourse, IsTwiceTheErrorThatUnequalMotorsCause) {
                             plant.surge.at(static_cast<double>(parameters->route_speed_mps));
     const double twice_rad =
         2.0 * moment_m * gains.heading.epsilon / (plant.inertia_norm * gains.heading.lambda * mu);
+    EXPECT_NEAR(2.0 * parameters->steady_error_rad, twice_rad, 1e-12);
     return std::pair(static_cast<double>(parameters->on_course_rad), twice_rad);
   };
   const auto [soft_rad, soft_twice_rad] = error_rad(60.0);

@@ -298,7 +298,7 @@ TEST(FrictionWidth, IsTheNarrowestThatKeepsTheSteeringRate) {
     there.heading.friction_width_radps = width;
     return steering_rate_rms_degps(there, context);
   };
-  const double widest = context.plant.yaw.coulomb / (context.plant.inertia_norm * 1.3);
+  const double widest = 10.0 * context.plant.yaw.coulomb / (context.plant.inertia_norm * 1.3);
   EXPECT_LT(rate_at(widest), 0.7 * rate_at(0.02));
   const auto width = [&](double wider = 0.0) {
     return with_friction_width(gains, context, wider).heading.friction_width_radps;

@@ -81,10 +81,20 @@ TEST(ModeScores, AreThoseOfTheRun) {
   EXPECT_NEAR(*score.metrics.heading_iae_degs, iae, 1e-9 * iae);
 }
 
+/// Two headings, held for 1 and 3 s: an error of 0.5 deg has an ITAE of 0.5 (1 + 9)/2 = 2.5 deg s^2.
+TEST(UnsettledRuns, CountLongerTheFurtherTheyStayFromTheirHeading) {
+  Scenario scenario;
+  scenario.duration_s = 4.0;
+  scenario.guidance = HeadingSteps{{{0.0, 0.0}, {1.0, 1.0}}};
+  EXPECT_DOUBLE_EQ(unsettled_s(scenario, 0.0), 4.0);
+  EXPECT_DOUBLE_EQ(unsettled_s(scenario, 2.5), 4.0);
+  EXPECT_DOUBLE_EQ(unsettled_s(scenario, 7.5), 12.0);
+}
+
 TEST(ObjectiveTerms, AreRatiosAboveTheirFloors) {
   ModeScore score;
   ModeScore baseline;
-  score.duration_s = 0.95;  // never settled
+  score.unsettled_s = 0.95;
   baseline.metrics.settling_time_s = 0.15;
   score.metrics.heading_itae_degs2 = 0.5;
   score.metrics.overshoot_deg = 1.5;

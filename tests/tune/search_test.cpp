@@ -65,7 +65,8 @@ double mode_objective(const TuneOptions& options, const Gains<double>& gains, Ya
       };
       speed += 0.5 * (at(i) + at(i - 1)) * (run.rows[i].t_s - run.rows[i - 1].t_s);
     }
-    const double settling_s = m.settling_time_s.value_or(options.scenarios.front().duration_s);
+    const double settling_s = m.settling_time_s.value_or(
+        unsettled_s(options.scenarios.front(), m.heading_itae_degs2.value_or(0.0)));
     return std::array<double, 6>{settling_s + 0.05,
                                  m.heading_itae_degs2.value() + 0.1,
                                  m.overshoot_deg.value() + 0.5,

@@ -140,14 +140,20 @@ std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains
                      plant.inertia_norm * gains.lambda / kMore);
 }
 
-/// AWMR_ON_COURSE_RAD: twice the steady error of the heading with motors that differ by 16 %, 15 to
-/// 45 deg. In the boundary layer of the heading law (heading_law.h), at r = 0:
+/// The steady error of the heading with motors that differ by 16 %, rad. In the boundary layer of the heading
+/// law (heading_law.h), at r = 0:
 ///   0.08 d tau_speed = I'z lambda (mu/epsilon) e
+double steady_error_rad(const Plant<double>& plant, const HeadingGains<double>& gains,
+                        double route_mps) {
+  const double stiffness_m = plant.inertia_norm * gains.lambda * gains.mu / gains.epsilon;
+  return unequal_moment_m(plant, route_mps) / stiffness_m;
+}
+
+/// AWMR_ON_COURSE_RAD: twice the steady error of the heading, 15 to 45 deg.
 double on_course_rad(const Plant<double>& plant, const HeadingGains<double>& gains,
                      double route_mps) {
-  const double stiffness_m = plant.inertia_norm * gains.lambda * gains.mu / gains.epsilon;
-  return std::clamp(2.0 * unequal_moment_m(plant, route_mps) / stiffness_m, radians(15.0),
-                    radians(45.0));
+  return std::clamp(2.0 * steady_error_rad(plant, gains, route_mps), radians(15.0),
+                    kMostOnCourse_rad);
 }
 
 /// AWMR_OFF_COURSE_MRAD: a turn by 180 deg with the radius R takes R (pi - e0)^2/2 of it
@@ -253,6 +259,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   parameters.sample_time_s = single(model.vehicle.sample_time_s);
   const double route_mps = route_speed_mps(plant, full_force);
   parameters.route_speed_mps = single(route_mps);
+  parameters.steady_error_rad = steady_error_rad(plant, gains.heading, route_mps);
   parameters.on_course_rad = single(on_course_rad(plant, gains.heading, route_mps));
   parameters.off_course_mrad =
       single(off_course_mrad(plant, model.vehicle, gains.heading, full_force, route_mps));

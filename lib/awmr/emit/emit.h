@@ -14,6 +14,7 @@
 #include "awmr/control/yaw_mode.h"
 #include "awmr/core/name_table.h"
 #include "awmr/core/result.h"
+#include "awmr/core/units.h"
 #include "awmr/model/certificate.h"
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
@@ -115,6 +116,9 @@ struct EmittedTable {
 inline constexpr double kUsualFixNoise_m = 1.5;
 inline constexpr double kUsualFixLatency_s = 0.2;
 
+/// The sketches take no larger error of the heading for a vehicle that is on its course, rad.
+inline constexpr double kMostOnCourse_rad = radians(45.0);
+
 /// The firmware's numbers in the chip's form.
 struct AutopilotParameters {
   ParameterBlock block{};
@@ -128,9 +132,10 @@ struct AutopilotParameters {
   ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
   double table_error = 0.0;                            ///< bound for both tables
   float sample_time_s = 0.0F;                          ///< as in awmr_params.h
-  float route_speed_mps = 0.0F;  ///< of the sketches: 1 m/s, at most 60 % of what can be reached
-  float on_course_rad = 0.0F;    ///< of the sketches: largest steady error of the heading
-  float off_course_mrad = 0.0F;  ///< of the sketches: driven with a larger one before a fault
+  float route_speed_mps = 0.0F;   ///< of the sketches: 1 m/s, at most 60 % of what can be reached
+  double steady_error_rad = 0.0;  ///< of the heading, with motors that differ by 16 %
+  float on_course_rad = 0.0F;     ///< of the sketches: twice that, 15 deg to kMostOnCourse_rad
+  float off_course_mrad = 0.0F;   ///< of the sketches: driven with a larger one before a fault
   PositionFilter<float> position{};       ///< of the receiver's fixes
   std::uint32_t position_latency_ms = 0;  ///< of the sketches' GPS
   std::set<FirmwarePart> parts;           ///< as in EmitOptions, and the observer of the gains

@@ -316,6 +316,9 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider) {
   constexpr int kBisections = 20;
+  // At the widest, friction adds a tenth to the corrective term: what it takes of the steering rate is
+  // of more use there.
+  constexpr double kLeastFrictionShare = 0.1;
   double& width = gains.heading.friction_width_radps;
   width = feed_forward_rest_speed<double>();
   const auto& limit = context.limits.steering_rate_rms_degps;
@@ -325,8 +328,8 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
     width = radps;
     return steering_rate_rms_degps(gains, context) <= *limit * (1.0 + wider);
   };
-  Interval widths{
-      width, plant.yaw.coulomb * gains.heading.epsilon / (plant.inertia_norm * gains.heading.mu)};
+  Interval widths{width, plant.yaw.coulomb * gains.heading.epsilon /
+                             (kLeastFrictionShare * plant.inertia_norm * gains.heading.mu)};
   if (is_calm(widths.lo) || widths.hi <= widths.lo) {
     width = widths.lo;
     return gains;

@@ -132,9 +132,9 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 
 /// The gains with the narrowest friction width that keeps the limit of the steering rate, or one wider
 /// by the share `wider`:
-///   0.02 <= w0 <= c3 eps/(I'z mu)
-/// At the upper end the friction fed forward grows with S as the corrective term does. Where that
-/// does not keep the limit either, w0 is the upper end; without a limit or Coulomb friction, 0.02.
+///   0.02 <= w0 <= 10 c3 eps/(I'z mu)
+/// At the upper end the friction fed forward grows with S a tenth as fast as the corrective term.
+/// Where that does not keep the limit either, w0 is the upper end; without a limit or Coulomb friction, 0.02.
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider = 0.0);
 

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <ranges>
 #include <span>
 #include <utility>
 
 #include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
+#include "awmr/simulate/meter.h"
 #include "awmr/simulate/simulate.h"
 #include "awmr/tune/goals.h"
 
@@ -67,12 +69,25 @@ double mean_in_any_order(std::vector<double> values) {
 
 std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score) {
   const Metrics& m = score.metrics;
-  return {m.settling_time_s.value_or(score.duration_s),
+  return {m.settling_time_s.value_or(score.unsettled_s),
           m.heading_itae_degs2.value_or(0.0),
           m.overshoot_deg.value_or(0.0),
           m.control_variation,
           m.control_effort,
           m.speed_itae_m_s};
+}
+
+double unsettled_s(const Scenario& scenario, double itae_degs2) {
+  const auto* headings = std::get_if<HeadingSteps>(&scenario.guidance);
+  if (headings == nullptr) return scenario.duration_s;
+  double in_band_degs2 = 0.0;
+  double end_s = scenario.duration_s;
+  for (const HeadingStep& step : std::views::reverse(headings->steps)) {
+    const double held_s = std::max(end_s - step.t_s, 0.0);
+    in_band_degs2 += meter::kSettledLeastDeg * held_s * held_s / 2.0;
+    end_s = step.t_s;
+  }
+  return scenario.duration_s * std::max(1.0, itae_degs2 / in_band_degs2);
 }
 
 double objective_of(const ModeScore& score, const ModeScore& baseline,
@@ -148,11 +163,13 @@ std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting, con
     const auto metrics = simulate_batch(block, scenario, sample_time_s, setting.arithmetic);
     for (std::size_t j = 0; j < block.size(); ++j) {
       const std::size_t run = first + j;
+      const Metrics found =
+          metrics[j] ? *metrics[j] : metrics_of_failed(block[j], scenario, setting);
       scores[run / per_gains][run % per_gains * scenarios + i % scenarios] = {
           .scenario = scenario.name,
           .mode = block[j].mode,
-          .metrics = metrics[j] ? *metrics[j] : metrics_of_failed(block[j], scenario, setting),
-          .duration_s = scenario.duration_s,
+          .metrics = found,
+          .unsettled_s = unsettled_s(scenario, found.heading_itae_degs2.value_or(0.0)),
           .has_failed = !metrics[j]};
     }
   });

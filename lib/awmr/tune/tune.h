@@ -211,7 +211,8 @@ struct ModeScore {
   std::string scenario;
   YawMode mode{};
   Metrics metrics{};
-  double duration_s = 0.0;  ///< of the scenario
+  double unsettled_s =
+      0.0;  ///< takes the place of the settling time that a run does not have (objective.h)
   double objective =
       0.0;  ///< weighted geometric mean of its terms over the baseline's; 1 for itself
   bool has_failed = false;  ///< the run broke off: its metrics are those of what came before
