@@ -6,6 +6,7 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/option_text.h"
+#include "awmr/model/model_file.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/model/vehicle_file.h"
 #include "awmr/simulate/scenario_file.h"
@@ -172,7 +173,9 @@ Result<Outcome> execute(const RunCommand& command) {
   Outcome& total = steps.total;
   AWMR_ASSIGN_OR_RETURN(Outcome identified, identify_step(project, names, model));
   add_step(steps, "identify", std::move(identified));
-  if (total.refused) {
+  // What was refused may have a given or an assumed value: the rule of tune.
+  AWMR_ASSIGN_OR_RETURN(const Model fitted, read_model(model));
+  if (total.refused && !fitted.plant()) {
     total.summary += "stopped: the next steps need parameters that could not be identified\n";
     total.document = joined(steps.documents);
     put_findings_into_document(total);

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/program.h"
 
@@ -125,6 +127,50 @@ TEST_F(Pipeline, GivesTheSameBytesAgain) {
   }
   for (const char* name : {"model.json", "gains.json", "awmr_params.h", "comparison.csv"}) {
     EXPECT_EQ(read_all(one.path() / "out" / name), read_all(two.path() / "out" / name)) << name;
+  }
+}
+
+/// The forces, the steering, the speed and the yaw rate of a log of the synthetic data.
+std::string log_without_positions(const std::string& path) {
+  std::istringstream lines(read_all(path));
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) continue;
+    std::istringstream cells(line);
+    std::vector<std::string> cell;
+    for (std::string one; std::getline(cells, one, ',');) cell.push_back(one);
+    for (const std::size_t i : {0, 1, 2, 3, 7}) text += cell.at(i) + ",";
+    text += cell.at(8) + "\n";
+  }
+  return text;
+}
+
+/// No sensor shows the sway resistance, so identify refuses it and assumes one, which tune takes.
+TEST(RunOfALog, GoesOnWithAnAssumedSwayAsTuneDoes) {
+  const std::string source = AWMR_SOURCE_DIR;
+  const TemporaryDirectory directory;
+  const std::filesystem::path& folder = directory.path();
+  Json vehicle = Json::parse(read_all(source + "/configs/paper/vehicle.json"));
+  vehicle.erase("sway_alpha");
+  write_all(folder / "vehicle.json", vehicle.dump());
+  write_all(folder / "log.csv", log_without_positions(source + "/datasets/synthetic/drive_2.csv"));
+  write_all(
+      folder / "tune.json",
+      R"({"global_evaluations": 20, "local_evaluations": 10, "draws": 4, "judged_draws": 4})");
+  const Json project{{"schema", "awmr.project/1"},
+                     {"vehicle", "vehicle.json"},
+                     {"trials", {{"logs", {"log.csv"}}}},
+                     {"tune", "tune.json"},
+                     {"compare",
+                      {{"scenarios", {source + "/configs/paper/scenarios/c3_heading_steps.json"}},
+                       {"samples", 4}}}};
+  write_all(folder / "project.json", project.dump());
+  const ProcessResult run =
+      awmr("run " + (folder / "project.json").string() + " -o " + (folder / "out").string());
+  EXPECT_EQ(run.exit_code, 1) << run.err;  // requested, and not identified
+  EXPECT_THAT(run.err, HasSubstr("[not-identifiable]"));
+  for (const char* name : {"gains.json", "comparison.json", "report.html"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
   }
 }
 

@@ -172,6 +172,52 @@ TEST(Outliers, ThatAreGrossAreSetAsideByName) {
   }
 }
 
+/// Nine runs over 6 m, from 14.6 s down to 1.4 s, timed by a stop-watch.
+TrialData timed_runs(double timing_std_s, std::uint64_t seed) {
+  Random random(seed, 4);
+  const Resistance<double> law{.alpha = 1.5, .beta = 0.7};
+  constexpr double kDistance_m = 6.0;
+  TrialData data;
+  data.surge = TrialSet<SurgeRow>{"surge.csv", {}, 0};
+  for (int i = 2; i <= 10; ++i) {
+    const double tau = 0.4 * i;
+    const double elapsed_s = kDistance_m / *steady_rate(law, tau) + timing_std_s * random.normal();
+    data.surge->rows.push_back({i, tau, kDistance_m / elapsed_s, kDistance_m, elapsed_s});
+  }
+  return data;
+}
+
+TEST(Outliers, OfRunsWithEqualErrorsOfTheirTimesAreAsRareAsTheirLevel) {
+  constexpr int kTables = 100;
+  int named = 0;
+  for (int seed = 1; seed <= kTables; ++seed) {
+    const auto result =
+        identify(vehicle(), timed_runs(0.1, static_cast<std::uint64_t>(seed)), {}, {});
+    ASSERT_TRUE(result);
+    named += finding(result->model, "outlier") != nullptr;
+  }
+  // 5 % of the tables, with a standard deviation of 2.2.
+  EXPECT_LE(named, 10);
+}
+
+TEST(Outliers, OfTimedRunsAreSetAsideByTheirTime) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    TrialData data = timed_runs(0.15, seed);
+    const auto clean = identify(vehicle(), data, {}, {});
+    ASSERT_TRUE(clean);
+    EXPECT_EQ(clean->model.record.reports.front().rows_used, 9) << seed;
+    SurgeRow& wrong = data.surge->rows[2];
+    wrong.elapsed_s = *wrong.elapsed_s * 10.0;
+    wrong.speed_mps /= 10.0;
+    const auto result = identify(vehicle(), data, {}, {});
+    ASSERT_TRUE(result);
+    const Finding* outlier = finding(result->model, "outlier");
+    ASSERT_NE(outlier, nullptr) << seed;
+    EXPECT_EQ(outlier->line, wrong.line) << seed;
+    EXPECT_EQ(result->model.record.reports.front().rows_used, 8) << seed;
+  }
+}
+
 TEST(Outliers, OfAPowerLawThatCoulombFrictionExplainsStay) {
   // The slowest run is far off any power law of the others.
   TrialData data = runs_on({.alpha = 0.8, .beta = 1.0, .coulomb = 0.1}, 0.0, 1e-4, 3);

@@ -10,8 +10,10 @@
 namespace awmr::testing::load_test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 const std::filesystem::path kPaper = AWMR_SOURCE_DIR "/datasets/paper";
@@ -102,6 +104,33 @@ TEST(LoadTrials, AStopInMillisecondsIsRefused) {
   ASSERT_FALSE(trials);
   EXPECT_THAT(to_text(trials.error()),
               AllOf(HasSubstr("milliseconds"), HasSubstr("stop_time_s=\"stop_time_s\"*0.001")));
+}
+
+TEST(LoadTrials, AStopInMinutesIsRefused) {
+  const ScratchFile file("coastdown.csv", "initial_speed_mps,stop_time_s\n1.5,0.0233\n3,0.03\n");
+  TrialFiles files{.vehicle = paper_vehicle(), .coastdowns = {file.path()}};
+  const auto trials = load_trials(files);
+  ASSERT_FALSE(trials);
+  EXPECT_THAT(to_text(trials.error()),
+              AllOf(HasSubstr("minutes"), HasSubstr("stop_time_s=\"stop_time_s\"*60")));
+  // One run of several is a row's fault, not the column's.
+  const ScratchFile one("coastdown.csv", "initial_speed_mps,stop_time_s\n1.5,1.4\n3,0.03\n");
+  files.coastdowns = {one.path()};
+  EXPECT_TRUE(load_trials(files));
+}
+
+TEST(LoadTrials, ReportsCoastDownsThatAllBeginFarBelowTheFastestRun) {
+  const ScratchFile surge("surge.csv", "tau_speed,speed_mps\n1,1.5\n2,5\n4,15\n");
+  const ScratchFile slow("coastdown.csv", "initial_speed_mps,stop_time_s\n1.5,1.4\n3,1.8\n");
+  const ScratchFile fast("coastdown.csv", "initial_speed_mps,stop_time_s\n1.5,1.4\n6,2.5\n");
+  TrialFiles files{.vehicle = paper_vehicle(), .surge = surge.path(), .coastdowns = {slow.path()}};
+  const auto reported = load_trials(files);
+  ASSERT_TRUE(reported) << to_text(reported.error());
+  EXPECT_THAT(codes_of(reported->findings), Contains("coast-below-surge@3"));
+  files.coastdowns = {fast.path()};
+  const auto accepted = load_trials(files);
+  ASSERT_TRUE(accepted) << to_text(accepted.error());
+  EXPECT_THAT(codes_of(accepted->findings), Not(Contains(HasSubstr("coast-below-surge"))));
 }
 
 TEST(LoadTrials, ARecordingThatIsGivenTwiceIsRefused) {

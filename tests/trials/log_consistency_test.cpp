@@ -404,7 +404,7 @@ INSTANTIATE_TEST_SUITE_P(
                   [](DrivingLog& l) {
                     for (double& angle : *l.steering_command_rad) angle += radians(90.0);
                   },
-                  "steering_cmd_deg", "\"steering_cmd_deg\"*1-90"},
+                  "steering_cmd_deg", "\"steering_cmd_deg\"-90"},
         WrongTurn{"ServoPulses",
                   [](DrivingLog& l) {
                     for (double& angle : *l.steering_command_rad) {
@@ -472,6 +472,42 @@ TEST(LogConsistency, OfAVehicleThatTurnsQuicklyAMirroredYIsNamed) {
     const auto found = contradictions(log, vehicle(), {});
     EXPECT_TRUE(std::ranges::any_of(found, [](const auto& c) { return c.column == "y_m"; }))
         << seed;
+  }
+}
+
+TEST(LogConsistency, MirroredPositionsAreNamedByTheYawRateWithoutAHeading) {
+  const std::function<void(DrivingLog&)> mirrors[] = {
+      [](DrivingLog& l) { scale(channel(l, LogChannel::kY), -1.0); },
+      [](DrivingLog& l) { std::swap(l[LogChannel::kX], l[LogChannel::kY]); }};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    for (const auto& mirror : mirrors) {
+      DrivingLog log = sound_log(seed, {.heading = false, .gyro_bias_radps = 0.01});
+      mirror(log);
+      const auto found = contradictions(log, vehicle(), {});
+      ASSERT_EQ(found.size(), 1U) << seed;
+      EXPECT_EQ(found.front().column, "y_m") << seed;
+    }
+  }
+}
+
+TEST(LogConsistency, TheHeadingOfACompassBesideALatitudeIsTurnedToTheEast) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    DrivingLog log = sound_log(seed);
+    log.is_geographic = true;
+    for (double& heading : channel(log, LogChannel::kHeading)) heading = radians(90.0) - heading;
+    const auto found = contradictions(log, vehicle(), {});
+    ASSERT_EQ(found.size(), 1U) << seed;
+    EXPECT_EQ(found.front().mapping, "heading_deg=\"heading_deg\"*-1+90") << seed;
+  }
+}
+
+TEST(LogConsistency, OfTwoColumnsThatEitherExplainItOnlyOneIsToBeMapped) {
+  DrivingLog log = sound_log(1, {.position = false, .heading = false, .sides_apart = false});
+  scale(channel(log, LogChannel::kYawRate), -1.0);
+  const auto found = contradictions(log, vehicle(), {});
+  ASSERT_EQ(found.size(), 2U);
+  for (const Contradiction& one : found) {
+    EXPECT_THAT(one.message, HasSubstr("only one of steering_cmd_deg or yaw_rate_radps"));
   }
 }
 

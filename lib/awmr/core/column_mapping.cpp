@@ -156,9 +156,10 @@ std::string scaled_expression(const ColumnMapping& mapping, double factor, doubl
   const bool is_formula =
       mapping.source.empty() || (has_operator && !is_quoted && !mapping.expression.empty() &&
                                  ColumnExpression::parse(mapping.expression).has_value());
-  const std::string scaled =
-      is_formula ? fmt::format("({})*{:.7g}", mapping.expression, factor)
-                 : fmt::format("\"{}\"*{:.7g}", mapping.source, factor * mapping.scale);
+  const double scale = is_formula ? factor : factor * mapping.scale;
+  const std::string source =
+      is_formula ? fmt::format("({})", mapping.expression) : fmt::format("\"{}\"", mapping.source);
+  const std::string scaled = scale == 1.0 ? source : fmt::format("{}*{:.7g}", source, scale);
   // A formula includes its offset.
   const double added = offset + (is_formula ? 0.0 : factor * mapping.offset);
   return added == 0.0 ? scaled : fmt::format("{}{:+.7g}", scaled, added);

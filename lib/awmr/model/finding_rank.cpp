@@ -41,6 +41,7 @@ constexpr CodeEffect kEffects[] = {
     {"heading-offset", Effect::kContradiction},
     {"implausible-vehicle", Effect::kContradiction},
     {"implausible-deceleration", Effect::kContradiction},
+    {"coast-below-surge", Effect::kContradiction},
     {"negative-scrub", Effect::kContradiction},
     {"assumed-sway", Effect::kAssumption},
     {"noise-model", Effect::kAssumption},

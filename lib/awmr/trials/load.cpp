@@ -142,6 +142,7 @@ void read_tables(const TrialFiles& files, const TrialOptions& options, Trials& t
     check_consistency(*set, path, tables, options, findings, faults);
     add_coastdown(path, std::move(*set), data, faults);
   }
+  warn_of_slow_coasts(data, findings);
 }
 
 /// Sorted by name, so that results do not depend on the order in which the files were given.

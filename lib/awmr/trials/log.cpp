@@ -188,6 +188,7 @@ void add_geographic(TrialReader& reader, RowSpan rows, DrivingLog& log,
     plane.Forward(latitude[i], longitude[i], 0.0, east[i], north[i], up);
   }
   const std::vector<std::size_t> present = rows_present(reader, rows, "latitude_deg");
+  log.is_geographic = true;
   log[LogChannel::kX] = measured_of(LogChannel::kX, log, present, std::move(east), findings);
   log[LogChannel::kY] = measured_of(LogChannel::kY, log, present, std::move(north), findings);
 }

@@ -44,6 +44,7 @@ struct DrivingLog {
   std::vector<int> line;            ///< line in the file
   std::vector<std::size_t> mapped;  ///< indices of the TrialOptions' mappings that were used
   bool joined = false;              ///< combined from signals with their own times: rows are uneven
+  bool is_geographic = false;       ///< x_m is east and y_m north, from latitude and longitude
   std::vector<double> t_s;          ///< s, strictly rising
   std::vector<double> force_left;   ///< F'L of each left wheel, over F_max, forward positive
   std::vector<double> force_right;  ///< F'R of each right wheel, over F_max, forward positive

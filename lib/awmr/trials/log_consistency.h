@@ -5,7 +5,7 @@
 ///
 ///     change of heading      with   integral of the yaw rate
 ///     distance of positions  with   integral of the speed
-///     course of positions    with   heading
+///     course of positions    with   heading, or the integral of the yaw rate
 ///     yaw rate               with   tau_steering and tau_diff of the commands (allocation.h)
 ///     sign of the speed      with   rearward thrust that accelerates the vehicle
 ///     change of a reading    with   usual change between two readings: two runs in one file
@@ -31,7 +31,7 @@ namespace awmr {
 struct Contradiction {
   std::string column;       ///< "yaw_rate_radps"
   std::string message;      ///< the comparison, its result, the likely cause
-  std::string mapping;      ///< `NAME=SOURCE*FACTOR`, a column mapping; may be two, or none
+  std::string mapping;      ///< `NAME=SOURCE*FACTOR`, a column mapping, or none
   std::string remedy = {};  ///< what to do if the mapping alone does not suffice; else empty
 };
 

@@ -37,13 +37,27 @@ void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow
   }
 }
 
-EvidenceWindow sums_of(const DrivingLog& log, const Vehicle& vehicle, const LogWindow& window) {
+/// Heading by row; without one the integral of the yaw rate, which begins at 0. Empty without both.
+std::vector<double> headings_of(const DrivingLog& log) {
+  if (const auto& heading = log[LogChannel::kHeading]) return heading->value;
+  const auto& rate = log[LogChannel::kYawRate];
+  if (!rate) return {};
+  std::vector<double> headings(log.rows(), 0.0);
+  for (std::size_t i = 1; i < log.rows(); ++i) {
+    headings[i] = headings[i - 1] +
+                  0.5 * (rate->value[i - 1] + rate->value[i]) * (log.t_s[i] - log.t_s[i - 1]);
+  }
+  return headings;
+}
+
+EvidenceWindow sums_of(const DrivingLog& log, const Vehicle& vehicle,
+                       const std::vector<double>& headings, const LogWindow& window) {
   EvidenceWindow sums;
   const std::size_t last = window.end - 1;
   sums.span_s = log.t_s[last] - log.t_s[window.begin];
-  if (const auto& heading = log[LogChannel::kHeading]) {
-    sums.turned_rad = heading->value[last] - heading->value[window.begin];
-    sums.heading_rad = heading->value[(window.begin + last) / 2];
+  if (!headings.empty()) {
+    sums.turned_rad = headings[last] - headings[window.begin];
+    sums.heading_rad = headings[(window.begin + last) / 2];
   }
   if (log[LogChannel::kYawRate]) sums.rate_rad = integral_of(log, LogChannel::kYawRate, window);
   if (log[LogChannel::kX] && log[LogChannel::kY]) {
@@ -128,13 +142,14 @@ std::vector<LogWindow> evidence_rows(const DrivingLog& log, double length_s) {
 Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
                      std::span<const ColumnMapping> mappings) {
   Evidence evidence{log, vehicle, mappings, {}, {}};
+  const std::vector<double> headings = headings_of(log);
   const std::vector<LogWindow> windows = windows_of(log, kEvidenceWindow_s);
   for (const LogWindow& window : between_readings(windows)) {
-    evidence.windows.push_back(sums_of(log, vehicle, window));
+    evidence.windows.push_back(sums_of(log, vehicle, headings, window));
   }
   evidence.overlapping = evidence.windows;
   for (const LogWindow& window : between_readings(windows_between(windows))) {
-    evidence.overlapping.push_back(sums_of(log, vehicle, window));
+    evidence.overlapping.push_back(sums_of(log, vehicle, headings, window));
   }
   return evidence;
 }
@@ -205,15 +220,9 @@ std::string scaled_mapping(const Evidence& evidence, std::string_view column, do
   return scaled_mapping(evidence.mappings, column, factor, offset);
 }
 
-std::string swapped_mapping(const Evidence& evidence) {
-  const auto source = [&](std::string_view column) {
-    for (const ColumnMapping& mapping : evidence.mappings) {
-      if (mapping.name == column) return scaled_expression(mapping, 1.0);
-    }
-    return fmt::format("\"{}\"", column);
-  };
-  return fmt::format("force_left={}' and column 'force_right={}", source("force_right"),
-                     source("force_left"));
+std::array<std::string, 2> swapped_mappings(const Evidence& evidence) {
+  return {"force_left=" + scaled_source(evidence.mappings, "force_right", 1.0, 0.0),
+          "force_right=" + scaled_source(evidence.mappings, "force_left", 1.0, 0.0)};
 }
 
 }  // namespace awmr

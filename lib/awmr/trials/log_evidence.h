@@ -1,6 +1,7 @@
 /// Per-window sums of a log's signals, for the checks of units and signs. Private to this folder.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,11 +18,11 @@ inline constexpr double kEvidenceWindow_s = 1.0;
 
 /// Sums of the signals over one window, in which noise averages out.
 struct EvidenceWindow {
-  double turned_rad = 0.0;       ///< change of heading
+  double turned_rad = 0.0;       ///< change of heading; without one, of the integrated yaw rate
   double rate_rad = 0.0;         ///< integral of the yaw rate
   double moved_m = 0.0;          ///< distance between first and last position
   double course_rad = 0.0;       ///< its direction
-  double heading_rad = 0.0;      ///< in the middle of the window
+  double heading_rad = 0.0;      ///< in the middle of the window, as turned_rad
   double driven_m = 0.0;         ///< integral of the speed
   bool has_stuck_speed = false;  ///< all readings of the speed are the same and not 0
   double thrust = 0.0;           ///< mean of F'L + F'R
@@ -77,8 +78,8 @@ std::string scaled_mapping(std::span<const ColumnMapping> mappings, std::string_
                            double factor, double offset = 0.0);
 std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor,
                            double offset = 0.0);
-/// Mapping that swaps the two force columns.
-std::string swapped_mapping(const Evidence& evidence);
+/// The two mappings that swap the force columns.
+std::array<std::string, 2> swapped_mappings(const Evidence& evidence);
 
 /// A vehicle that never moves: then no channel can be compared with another.
 std::optional<Contradiction> rest_contradiction(const Evidence& evidence);

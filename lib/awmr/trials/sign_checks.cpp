@@ -5,7 +5,11 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <span>
+#include <string>
 
+#include "awmr/core/option_text.h"
+#include "awmr/core/units.h"
 #include "awmr/trials/log_evidence.h"
 #include "awmr/trials/robust_ratio.h"
 
@@ -23,14 +27,20 @@ struct SignRelation {
   int sign;
 };
 
-/// Sign relation of positions and heading. +1: positions move along the heading; -1: along its
-/// mirror image; 0: undetermined.
-int course_sign(const std::vector<EvidenceWindow>& windows) {
+/// Relation of positions and heading.
+struct CourseRelation {
+  int sign =
+      0;  ///< +1: positions move along the heading; -1: along its mirror image; 0: undetermined
+  double offset_rad = 0.0;  ///< mean of the course less the heading or its mirror image
+};
+
+CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
   // In a turn at constant rate the chord is parallel to the heading in its middle, unless it nears
   // a full circle.
   constexpr double kFurthestTurn_rad = 2.5;
-  if (windows.empty()) return 0;
-  std::vector<double> moved = series(windows, [](const EvidenceWindow& w) { return w.moved_m; });
+  if (windows.empty()) return {};
+  std::vector<double> moved;
+  for (const EvidenceWindow& w : windows) moved.push_back(w.moved_m);
   const double far = median(moved);
   std::complex<double> same = 0.0, mirrored = 0.0, headings = 0.0;
   double n = 0.0;
@@ -42,7 +52,7 @@ int course_sign(const std::vector<EvidenceWindow>& windows) {
     n += 1.0;
   }
   // On a straight drive the two cannot be distinguished.
-  if (n < 10.0 || std::abs(headings) / n > 0.95) return 0;
+  if (n < 10.0 || std::abs(headings) / n > 0.95) return {};
   // Scatter of the angles, 0 to 1. With the right sign only noise scatters, with the wrong sign
   // twice the headings too.
   constexpr double kMostNoise = 0.3;
@@ -50,9 +60,23 @@ int course_sign(const std::vector<EvidenceWindow>& windows) {
     const double of_one = 1.0 - one / n;
     return of_one < kMostNoise && (one > 1.5 * other || 1.0 - other / n > 4.0 * of_one);
   };
-  if (holds(std::abs(same), std::abs(mirrored))) return 1;
-  if (holds(std::abs(mirrored), std::abs(same))) return -1;
-  return 0;
+  if (holds(std::abs(same), std::abs(mirrored))) return {1, std::arg(same)};
+  if (holds(std::abs(mirrored), std::abs(same))) return {-1, std::arg(mirrored)};
+  return {};
+}
+
+/// The same sign for the integrated yaw rate, which begins anywhere and drifts: by parts of a
+/// minute. 0 if parts contradict each other.
+int turning_sign(std::span<const EvidenceWindow> windows) {
+  constexpr std::size_t kPart = 60;
+  int sign = 0;
+  for (std::size_t begin = 0; begin < windows.size(); begin += kPart) {
+    const int one =
+        course_relation(windows.subspan(begin, std::min(kPart, windows.size() - begin))).sign;
+    if (one * sign < 0) return 0;
+    if (one != 0) sign = one;
+  }
+  return sign;
 }
 
 int sign_of(double value) { return value > 0.0 ? 1 : (value < 0.0 ? -1 : 0); }
@@ -69,7 +93,11 @@ std::vector<SignRelation> sign_relations(const Evidence& evidence) {
     add(Signed::kSteering, Signed::kYawRate, sign_of(shares.steering));
     add(Signed::kSides, Signed::kYawRate, sign_of(shares.sides));
   }
-  if (!evidence.has(LogChannel::kHeading)) return relations;
+  const bool has_position = evidence.has(LogChannel::kX) && evidence.has(LogChannel::kY);
+  if (!evidence.has(LogChannel::kHeading)) {
+    if (has_position) add(Signed::kYawRate, Signed::kY, turning_sign(evidence.overlapping));
+    return relations;
+  }
   const MomentShares shares = moment_shares(evidence.windows, turn);
   add(Signed::kSteering, Signed::kHeading, sign_of(shares.steering));
   add(Signed::kSides, Signed::kHeading, sign_of(shares.sides));
@@ -78,18 +106,22 @@ std::vector<SignRelation> sign_relations(const Evidence& evidence) {
         robust_ratio(series(evidence.overlapping, rate), series(evidence.overlapping, turn));
     if (ratio) add(Signed::kYawRate, Signed::kHeading, ratio->ratio > 0.0 ? 1 : -1);
   }
-  if (evidence.has(LogChannel::kX) && evidence.has(LogChannel::kY)) {
-    add(Signed::kHeading, Signed::kY, course_sign(evidence.overlapping));
+  if (has_position) {
+    add(Signed::kHeading, Signed::kY, course_relation(evidence.overlapping).sign);
   }
   return relations;
 }
 
-/// Smallest sets of columns for which a sign change makes all relations agree.
-std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations) {
+unsigned bit(Signed column) { return 1U << static_cast<unsigned>(column); }
+
+/// Smallest sets of columns for which a sign change makes all relations agree. `fixed`: columns
+/// whose sign is known.
+std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations, unsigned fixed) {
   std::vector<unsigned> best;
   std::size_t least = kSignedCount + 1;
   for (unsigned flips = 0; flips < (1U << kSignedCount); ++flips) {
-    const auto flipped = [flips](Signed s) { return (flips >> static_cast<unsigned>(s)) & 1U; };
+    if ((flips & fixed) != 0U) continue;
+    const auto flipped = [flips](Signed s) { return (flips & bit(s)) != 0U; };
     const bool agrees = std::all_of(relations.begin(), relations.end(), [&](const SignRelation& r) {
       return (flipped(r.a) != flipped(r.b)) == (r.sign < 0);
     });
@@ -102,17 +134,34 @@ std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations)
   return best;
 }
 
+/// Offset that a heading needs with its sign changed, a multiple of 90 deg: a compass counts from
+/// north, where x may be east. 0 if no positions show it.
+double mirrored_heading_deg(const Evidence& evidence) {
+  constexpr double kQuarter_deg = 90.0;
+  constexpr double kClose_deg = 20.0;  // declination, sideslip
+  if (!evidence.has(LogChannel::kX) || !evidence.has(LogChannel::kY)) return 0.0;
+  const CourseRelation course = course_relation(evidence.overlapping);
+  if (course.sign != -1) return 0.0;
+  const double offset_deg = degrees(course.offset_rad);
+  const double nearest_deg = kQuarter_deg * std::round(offset_deg / kQuarter_deg);
+  return std::abs(offset_deg - nearest_deg) < kClose_deg ? nearest_deg : 0.0;
+}
+
 Contradiction sign_contradiction(const Evidence& evidence, Signed which) {
   const std::string steering(evidence.log.steering_column());
   switch (which) {
     case Signed::kSteering:
       return {steering, "the vehicle turns against its steering: positive is to the left",
               scaled_mapping(evidence, steering, -1.0)};
-    case Signed::kSides:
+    case Signed::kSides: {
+      const auto [left, right] = swapped_mappings(evidence);
       return {"force_left",
               "the vehicle turns towards the side that pushes harder: force_left and force_right "
               "look swapped",
-              swapped_mapping(evidence)};
+              left,
+              fmt::format("map them by {} {}", option_text("column '" + left + "'"),
+                          option_text("column '" + right + "'"))};
+    }
     case Signed::kYawRate:
       return {"yaw_rate_radps",
               "its sign is against the other channels: positive is counter-clockwise",
@@ -121,26 +170,44 @@ Contradiction sign_contradiction(const Evidence& evidence, Signed which) {
       return {"heading_deg",
               "its sign is against the other channels: positive is counter-clockwise (a compass "
               "counts clockwise)",
-              scaled_mapping(evidence, "heading_deg", -1.0)};
+              scaled_mapping(evidence, "heading_deg", -1.0, mirrored_heading_deg(evidence))};
     case Signed::kY:
       break;
   }
-  return {"y_m",
-          "the positions move along the mirror image of the heading: y_m has the wrong sign (left "
-          "is positive), or x_m and y_m are swapped",
-          scaled_mapping(evidence, "y_m", -1.0)};
+  return {
+      "y_m",
+      fmt::format("the positions {}: y_m has the wrong sign (left is positive), or x_m and y_m "
+                  "are swapped",
+                  evidence.has(LogChannel::kHeading) ? "move along the mirror image of the heading"
+                                                     : "turn against the yaw rate"),
+      scaled_mapping(evidence, "y_m", -1.0)};
+}
+
+/// "a or b or c".
+std::string alternatives(const std::vector<Contradiction>& columns) {
+  std::string text;
+  for (const Contradiction& one : columns) {
+    text += fmt::format("{}{}", text.empty() ? "" : " or ", one.column);
+  }
+  return text;
 }
 
 std::vector<Contradiction> judge_signs(const Evidence& evidence) {
-  const std::vector<unsigned> solutions = smallest_flips(sign_relations(evidence));
+  // East and north of latitudes and longitudes cannot be mirrored.
+  const unsigned fixed = evidence.log.is_geographic ? bit(Signed::kY) : 0U;
+  const std::vector<unsigned> solutions = smallest_flips(sign_relations(evidence), fixed);
   if (solutions.empty() || solutions.front() == 0U) return {};
   std::vector<Contradiction> found;
   for (std::size_t s = 0; s < kSignedCount; ++s) {
+    const auto column = static_cast<Signed>(s);
     const bool blamed = std::any_of(solutions.begin(), solutions.end(),
-                                    [s](unsigned flips) { return ((flips >> s) & 1U) != 0U; });
-    if (!blamed) continue;
-    found.push_back(sign_contradiction(evidence, static_cast<Signed>(s)));
-    if (solutions.size() > 1) found.back().message += " (or the other one named here is turned)";
+                                    [&](unsigned flips) { return (flips & bit(column)) != 0U; });
+    if (blamed) found.push_back(sign_contradiction(evidence, column));
+  }
+  if (solutions.size() == 1) return found;
+  const std::string columns = alternatives(found);
+  for (Contradiction& one : found) {
+    one.message += fmt::format(" (correct only one of {}: either explains it)", columns);
   }
   return found;
 }

@@ -202,7 +202,47 @@ void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
                    fastest_mps, fastest_mps / driven_mps, driven_mps)});
 }
 
+/// First row or point of the coast-down that begins fastest.
+struct FastestCoast {
+  std::string file = {};
+  int line = 0;
+  double speed_mps = 0.0;
+};
+
+FastestCoast fastest_coast(const TrialData& data) {
+  FastestCoast fastest;
+  const auto consider = [&](const std::string& file, int line, double speed_mps) {
+    if (speed_mps > fastest.speed_mps) fastest = {file, line, speed_mps};
+  };
+  if (data.coastdown) {
+    for (const StopTimeRow& row : data.coastdown->rows) {
+      consider(data.coastdown->file, row.line, row.initial_speed_mps);
+    }
+  }
+  for (const CoastCurve& curve : data.curves) {
+    consider(curve.file, curve.line, std::ranges::max(curve.speed_mps));
+  }
+  return fastest;
+}
+
 }  // namespace
+
+void warn_of_slow_coasts(const TrialData& data, std::vector<Finding>& findings) {
+  constexpr double kSlow = 1.0 / 3.0;
+  const FastestCoast coast = fastest_coast(data);
+  if (coast.speed_mps == 0.0 || !data.surge || data.surge->rows.empty()) return;
+  const double driven_mps =
+      std::ranges::max_element(data.surge->rows, {}, &SurgeRow::speed_mps)->speed_mps;
+  if (coast.speed_mps >= kSlow * driven_mps) return;
+  findings.push_back(
+      {coast.file, coast.line, Severity::kWarning, "coast-below-surge",
+       fmt::format(
+           "the fastest coast-down begins at {:.3g} m/s, {:.2g} times the fastest surge run "
+           "({:.3g} m/s): one of the tables may have its speeds in another unit (km/h are "
+           "3.6 times m/s), which makes m' wrong. If both are in m/s, coast from a higher "
+           "speed",
+           coast.speed_mps, coast.speed_mps / driven_mps, driven_mps)});
+}
 
 void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "awmr/trials/read_trials.h"
+#include "awmr/trials/trial_data.h"
 
 namespace awmr {
 
@@ -34,5 +35,9 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
 void check_consistency(const CoastdownSet& coastdown, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);
+
+/// The warning `coast-below-surge`: all coast-downs begin far below the speed of the fastest run,
+/// although a vehicle is driven fast to let it coast.
+void warn_of_slow_coasts(const TrialData& data, std::vector<Finding>& findings);
 
 }  // namespace awmr

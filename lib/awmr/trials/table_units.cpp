@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -41,7 +42,7 @@ constexpr std::array<TableUnit, 2> kTableTurnUnits{
 constexpr Interval kLengthsPerSecond{0.02, 100.0};
 constexpr double kUsualLengthsPerSecond = 20.0;
 constexpr double kSlowTable_radps = 0.01;  // minimum for the fastest turn of a table
-constexpr double kLeastDeceleration_mps2 = 0.01;
+constexpr Interval kMeanDeceleration_mps2{0.01, 20.0};
 
 /// The unit whose factor matches all ratios within a tenth; none for ratios that scatter.
 template <std::size_t N>
@@ -189,10 +190,14 @@ namespace {
 struct Coasts {
   int line;
   double fastest_mps;
-  double hardest_mps2;
+  Interval deceleration_mps2;  ///< means of the gentlest and the hardest stop
   const char* speed;
   const char* time;
 };
+
+void include(double value, Interval& range) {
+  range = {std::min(range.lo, value), std::max(range.hi, value)};
+}
 
 std::optional<WrongUnit> wrong_unit(const Coasts& coasts,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
@@ -214,11 +219,22 @@ std::optional<WrongUnit> wrong_unit(const Coasts& coasts,
                              coasts.fastest_mps, *top_mps, words),
                  coasts.speed, factor);
   }
-  if (coasts.hardest_mps2 >= kLeastDeceleration_mps2) return std::nullopt;
-  return wrong(coasts.line,
-               fmt::format("the hardest stop loses {:.3g} m/s^2: the time looks like milliseconds",
-                           coasts.hardest_mps2),
-               coasts.time, 1e-3);
+  const auto [gentlest_mps2, hardest_mps2] = coasts.deceleration_mps2;
+  if (hardest_mps2 < kMeanDeceleration_mps2.lo) {
+    return wrong(coasts.line,
+                 fmt::format("the hardest stop loses {:.3g} m/s^2: the time looks like "
+                             "milliseconds",
+                             hardest_mps2),
+                 coasts.time, 1e-3);
+  }
+  if (gentlest_mps2 > kMeanDeceleration_mps2.hi) {
+    return wrong(coasts.line,
+                 fmt::format("every stop loses {:.3g} m/s^2 or more, which no tyre gives: the "
+                             "time looks like minutes",
+                             gentlest_mps2),
+                 coasts.time, 60.0);
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -227,13 +243,13 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle) {
   if (coastdown.rows.empty()) return std::nullopt;
-  double hardest_mps2 = 0.0;
+  Interval deceleration_mps2{std::numeric_limits<double>::infinity(), 0.0};
   for (const StopTimeRow& row : coastdown.rows) {
-    hardest_mps2 = std::max(hardest_mps2, row.initial_speed_mps / row.stop_time_s);
+    include(row.initial_speed_mps / row.stop_time_s, deceleration_mps2);
   }
   return wrong_unit(
       {coastdown.rows.front().line, fastest(coastdown.rows, &StopTimeRow::initial_speed_mps),
-       hardest_mps2, "initial_speed_mps", "stop_time_s"},
+       deceleration_mps2, "initial_speed_mps", "stop_time_s"},
       surge, vehicle);
 }
 
@@ -242,16 +258,16 @@ std::optional<WrongUnit> wrong_unit(const std::vector<CoastCurve>& curves,
                                     const Vehicle& vehicle) {
   if (curves.empty()) return std::nullopt;
   double fastest_mps = 0.0;
-  double hardest_mps2 = 0.0;
+  Interval deceleration_mps2{std::numeric_limits<double>::infinity(), 0.0};
   for (const CoastCurve& curve : curves) {
     const auto [least, most] = std::ranges::minmax(curve.speed_mps);
     fastest_mps = std::max(fastest_mps, most);
-    hardest_mps2 = std::max(hardest_mps2, (most - least) / (curve.t_s.back() - curve.t_s.front()));
+    include((most - least) / (curve.t_s.back() - curve.t_s.front()), deceleration_mps2);
   }
   // Curves that do not fall are set aside elsewhere.
-  if (!(hardest_mps2 > 0.0)) return std::nullopt;
+  if (!(deceleration_mps2.hi > 0.0)) return std::nullopt;
   const bool of_bins = curves.front().of_bins;
-  return wrong_unit({curves.front().line, fastest_mps, hardest_mps2,
+  return wrong_unit({curves.front().line, fastest_mps, deceleration_mps2,
                      of_bins ? "from_mps" : "speed_mps", of_bins ? "elapsed_s" : "t_s"},
                     surge, vehicle);
 }

@@ -4,7 +4,8 @@
 ///     yaw_rate_radps over 2 pi turns/elapsed_s  1; 57.3, 1000 tell a unit
 ///     fastest run over the vehicle's length     0.02 to 100 1/s: from a crawl to a racing model car
 ///     fastest turn                              0.01 rad/s and more; turn_evidence.h has the most
-///     deceleration of a coast-down              0.01 m/s^2 and more: what the best bearings lose
+///     hardest coast-down, mean deceleration     0.01 m/s^2 and more: what the best bearings lose
+///     gentlest coast-down, the same             20 m/s^2 and less: locked wheels on racing tyres
 #pragma once
 
 #include <optional>

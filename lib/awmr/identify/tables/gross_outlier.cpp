@@ -23,6 +23,27 @@ double log_misfit(const FamilyCandidate& candidate) {
   return std::sqrt(rows->residuals.squaredNorm() / static_cast<double>(rows->residuals.size()));
 }
 
+/// Deviation of a run's time from the fit of the others' times, in standard deviations; infinite
+/// where the runs were not timed.
+double deviations_in_time(const Subject& subject, std::size_t point, const SteadyFit& of_others) {
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  SteadyProblem problem{subject.points, Family::kPower, ErrorModel::kTime, Loss::kSquared,
+                        subject.beta_range};
+  SteadyProblem others = problem;
+  others.points.erase(others.points.begin() + eigen_index(point));
+  const SteadyPoint& run = subject.points[point];
+  const auto fit = fit_by_time(std::move(others), of_others.theta);
+  if (!fit || !fit->has_covariance() || !run.travel || !run.elapsed_s) return kUnknown;
+  problem.points = {run};
+  problem.points.front().elapsed_s = *run.travel / run.rate;
+  const auto row = steady_rows(problem, fit->theta, fit->free);
+  if (!row) return kUnknown;
+  const double variance =
+      fit->residual_std * fit->residual_std +
+      row->jacobian.row(0).dot(fit->covariance * row->jacobian.row(0).transpose());
+  return std::abs(row->residuals(0)) / std::sqrt(variance);
+}
+
 Subject without(Subject subject, std::size_t point) {
   subject.points.erase(subject.points.begin() + eigen_index(point));
   return subject;
@@ -44,6 +65,7 @@ std::optional<GrossOutlier> gross_outlier(const Subject& subject, const SubjectO
                    static_cast<double>(t.size());
   if (!(deviations > kFar) || !(p < kUnlikely)) return std::nullopt;
   const SteadyFit of_others = fit_log_linear(without(subject, at(farthest)).points);
+  if (!(deviations_in_time(subject, at(farthest), of_others) > kFar)) return std::nullopt;
   SubjectOptions every_family = options;
   every_family.side_by_side = true;
   for (const FamilyCandidate& candidate :

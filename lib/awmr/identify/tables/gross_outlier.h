@@ -15,7 +15,8 @@ struct GrossOutlier {
 
 /// The run farthest off the power law of the others, where it lies more than ten of their standard
 /// deviations off (by Student's t less likely than 1 in 1,000 for the whole table), and no family
-/// describes all runs even a third as closely as the power law describes the others. None
+/// describes all runs even a third as closely as the power law describes the others. Timed runs have
+/// to lie as far off in their time: the shortest have the largest errors of their logarithm. None
 /// otherwise: a low speed off a power law may be Coulomb friction.
 std::optional<GrossOutlier> gross_outlier(const Subject& subject, const SubjectOptions& options);
 

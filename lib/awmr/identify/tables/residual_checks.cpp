@@ -77,9 +77,15 @@ std::vector<Diagnostic> residual_tests(const Subject& subject, const SteadyFit& 
   return tests;
 }
 
-std::vector<Finding> outlier_findings(const Subject& subject, const SteadyFit& fit) {
+std::vector<Finding> outlier_findings(const Subject& subject, const SteadyProblem& problem,
+                                      const SteadyFit& fit) {
   std::vector<Finding> findings;
-  const Eigen::VectorXd t = studentised(fit.residuals, fit.leverages, fit.degrees_of_freedom);
+  Eigen::VectorXd t = studentised(fit.residuals, fit.leverages, fit.degrees_of_freedom);
+  if (const auto by_time = fit_by_time(problem, fit.theta)) {
+    const Eigen::VectorXd other =
+        studentised(by_time->residuals, by_time->leverages, by_time->degrees_of_freedom);
+    if (other.size() == t.size()) t = t.cwiseAbs().cwiseMin(other.cwiseAbs());
+  }
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     const double p = 2.0 * students_t_tail(std::abs(t(i)), fit.degrees_of_freedom - 1) *
                      static_cast<double>(t.size());

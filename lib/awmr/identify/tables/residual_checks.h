@@ -20,7 +20,9 @@ std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit
 std::vector<Diagnostic> residual_tests(const Subject& subject, const SteadyFit& fit);
 
 /// `outlier`: runs off the curve of the others, by Student's t at 5 % for the whole table
-/// (Bonferroni).
-std::vector<Finding> outlier_findings(const Subject& subject, const SteadyFit& fit);
+/// (Bonferroni). Timed runs have to be off in their time as well: equal errors of a stop-watch are
+/// unequal shares of the speed, so that the fastest run looks like an outlier.
+std::vector<Finding> outlier_findings(const Subject& subject, const SteadyProblem& problem,
+                                      const SteadyFit& fit);
 
 }  // namespace awmr

@@ -84,6 +84,11 @@ SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& 
 /// holds optima of the same points, noise and loss by family; those that lack are added.
 SteadyFit fit_steady(const SteadyProblem& problem, std::map<Family, TransformedParameters>& known);
 
+/// The same curve with the error on the time that the rate took for the travel, travel/w, from the
+/// initial guess. Empty where a run was not timed, or the fit failed.
+std::optional<SteadyFit> fit_by_time(SteadyProblem problem,
+                                     const TransformedParameters& initial_guess);
+
 /// Every number of the law is finite, and alpha is more than nothing.
 bool is_physical(const Resistance<double>& law);
 

@@ -133,7 +133,7 @@ void judge(const Subject& subject, std::size_t report, SubjectFit& result) {
   EstimatorReport& chosen = result.reports[report];
   if (fit.degrees_of_freedom >= 1) {
     chosen.diagnostics = residual_tests(subject, fit);
-    append(outlier_findings(subject, fit), result.findings);
+    append(outlier_findings(subject, result.problem, fit), result.findings);
   }
   if (fit.degrees_of_freedom >= 2) {
     Influence influence = leave_one_out(subject, result.problem, result.log_linear, fit);
