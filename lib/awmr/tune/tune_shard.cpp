@@ -83,7 +83,7 @@ std::optional<RunOutcome> outcome_in(std::string_view line, std::string_view pla
   return outcome;
 }
 
-/// Takes the first line off the text, without its end.
+/// Removes the first line from the text and returns it without its end.
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   const std::string_view line = text.substr(0, end);
@@ -157,7 +157,7 @@ Result<std::vector<EvaluatedRuns>> read_all_runs(const std::vector<Part>& parts,
   return by_gains;
 }
 
-/// gains.json, which is the same in all parts.
+/// gains.json, identical in all parts.
 Result<Json> read_gains_json(const std::vector<Part>& parts) {
   const ShardFile& file = tune_shards().files.back();
   for (const Part& part : parts) AWMR_RETURN_IF_ERROR(read_part_file(part, file));
@@ -170,7 +170,8 @@ Result<Json> read_gains_json(const std::vector<Part>& parts) {
   return json;
 }
 
-/// The text of judged.csv: `gains,draw,mode,scenario,completed,broke_off` and the figures, scenarios
+/// The text of judged.csv: `gains,draw,mode,scenario,completed,broke_off` and the figures,
+/// scenarios
 /// by number, from 1.
 std::string evaluation_csv(const Tuning& tuning, const TuneOptions& options) {
   const std::vector<EvaluatedRuns>& all = tuning.robust->runs;
