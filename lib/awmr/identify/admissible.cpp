@@ -37,9 +37,9 @@ std::string why_not(double value, const NumberRule& rule) {
                      rule.min, rule.max);
 }
 
-/// The reason why the tables say nothing of m'; empty where they do. Vehicles drawn from such an interval
-/// could not be simulated: their time constants differ by as much. Intervals of logs are wide where two
-/// logs disagree, which says something.
+/// Reason why the tables do not determine m'; empty if they do. Vehicles drawn from such an
+/// interval could not be simulated: their time constants differ by as much. Intervals of logs are
+/// wide where two logs disagree, which says something.
 std::string why_open(ParameterId id, const Estimate& estimate) {
   constexpr double kMostOpen = 1e4;  // between the ends of the interval
   const auto& ci = estimate.ci95;

@@ -14,7 +14,8 @@ namespace awmr {
 namespace {
 
 constexpr int kMaximumRounds = 200;
-/// The fit has converged where the last step is shorter than this, in standard errors, and where the
+/// The fit has converged where the last step is shorter than this, in standard errors, and where
+/// the
 /// noise levels change by less, relative to themselves.
 constexpr double kTolerance = 1e-8;
 
@@ -153,7 +154,7 @@ std::optional<Rows> rows_at(const SteadyProblem& surge, const TransformedParamet
   return Rows{std::move(*surge_rows), std::move(*residuals), std::move(*jacobian)};
 }
 
-/// The fit as one that cannot be used and whose covariance says nothing.
+/// Marks the fit as unusable and its covariance as unknown.
 JointFit not_finite(JointFit joint) {
   joint.coast.usable = false;
   joint.coast.stop_reason = kNotFinite;

@@ -17,7 +17,7 @@ namespace {
 /// A curve whose speed falls by less than this many deviations of its noise shows no deceleration.
 constexpr double kMinimumFall = 5.0;
 
-/// The noise of a curve, by how far each speed lies off the line through its neighbours:
+/// Noise of a curve from the distance of each speed to the line through its neighbours:
 ///
 ///     e_i = u_i - (1 - w) u_(i-1) - w u_(i+1),   w = (t_i - t_(i-1))/(t_(i+1) - t_(i-1))
 ///     std^2 = mean of e_i^2/(1 + w^2 + (1 - w)^2)
@@ -156,7 +156,8 @@ std::optional<MassEstimate> estimate_under(const SteadyFit& law,
   return both;
 }
 
-/// (theta, ln m') under one surge law: C and v of theta and of m' apart from it, g = d ln m'/d theta,
+/// (theta, ln m') under one surge law: C and v of theta and of m' apart from it, g = d ln m'/d
+/// theta,
 ///   [ C    C g       ]
 ///   [ g'C  g'C g + v ]
 /// Precondition: the law has a covariance.
@@ -239,7 +240,8 @@ std::optional<double> demanded_by_grip(const SteadyFit& surge,
   return mass_norm_by_grip(surge.law(), fastest_mps);
 }
 
-/// `back-emf-assumed`: the surge runs are driven and the coast-down is not, so that a force which falls
+/// `back-emf-assumed`: the surge runs are driven and the coast-down is not, so that a force which
+/// falls
 /// with the speed would pass for resistance, and for mass:  m' = g1/|u_dot|,  g1 + 4 k_e u in its place.
 Finding assumed_back_emf(const std::string& file) {
   return {

@@ -180,7 +180,7 @@ void SteadySearch::solve() {
 void SteadySearch::solve_robustly() {
   for (int round = 0; round < 20; ++round) {
     const std::optional<Eigen::VectorXd> e = residuals();
-    if (!e) return;  // the search failed, its summary says why
+    if (!e) return;  // the search failed; the summary has the reason
     const double scale = median_scale(*e);
     if (!(scale > 0.0)) return;  // over half of the points fit exactly: nothing to weigh down
     loss_.Reset(make_loss(problem_.loss, scale).release(), ceres::TAKE_OWNERSHIP);
