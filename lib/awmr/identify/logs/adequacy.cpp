@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// Adds the fits of the other families of surge resistance; returns advice if another one is best.
+/// Adds fits of the other families of surge resistance. Returns advice if another one is best.
 std::optional<std::string> try_rivals(BestFamily alternatives, const FamilyFit& chosen,
                                       Adequacy& adequacy) {
   for (EstimatorReport& report : reports_of(alternatives.others, chosen)) {
@@ -26,8 +26,8 @@ std::optional<std::string> try_rivals(BestFamily alternatives, const FamilyFit& 
                      aic_lead(alternatives.best.fit, chosen.fit));
 }
 
-/// True for channels that show the model's errors: those of speed and of yaw rate, or where there are
-/// none, of what they add up to. A compass and a GPS wander by themselves.
+/// True for channels whose errors are evaluated: speed and yaw rate, or without them their
+/// integrals. Compass and GPS have drift of their own.
 bool judges_model(const NoiseLevels& noise, LogChannel channel) {
   switch (channel) {
     case LogChannel::kSpeed:
@@ -43,8 +43,8 @@ bool judges_model(const NoiseLevels& noise, LogChannel channel) {
   }
 }
 
-/// Nothing but positions: an error that lasts is then as long as the motion itself, and may be the end of
-/// a search in a wrong place as well as a receiver that wanders.
+/// True if only positions are measured. A lasting error can then also be due to a drifting receiver
+/// or to a wrong optimum.
 bool has_only_positions(const NoiseLevels& noise) {
   return std::ranges::all_of(noise, [](const auto& channel) {
     return channel.first == LogChannel::kX || channel.first == LogChannel::kY;

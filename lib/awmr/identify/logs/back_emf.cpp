@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// For how long the motors are off and the vehicle can still be rolling: no gap, and no longer than
-/// kRolls_s after they drove it.
+/// Time in which the motors are off and the vehicle can still roll: without gaps in the log, within
+/// kRolls_s after being driven.
 double coasting_s(const DrivingLog& log) {
   constexpr double kRolls_s = 3.0;
   const double gap_s = kGapSteps * log.median_step_s();

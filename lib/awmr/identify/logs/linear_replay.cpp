@@ -12,7 +12,7 @@ struct RateOfParameter {
   double DrivenSlopes::*rate;
 };
 
-/// Which rates a parameter acts on.
+/// The rates on which a parameter acts.
 constexpr RateOfParameter kActs[] = {
     {ParameterId::kSurgeAlpha, &DrivenSlopes::u},
     {ParameterId::kSurgeBeta, &DrivenSlopes::u},
@@ -38,7 +38,7 @@ constexpr RateOfParameter kActs[] = {
 constexpr double DrivenSlopes::*kDriven[kDrivenSize] = {&DrivenSlopes::u, &DrivenSlopes::v,
                                                         &DrivenSlopes::r, &DrivenSlopes::steering};
 
-/// The place of a component of State among those of its derivatives.
+/// Index of a component of State among its derivatives.
 std::size_t place_of(LogChannel channel) {
   switch (channel) {
     case LogChannel::kX:
@@ -185,8 +185,9 @@ void LinearStepper::move_to(const State<double>& next, double h, LinearMotion& m
 }
 
 void LinearStepper::stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion) {
-  // A change of the speed S before the stop moves the stop by -S/w_dot before it, and the speed after
-  // it by that time at the difference of the rates: S after = S before (w_dot after)/(w_dot before).
+  // A change S of the speed before the stop shifts the time of the stop by -S/w_dot. The speed
+  // after it changes by that time times the difference of the rates: S after = S before (w_dot
+  // after)/(w_dot before).
   find_rates(command, motion.state);
   const double before = channel_of(rates_.rates, speed);
   channel_of(motion.state, speed) = 0.0;
@@ -234,7 +235,7 @@ State<double> LinearStepper::rates(const DelayedCommand& command, LinearMotion& 
 
 namespace {
 
-/// The forces of motors that are off as soon as their command is 0: none, and no derivatives.
+/// Motors that are off as soon as their command is 0 then have no force and no derivatives.
 void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
   const auto off = [&](double SideForces<double>::*side) {
     if (command.*side != 0.0) return;
@@ -322,7 +323,7 @@ LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
     for (int i = 0; i < steps; ++i) stepper.step(command, span_s / steps, motion);
     rates = stepper.rates(command, motion);
   }
-  // A longer delay looks at an earlier moment.
+  // A longer delay selects an earlier time.
   if (stepper.columns() == 0) return motion;
   for (const LogChannel channel : kChannels) {
     motion.row(channel, stepper.columns())[delay.column] -= channel_of(rates, channel);

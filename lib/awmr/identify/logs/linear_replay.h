@@ -1,4 +1,5 @@
-/// replay() with the derivatives of the motion by the free numbers of a fit. Private to identify/.
+/// replay() with the derivatives of the motion by the free quantities of a fit. Private to
+/// identify/.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 
 namespace awmr {
 
-/// The state at a moment and its derivatives by the columns of a fit, [kStateSize][columns]; none
+/// The state at one time and its derivatives by the columns of a fit, [kStateSize][columns]; empty
 /// if only the state is requested.
 struct LinearMotion {
   State<double> state{};
@@ -42,13 +43,14 @@ struct OffsetColumn {
   std::size_t column;
 };
 
-/// Path of the logged commands to the wheels: direct, delayed, through motor lag, or with a constant
+/// Path of the logged commands to the wheels: direct, delayed, through motor lag, or with a
+/// constant
 /// error.
 struct CommandPath {
   std::optional<DelayColumn> delay = {};  ///< of all commands; negative: their time stamps are late
   std::optional<DelayColumn> steering_delay = {};  ///< of the steering, on top of that
   std::optional<LaggedForces> lag = {};
-  std::optional<std::size_t> lag_column = {};      ///< where the lag is free
+  std::optional<std::size_t> lag_column = {};      ///< present if the lag is free
   std::optional<OffsetColumn> steering_trim = {};  ///< rad, added to command or logged angle
   std::optional<OffsetColumn> imbalance = {};  ///< e: left forces times 1 - e, right times 1 + e
   /// A motor is off as soon as its command is 0, whatever its lag: true for motors with back-EMF.
@@ -76,7 +78,7 @@ struct DelayedCommand {
   double steering_by_trim = 0.0;  ///< 1 with a trim, of a logged angle too
 };
 
-/// Moves the state and its derivatives on.
+/// Integrates the state and its derivatives.
 class LinearStepper {
  public:
   /// `columns`: 0 for the state alone. `latency`: columns_of() the command path. `longest_step_s`:
@@ -88,13 +90,13 @@ class LinearStepper {
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// Makes one step along the rates at the present state, which are returned; h of either sign.
   State<double> step_along_tangent(const DelayedCommand& command, double h_s, LinearMotion& motion);
-  /// The state's rates there.
+  /// The rates of the state.
   State<double> rates(const DelayedCommand& command, LinearMotion& motion);
 
   std::size_t columns() const { return columns_; }
 
  private:
-  /// A derivative of rates_ that counts, and where it goes.
+  /// A nonzero derivative of rates_ and its destination.
   struct Term {
     std::size_t parameter;
     double DrivenSlopes::*rate;
@@ -130,7 +132,8 @@ class LinearStepper {
 DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s, double h_s,
                           const CommandPath& path);
 
-/// Runs the model over rows [begin, end) from `motion` and calls visit(row, motion) at every row, as
+/// Runs the model over rows [begin, end) from `motion` and calls visit(row, motion) at every row,
+/// as
 /// replay() does.
 template <class Visit>
 void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end,
@@ -168,9 +171,9 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
   }
 }
 
-/// The motion delay.delay_s >= 0 before the last of `motions`, the motions at the rows from `begin`
-/// on: so many Runge-Kutta steps from the row before. Before the first row the rates there hold.
-/// `errors`: its constant errors apply to the commands, not its delays.
+/// The motion at delay.delay_s >= 0 before the last of `motions`, which are the motions at the rows
+/// from `begin` on. Integrated by Runge-Kutta steps from the preceding row. Before the first row,
+/// its rates are extrapolated. `errors`: its constant errors apply to the commands, not its delays.
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
                             const DelayColumn& delay, double longest_step_s,

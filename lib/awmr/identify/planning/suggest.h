@@ -36,7 +36,7 @@ struct SuggestedTrial {
   std::string settings;                                 ///< text for the field sheet
   std::vector<std::pair<std::string, double>> numbers;  ///< the same, units in the names
   std::string parameter = {};                           ///< criterion of the ranking
-  double std_error_before = 0.0;                        ///< of that parameter, in its unit, >= 0
+  double std_error_before = 0.0;                        ///< of that criterion, in its unit, >= 0
   double std_error_after = 0.0;  ///< the same with the trial, in [0, std_error_before]
   double d_gain = 0.0;           ///< ln det C before - after, >= 0: D-optimality
 };
