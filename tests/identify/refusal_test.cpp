@@ -109,7 +109,7 @@ TEST(Refusal, TimeNoiseWithoutTimesIsRefused) {
   for (const Finding& f : result->model.record.findings) {
     if (f.code != "not-identifiable" || f.severity != Severity::kError) continue;
     EXPECT_THAT(f.message, HasSubstr("elapsed_s in every row"));
-    EXPECT_THAT(f.message, Not(HasSubstr("do not hold two different")));
+    EXPECT_THAT(f.message, Not(HasSubstr("do not contain two different")));
   }
 }
 
@@ -127,7 +127,7 @@ TEST(Refusal, AFitThatDidNotConvergeIsTheReason) {
   ASSERT_FALSE(result->refused.empty());
   for (const Finding& f : result->model.record.findings) {
     if (f.code != "not-identifiable" || f.severity != Severity::kError) continue;
-    EXPECT_THAT(f.message, Not(HasSubstr("do not hold two different"))) << f.message;
+    EXPECT_THAT(f.message, Not(HasSubstr("do not contain two different"))) << f.message;
   }
 }
 

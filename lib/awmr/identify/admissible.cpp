@@ -31,7 +31,7 @@ void take_out(ParameterId id, std::string why, Model& model,
 
 /// Reason why a value is not allowed in a model; empty if it is.
 std::string why_not(double value, const NumberRule& rule) {
-  if (!std::isfinite(value)) return "the fit left the finite numbers";
+  if (!std::isfinite(value)) return "the fitted value is not finite";
   if (value >= rule.min && value <= rule.max) return {};
   return fmt::format("the fit gives {:.4g}, outside the allowed range [{:g}, {:g}]", value,
                      rule.min, rule.max);
@@ -53,8 +53,8 @@ std::string why_open(ParameterId id, const Estimate& estimate) {
 void take_out_what_hangs_on_it(Model& model, std::map<ParameterId, std::string>& reasons) {
   const auto follow = [&](ParameterId first, ParameterId second) {
     if (!reasons.contains(first)) return;
-    take_out(second, fmt::format("{} is open: {}", info(first).name, reasons.at(first)), model,
-             reasons);
+    take_out(second, fmt::format("{} is not determined: {}", info(first).name, reasons.at(first)),
+             model, reasons);
   };
   follow(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta);
   follow(ParameterId::kSurgeBeta, ParameterId::kSurgeAlpha);

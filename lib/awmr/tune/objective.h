@@ -65,7 +65,7 @@ struct ObjectiveSetting {
   ObjectiveWeights weights;
   std::vector<Scenario> scenarios;  ///< with heading guidance; not empty
   double tail_share = 1.0;          ///< (0, 1]
-  std::uint64_t seed = 0;  ///< of the random numbers of the runs, which differ by vehicle
+  std::uint64_t seed = 0;           ///< of the random numbers of the runs, which differ by vehicle
   BatchArithmetic arithmetic = {};  ///< of the runs
   std::vector<TuningGoal> goals = {};
   std::vector<std::uint64_t> numbers = {};  ///< of the vehicles; empty: 0, 1, ...

@@ -232,9 +232,8 @@ struct SearchStep {
 
 /// Progress of a search, in the order of its evaluations.
 struct SearchHistory {
-  std::vector<SearchStep>
-      best;  ///< at most kMostHistorySteps; the last one is the search's result
-  int global_evaluations = 0;  ///< the first ones, of the global search; the others are local
+  std::vector<SearchStep> best;  ///< at most kMostHistorySteps; the last one is the search's result
+  int global_evaluations = 0;    ///< the first ones, of the global search; the others are local
   int evaluations = 0;
 };
 /// A longer history is thinned to evenly spaced steps, including the first and the last.
@@ -279,8 +278,8 @@ struct EvaluatedGains {
 
 /// Fraction of a metric's variance that is due to one input (tune/sobol.h).
 struct SobolIndex {
-  double first = 0.0;  ///< first order: in [0, 1], apart from the sampling error
-  double total = 0.0;  ///< total, >= 0: including interactions with other inputs
+  double first = 0.0;               ///< first order: in [0, 1], apart from the sampling error
+  double total = 0.0;               ///< total, >= 0: including interactions with other inputs
   Interval first_ci95, total_ci95;  ///< by bootstrap
 };
 struct SensitiveFigure {
@@ -320,7 +319,7 @@ struct EvaluatedGoal {
 /// Conditions of a robust search, and results of its gains.
 struct RobustTuning {
   LoopConditions conditions;
-  bool from_covariance = false;  ///< false: the model has none, so only noise was drawn
+  bool from_covariance = false;           ///< false: the model has none, so only noise was drawn
   std::vector<EvaluatedGains> evaluated;  ///< by gains, then mode; empty for a part
   /// The same by scenario, then gains, then mode; empty with a single scenario.
   std::vector<EvaluatedGains> evaluated_by_scenario;

@@ -55,10 +55,9 @@ std::vector<CoastCurve> falling(const std::vector<CoastCurve>& curves, MassResul
       kept.push_back(curve);
       continue;
     }
-    result.findings.push_back(
-        {curve.file, curve.line, Severity::kWarning, "no-deceleration",
-         "the speed of this coast-down does not fall by more than its noise: it shows nothing of "
-         "m' and is set aside"});
+    result.findings.push_back({curve.file, curve.line, Severity::kWarning, "no-deceleration",
+                               "the speed of this coast-down does not fall by more than its noise, "
+                               "so it does not determine m' and is set aside"});
   }
   return kept;
 }
@@ -220,7 +219,7 @@ void check_noise(const std::vector<NoiseAlternative>& laws, const std::string& f
            "mass_norm depends on which measurement of the surge runs has the error, which is "
            "unknown: "
            "{:.3g} with errors on {}, median {:.3g} over all that the runs allow (weight in "
-           "/estimates); its interval and the draws of tune and compare hold all of them. "
+           "/estimates); its interval and the draws of tune and compare include all of them. "
            "{} selects the error location; a coast-down curve depends less on the surge law",
            std::exp(result.estimate->log_mass_norm), name_of(laws.front().noise), std::exp(median),
            option_text("noise"))});

@@ -61,9 +61,9 @@ std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::stri
     if (test.p_value >= kSignificant || !test.name.starts_with("whiteness")) continue;
     findings.push_back(
         {file, 0, fit.widened >= kMuch ? Severity::kWarning : Severity::kNote, "coloured-residuals",
-         fmt::format("{}: the residuals stay correlated (p = {:.2g}) beyond what their noise model "
-                     "explains: the model misses something; standard errors are widened by up to "
-                     "{:.2g} times to what blocks of the logs scatter by",
+         fmt::format("{}: the residuals are correlated (p = {:.2g}) beyond their noise model, so "
+                     "the model is incomplete; standard errors are widened by a factor of up to "
+                     "{:.2g}, to the scatter of blocks of the logs",
                      test.name, test.p_value, fit.widened)});
   }
   return findings;
@@ -87,8 +87,8 @@ Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
     adequacy.withdraws_intervals |= withdraws;
     adequacy.findings.push_back(
         {logs.front().file, 0, Severity::kWarning, "model-inadequate",
-         fmt::format("the model misses {} by {:.3g} {} over {} at a time, where the sensor's "
-                     "own noise is {:.2g}: {}. {}",
+         fmt::format("the model has an error of {1:.3g} {2} in {0} for {3} at a time, compared "
+                     "with a sensor noise of {4:.2g}: {5}. {6}",
                      info(channel).name, noise.drift_std, info(channel).unit,
                      noise.correlation_s < kWindow_s ? fmt::format("{:.2g} s", noise.correlation_s)
                                                      : fmt::format("more than {:g} s", kWindow_s),

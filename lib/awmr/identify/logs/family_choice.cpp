@@ -183,12 +183,12 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
   if (!alternative.fit.usable || !(gain > 0.0) || !(apart > kApart)) return std::nullopt;
   return Finding{
       file, 0, Severity::kWarning, "family-undecided",
-      fmt::format("these logs do not decide between {} and {} (better by {:.1f} of AIC, "
-                  "too little to take it): under it {} is {:.1f} standard errors away; the "
-                  "intervals hold for {} only",
-                  families_in_words(best.surge, best.yaw),
-                  families_in_words(alternative.surge, alternative.yaw), gain, name, apart,
-                  families_in_words(best.surge, best.yaw))};
+      fmt::format(
+          "these logs do not decide between {} and {} (AIC lower by {:.1f}, not significant), with "
+          "which {} differs by {:.1f} standard errors; the intervals are valid for {} only",
+          families_in_words(best.surge, best.yaw),
+          families_in_words(alternative.surge, alternative.yaw), gain, name, apart,
+          families_in_words(best.surge, best.yaw))};
 }
 
 Finding not_compared(const std::string& file, const FamilyFit& first) {

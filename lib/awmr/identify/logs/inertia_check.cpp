@@ -59,8 +59,8 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
   if (most > kInertiaOverBox.lo && least < kInertiaOverBox.hi) return {};
   const double times = *inertia->value / *mass->value / box;
   return fmt::format(
-      "I'z/m' as fitted is {:.3g} times Iz/m of the vehicle, which no distribution of its mass "
-      "makes: a unit or a sign is wrong{}, or something else turns it",
+      "the fitted I'z/m' is {:.3g} times Iz/m of the vehicle, impossible for any distribution of "
+      "its mass: a unit or a sign is wrong{}, or another moment turns it",
       times, speed_unit_hint(logs, times));
 }
 

@@ -99,10 +99,9 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   for (const auto& [channel, noise] : guess.model.noise) readings += noise.count;
   if (readings <= static_cast<int>(guess.unknowns())) {
     return without_solution(
-        fmt::format(
-            "{} readings are too few for {} free numbers, the state at the beginning of each "
-            "10 s among them: log faster or more channels",
-            readings, guess.unknowns()),
+        fmt::format("{} readings are too few for {} free numbers, including the initial state of "
+                    "every 10 s: log at a higher rate or more channels",
+                    readings, guess.unknowns()),
         {});
   }
   Multistart search = multistart(guess, options);

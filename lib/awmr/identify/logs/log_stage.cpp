@@ -283,7 +283,7 @@ Finding measured_steering_finding(const std::string& file) {
   return {file, 0, Severity::kWarning, "steering-measured",
           fmt::format("the vehicle turns with steering_cmd_deg without the lag of a servo: the "
                       "column is the measured angle and is used as such. Map it by {}, or log the "
-                      "command, which shows the servo's lag",
+                      "command, from which the servo's lag is identified",
                       option_text(R"(column 'steering_deg="steering_cmd_deg"')"))};
 }
 
@@ -366,11 +366,12 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements)
          fmt::format("the logs disagree on {}: {} (p = {:.2g} for one vehicle, surface and "
                      "battery); {}",
                      one.name, each, one.p_value,
-                     one.withdraws ? "the fit takes one value for all of them. The intervals are "
-                                     "withdrawn; identify each log by itself"
-                     : one.refuses ? "widened for it, the interval would say nothing: it is refused"
-                                   : "its interval is widened and covers the mean over such logs, "
-                                     "not an individual log")});
+                     one.withdraws ? "the fit uses one value for all of them, so the intervals are "
+                                     "withdrawn; identify each log separately"
+                     : one.refuses
+                         ? "an interval that covers them would be too wide, so it is refused"
+                         : "its interval is widened and covers the mean over such logs, "
+                           "not an individual log")});
   }
   return findings;
 }

@@ -52,8 +52,8 @@ Choice choose_log_linear(const Subject& subject, const SubjectOptions& options,
 /// Finding: the power law was selected without a comparison.
 Finding not_compared(const Subject& subject) {
   return about(subject, Severity::kWarning, "families-not-compared",
-               fmt::format("{} rows of {} are too few to compare families by AICc, which takes {}: "
-                           "the power law is taken; record another run",
+               fmt::format("{} rows of {} are too few to compare families by AICc, which needs {}: "
+                           "the power law is used; record another run",
                            subject.points.size(), name_in(kFitSubjectNames, subject.name),
                            kFewestToCompare));
 }
@@ -66,7 +66,7 @@ Finding nothing_to_choose(const Subject& subject, bool tried) {
         fmt::format("{} rows are too few for the requested family", subject.points.size()));
   }
   return about(subject, Severity::kError, "not-converged",
-               fmt::format("no family's fit of {} converged with more runs than its numbers",
+               fmt::format("no family's fit of {} converged with more runs than parameters",
                            name_in(kFitSubjectNames, subject.name)));
 }
 
