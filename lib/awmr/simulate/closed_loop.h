@@ -1,6 +1,7 @@
 /// The closed loop of a single run (Row = double) and of sixteen runs at a time (lanes::Row):
 ///   sensors -> guidance -> controller -> actuators -> rows and metrics -> vehicle
-/// Sensors, guidance, disturbances and the ground are computed run by run; controller, motors, motion
+/// Sensors, guidance, disturbances and the ground are computed run by run; controller, motors,
+/// motion
 /// and metrics by steps on rows (loop_steps.h, vehicle_steps.h). Private to this folder.
 #pragma once
 
@@ -38,7 +39,7 @@ struct LoopOptions {
   bool has_metrics = false;          ///< metrics() may be called
 };
 
-/// Runs of a scenario that are driven together.
+/// Runs of one scenario that are simulated together.
 template <class Row>
 class ClosedLoop {
  public:
@@ -46,7 +47,7 @@ class ClosedLoop {
   ClosedLoop(std::span<const BatchRun> runs, const Scenario& scenario, const LoopSteps<Row>& steps,
              const LoopOptions& options);
 
-  /// Drives all runs to their ends.
+  /// Simulates all runs to their ends.
   void drive();
 
   /// End of a run, with its rows if they are kept. RunEnd::kFailed: a number was not finite, or no
@@ -56,18 +57,18 @@ class ClosedLoop {
   std::optional<Metrics> metrics(std::size_t run) const;
 
  private:
-  /// State that each run has by itself.
+  /// State of a single run.
   struct Parts {
     Sensing sensing;
     Positioning positioning;
     RunDisturbance disturbance;
     Sensed sensed = {};
-    std::optional<ScenarioGuidance> guidance = {};  ///< once the first sample is sensed
+    std::optional<ScenarioGuidance> guidance = {};  ///< set after the first measurement
     CourseRow course = {};                          ///< of the present sample
     RunEnd ending =
-        RunEnd::kDuration;  ///< how the present sample ends the run; kDuration: it goes on
+        RunEnd::kDuration;  ///< how the current sample ends the run; kDuration: it continues
     std::vector<RunRow> rows = {};
-    std::optional<Ending> end = {};  ///< none: it goes on, or it failed
+    std::optional<Ending> end = {};  ///< absent: it continues, or it failed
   };
 
   void set_up_controller(const BatchRun& run, std::size_t index);
@@ -105,7 +106,7 @@ ClosedLoop<Row>::ClosedLoop(std::span<const BatchRun> runs, const Scenario& scen
   runs_->course = metered_course(scenario);
   runs_->vehicles.setup = vehicle_setup(scenario, options.sample_time_s);
   for (std::size_t i = 0; i < kRunsOf<Row>; ++i) {
-    // A place without a run has a copy of the first, so that its numbers are harmless.
+    // An unused lane has a copy of the first run, so that its numbers are valid.
     const bool has_run = i < runs.size();
     const BatchRun& run = has_run ? runs[i] : runs.front();
     set_up_controller(run, i);
@@ -141,7 +142,8 @@ void ClosedLoop<Row>::set_up_vehicle(const BatchRun& run, std::size_t index) {
                        index, runs_->vehicles);
 }
 
-/// False where the guidance is the same for all runs and no row needs it: then no run has its own.
+/// True if each run needs its own guidance. False if it is the same for all runs and no row needs
+/// it.
 template <class Row>
 bool ClosedLoop<Row>::has_own_guidance() const {
   if (runs_->control.is_open_loop) return false;
@@ -149,7 +151,7 @@ bool ClosedLoop<Row>::has_own_guidance() const {
          scenario_.avoidance || scenario_.shaping;
 }
 
-/// Calls body(run) for each run that goes on.
+/// Calls body(run) for each active run.
 template <class Row>
 template <class Body>
 void ClosedLoop<Row>::for_active(const Body& body) {

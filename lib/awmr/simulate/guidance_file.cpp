@@ -91,7 +91,7 @@ WaypointCourse read_waypoints(JsonObject& json) {
   return course;
 }
 
-/// A segment without length has no direction to follow.
+/// A segment of zero length has no direction.
 void check_segments(JsonObject& json, const char* key,
                     const std::vector<Position<double>>& points_m) {
   for (std::size_t i = 1; i < points_m.size(); ++i) {
@@ -103,7 +103,7 @@ void check_segments(JsonObject& json, const char* key,
   }
 }
 
-/// Each law with its own keys, so that those of another are unknown ones.
+/// Reads a law with its own keys; those of other laws are unknown keys.
 void read_line_law(JsonObject& json, LineCourse& course) {
   const std::vector<AnyLineLaw> laws = line_laws();
   std::vector<std::string> names;

@@ -12,12 +12,12 @@
 namespace awmr {
 namespace {
 
-/// The commanded heading, before what the scenario does to it on the way to the law.
+/// The commanded heading before shaping and avoidance.
 double goal_rad(const RunRow& row, const Scenario& scenario) {
   return scenario.shaping || scenario.avoidance ? row.course.psi_goal_rad : row.psi_ref_rad;
 }
 
-/// Whether the commanded speed is constant, so that a speed drop is defined.
+/// True if the commanded speed is constant, so that a speed drop is defined.
 bool asks_for_one_speed(const Scenario& scenario) {
   if (scenario.avoidance || std::holds_alternative<LissajousCourse>(scenario.guidance))
     return false;

@@ -145,8 +145,7 @@ Status check_tyres(const Scenario& scenario) {
   return {};
 }
 
-/// Weights whose gains are unstable at the controller's sample time are an error, not a run that
-/// oscillates.
+/// Weights whose gains are unstable at the controller's sample time are an error.
 Status check_lqi(const Scenario& scenario, const Model& model) {
   const auto& inertia_norm = model[ParameterId::kInertiaNorm].value;
   if (!scenario.control.lqi || !inertia_norm) return {};

@@ -21,7 +21,7 @@ State<double> read_initial(JsonObject json) {
   return state;
 }
 
-/// Reads u_d. Optional if the scenario holds a constant thrust, which has no commanded speed.
+/// Reads u_d. Not needed with a constant thrust, which has no commanded speed.
 double read_speed(JsonObject& json, bool holds_thrust) {
   if (!json.has("speed_mps")) {
     if (!holds_thrust) json.fault(ErrorCode::kMissing, "speed_mps", "this key is missing; add it");

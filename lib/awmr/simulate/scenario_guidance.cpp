@@ -8,8 +8,7 @@
 namespace awmr {
 namespace {
 
-/// Distance of p from the line through a and b, left of its direction positive; from a where the
-/// two coincide.
+/// Distance of p from the line through a and b, positive to its left; from a if a and b coincide.
 double from_line_m(const Position<double>& a, const Position<double>& b,
                    const Position<double>& p) {
   const double length_m = distance_m(a, b);
@@ -92,7 +91,7 @@ GuidanceOutput ScenarioGuidance::step(double t_s, const Sensed& sensed) {
   return output;
 }
 
-/// Looked for once per leg, from where the vehicle then is.
+/// Checked once per leg, from the vehicle's position at that time.
 bool ScenarioGuidance::way_is_free(const Position<double>& from, const Position<double>& to,
                                    int leg) {
   if (!scenario_->avoidance) return true;

@@ -1,4 +1,5 @@
-/// Guidance of a scenario: measurements -> heading and speed references of the laws. Private to this
+/// Guidance of a scenario: measurements -> heading and speed references of the laws. Private to
+/// this
 /// folder.
 #pragma once
 
@@ -14,18 +15,18 @@
 
 namespace awmr {
 
-/// The heading that is to be held at `t_s`.
+/// The commanded heading at `t_s`.
 double heading_at(const HeadingSteps& guidance, double t_s);
 
 /// Output of the guidance at one sample.
 struct GuidanceOutput {
   Reference<double> reference{};
   CourseRow course;
-  bool finished = false;    ///< the route's end is reached
+  bool finished = false;    ///< the end of the route is reached
   bool no_passage = false;  ///< obstacles block the way
 };
 
-/// PathFollower that keeps the path's point of the last step.
+/// PathFollower that stores the path's point of the last step.
 struct TimedPathFollower : PathFollower<double, double> {
   PathPoint<double> point{};
 };
@@ -41,13 +42,14 @@ class ScenarioGuidance {
   ScenarioGuidance(const ScenarioGuidance&) = delete;
   ScenarioGuidance(ScenarioGuidance&&) = default;
 
-  /// Call it once per sample, in order; not in open loop.
+  /// Computes the references. Call it once per sample, in order; not in open loop.
   GuidanceOutput step(double t_s, const Sensed& sensed);
-  /// Waypoints passed by or covered by an obstacle, so far.
+  /// Number of waypoints so far that were missed or covered by an obstacle.
   int missed() const { return laws_.progress.missed; }
 
  private:
-  /// The parts of the guidance that a scenario can have; without a clock that wraps.
+  /// The parts of the guidance that a scenario can have. Unlike the firmware's, the clock does not
+  /// wrap.
   struct Parts {
     using Line = AnyLineFollower<double>;
     using Path = TimedPathFollower;
@@ -72,7 +74,7 @@ class ScenarioGuidance {
   double sample_time_s_;
   GuidanceLaws<double, Parts> laws_{};
   std::vector<Sector<double>> sectors_;  ///< of the obstacles
-  std::optional<int> leg_checked_;       ///< the leg whose passage was looked for
+  std::optional<int> leg_checked_;       ///< the leg for which a passage was checked
   bool passage_ = true;
 };
 

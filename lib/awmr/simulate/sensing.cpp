@@ -8,10 +8,11 @@
 namespace awmr {
 namespace {
 
-/// Streams of RunSeed::random, apart from those of the disturbances.
+/// Streams of RunSeed::random, separate from those of the disturbances.
 enum Use : std::uint64_t { kHeading = 1, kYawRate, kSpeed, kGps };
 
-/// Room for the rounding of times that are multiples of the sample time, in samples and in seconds.
+/// Tolerance for the rounding of times that are multiples of the sample time, in samples and in
+/// seconds.
 constexpr double kTimeRounding = 1e-9;
 constexpr double kTimeRounding_s = 1e-9;
 
@@ -102,8 +103,8 @@ Sensed Sensing::at(std::size_t k, const State<double>& truth) {
   return sensed;
 }
 
-/// The last fix that has arrived. Before the first one, it is the true position at the start, as if
-/// taken a period before.
+/// The last fix that has arrived. Before the first one, the true initial position, as if taken one
+/// period before the start.
 void Sensing::receive_fixes(std::size_t k, const State<double>& truth, Sensed& sensed) {
   const Gps& gps = *sensors_->gps;
   true_m_.push_back({truth.x_m, truth.y_m});

@@ -60,14 +60,14 @@ Controller<double> controller_in(const Scenario& scenario, Controller<double> co
 
 namespace {
 
-/// The scenario's observer, or else the one of the gains; bandwidth 0 where there is none. An LQI takes
-/// no gains, and so not their observer.
+/// The scenario's observer, else that of the gains; bandwidth 0 if there is none. With an LQI, the
+/// gains and their observer are not used.
 ObserverGains<double> observer_in(const Scenario& scenario, const Gains<double>& gains) {
   ObserverGains<double> observer = scenario.control.lqi ? ObserverGains<double>{} : gains.observer;
   if (const auto& own = scenario.control.observer) {
     observer = {own->bandwidth_radps, own->yaw_max_m, own->surge_max};
   }
-  // A held thrust leaves a surge observer nothing to act on.
+  // With a constant thrust, a surge observer has no effect.
   if (scenario.held_tau_speed()) observer.surge_max = 0.0;
   return observer;
 }

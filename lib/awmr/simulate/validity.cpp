@@ -59,8 +59,8 @@ void note_speed(const Scenario& scenario, const Model& model, std::vector<Findin
                                   scenario.name, scenario.speed_mps, needed, std::max(most, 0.0))});
 }
 
-/// The yaw rate, deg/s, that a steady moment of tau_turn_m makes under way, in a plain scenario; on
-/// tyres where they are given.
+/// Yaw rate, deg/s, under a steady moment of tau_turn_m while driving, in a simple scenario; on
+/// tyres if given.
 double turned_degps(const Model& model, double tau_turn_m,
                     const std::optional<Tyres<double>>& tyres) {
   Scenario turn;
@@ -132,7 +132,7 @@ void limit_heading_rate(double limit_degps, Scenario& scenario) {
     scenario.shaping->rate_max_radps = std::min(scenario.shaping->rate_max_radps, limit_radps);
     return;
   }
-  // The limit is reached within a time constant of the filter.
+  // With this acceleration the rate limit is reached within one time constant of the filter.
   scenario.shaping =
       HeadingShaping<double>{.omega_radps = kShapingBandwidth_radps,
                              .rate_max_radps = limit_radps,
