@@ -22,11 +22,11 @@
 namespace awmr {
 namespace {
 
-/// Moments are tried from this share of the largest one up, a decade at a time: the larger a moment, the
-/// shorter the steps that a run takes.
+/// Smallest moment tried, as a share of the largest. The search goes up by decades, because runs
+/// with a larger moment need shorter steps.
 constexpr double kLeast = 1e-4;
 
-/// A scenario with the mode that scrubs, on the model's own values.
+/// A scenario with the mode under test, on the nominal model.
 struct Course {
   const Scenario* scenario;
   YawMode mode;
@@ -36,7 +36,7 @@ struct Course {
   BatchArithmetic arithmetic;
 };
 
-/// Metrics of the course in this mode by scrub moment. A run that fails has none.
+/// Metrics of the scenario in this mode, by scrub moment. Empty for a failed run.
 std::vector<std::optional<Metrics>> driven_with(const Course& course, YawMode mode,
                                                 const std::vector<double>& moments_m) {
   std::vector<BatchRun> runs;
@@ -54,7 +54,7 @@ std::vector<std::optional<Metrics>> driven_with(const Course& course, YawMode mo
 }
 
 /// True if the run with scrub completes and scores no worse than the other mode with the same
-/// scrub. False if it lost a metric that it had without scrub (it no longer settles, or does not
+/// scrub. False if it lacks a metric that it has without scrub (it no longer settles, or does not
 /// arrive). True if the run of the other mode failed.
 bool is_ahead(const std::optional<Metrics>& run, const Metrics& without,
               const std::optional<Metrics>& other, const std::vector<ScoredMetric>& scoring) {
@@ -66,7 +66,7 @@ bool is_ahead(const std::optional<Metrics>& run, const Metrics& without,
   return !lost && log_score(*run, scoring) <= log_score(*other, scoring);
 }
 
-/// From `lo` to `hi`, both with, as many as fill a batch.
+/// Equidistant values from `lo` to `hi`, both included, as many as fill a batch.
 std::vector<double> evenly_between(double lo, double hi) {
   std::vector<double> values;
   for (std::size_t i = 0; i < kBatchRuns; ++i) {
@@ -74,7 +74,7 @@ std::vector<double> evenly_between(double lo, double hi) {
   }
   return values;
 }
-/// The same in equal ratios.
+/// The same with equal ratios.
 std::vector<double> in_ratios_between(double lo, double hi) {
   std::vector<double> values = evenly_between(std::log(lo), std::log(hi));
   std::transform(values.begin(), values.end(), values.begin(),
@@ -88,8 +88,8 @@ std::optional<std::size_t> first_false(const std::vector<bool>& all) {
   return at(found - all.begin());
 }
 
-/// The least moment that ends a lead, to 1 % of itself; absent where none does up to `most_m`. `ahead`
-/// says of each moment of a batch whether the mode still leads.
+/// Smallest moment that ends a lead, with an error of 1 %; absent if none up to `most_m` does.
+/// `ahead`: for each moment of a batch, whether the mode still leads.
 template <class Ahead>
 std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   constexpr double kFine = 0.01;
@@ -111,7 +111,7 @@ std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   return std::nullopt;
 }
 
-/// The runs of sample 0, of a model with scrub run again without.
+/// The runs of sample 0; if the model has scrub, they are repeated without it.
 Result<std::vector<ComparisonRow>> rows_without_scrub(const Model& model,
                                                       const Gains<double>& gains,
                                                       const std::vector<Scenario>& scenarios,
@@ -128,7 +128,7 @@ Result<std::vector<ComparisonRow>> rows_without_scrub(const Model& model,
   return rows;
 }
 
-/// The rows of one scenario, in the form that scoring_of() reads.
+/// The rows of one scenario, as input of scoring_of().
 ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::string& scenario) {
   ScenarioRows rows{scenario, {}};
   for (const ComparisonRow& row : all) {
@@ -137,7 +137,7 @@ ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::stri
   return rows;
 }
 
-/// A pair of modes without its result, and the inputs of the result.
+/// A pair of modes with an incomplete result, and the inputs for it.
 struct Question {
   Course course;
   std::vector<ScoredMetric> scoring;
@@ -145,8 +145,8 @@ struct Question {
   BreakEven entry;
 };
 
-/// One question for each mode that the given mode is ahead of and that has smaller wheel-force
-/// differences; `rows` are those of sample 0.
+/// One question for each mode with smaller wheel-force differences that the given mode is ahead of.
+/// `rows`: those of sample 0.
 std::vector<Question> questions_of(const Course& course, const ScenarioRows& rows,
                                    const std::vector<ScoredMetric>& scoring, BreakEven entry) {
   std::vector<Question> questions;
@@ -181,7 +181,8 @@ void answer(Question& question) {
       });
 }
 
-/// Turns at other rates than scrub was measured at, by more than a law holds further.
+/// True if the run turns at rates outside those of the scrub measurement by more than the allowed
+/// extrapolation.
 bool turns_at_other_rates(const BreakEven& entry) {
   return entry.measured_degps && (entry.fastest_degps > kLittleFurther * entry.measured_degps->hi ||
                                   kLittleFurther * entry.fastest_degps < entry.measured_degps->lo);
@@ -207,7 +208,8 @@ void add_measured(const Model& model, BreakEven& entry) {
       lead_of(entry) != Lead::kOpen || !scrub->ci95_m.contains(*entry.yaw_coulomb_m)) {
     return;
   }
-  // The interval's half shrinks as 1/sqrt(n), until it no longer holds the moment that ends the lead.
+  // The half width of the interval decreases as 1/sqrt(n), until the interval no longer contains
+  // the moment that ends the lead.
   constexpr double kMostTurns = 1000.0;
   const double half = 0.5 * (scrub->ci95_m.hi - scrub->ci95_m.lo);
   const double shrunk = half / std::abs(*entry.yaw_coulomb_m - scrub->moment_m);
@@ -215,7 +217,8 @@ void add_measured(const Model& model, BreakEven& entry) {
   if (turns <= kMostTurns) entry.turns_to_decide = static_cast<int>(turns);
 }
 
-/// Lines of the table: how many leads the measured scrub ends. `all` belong to one pair of modes.
+/// Lines of the table: number of leads that the measured scrub ends. `all`: entries of one pair of
+/// modes.
 std::string decided(const std::vector<const BreakEven*>& all) {
   std::map<Lead, int> count;
   int at_other_rates = 0;

@@ -8,8 +8,8 @@
 namespace awmr {
 namespace {
 
-/// Whether `other` is significantly better than `own` in the metric by more than its margin, or has
-/// a value where `own` has none.
+/// True if `other` is significantly better than `own` in the metric by more than its margin, or if
+/// only `other` has a value.
 bool beats(const EvaluatedScenario& scenario, const MetricColumn& metric, const ModeRows& other,
            const ModeRows& own) {
   const auto theirs = summarise(other, metric).mean;
