@@ -114,7 +114,7 @@ Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) 
   if (physics.resolved()) return {};
   return input_error(
       ErrorCode::kDiverges, fmt::format("scenario '{}'", scenario),
-      fmt::format("the simulated vehicle cannot go on after {:g} s: resistance is too stiff there "
+      fmt::format("the simulation cannot continue after {:g} s: resistance is too stiff there "
                   "for any step, or a number is no longer finite",
                   row.t_s));
 }

@@ -103,10 +103,9 @@ TEST(ScenarioFile, WhatHasNoMeaningOnTyresIsAFaultAtItsKey) {
          "corner": {"sway.alpha": "hi", "mass_norm": "lo"})"));
   ASSERT_FALSE(refused);
   const std::string text = to_text(refused.error());
-  EXPECT_NE(text.find(":/slippery: a patch limits the forces along the wheels alone"),
-            std::string::npos)
+  EXPECT_NE(text.find(":/slippery: a patch limits only the longitudinal forces"), std::string::npos)
       << text;
-  EXPECT_NE(text.find(":/corner: sway.alpha has no part on tyres"), std::string::npos) << text;
+  EXPECT_NE(text.find(":/corner: sway.alpha has no effect on tyres"), std::string::npos) << text;
   EXPECT_EQ(text.find("mass_norm"), std::string::npos);
 }
 

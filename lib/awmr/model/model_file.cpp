@@ -234,7 +234,7 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
   };
   const Interval ci = scrub.ci95_m;
   check(ci.contains(scrub.moment_m), "ci95_m",
-        fmt::format("[{:g}, {:g}] does not hold moment_m {:g}", ci.lo, ci.hi, scrub.moment_m));
+        fmt::format("[{:g}, {:g}] does not contain moment_m {:g}", ci.lo, ci.hi, scrub.moment_m));
   check(ci.hi >= 0.0, "ci95_m",
         fmt::format("[{:g}, {:g}] is all below 0: scrub does not help to turn", ci.lo, ci.hi));
   // Student's quantile: 12.7 with one degree of freedom, 1.96 with many.
@@ -263,10 +263,10 @@ std::vector<Fault> self_contradictions(const Model& model) {
   for (const ParameterInfo& parameter : parameter_table()) {
     const Estimate& estimate = model[parameter.id];
     if (!estimate.value || !estimate.ci95 || estimate.ci95->contains(*estimate.value)) continue;
-    faults.push_back({ErrorCode::kContradiction,
-                      fmt::format("{}:{}/ci95", model.file, parameter.pointer),
-                      fmt::format("[{:g}, {:g}] does not hold the value {:g}; null is no interval",
-                                  estimate.ci95->lo, estimate.ci95->hi, *estimate.value)});
+    faults.push_back(
+        {ErrorCode::kContradiction, fmt::format("{}:{}/ci95", model.file, parameter.pointer),
+         fmt::format("[{:g}, {:g}] does not contain the value {:g}; null is no interval",
+                     estimate.ci95->lo, estimate.ci95->hi, *estimate.value)});
   }
   if (model.yaw_scrub) add_scrub_contradictions(*model.yaw_scrub, model, faults);
   const Covariance& covariance = model.covariance;

@@ -32,11 +32,10 @@ struct Metrics {
   double yaw_rate_max_degps = 0.0;
   /// Total variation of the commanded d_r/d_max, F'L/F'max and F'R/F'max, summed, per second.
   double control_variation = 0.0;
-  double control_effort = 0.0;  ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run
-  std::optional<double>
-      clearance_min_m;                  ///< smallest distance from the vehicle's circle to an
-                                        ///< obstacle
-  std::optional<double> finish_time_s;  ///< time at which the end of the path was reached
+  double control_effort = 0.0;            ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run
+  std::optional<double> clearance_min_m;  ///< smallest distance from the vehicle's circle to an
+                                          ///< obstacle
+  std::optional<double> finish_time_s;    ///< time at which the end of the path was reached
 
   /// Positive mechanical work of the applied wheel forces (RunRow::acting), over F_max, m; braking
   /// recovers no energy:

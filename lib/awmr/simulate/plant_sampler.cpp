@@ -120,7 +120,7 @@ Result<PlantSampler> PlantSampler::make(const Model& model) {
   const std::optional<Eigen::MatrixXd> factor = factor_of(coordinate_covariance(model));
   if (!factor) {
     return input_error(ErrorCode::kContradiction, place + "/matrix",
-                       "is no covariance: it is not positive semi-definite; identify again");
+                       "is not positive semi-definite; identify again");
   }
   PlantSampler sampler;
   sampler.model_ = model;
@@ -173,11 +173,10 @@ Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
       return with_scrub(*std::move(drawn), of_scrub.normal());
     }
   }
-  return input_error(
-      ErrorCode::kNotIdentified, model_.file + ":/covariance",
-      fmt::format("in {} draws an exponent or a term of a resistance was below 0 every time: "
-                  "identify from more trials",
-                  kMostTries));
+  return input_error(ErrorCode::kNotIdentified, model_.file + ":/covariance",
+                     fmt::format("all of {} draws have a negative exponent or term of a "
+                                 "resistance: identify from more trials",
+                                 kMostTries));
 }
 
 Model PlantSampler::with_scrub(Model drawn, double normal) const {

@@ -74,18 +74,16 @@ Status check_mode(const Vehicle& vehicle, YawMode mode) {
   if (std::find(modes.begin(), modes.end(), mode) != modes.end()) return {};
   return input_error(
       ErrorCode::kUnsupported, option_text("mode"),
-      fmt::format("the vehicle's drive is \"{}\": it has no steering, which {} is "
-                  "made with; its mode is {}",
+      fmt::format("a vehicle of drive \"{}\" has no steering, which mode {} needs; its mode is {}",
                   name_in(kDriveNames, vehicle.drive), name_of(mode), name_of(modes.front())));
 }
 
 std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario) {
   std::vector<TyreConflict> conflicts;
   if (!scenario.patches.empty()) {
-    conflicts.push_back(
-        {"slippery",
-         "a patch limits the forces along the wheels alone, and tyres hold sideways "
-         "too: remove it, or the tyres"});
+    conflicts.push_back({"slippery",
+                         "a patch limits only the longitudinal forces of wheels, but tyres also "
+                         "have lateral forces: remove it, or the tyres"});
   }
   for (const CornerParameter& corner : scenario.corner) {
     switch (corner.id) {
@@ -96,8 +94,7 @@ std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario) {
       case ParameterId::kYawQuadratic:
         conflicts.push_back(
             {"corner", std::string(info(corner.id).name) +
-                           " has no part on tyres, which resist sway and yaw in its place: "
-                           "remove it, or the tyres"});
+                           " has no effect on tyres, which replace it: remove it, or the tyres"});
         break;
       default:
         break;

@@ -97,7 +97,7 @@ Result<Scenario> read_scenario(const std::filesystem::path& path) {
 }
 
 std::string scenario_schema() {
-  return json_schema_text(kScenarioSchema, "A scenario: where to drive, and in which world",
+  return json_schema_text(kScenarioSchema, "A scenario: task and environment",
                           [](JsonObject& json) { scenario_from_json(json); });
 }
 

@@ -179,9 +179,9 @@ Status failure_of(const Run& run, const Scenario& scenario) {
   const RunRow& last = run.rows.back();
   return input_error(
       ErrorCode::kDiverges, fmt::format("scenario '{}'", scenario.name),
-      fmt::format("the simulation cannot go on after {:g} s, at u {:.4g} m/s, v {:.4g} m/s, r "
-                  "{:.4g} deg/s: resistance is too stiff there for any step, or a number is no "
-                  "longer finite; check the initial speeds, the disturbances, {}and the model's "
+      fmt::format("the simulation cannot continue after {:g} s, at u {:.4g} m/s, v {:.4g} m/s, r "
+                  "{:.4g} deg/s: resistance is too stiff there for any step, or a number is not "
+                  "finite; check the initial speeds, the disturbances, {}and the model's "
                   "exponents",
                   last.t_s, last.state.u_mps, last.state.v_mps, degrees(last.state.r_radps),
                   scenario.tyres ? "the tyres' cornering stiffness and rest speed, " : ""));

@@ -25,10 +25,11 @@ namespace {
 void note_late_steps(const Scenario& scenario, std::vector<Finding>& findings) {
   const auto* headings = std::get_if<HeadingSteps>(&scenario.guidance);
   if (headings == nullptr || headings->steps.back().t_s < scenario.duration_s) return;
-  findings.push_back({"", 0, Severity::kWarning, "late-step",
-                      fmt::format("{}: the heading step at {:g} s is not before the end at {:g} s, "
-                                  "and is never followed",
-                                  scenario.name, headings->steps.back().t_s, scenario.duration_s)});
+  findings.push_back(
+      {"", 0, Severity::kWarning, "late-step",
+       fmt::format(
+           "{}: the heading step at {:g} s is not before the end at {:g} s, and has no effect",
+           scenario.name, headings->steps.back().t_s, scenario.duration_s)});
 }
 
 void note_blocked_waypoints(const Scenario& scenario, std::vector<Finding>& findings) {
@@ -92,9 +93,9 @@ std::optional<Finding> missing_intervals(const Model& model) {
   }
   return Finding{
       model.file, 0, Severity::kWarning, "no-interval",
-      fmt::format("{} of the model {} no 95 % interval{}: they may be wrong by any amount, and no "
-                  "draw varies them. Do what the findings of identify advise, and identify again, "
-                  "before the vehicle drives with these numbers",
+      fmt::format("{} of the model {} no 95 % interval{}: their error is unknown, and draws do not "
+                  "vary them. Follow the findings of identify and identify again before driving "
+                  "with these values",
                   fmt::join(missing, ", "), missing.size() == 1 ? "has" : "have",
                   causes.empty() ? "" : fmt::format(" (identify: {})", fmt::join(causes, ", ")))};
 }

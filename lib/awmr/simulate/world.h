@@ -142,8 +142,8 @@ struct ControlOptions {
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< of the combined mode
   struct Observer {
     double bandwidth_radps = 0.0;  ///< of the estimate, > 0
-    double yaw_max_m = 0.0;  ///< largest estimated disturbance: moment over F_max, m, > 0
-    double surge_max = 0.0;  ///< the same along x: force over F_max, > 0
+    double yaw_max_m = 0.0;        ///< largest estimated disturbance: moment over F_max, m, > 0
+    double surge_max = 0.0;        ///< the same along x: force over F_max, > 0
     /// true: the observer uses the command after its limits; false: before them,
     /// so that a saturated actuator looks like a disturbance and the estimate winds up.
     bool anti_windup = true;

@@ -234,7 +234,7 @@ std::vector<CornerParameter> read_corner(JsonObject json) {
       for (const ParameterInfo& parameter : parameter_table()) {
         known += (known.empty() ? "" : ", ") + std::string(parameter.name);
       }
-      json.fault(ErrorCode::kUnknownName, name, "is no parameter; they are " + known);
+      json.fault(ErrorCode::kUnknownName, name, "is not a parameter; available: " + known);
     }
   }
   return corner;

@@ -259,7 +259,7 @@ void describe_gains(JsonObject& json) {
 }  // namespace
 
 std::string gains_schema() {
-  return json_schema_text(kGainsSchema, "Gains, and how they were found", describe_gains);
+  return json_schema_text(kGainsSchema, "Gains and their origin", describe_gains);
 }
 
 }  // namespace awmr

@@ -367,7 +367,7 @@ Result<TuneConfig> read_tune_config(const std::filesystem::path& path) {
 }
 
 std::string tune_schema() {
-  return json_schema_text(kTuneSchema, "What a search for gains is to do", [](JsonObject& json) {
+  return json_schema_text(kTuneSchema, "Options of a search for gains", [](JsonObject& json) {
     std::vector<Fault> ignored;
     config_from_json(json, "", ignored);
   });

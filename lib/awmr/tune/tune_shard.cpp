@@ -37,14 +37,16 @@ Payload read_payload(JsonObject& json) {
       .findings = {}};
   for (const std::string& name : json.strings("modes")) {
     const auto mode = value_in(kYawModeNames, name);
-    if (!mode) json.fault(ErrorCode::kUnknownName, "modes", fmt::format("'{}' is no mode", name));
+    if (!mode)
+      json.fault(ErrorCode::kUnknownName, "modes", fmt::format("'{}' is not a mode", name));
     payload.by.modes.push_back(mode.value_or(YawMode::kCombined));
   }
-  if (payload.by.modes.empty()) json.fault(ErrorCode::kMissing, "modes", "names no mode");
-  if (payload.gains.empty()) json.fault(ErrorCode::kMissing, "gains", "names no evaluated gains");
+  if (payload.by.modes.empty()) json.fault(ErrorCode::kMissing, "modes", "contains no mode");
+  if (payload.gains.empty())
+    json.fault(ErrorCode::kMissing, "gains", "contains no evaluated gains");
   payload.by.scenarios = json.strings("scenarios");
   if (payload.by.scenarios.empty()) {
-    json.fault(ErrorCode::kMissing, "scenarios", "names no scenario");
+    json.fault(ErrorCode::kMissing, "scenarios", "contains no scenario");
   }
   payload.by.tail_share = json.number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true});
   for (JsonObject& goal : json.objects("goals")) {

@@ -124,7 +124,7 @@ Result<std::vector<RecoverRun>> recover_runs(std::string_view text, const std::s
     if (!run) {
       const auto line = 1 + std::count(before.begin(), before.end(), '\n');
       return input_error(ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line),
-                         "is no run of a recovery; run the part again");
+                         "is not a run of a recovery; run the part again");
     }
     runs.push_back(std::move(*run));
   }
