@@ -49,8 +49,8 @@ GeneralisedForces<T> allocated_forces(const SteeringGeometry& geometry,
              : front_wheel_forces(c.front_axle_m, c.half_track_m, a.force, a.steering_rad);
 }
 
-/// Allocates the request minus the estimated disturbance, and gives the observers what the limits
-/// leave of it. `observers` null: there are none.
+/// Allocates the request minus the estimated disturbance, and passes the limited command to the
+/// observers. `observers` null: no observers.
 template <class T, class G>
 AWMR_INLINE void allocate_compensated(const Observers<T>* observers,
                                       const PreparedController<T, G>& c, const Measurement<T>& m,

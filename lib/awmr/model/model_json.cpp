@@ -23,8 +23,7 @@ constexpr NameTable<TrialKind, 3> kTableNames{
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Maximum relative difference of m(i,j) and m(j,i): the last digits of such sums depend on the
-/// order.
+/// Maximum relative difference of m(i,j) and m(j,i), which differ by rounding.
 constexpr double kSymmetryTolerance = 1e-9;
 
 /// True for the name of a parameter, or of another quantity that a fit estimates.

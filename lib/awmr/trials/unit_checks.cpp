@@ -60,7 +60,7 @@ std::optional<Contradiction> judge_time(const Evidence& evidence) {
     if (ratio < 0.3 * unit.factor || ratio > 30.0 * unit.factor) continue;
     return time_in(unit, evidence);
   }
-  // Nobody logs a thousand times a second and also twenty times as often as the controller runs.
+  // Assumes that no log has both 1000 rows per second and 20 times the rate of the controller.
   constexpr double kFastest_s = 1e-3;
   constexpr double kOften = 0.05;
   if (step_s >= kFastest_s || ratio >= kOften) return std::nullopt;
@@ -87,7 +87,7 @@ std::optional<Contradiction> judge_force(const Evidence& evidence, std::string_v
       "vehicle: ",
       worst, limit.lo, limit.hi);
   if (of_both.largest <= std::max(limit.hi, -limit.lo) * kForceRounding) {
-    // The vehicle has this magnitude in the other direction, so no unit is wrong.
+    // The magnitude is allowed in the other direction, so the unit is not wrong.
     return Contradiction{
         std::string(column), beyond + "the other way the vehicle has such a force", "",
         fmt::format("widen wheel_force in vehicle.json to {:.4g}, or correct the signs", worst)};
@@ -124,7 +124,7 @@ std::vector<Contradiction> judge_forces(const Evidence& evidence) {
 }
 
 /// True if all headings lie within one turn counted in radians, +-3.15 or 0 to 6.3. A vehicle that
-/// turns by less than 6 degrees in a whole log shows nothing of its yaw anyway.
+/// turns by less than 6 deg in the whole log has no yaw information anyway.
 bool heading_spans_radians(const DrivingLog& log) {
   double least = 360.0;
   double most = -360.0;
@@ -297,9 +297,10 @@ double position_variance_m2(const DrivingLog& log) {
   return *quartile / (12.0 * std::log(4.0 / 3.0));
 }
 
-/// The distance between the ends of the windows against that by the speed. The noise of the two
-/// positions makes the distance longer, E moved^2 = true^2 + 4 sigma^2, and is subtracted. Empty if
-/// the vehicle, in the half of the windows in which it drives further, hardly moves beyond that noise.
+/// Compares the distance between the ends of the windows with the integral of the speed. The noise
+/// of the two positions makes the distance longer, E moved^2 = true^2 + 4 sigma^2, and is
+/// subtracted. Empty if the motion in the half of the windows with the longer distances is not
+/// clearly above that noise.
 std::optional<RobustRatio> moved_over_driven(const Evidence& evidence) {
   constexpr double kClear = 4.0;  // twice as far as noise alone
   const double noise_m2 = 4.0 * position_variance_m2(evidence.log);
