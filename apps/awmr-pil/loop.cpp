@@ -23,8 +23,8 @@ using cli::Injection;
 
 float single(double value) { return static_cast<float>(value); }
 
-/// The chip itself guides, avoids and shapes. Its input is the heading of a scenario without these,
-/// and the speed 0 at the end of the path or if there is no passage.
+/// Guidance, avoidance and shaping run on the chip. Its input is the heading of a scenario without
+/// these, and the speed: 0 at the end of the path or if there is no passage.
 AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed,
                         const GuidanceOutput& output) {
   const bool stops = output.finished || output.no_passage;
@@ -108,14 +108,14 @@ void fail_actuators(Injection injection, LoopRow& row) {
   if (injection == Injection::kServoReversed) row.steering_command_rad *= -1.0;
 }
 
-/// Moves the simulated vehicle on by a sample under the row's command.
+/// Simulates the vehicle over one sample with the row's command.
 Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) {
   physics.step(row.t_s, row.force, row.steering_command_rad);
   if (physics.resolved()) return {};
   return input_error(
       ErrorCode::kDiverges, fmt::format("scenario '{}'", scenario),
       fmt::format("the simulation cannot continue after {:g} s: resistance is too stiff there "
-                  "for any step, or a number is no longer finite",
+                  "for any step, or a number is not finite",
                   row.t_s));
 }
 
@@ -139,7 +139,7 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
   }
   if (scenario.held_tau_speed()) {
     faults.push_back({ErrorCode::kUnsupported, file + ":/guidance/tau_speed",
-                      "the firmware holds a speed, not a thrust: give speed_mps in its place"});
+                      "the firmware controls a speed, not a thrust: give speed_mps instead"});
   }
   if (scenario.control.allocation.value_or(AllocationForm::kExact) != AllocationForm::kExact) {
     faults.push_back({ErrorCode::kUnsupported, file + ":/control/allocation",

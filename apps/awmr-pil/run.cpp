@@ -163,7 +163,7 @@ Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& i
 Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Inputs& in, Chip& chip,
                                           const Watch& watch) {
   if (options.port || options.injection != Injection::kNone) return std::optional<Hostile>();
-  watch.doing("looking for the longest step");
+  watch.doing("searching for the longest step");
   const auto host = host_executor(in.parameters, in.setup.mission);
   if (const auto started = host->start(); !started) return tl::unexpected(started.error());
   AWMR_ASSIGN_OR_RETURN(const Hostile hostile, provoke(chip, *host, in.parameters.block.safety,

@@ -17,7 +17,7 @@ void note_other_mode(const Json& json, const std::filesystem::path& gains,
   if (mode && name_of(*mode) == tuned) return;
   findings.push_back(
       {gains.string(), 0, Severity::kWarning, "gains-of-another-mode",
-       fmt::format("these gains were tuned for the mode {} alone and are used in {}: their "
+       fmt::format("these gains were tuned for mode {} only and are used in {}: their "
                    "constraints and margins are not valid there. Tune for {} (awmr tune)",
                    tuned, mode ? std::string(name_of(*mode)) : "other modes as well",
                    mode ? "this mode, or for all of them" : "all modes")});

@@ -128,7 +128,7 @@ TEST_F(Live, AGrowingFileIsFollowedUntilNothingMoreComes) {
             live("--log " + path("growing.csv") + " --idle 2 --every 0.2"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(read_all(path("live.csv")), read_all(kDrive));
-  EXPECT_THAT(run.out, HasSubstr("nothing more came: 1501 rows"));
+  EXPECT_THAT(run.out, HasSubstr("no more data arrived: 1501 rows"));
 }
 
 TEST_F(Live, KeepsLogAndModelWhereItsTerminalIsClosed) {
@@ -146,7 +146,7 @@ TEST_F(Live, APipeThatNobodyWritesToEndsAtTheDuration) {
   const ProcessResult run =
       shell("mkfifo " + path("pipe") + "; " + live("--log " + path("pipe") + " --duration 1"));
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("the duration is over before anything came"));
+  EXPECT_THAT(run.err, HasSubstr("the duration is over before any data arrived"));
 }
 
 TEST_F(Live, EndsAtADurationWithWhatItHas) {
@@ -239,11 +239,11 @@ TEST_F(Live, RefusesWhatItCannotRecord) {
   };
   write_all(path("there.csv"), "a recording");
   const Case cases[] = {
-      {live("--log /dev/null"), "the stream ended before anything came"},
+      {live("--log /dev/null"), "the stream ended before any data arrived"},
       {live("--log - <&-"), "standard input is closed"},
       {live("--log nowhere.csv"), "nowhere.csv: cannot open the file"},
       {live("--log " + path("")), "this is a directory"},
-      {live("--port /dev/null"), "is no serial port"},
+      {live("--port /dev/null"), "is not a serial port"},
       {live("--port nowhere"), "nowhere: No such file"},
       {live("--port /dev/null --baud 12345"), "--baud: 12345: one of 9600"},
       {live(""), "give the source of the log"},
