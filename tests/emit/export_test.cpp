@@ -130,7 +130,7 @@ TEST(Export, Px4sYawRateLimitIsWhatFullCommandsGiveUpToWhatWasMeasured) {
 
 TEST(Export, LeavesOutAndReportsValuesThatDoNotFollowFromTheModel) {
   const std::string px4 = text_of(paper_robot(), ExportFormat::kPx4);
-  EXPECT_THAT(px4, HasSubstr("# left out: RA_WHEEL_BASE: the model knows the front axle alone"));
+  EXPECT_THAT(px4, HasSubstr("# left out: RA_WHEEL_BASE: the model has only the front axle"));
   EXPECT_EQ(parameters_of(px4).count("RA_WHEEL_BASE"), 0U);
   EXPECT_NEAR(parameters_of(px4).at("RA_MAX_STR_ANG"),
               radians(paper_robot().vehicle.steering_max_deg), 1e-6);

@@ -228,7 +228,7 @@ void add_steered(Autopilot& pilot) {
             [](const Plant<double>& plant) { return plant.steering_max_rad; });
   pilot.add("RA_STR_RATE_LIM", "deg/s", "the steering's fastest turn",
             [](const Plant<double>& plant) { return degrees(plant.steering_max_rate_radps); });
-  pilot.leave_out("RA_WHEEL_BASE", "the model knows the front axle alone; measure it");
+  pilot.leave_out("RA_WHEEL_BASE", "the model has only the front axle; measure it");
   for (const char* name : {"RO_YAW_RATE_CORR", "RO_YAW_RATE_P", "RO_YAW_RATE_I"}) {
     pilot.leave_out(name,
                     "it corrects an angle that PX4 takes from the wheelbase; tune it in Acro");
