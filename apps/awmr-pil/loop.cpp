@@ -33,7 +33,7 @@ AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed
   in.measured = {single(sensed.motion.psi_rad), single(sensed.motion.u_mps),
                  single(sensed.motion.v_mps), single(sensed.motion.r_radps)};
   in.position_m = {single(sensed.position_m.x_m), single(sensed.position_m.y_m)};
-  in.reference.psi_rad = single(output.course.psi_goal_rad);
+  in.reference.psi_rad = single(output.path.psi_goal_rad);
   in.reference.speed_mps = stops ? 0.0F : single(setup.scenario.speed_mps);
   const auto now_ms = static_cast<std::uint32_t>(std::llround(t_s * 1000.0));
   in.times = {now_ms, now_ms, now_ms, now_ms};

@@ -31,8 +31,8 @@ std::string end_of(const Run& run, const Scenario& scenario) {
   if (run.end == RunEnd::kNoPassage) {
     return "  no passage: obstacles block the way to the guidance target; stopped\n";
   }
-  const bool ends = std::holds_alternative<WaypointCourse>(scenario.guidance) ||
-                    std::holds_alternative<LineCourse>(scenario.guidance);
+  const bool ends = std::holds_alternative<WaypointPath>(scenario.guidance) ||
+                    std::holds_alternative<LinePath>(scenario.guidance);
   if (!ends) return "";
   if (run.end == RunEnd::kDuration) return "  did not reach the end of its path in time\n";
   if (run.missed_waypoints == 0) return "  reached the end of its path\n";

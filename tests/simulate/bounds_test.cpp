@@ -29,23 +29,23 @@ Guidance any_guidance(double beyond) {
     case 1:
       return HeadingSteps{{{0.0, between(-400.0 * beyond, 400.0 * beyond)}, {0.5, 0.0}}};
     case 2:
-      return WaypointCourse{.points_m = {{between(-9.0, 9.0) * beyond, 0.0}, {1.0, 1.0}},
+      return WaypointPath{.points_m = {{between(-9.0, 9.0) * beyond, 0.0}, {1.0, 1.0}},
                             .acceptance_m = 0.2,
                             .skip_passed = false,
                             .slow_down_m = {}};
     case 3:
-      return LineCourse{.points_m = {{-1.0, 0.0}, {0.1, between(-1.0, 1.0)}, {9.0 * beyond, 1.0}},
+      return LinePath{.points_m = {{-1.0, 0.0}, {0.1, between(-1.0, 1.0)}, {9.0 * beyond, 1.0}},
                         .law = PurePursuit<double>{ratio_between(1e-3, 10.0 * beyond), true},
                         .corner_m = 0.0,
                         .slow_down_m = {}};
     case 4:
-      return LineCourse{.points_m = {{-1.0, between(-1.0, 1.0)}, {9.0 * beyond, 1.0}},
+      return LinePath{.points_m = {{-1.0, between(-1.0, 1.0)}, {9.0 * beyond, 1.0}},
                         .law = IntegralLos<double>{ratio_between(1e-3, 10.0 * beyond),
                                                    ratio_between(1e-3, 10.0 * beyond), true},
                         .corner_m = 0.0,
                         .slow_down_m = {}};
     default:
-      return LissajousCourse{.path = {10.0 * beyond, 10.0, 0.1 * beyond, 0.3}, .closed_loop = true};
+      return LissajousPath{.path = {10.0 * beyond, 10.0, 0.1 * beyond, 0.3}, .closed_loop = true};
   }
 }
 
@@ -55,7 +55,7 @@ Scenario any_scenario(double beyond) {
              .initial = {},
              .speed_mps = between(0.0, 3.0 * beyond),
              .guidance = any_guidance(beyond)};
-  if (std::holds_alternative<LissajousCourse>(s.guidance)) s.speed_mps = 0.0;
+  if (std::holds_alternative<LissajousPath>(s.guidance)) s.speed_mps = 0.0;
   s.initial.psi_rad = between(-100.0, 100.0) * beyond;
   s.initial.u_mps = between(-3.0, 3.0) * beyond;
   s.initial.v_mps = between(-1.0, 1.0) * beyond;

@@ -142,7 +142,7 @@ TEST(NoPassage, TheVehicleStopsAndReportsIt) {
 TEST(NoPassage, AnObstacleOnTheWaypointMakesItMissed) {
   Scenario scenario = random_layout(0);
   scenario.obstacles = {{{15.0, 0.0}, 2.0}};
-  std::get<WaypointCourse>(scenario.guidance).points_m = {{15.0, 0.5}, kGoal_m};
+  std::get<WaypointPath>(scenario.guidance).points_m = {{15.0, 0.5}, kGoal_m};
   const awmr::Run run = run_of(scenario, YawMode::kCombined);
   EXPECT_EQ(run.end, RunEnd::kFinished);
   EXPECT_EQ(run.missed_waypoints, 1);

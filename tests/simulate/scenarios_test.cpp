@@ -101,7 +101,7 @@ TEST_P(ScenarioFiles, IsTheSameInAMirror) {
 bool switch_alike(const awmr::Run& a, const awmr::Run& b) {
   const std::size_t rows = std::min(a.rows.size(), b.rows.size());
   for (std::size_t i = 0; i < rows; ++i) {
-    if (a.rows[i].course.leg != b.rows[i].course.leg) return false;
+    if (a.rows[i].path.leg != b.rows[i].path.leg) return false;
   }
   return true;
 }
@@ -115,7 +115,7 @@ bool switch_alike(const awmr::Run& a, const awmr::Run& b) {
 /// in a step, so that it rotates with the world to within the turn of a step.
 TEST_P(ScenarioFiles, IsTheSameElsewhere) {
   Scenario s = scenario();
-  if (std::holds_alternative<LissajousCourse>(s.guidance)) return;
+  if (std::holds_alternative<LissajousPath>(s.guidance)) return;
   if (s.sensors) {
     s.sensors->heading.quantum = 0.0;  // its steps do not rotate with the world
     // The random numbers for x and y do not rotate either.

@@ -8,7 +8,7 @@
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/validate/claims.h"
-#include "awmr/validate/paper_courses.h"
+#include "awmr/validate/paper_scenarios.h"
 #include "validate/paper_model.h"
 
 namespace awmr::testing {

@@ -27,7 +27,7 @@ namespace {
 constexpr double kLeast = 1e-4;
 
 /// A scenario with the mode under test, on the nominal model.
-struct Course {
+struct ModeSetting {
   const Scenario* scenario;
   YawMode mode;
   Plant<double> plant;
@@ -37,17 +37,17 @@ struct Course {
 };
 
 /// Metrics of the scenario in this mode, by scrub moment. Empty for a failed run.
-std::vector<std::optional<Metrics>> driven_with(const Course& course, YawMode mode,
+std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawMode mode,
                                                 const std::vector<double>& moments_m) {
   std::vector<BatchRun> runs;
   for (const double moment_m : moments_m) {
-    Plant<double> plant = course.plant;
+    Plant<double> plant = setting.plant;
     plant.yaw_scrub_m = moment_m;
-    runs.push_back({plant, course.controller, mode, 0, 0});
+    runs.push_back({plant, setting.controller, mode, 0, 0});
   }
   std::vector<std::optional<Metrics>> driven;
   for (const Result<Metrics>& metrics :
-       simulate_batch(runs, *course.scenario, course.sample_time_s, course.arithmetic)) {
+       simulate_batch(runs, *setting.scenario, setting.sample_time_s, setting.arithmetic)) {
     driven.push_back(metrics ? std::optional(*metrics) : std::nullopt);
   }
   return driven;
@@ -139,7 +139,7 @@ ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::stri
 
 /// A pair of modes with an incomplete result, and the inputs for it.
 struct Question {
-  Course course;
+  ModeSetting setting;
   std::vector<ScoredMetric> scoring;
   Metrics own;  ///< without scrub
   BreakEven entry;
@@ -147,23 +147,23 @@ struct Question {
 
 /// One question for each mode with smaller wheel-force differences that the given mode is ahead of.
 /// `rows`: those of sample 0.
-std::vector<Question> questions_of(const Course& course, const ScenarioRows& rows,
+std::vector<Question> questions_of(const ModeSetting& setting, const ScenarioRows& rows,
                                    const std::vector<ScoredMetric>& scoring, BreakEven entry) {
   std::vector<Question> questions;
   const auto row_of = [&](YawMode mode) {
     return std::find_if(rows.modes.begin(), rows.modes.end(),
                         [&](const ModeRows& one) { return one.contender.mode == mode; });
   };
-  const Metrics& own = row_of(course.mode)->nominal();
+  const Metrics& own = row_of(setting.mode)->nominal();
   for (const YawMode less : {YawMode::kCombined, YawMode::kSteering}) {
     const auto other = row_of(less);
-    if (less == course.mode || other == rows.modes.end()) continue;
+    if (less == setting.mode || other == rows.modes.end()) continue;
     if (other->nominal().completed > own.completed) continue;
     if (!(log_score(own, scoring) < log_score(other->nominal(), scoring))) continue;
     entry.scenario = rows.scenario;
-    entry.mode = course.mode;
+    entry.mode = setting.mode;
     entry.against = less;
-    questions.push_back({course, scoring, own, entry});
+    questions.push_back({setting, scoring, own, entry});
   }
   return questions;
 }
@@ -171,8 +171,8 @@ std::vector<Question> questions_of(const Course& course, const ScenarioRows& row
 void answer(Question& question) {
   question.entry.yaw_coulomb_m =
       least_that_ends(question.entry.most_m, [&](const std::vector<double>& moments_m) {
-        const auto own = driven_with(question.course, question.entry.mode, moments_m);
-        const auto other = driven_with(question.course, question.entry.against, moments_m);
+        const auto own = driven_with(question.setting, question.entry.mode, moments_m);
+        const auto other = driven_with(question.setting, question.entry.against, moments_m);
         std::vector<bool> ahead;
         for (std::size_t i = 0; i < own.size(); ++i) {
           ahead.push_back(is_ahead(own[i], question.own, other[i], question.scoring));
@@ -284,13 +284,13 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
     if (!has_a_goal(rows) || scoring.empty()) continue;
     for (const ModeRows& one : rows.modes) {
       if (one.contender.mode == YawMode::kSteering) continue;
-      const Course course{&scenario,
+      const ModeSetting setting{&scenario,
                           one.contender.mode,
                           plant,
                           make_controller(nominal, model.vehicle, gains),
                           model.vehicle.sample_time_s,
                           arithmetic};
-      for (Question& question : questions_of(course, rows, scoring, entry)) {
+      for (Question& question : questions_of(setting, rows, scoring, entry)) {
         questions.push_back(std::move(question));
       }
     }

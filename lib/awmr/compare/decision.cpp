@@ -120,7 +120,7 @@ Result<Scenario> on_other_plant(Scenario scenario, const Tyres<double>& tyres) {
 }
 
 /// A scenario in another setting.
-struct ChangedCourse {
+struct ChangedScenario {
   Change change;
   Scenario scenario;
   std::vector<NamedGains> gains;
@@ -128,11 +128,11 @@ struct ChangedCourse {
 
 /// Returns the required runs, in the order of the scenarios. Changes that cannot be run are added
 /// to `changes` with their reason.
-std::vector<ChangedCourse> changed_courses(const std::vector<NamedGains>& gains,
+std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& gains,
                                            const std::vector<Scenario>& scenarios,
                                            const Tyres<double>& tyres,
                                            std::vector<Change>& changes) {
-  std::vector<ChangedCourse> courses;
+  std::vector<ChangedScenario> changed;
   for (const Scenario& scenario : scenarios) {
     if (std::holds_alternative<OpenLoop>(scenario.guidance)) continue;  // nothing is ranked
     Change change{.scenario = scenario.name,
@@ -140,7 +140,7 @@ std::vector<ChangedCourse> changed_courses(const std::vector<NamedGains>& gains,
                   .setting = std::string(name_in(kPlantKindNames, other_plant(scenario))),
                   .first = {}};
     if (auto other = on_other_plant(scenario, tyres)) {
-      courses.push_back({std::move(change), *std::move(other), gains});
+      changed.push_back({std::move(change), *std::move(other), gains});
     } else {
       change.not_run = message_of(other.error());
       changes.push_back(std::move(change));
@@ -148,13 +148,13 @@ std::vector<ChangedCourse> changed_courses(const std::vector<NamedGains>& gains,
     if (gains.size() > 1) continue;  // several sets of gains are not varied further
     for (const auto& [setting, factor] :
          {std::pair("slower", 1.0 / kGainsFactor), std::pair("faster", kGainsFactor)}) {
-      courses.push_back(
+      changed.push_back(
           {{.scenario = scenario.name, .kind = ChangeKind::kGains, .setting = setting, .first = {}},
            scenario,
            {with_rates_times(factor, gains.front())}});
     }
   }
-  return courses;
+  return changed;
 }
 
 /// "differential and combined"
@@ -250,7 +250,7 @@ std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedG
                                     const CompareOptions& options) {
   std::vector<Change> changes;
   if (gains.size() * yaw_modes(model.vehicle).size() < 2) return changes;  // nothing to rank
-  std::vector<ChangedCourse> courses = changed_courses(gains, scenarios, options.tyres, changes);
+  std::vector<ChangedScenario> changed = changed_scenarios(gains, scenarios, options.tyres, changes);
   // One task per thread; each has at most as many samples as a batch.
   CompareOptions few;
   few.samples = std::min(options.samples, static_cast<int>(kBatchRuns) - 1);
@@ -258,16 +258,16 @@ std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedG
   few.preferences = options.preferences;
   few.threads = 1;
   few.stop = options.stop;
-  parallel_for(courses.size(), options.threads, [&](std::size_t i) {
-    ChangedCourse& course = courses[i];
-    const auto comparison = compare(model, course.gains, {course.scenario}, few);
+  parallel_for(changed.size(), options.threads, [&](std::size_t i) {
+    ChangedScenario& one = changed[i];
+    const auto comparison = compare(model, one.gains, {one.scenario}, few);
     if (!comparison) {
-      course.change.not_run = message_of(comparison.error());
+      one.change.not_run = message_of(comparison.error());
     } else if (!comparison->stopped) {
-      evaluate(comparison->rows, few, course.change);
+      evaluate(comparison->rows, few, one.change);
     }
   });
-  for (ChangedCourse& course : courses) changes.push_back(std::move(course.change));
+  for (ChangedScenario& one : changed) changes.push_back(std::move(one.change));
   return changes;
 }
 

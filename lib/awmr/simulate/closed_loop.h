@@ -64,7 +64,7 @@ class ClosedLoop {
     RunDisturbance disturbance;
     Sensed sensed = {};
     std::optional<ScenarioGuidance> guidance = {};  ///< set after the first measurement
-    CourseRow course = {};                          ///< of the present sample
+    PathRow path = {};                          ///< of the present sample
     RunEnd ending =
         RunEnd::kDuration;  ///< how the current sample ends the run; kDuration: it continues
     std::vector<RunRow> rows = {};
@@ -103,7 +103,7 @@ ClosedLoop<Row>::ClosedLoop(std::span<const BatchRun> runs, const Scenario& scen
       runs_(std::make_unique<LoopRuns<Row>>()),
       clock_(scenario, options.samples) {
   runs_->control = controller_setup(scenario, runs.front().controller, options.sample_time_s);
-  runs_->course = metered_course(scenario);
+  runs_->task = metrics_task(scenario);
   runs_->vehicles.setup = vehicle_setup(scenario, options.sample_time_s);
   for (std::size_t i = 0; i < kRunsOf<Row>; ++i) {
     // An unused lane has a copy of the first run, so that its numbers are valid.
@@ -196,11 +196,11 @@ template <class Row>
 void ClosedLoop<Row>::follow(std::size_t run, const GuidanceOutput& output) {
   const auto state = run_of<State<double>>(runs_->vehicles.state, run);
   Parts& parts = parts_[run];
-  parts.course = output.course;
+  parts.path = output.path;
   put(output.reference, run, runs_->reference);
-  put(output.course.psi_goal_rad, run, runs_->goal_rad);
-  put(output.course.cross_track_m, run, runs_->cross_track_m);
-  put(distance_m(output.course.target_m, {state.x_m, state.y_m}), run, runs_->off_target_m);
+  put(output.path.psi_goal_rad, run, runs_->goal_rad);
+  put(output.path.cross_track_m, run, runs_->cross_track_m);
+  put(distance_m(output.path.target_m, {state.x_m, state.y_m}), run, runs_->off_target_m);
   if (output.no_passage && std::abs(state.u_mps) < kStopped_mps) {
     parts.ending = RunEnd::kNoPassage;
   } else if (output.finished) {
@@ -242,7 +242,7 @@ RunRow ClosedLoop<Row>::row_of(std::size_t run, double t_s) const {
           .tau_turn_m = run_of<double>(runs_->tau_turn_m, run),
           .psi_ref_rad = reference.psi_rad,
           .u_ref_mps = reference.speed_mps,
-          .course = parts.course,
+          .path = parts.path,
           .measured = parts.sensed.motion,
           .measured_position_m = parts.sensed.position_m,
           .disturbance = run_of<BodyLoad>(v.load, run),

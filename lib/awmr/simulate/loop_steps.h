@@ -14,7 +14,7 @@ namespace awmr {
 template <class Row>
 struct LoopRuns {
   ControllerSetup control;
-  MetricsCourse course;
+  MetricsTask task;
   MetricsTime time;  ///< of the present sample
 
   Vehicles<Row> vehicles;
@@ -76,7 +76,7 @@ AWMR_WHOLE void measure(const View& view, LoopRuns<Row>& runs) {
       {state, view(v.force), acting_forces(view, v), view(v.steering_command_rad),
        yaw(state.r_radps), view(runs.goal_rad), view(runs.cross_track_m), view(runs.off_target_m),
        view(runs.clearance_m), view(runs.reference.speed_mps), view(v.tyre_power_mps)},
-      view(runs.metered), runs.course, runs.time, sums);
+      view(runs.metered), runs.task, runs.time, sums);
   const Mask<T> counts = view(v.active) > T(0.0);
   if (all(counts)) {
     view.store(sums, runs.sums);

@@ -25,7 +25,7 @@ struct MetricsVehicle {
 };
 
 /// Properties of the scenario that the metrics need; the same for all lanes.
-struct MetricsCourse {
+struct MetricsTask {
   bool has_headings = false;  ///< the guidance has heading steps
   double speed_mps = 0.0;     ///< reference speed of a speed drop
   /// Timed path: largest allowed distance from its point in the second half of the run.
@@ -201,10 +201,10 @@ void measure_heading(const MetricsRow<T>& row, const MetricsTime& time, MetricsA
 
 /// Smallest speed after the commanded one was first reached within 0.1 %.
 template <class T>
-void measure_speed(const T& u_mps, const MetricsCourse& course, MetricsAccumulator<T>& m) {
+void measure_speed(const T& u_mps, const MetricsTask& task, MetricsAccumulator<T>& m) {
   using math::select;
   const Mask<T> was = m.speed_reached > T(0.0);
-  const Mask<T> counts = was || u_mps >= T((1.0 - kReachedShare) * course.speed_mps);
+  const Mask<T> counts = was || u_mps >= T((1.0 - kReachedShare) * task.speed_mps);
   const T least = select(was && !(u_mps < m.speed_least_mps), m.speed_least_mps, u_mps);
   m.speed_least_mps = select(counts, least, m.speed_least_mps);
   m.speed_reached = select(counts, T(1.0), T(0.0));
@@ -295,19 +295,19 @@ void remember(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, double
 /// Adds a row to the sums. Call it for every row, in order.
 template <class T>
 void measure(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle,
-             const MetricsCourse& course, const MetricsTime& time, MetricsAccumulator<T>& m) {
+             const MetricsTask& task, const MetricsTime& time, MetricsAccumulator<T>& m) {
   using math::select;
   m.rows += T(1.0);
-  if (course.has_headings) meter::measure_heading(row, time, m);
+  if (task.has_headings) meter::measure_heading(row, time, m);
   meter::measure_motion(row, vehicle, time.is_first, m);
   if (!time.is_first) {
-    meter::measure_work(row, vehicle, course.is_on_tyres, time.since_last_s, m);
+    meter::measure_work(row, vehicle, task.is_on_tyres, time.since_last_s, m);
   }
-  meter::measure_speed(row.state.u_mps, course, m);
+  meter::measure_speed(row.state.u_mps, task, m);
   meter::measure_speed_error(row, time, m);
   m.cross_track_m2 += row.cross_track_m * row.cross_track_m;
   if (time.is_in_second_half) {
-    m.strayed = select(row.off_target_m <= T(course.tolerance_m), m.strayed, T(1.0));
+    m.strayed = select(row.off_target_m <= T(task.tolerance_m), m.strayed, T(1.0));
   }
   m.clearance_min_m = select(Mask<T>(time.is_first) || row.clearance_m < m.clearance_min_m,
                              row.clearance_m, m.clearance_min_m);

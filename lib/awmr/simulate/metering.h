@@ -32,7 +32,7 @@ class MeterClock {
 
 /// Constants of a run's metering (meter.h), and the metrics computed from its sums.
 MetricsVehicle<double> metered_vehicle(const AllocationLimits<double>& limits);
-MetricsCourse metered_course(const Scenario& scenario);
+MetricsTask metrics_task(const Scenario& scenario);
 Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending, const Scenario& scenario);
 
 /// True if every sum is finite.

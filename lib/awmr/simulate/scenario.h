@@ -45,7 +45,7 @@ struct HeadingSteps {
 };
 
 /// Waypoints, approached by line of sight. The run ends when the last is reached.
-struct WaypointCourse {
+struct WaypointPath {
   std::vector<Position<double>> points_m;  ///< not empty
   double acceptance_m = 0.0;               ///< > 0
   bool skip_passed = false;                ///< see Waypoints::skip_passed
@@ -62,17 +62,17 @@ std::vector<AnyLineLaw> line_laws();
 std::string_view name_of(const AnyLineLaw& law);
 
 /// A line or polyline to follow. The run ends past its end.
-struct LineCourse {
+struct LinePath {
   std::vector<Position<double>> points_m;  ///< at least two
   AnyLineLaw law{};
   double corner_m = 0.0;              ///< >= 0, see Polyline::corner_m; 0 for a law without corner
                                       ///< rounding
-  std::optional<double> slow_down_m;  ///< as in WaypointCourse, along the last segment
+  std::optional<double> slow_down_m;  ///< as in WaypointPath, along the last segment
 };
 
 /// A path as a function of time. With the scenario's speed_mps 0, the speed is the path's own; else
 /// it is that constant (open form only).
-struct LissajousCourse {
+struct LissajousPath {
   Lissajous<double> path{};
   bool closed_loop = false;
   double position_gain_per_s = 0.5;  ///< k of the closed form, > 0
@@ -80,7 +80,7 @@ struct LissajousCourse {
                              ///< second half
 };
 
-using Guidance = std::variant<OpenLoop, HeadingSteps, WaypointCourse, LineCourse, LissajousCourse>;
+using Guidance = std::variant<OpenLoop, HeadingSteps, WaypointPath, LinePath, LissajousPath>;
 
 /// The simulated plant: the model's 3-DOF equations, or its rigid body on four tyres.
 enum class PlantKind { kModel, kFourWheel };

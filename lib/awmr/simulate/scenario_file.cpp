@@ -55,7 +55,7 @@ void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
       json.fault(ErrorCode::kConflict, conflict.key, conflict.message);
     }
   }
-  const auto* timed = std::get_if<LissajousCourse>(&scenario.guidance);
+  const auto* timed = std::get_if<LissajousPath>(&scenario.guidance);
   if (timed && timed->closed_loop && scenario.speed_mps > 0.0) {
     json.fault(ErrorCode::kConflict, "speed_mps",
                "has to be 0 on a closed timed path, whose speed is the path's own");

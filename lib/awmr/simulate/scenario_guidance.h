@@ -21,7 +21,7 @@ double heading_at(const HeadingSteps& guidance, double t_s);
 /// Output of the guidance at one sample.
 struct GuidanceOutput {
   Reference<double> reference{};
-  CourseRow course;
+  PathRow path;
   bool finished = false;    ///< the end of the route is reached
   bool no_passage = false;  ///< obstacles block the way
 };
@@ -60,14 +60,14 @@ class ScenarioGuidance {
 
   void set_up(const OpenLoop&, const Sensed&) {}
   void set_up(const HeadingSteps&, const Sensed&) {}
-  void set_up(const WaypointCourse& course, const Sensed& start);
-  void set_up(const LineCourse& course, const Sensed& start);
-  void set_up(const LissajousCourse& course, const Sensed& start);
+  void set_up(const WaypointPath& path, const Sensed& start);
+  void set_up(const LinePath& path, const Sensed& start);
+  void set_up(const LissajousPath& path, const Sensed& start);
   void describe(const OpenLoop&, const Sensed&, GuidanceOutput&) {}
   void describe(const HeadingSteps&, const Sensed&, GuidanceOutput&) {}
-  void describe(const WaypointCourse& course, const Sensed& sensed, GuidanceOutput& output);
-  void describe(const LineCourse& course, const Sensed& sensed, GuidanceOutput& output);
-  void describe(const LissajousCourse& course, const Sensed& sensed, GuidanceOutput& output);
+  void describe(const WaypointPath& path, const Sensed& sensed, GuidanceOutput& output);
+  void describe(const LinePath& path, const Sensed& sensed, GuidanceOutput& output);
+  void describe(const LissajousPath& path, const Sensed& sensed, GuidanceOutput& output);
   bool way_is_free(const Position<double>& from, const Position<double>& to, int leg);
 
   const Scenario* scenario_;

@@ -18,7 +18,7 @@
 namespace awmr {
 
 /// Guidance columns of a row, in addition to the vehicle's state; unused in open loop.
-struct CourseRow {
+struct PathRow {
   double psi_goal_rad = 0.0;    ///< the guidance's heading, before avoidance and shaping
   double cross_track_m = 0.0;   ///< from the current leg, line or path; positive to its left
   Position<double> target_m{};  ///< target point: waypoint, end of the segment, point of the path
@@ -35,7 +35,7 @@ struct RunRow {
   double tau_turn_m = 0.0;            ///< requested by the law, before any limit
   double psi_ref_rad = 0.0;           ///< 0 in open loop
   double u_ref_mps = 0.0;             ///< 0 in open loop
-  CourseRow course = {};
+  PathRow path = {};
   Measurement<double> measured = {};          ///< measurements of the controller
   Position<double> measured_position_m = {};  ///< the same
   BodyLoad disturbance = {};                  ///< without the effect of a slope

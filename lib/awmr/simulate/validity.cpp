@@ -33,12 +33,12 @@ void note_late_steps(const Scenario& scenario, std::vector<Finding>& findings) {
 }
 
 void note_blocked_waypoints(const Scenario& scenario, std::vector<Finding>& findings) {
-  const auto* course = std::get_if<WaypointCourse>(&scenario.guidance);
-  if (course == nullptr) return;
-  for (std::size_t i = 0; i < course->points_m.size(); ++i) {
+  const auto* path = std::get_if<WaypointPath>(&scenario.guidance);
+  if (path == nullptr) return;
+  for (std::size_t i = 0; i < path->points_m.size(); ++i) {
     for (const Obstacle<double>& obstacle : scenario.obstacles) {
-      const double apart_m = std::hypot(course->points_m[i].x_m - obstacle.centre_m.x_m,
-                                        course->points_m[i].y_m - obstacle.centre_m.y_m);
+      const double apart_m = std::hypot(path->points_m[i].x_m - obstacle.centre_m.x_m,
+                                        path->points_m[i].y_m - obstacle.centre_m.y_m);
       if (apart_m > obstacle.radius_m) continue;
       findings.push_back(
           {"", 0, Severity::kWarning, "blocked-waypoint",
