@@ -123,7 +123,7 @@ Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) 
 
 void know_receiver(const Gps& gps, Model& model) {
   model.vehicle.sensors.position_m = fix_noise_m(gps);
-  model.vehicle.sensors.position_late_s = gps.latency_s;
+  model.vehicle.sensors.position_latency_s = gps.latency_s;
 }
 
 bool has_unsigned_speed(const Scenario& scenario) {

@@ -44,12 +44,12 @@ class CheckedSensors {
   Position<float> fix_m_{};
   bool has_position_ = false;
   /// A delayed fix of the receiver.
-  struct LateFix {
+  struct DelayedFix {
     std::uint32_t sent_ms;
     GpsFix fix;
     Position<float> position_m;
   };
-  std::deque<LateFix> late_;
+  std::deque<DelayedFix> delayed_;
   std::uint32_t heading_ms_ = 0, speed_ms_ = 0;
   float psi_ref_rad_ = 0.0F;  ///< commanded heading
 

@@ -148,8 +148,7 @@ Status add_tables(const Model& model, const Gains<double>& gains, const EmitInpu
 }
 
 void add_line_law(CLI::App& command, EmitOptions& options) {
-  std::vector<std::string> laws;
-  for (const AnyLineLaw& law : line_laws()) laws.emplace_back(name_of(law));
+  const std::vector<std::string> laws = line_law_names();
   const auto set = [&options, laws](const std::string& name) {
     options.line_law = static_cast<std::size_t>(std::ranges::find(laws, name) - laws.begin());
     options.parts.insert(FirmwarePart::kLine);

@@ -39,7 +39,7 @@ struct Evaluated {
 
 Evaluated evaluate(const Comparison& c) {
   Evaluated j{c, {}};
-  j.scenario = judge(j.comparison, {}, 1).front();
+  j.scenario = evaluate_scenarios(j.comparison, {}, 1).front();
   return j;
 }
 

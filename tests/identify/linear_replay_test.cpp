@@ -99,7 +99,7 @@ Plant<double> plant_by_hand(bool servo, double step_s, Drive drive, Friction fri
   return plant;
 }
 
-ByHand by_hand(const DrivingLog& log, double step_s, double late_s = kSpeedDelay_s,
+ByHand by_hand(const DrivingLog& log, double step_s, double latency_s = kSpeedDelay_s,
                Drive drive = Drive::kFourWheel, Friction friction = Friction::kNone) {
   const LogSignals signals(log);
   std::vector<ParameterColumn> parameters;
@@ -121,7 +121,7 @@ ByHand by_hand(const DrivingLog& log, double step_s, double late_s = kSpeedDelay
                 [&](std::size_t, const LinearMotion& motion) {
                   found.motions.push_back(motion);
                   found.earlier.push_back(earlier_motion(signals, 0, found.motions, back,
-                                                         {late_s, kSpeedDelay}, step_s));
+                                                         {latency_s, kSpeedDelay}, step_s));
                 });
   return found;
 }

@@ -196,7 +196,7 @@ TEST(VehicleFile, TakesWhatGainsAreTunedFor) {
   ASSERT_TRUE(vehicle) << to_text(vehicle.error());
   EXPECT_EQ(vehicle->allocation, AllocationForm::kPaper);
   const SensorQuality expected{
-      .heading_deg = 0.5, .position_m = 0.01, .heading_late_s = 0.03, .yaw_rate_late_s = 0.0};
+      .heading_deg = 0.5, .position_m = 0.01, .heading_latency_s = 0.03, .yaw_rate_latency_s = 0.0};
   EXPECT_TRUE(vehicle->sensors == expected);
   EXPECT_EQ(vehicle->motor_time_constant_s, 0.04);
   EXPECT_EQ(vehicle->back_emf_s_per_m, 0.3);

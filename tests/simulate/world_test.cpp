@@ -322,9 +322,9 @@ TEST(SensorChannels, HaveNoiseWithACorrelationTime) {
 
 TEST(SensorChannels, ReturnTheValueFromOneLatencyAgo) {
   Sensors sensors;
-  sensors.heading.late_s = 0.03;
-  sensors.yaw_rate.late_s = 0.014;
-  sensors.speed.late_s = 0.001;
+  sensors.heading.latency_s = 0.03;
+  sensors.yaw_rate.latency_s = 0.014;
+  sensors.speed.latency_s = 0.001;
   Sensing sensing(sensors, 0.01, run_seed(0, 0, 0));
   for (int k = 0; k < 10; ++k) {
     State<double> truth{};

@@ -504,7 +504,7 @@ double growth(const SampledHeadingLoop& loop) {
     double psi, r, servo, motor;
   };
   Motion x{1.0, 0.5, -0.3, 0.2};
-  std::vector<Motion> readings(static_cast<std::size_t>(loop.late_samples) + 1, x);
+  std::vector<Motion> readings(static_cast<std::size_t>(loop.latency_samples) + 1, x);
   constexpr int kSamples = 4000;
   constexpr int kSteps = 200;
   const double h = loop.sample_time_s / kSteps;
@@ -561,7 +561,7 @@ TEST(SampledLoop, IsStableExactlyWhereItsLateMotionDecays) {
                                         .sample_time_s = 0.01,
                                         .direct_share = share,
                                         .motor_time_constant_s = late == 2 ? 0.05 : 0.01,
-                                        .late_samples = late};
+                                        .latency_samples = late};
           EXPECT_EQ(damping_ratio(loop) > 0.0, growth(loop) < 1.0)
               << known.input_gain << " " << late << " " << share << " " << k;
         }
@@ -585,7 +585,7 @@ TEST(SampledLoop, IsStableExactlyWhereItsMotionUnderAnObserverDecays) {
                                         .direct_share = share,
                                         .motor_time_constant_s = 0.01,
                                         .observer_radps = observer_radps,
-                                        .late_samples = late};
+                                        .latency_samples = late};
           EXPECT_EQ(damping_ratio(loop) > 0.0, growth(loop) < 1.0)
               << late << " " << share << " " << k << " " << observer_radps;
           unstable += damping_ratio(loop) > 0.0 ? 0 : 1;
@@ -690,7 +690,7 @@ TEST(Constraints, AskForDampingWithLatencyWhereThereIsAny) {
                          .servo_time_constant_s = 0.02,
                          .sample_time_s = 0.01,
                          .direct_share = share,
-                         .late_samples = 5}));
+                         .latency_samples = 5}));
     }
   }
   EXPECT_NEAR(named(late, "delay margin").value, worst, 1e-9);

@@ -443,16 +443,16 @@ TEST(MeanAndTail, IsTheMeanOfAllAndOfTheWorst) {
 TEST(Conditions, AreTheVehiclesWhereItSaysAndTheDefaultsElse) {
   Vehicle vehicle = paper_vehicle();
   EXPECT_EQ(conditions_of(vehicle).heading_noise_deg, 1.0);
-  vehicle.sensors = {.heading_deg = 0.3, .speed_late_s = 0.05};
+  vehicle.sensors = {.heading_deg = 0.3, .speed_latency_s = 0.05};
   vehicle.motor_time_constant_s = 0.0;
   const LoopConditions c = conditions_of(vehicle);
   EXPECT_EQ(c.heading_noise_deg, 0.3);
-  EXPECT_EQ(c.speed_late_s, 0.05);
-  EXPECT_EQ(c.heading_late_s, LoopConditions{}.heading_late_s);
+  EXPECT_EQ(c.speed_latency_s, 0.05);
+  EXPECT_EQ(c.heading_latency_s, LoopConditions{}.heading_latency_s);
   EXPECT_EQ(c.motor_time_constant_s, 0.0);
   const Scenario under_them = under(c, default_tuning_scenario(paper_model()).value());
   EXPECT_DOUBLE_EQ(under_them.sensors->heading.noise, radians(0.3));
-  EXPECT_EQ(under_them.sensors->speed.late_s, 0.05);
+  EXPECT_EQ(under_them.sensors->speed.latency_s, 0.05);
   // A scenario's own sensors have precedence.
   Scenario own = default_tuning_scenario(paper_model()).value();
   own.sensors = Sensors{};
@@ -576,7 +576,7 @@ TEST(Robust, ALatencyOfManySamplesIsRefusedBeforeItTakesForEver) {
   options.nominal = false;
   options.evaluation_draws = 0;
   Model model = paper_model();
-  model.vehicle.sensors.heading_late_s = 1.0;
+  model.vehicle.sensors.heading_latency_s = 1.0;
   const Result<Tuning> tuning = tune(model, options);
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kInput);

@@ -306,7 +306,7 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
   json["statistics"] = statistics_json(samples);
   json["ranking"] = ranking_json(options.preferences);
   const std::vector<EvaluatedScenario> scenarios =
-      judge(evaluated, options.preferences, options.seed);
+      evaluate_scenarios(evaluated, options.preferences, options.seed);
   const std::vector<EvaluatedScenario> ranked = ranked_of(scenarios);
   json["overall"] = overall_json(ranked);
   json["counted_once"] = counted_once_json(ranked);

@@ -38,7 +38,7 @@ bool same_runs(const ModeRows& a, const ModeRows& b) {
 
 }  // namespace
 
-std::vector<EvaluatedScenario> judge(const Comparison& comparison, const Preferences& preferences,
+std::vector<EvaluatedScenario> evaluate_scenarios(const Comparison& comparison, const Preferences& preferences,
                                      std::uint64_t seed) {
   std::vector<EvaluatedScenario> all;
   for (ScenarioRows& scenario : group(comparison)) {

@@ -81,7 +81,8 @@ Command<T> control_step(const Controller<T, G>& c, YawMode mode, const Measureme
   Command<T> command{};
   command.tau_speed = speed_law(laws, m, ref);
   command.tau_turn_m = heading_law(laws, m, ref);
-  command.allocation = allocate(mode, command.tau_speed, command.tau_turn_m, c.limits, m.u_mps);
+  command.allocation = allocate(mode, command.tau_speed, command.tau_turn_m, c.limits, m.u_mps,
+                                laws.constants.allocation);
   return command;
 }
 

@@ -257,7 +257,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   parameters.off_course_mrad =
       single(off_course_mrad(plant, model.vehicle, gains.heading, full_force, route_mps));
   const SensorQuality& sensors = model.vehicle.sensors;
-  const double latency_s = sensors.position_late_s.value_or(kUsualFixLatency_s);
+  const double latency_s = sensors.position_latency_s.value_or(kUsualFixLatency_s);
   parameters.position = position_filter<float>(sensors.position_m.value_or(kUsualFixNoise_m),
                                                latency_s, model.vehicle.sample_time_s);
   parameters.position_latency_ms = static_cast<std::uint32_t>(std::lround(1000.0 * latency_s));

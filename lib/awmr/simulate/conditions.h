@@ -16,9 +16,9 @@ struct LoopConditions {
   double heading_correlation_s = 0.0;
   double yaw_rate_correlation_s = 0.0;
   double speed_correlation_s = 0.0;
-  double heading_late_s = 0.02;
-  double yaw_rate_late_s = 0.02;
-  double speed_late_s = 0.02;
+  double heading_latency_s = 0.02;
+  double yaw_rate_latency_s = 0.02;
+  double speed_latency_s = 0.02;
   double motor_time_constant_s = 0.02;
 };
 

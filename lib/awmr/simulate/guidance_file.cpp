@@ -105,10 +105,7 @@ void check_segments(JsonObject& json, const char* key,
 
 /// Reads a law with its own keys; those of other laws are unknown keys.
 void read_line_law(JsonObject& json, LinePath& path) {
-  const std::vector<AnyLineLaw> laws = line_laws();
-  std::vector<std::string> names;
-  for (const AnyLineLaw& law : laws) names.emplace_back(name_of(law));
-  path.law = laws[json.has("law") ? json.choice("law", names) : 0];
+  path.law = line_laws()[json.has("law") ? json.choice("law", line_law_names()) : 0];
   const auto read = [&json](const char* key, double& parameter, const LawParameter& rule) {
     const NumberRule range{.min = rule.min, .max = rule.max, .min_excluded = rule.min_excluded};
     parameter = rule.unit * json.number(key, range);

@@ -38,6 +38,12 @@ std::string_view name_of(const AnyLineLaw& law) {
   return std::visit([](const auto& held) { return std::string_view(held.name()); }, law);
 }
 
+std::vector<std::string> line_law_names() {
+  std::vector<std::string> names;
+  for (const AnyLineLaw& law : line_laws()) names.emplace_back(name_of(law));
+  return names;
+}
+
 std::optional<double> Scenario::held_tau_speed() const {
   const auto* heading = std::get_if<HeadingSteps>(&guidance);
   return heading ? heading->tau_speed : std::nullopt;

@@ -60,6 +60,8 @@ using AnyLineLaw = LineLaws<std::variant, double>;
 std::vector<AnyLineLaw> line_laws();
 /// A law's name in files, options and messages.
 std::string_view name_of(const AnyLineLaw& law);
+/// The names of line_laws(), in the same order.
+std::vector<std::string> line_law_names();
 
 /// A line or polyline to follow. The run ends past its end.
 struct LinePath {

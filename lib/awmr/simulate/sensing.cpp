@@ -50,8 +50,8 @@ DrawnNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std
 Sensing::Sensor::Sensor(const Channel& its_channel, double sample_time_s, const Random& its_random,
                         const std::vector<double>* its_normals)
     : channel(its_channel),
-      latency(static_cast<std::size_t>(its_channel.late_s / sample_time_s + kTimeRounding)),
-      part(its_channel.late_s / sample_time_s - static_cast<double>(latency)),
+      latency(static_cast<std::size_t>(its_channel.latency_s / sample_time_s + kTimeRounding)),
+      part(its_channel.latency_s / sample_time_s - static_cast<double>(latency)),
       correlation(noise_correlation(its_channel.correlation_s, sample_time_s)),
       random(its_random),
       normals(its_normals) {}

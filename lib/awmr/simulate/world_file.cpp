@@ -124,7 +124,7 @@ Channel read_channel(JsonObject json, double unit) {
       .noise = unit * json.optional_number("noise", kSensorSize).value_or(0.0),
       .bias = unit * json.optional_number("bias", kSensorBias).value_or(0.0),
       .quantum = unit * json.optional_number("quantum", kSensorSize).value_or(0.0),
-      .late_s = json.optional_number("latency_s", kLatency_s).value_or(0.0),
+      .latency_s = json.optional_number("latency_s", kLatency_s).value_or(0.0),
       .correlation_s = json.optional_number("correlation_s", kCorrelation_s).value_or(0.0)};
   json.reject_unknown_keys();
   return channel;

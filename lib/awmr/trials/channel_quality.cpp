@@ -80,7 +80,7 @@ std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
   return fresh;
 }
 
-void judge_repeats(std::span<const double> value, ChannelQuality& quality) {
+void classify_repeats(std::span<const double> value, ChannelQuality& quality) {
   const Changes changes = changes_of(value);
   quality.fresh.assign(value.size(), true);
   constexpr std::size_t kFewestChanges = 8;
@@ -312,7 +312,7 @@ void find_saturation(std::span<const double> all, std::span<const double> activi
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity) {
   ChannelQuality quality;
-  judge_repeats(value, quality);
+  classify_repeats(value, quality);
   find_spikes(value, quality);
   find_stuck(t_s, value, activity, quality);
   if (quality.repeats == Repeats::kNone && quality.stuck.empty())

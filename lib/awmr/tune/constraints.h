@@ -12,7 +12,7 @@
 namespace awmr {
 
 /// Largest latency, in samples, for which the damping is computed.
-inline constexpr int kMostLateSamples = 20;
+inline constexpr int kMostLatencySamples = 20;
 /// Share of the modelled resistance that the corrective terms must exceed. It is larger than the
 /// model error that validate accepts by default on the trials (0.15).
 inline constexpr double kUnmodelledShare = 0.2;

@@ -69,7 +69,7 @@ double turning_time_s(const Model& model, const Plant<double>& plant, double spe
   const LoopConditions conditions = conditions_of(model.vehicle);
   const double lag_s = std::max(model.vehicle.has_steering() ? plant.steering_time_constant_s : 0.0,
                                 conditions.motor_time_constant_s) +
-                       std::max(conditions.heading_late_s, conditions.yaw_rate_late_s);
+                       std::max(conditions.heading_latency_s, conditions.yaw_rate_latency_s);
   std::optional<double> rate = steady_rate(plant.yaw, moment);
   if (const auto measured_degps = measured_yaw_rate_degps(model)) {
     rate = std::min(rate.value_or(radians(*measured_degps)), radians(*measured_degps));

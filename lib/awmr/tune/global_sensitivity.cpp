@@ -108,8 +108,8 @@ LoopConditions conditions_at(const Sample& sample, LoopConditions c) {
   for (double* noise : {&c.heading_noise_deg, &c.yaw_rate_noise_degps, &c.speed_noise_mps}) {
     *noise *= sample.noise_level;
   }
-  for (double* late_s : {&c.heading_late_s, &c.yaw_rate_late_s, &c.speed_late_s}) {
-    *late_s *= sample.latency;
+  for (double* latency_s : {&c.heading_latency_s, &c.yaw_rate_latency_s, &c.speed_latency_s}) {
+    *latency_s *= sample.latency;
   }
   c.motor_time_constant_s *= sample.motor_lag;
   return c;

@@ -91,7 +91,7 @@ double damping_ratio(const SampledHeadingLoop& loop) {
   const double k = loop.reaching_rate;
   const double l = loop.observer_radps;
   const Eigen::Index states = l > 0.0 ? 5 : 4;
-  const Eigen::Index n = loop.late_samples + delay.samples + (is_split ? 1 : 0);
+  const Eigen::Index n = loop.latency_samples + delay.samples + (is_split ? 1 : 0);
   Eigen::RowVectorXd law = Eigen::RowVectorXd::Zero(states);
   law(0) = -loop.lambda * k;
   law(1) = loop.fed_forward_rate - loop.lambda - k - l;
@@ -234,7 +234,7 @@ double settled_delay_s(const SampledHeadingLoop& loop, const std::vector<Interva
 double delay_margin_s(const SampledHeadingLoop& loop) {
   constexpr int kSearches = 10;
   if (!(damping_ratio(loop) > 0.0)) return 0.0;
-  const double present_s = loop.late_samples * loop.sample_time_s + loop.command_delay_s;
+  const double present_s = loop.latency_samples * loop.sample_time_s + loop.command_delay_s;
   double delay_s = std::numeric_limits<double>::infinity();
   double part = 0.0;
   for (int i = 0; i < kSearches; ++i) {

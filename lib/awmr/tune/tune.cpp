@@ -241,12 +241,12 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
 /// Limits the latency: the work of a constraint grows with the cube of the latency in samples.
 Status check_latency(const ConstraintContext& context, const std::string& model_file) {
   const double samples = context.latency_s / context.sample_time_s;
-  if (samples < kMostLateSamples + 1e-9) return {};
+  if (samples < kMostLatencySamples + 1e-9) return {};
   return input_error(
       ErrorCode::kTooLarge, model_file + ":/vehicle/latency_s",
       fmt::format("{:g} s are {:.4g} samples of {:g} s, more than the limit of {}; give a longer "
                   "sample_time_s, or tune without latency ({})",
-                  context.latency_s, samples, context.sample_time_s, kMostLateSamples,
+                  context.latency_s, samples, context.sample_time_s, kMostLatencySamples,
                   option_text("nominal")));
 }
 
@@ -276,7 +276,7 @@ std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
 }
 
 /// Runs the candidates on new draws. A shard stores its runs; otherwise their statistics are added.
-Status judge(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
+Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
              const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
   if (options.evaluation_draws == 0) return {};
   setting.seed ^= kEvaluationSeeds;
@@ -324,12 +324,12 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   context.yaw_rate_noise_radps = radians(c.yaw_rate_noise_degps);
   context.heading_correlation = noise_correlation(c.heading_correlation_s, context.sample_time_s);
   context.yaw_rate_correlation = noise_correlation(c.yaw_rate_correlation_s, context.sample_time_s);
-  context.latency_s = std::max(c.heading_late_s, c.yaw_rate_late_s);
+  context.latency_s = std::max(c.heading_latency_s, c.yaw_rate_latency_s);
   context.motor_time_constant_s = c.motor_time_constant_s;
   limit_steering_rate(model.vehicle, context);
   AWMR_RETURN_IF_ERROR(check_latency(context, model.file));
   AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(model, setting, context, options, held_out));
-  AWMR_RETURN_IF_ERROR(judge(model, setting, options, candidates_of(tuning), robust));
+  AWMR_RETURN_IF_ERROR(evaluate_candidates(model, setting, options, candidates_of(tuning), robust));
   if (options.sensitivity > 0) {
     AWMR_ASSIGN_OR_RETURN(robust.sensitivity,
                           global_sensitivity(model, without_noise, robust.conditions, tuning.gains,

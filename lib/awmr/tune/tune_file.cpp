@@ -250,9 +250,9 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
                  {"yaw_rate_degps", c.yaw_rate_noise_degps},
                  {"speed_mps", c.speed_noise_mps}}},
                {"latency",
-                {{"heading_s", c.heading_late_s},
-                 {"yaw_rate_s", c.yaw_rate_late_s},
-                 {"speed_s", c.speed_late_s}}},
+                {{"heading_s", c.heading_latency_s},
+                 {"yaw_rate_s", c.yaw_rate_latency_s},
+                 {"speed_s", c.speed_latency_s}}},
                {"motor_time_constant_s", c.motor_time_constant_s},
                {"judged_draws", options.evaluation_draws},
                {"quantiles", quantiles_json(robust.evaluated)}};

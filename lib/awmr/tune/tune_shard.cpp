@@ -19,7 +19,7 @@ namespace awmr {
 namespace {
 
 /// Maximum of evaluation_draws, as in tune.json.
-constexpr long kMaxJudgedDraws = 100'000;
+constexpr long kMaxEvaluationDraws = 100'000;
 
 /// The keys of shard.json that a tuning adds; the runs are in the table.
 struct Payload {
@@ -31,7 +31,7 @@ struct Payload {
 
 Payload read_payload(JsonObject& json) {
   Payload payload{
-      .evaluation_draws = static_cast<int>(json.integer("judged_draws", 1, kMaxJudgedDraws)),
+      .evaluation_draws = static_cast<int>(json.integer("judged_draws", 1, kMaxEvaluationDraws)),
       .gains = json.strings("gains"),
       .by = {},
       .findings = {}};

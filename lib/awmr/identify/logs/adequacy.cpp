@@ -28,7 +28,7 @@ std::optional<std::string> try_rivals(BestFamily alternatives, const FamilyFit& 
 
 /// True for channels whose errors are evaluated: speed and yaw rate, or without them their
 /// integrals. Compass and GPS have drift of their own.
-bool judges_model(const NoiseLevels& noise, LogChannel channel) {
+bool is_evaluated(const NoiseLevels& noise, LogChannel channel) {
   switch (channel) {
     case LogChannel::kSpeed:
     case LogChannel::kYawRate:
@@ -69,7 +69,7 @@ std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::stri
   return findings;
 }
 
-Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         const FamilyFit& chosen, bool try_families) {
   Adequacy adequacy;
   for (const auto& [channel, noise] : chosen.fit.noise) {
@@ -82,7 +82,7 @@ Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
                           adequacy)
                    .value_or(advice);
     }
-    const bool is_models = noise.overwhelms_sensor() && judges_model(chosen.fit.noise, channel);
+    const bool is_models = noise.overwhelms_sensor() && is_evaluated(chosen.fit.noise, channel);
     const bool withdraws = is_models || has_only_positions(chosen.fit.noise);
     adequacy.withdraws_intervals |= withdraws;
     adequacy.findings.push_back(

@@ -19,7 +19,7 @@ struct Adequacy {
 
 /// `model-inadequate` for every channel whose errors are due to the model, not the sensor. If that
 /// is the speed and `try_families`, the other families of surge resistance are fitted too.
-Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         const FamilyFit& chosen, bool try_families);
 
 }  // namespace awmr

@@ -83,7 +83,7 @@ std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double
 
 }  // namespace
 
-LateColumns columns_of(const CommandPath& path) {
+CommandColumns columns_of(const CommandPath& path) {
   const auto column = [](const auto& term) {
     return term ? std::optional(term->column) : std::nullopt;
   };
@@ -100,14 +100,14 @@ double* LinearMotion::row(LogChannel channel, std::size_t columns) {
 
 LinearStepper::LinearStepper(const Plant<double>& plant, std::size_t columns,
                              const std::vector<ParameterColumn>& parameters,
-                             const LateColumns& latency, double longest_step_s)
+                             const CommandColumns& command_columns, double longest_step_s)
     : plant_(
           plant,
           std::ranges::any_of(
               parameters, [](const ParameterColumn& p) { return p.id == ParameterId::kBackEmf; }),
           longest_step_s),
       columns_(columns),
-      late_(latency),
+      command_columns_(command_columns),
       driven_(kStages * kDrivenSize * columns, 0.0) {
   if (columns == 0) return;
   for (const ParameterColumn& p : parameters) {
@@ -124,15 +124,15 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
   for (const Term& t : terms_) {
     driven[t.place] = rates_.by_parameter[t.parameter].*t.rate * t.factor;
   }
-  if (late_.delay) note_late(command.by_delay, *late_.delay, driven);
-  if (late_.lag) note_late({command.by_lag, 0.0}, *late_.lag, driven);
-  if (late_.steering_delay)
-    note_late({{}, command.steering_by_delay}, *late_.steering_delay, driven);
-  if (late_.steering_trim) note_late({{}, command.steering_by_trim}, *late_.steering_trim, driven);
-  if (late_.imbalance) note_late({command.by_imbalance, 0.0}, *late_.imbalance, driven);
+  const CommandColumns& c = command_columns_;
+  if (c.delay) set_column(command.by_delay, *c.delay, driven);
+  if (c.lag) set_column({command.by_lag, 0.0}, *c.lag, driven);
+  if (c.steering_delay) set_column({{}, command.steering_by_delay}, *c.steering_delay, driven);
+  if (c.steering_trim) set_column({{}, command.steering_by_trim}, *c.steering_trim, driven);
+  if (c.imbalance) set_column({command.by_imbalance, 0.0}, *c.imbalance, driven);
 }
 
-void LinearStepper::note_late(const HeldCommand& by, std::size_t column, double* driven) const {
+void LinearStepper::set_column(const HeldCommand& by, std::size_t column, double* driven) const {
   for (std::size_t i = 0; i < kDrivenSize; ++i) {
     const auto rate = kDriven[i];
     driven[i * columns_ + column] =
@@ -264,9 +264,9 @@ DelayedCommand intended_command(const LogSignals& signals, std::size_t row, doub
                          slope_by_delay(signals.right, t_s, h_s, d)};
   }
   if (path.delay || path.steering_delay) {
-    const double late_s = d + (path.steering_delay ? path.steering_delay->delay_s : 0.0);
-    at.command.steering_rad = delayed_mean(signals.steering, t_s, h_s, late_s);
-    at.by_delay.steering_rad = slope_by_delay(signals.steering, t_s, h_s, late_s);
+    const double latency_s = d + (path.steering_delay ? path.steering_delay->delay_s : 0.0);
+    at.command.steering_rad = delayed_mean(signals.steering, t_s, h_s, latency_s);
+    at.by_delay.steering_rad = slope_by_delay(signals.steering, t_s, h_s, latency_s);
     at.steering_by_delay = at.by_delay.steering_rad;
   }
   if (!path.lag) return at;

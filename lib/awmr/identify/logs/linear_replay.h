@@ -58,14 +58,14 @@ struct CommandPath {
 };
 
 /// Columns of the free quantities of a command path.
-struct LateColumns {
+struct CommandColumns {
   std::optional<std::size_t> delay = {};
   std::optional<std::size_t> steering_delay = {};
   std::optional<std::size_t> lag = {};
   std::optional<std::size_t> steering_trim = {};
   std::optional<std::size_t> imbalance = {};
 };
-LateColumns columns_of(const CommandPath& path);
+CommandColumns columns_of(const CommandPath& path);
 
 /// The commands as they reach the wheels, and their derivatives with respect to the free quantities
 /// of their path.
@@ -81,10 +81,10 @@ struct DelayedCommand {
 /// Integrates the state and its derivatives.
 class LinearStepper {
  public:
-  /// `columns`: 0 for the state alone. `latency`: columns_of() the command path. `longest_step_s`:
+  /// `columns`: 0 for the state alone. `command_columns`: columns_of() the command path. `longest_step_s`:
   /// as for LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
-                const std::vector<ParameterColumn>& parameters, const LateColumns& latency,
+                const std::vector<ParameterColumn>& parameters, const CommandColumns& command_columns,
                 double longest_step_s = 0.0);
   /// One classical Runge-Kutta step of h seconds with friction, as rk4_step_with_friction().
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
@@ -105,7 +105,7 @@ class LinearStepper {
   };
   void note_driven(const DelayedCommand& command, double* driven) const;
   /// Fills a column by the derivatives of the commands.
-  void note_late(const HeldCommand& by, std::size_t column, double* driven) const;
+  void set_column(const HeldCommand& by, std::size_t column, double* driven) const;
   /// The rates and their derivatives at `s`, friction included.
   void find_rates(const DelayedCommand& command, const State<double>& s);
   /// Sets the direction in which each speed of `motion` moves from here on. A speed held at 0 by
@@ -120,7 +120,7 @@ class LinearStepper {
 
   LinearPlant plant_;
   std::size_t columns_;
-  LateColumns late_;
+  CommandColumns command_columns_;
   std::vector<Term> terms_;
   Sliding way_;
   LinearRates rates_;

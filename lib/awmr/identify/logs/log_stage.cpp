@@ -337,7 +337,7 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   append(stage.findings, autocorrelation_findings(chosen.fit, logs.front().file));
   report(options, "checking the fit");
   const bool try_families = surge.requested && surge.family == Family::kPower;
-  const Adequacy adequacy = judge_adequacy(logs, power_law, chosen, try_families);
+  const Adequacy adequacy = check_adequacy(logs, power_law, chosen, try_families);
   append(stage.reports, adequacy.alternatives);
   append(stage.findings, adequacy.findings);
   stage.withdraws_intervals = adequacy.withdraws_intervals || found.is_out_of_time;

@@ -137,9 +137,9 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
   const DrivingLog& log = *window.rows.log;
   const std::vector<Sample>& samples = window.samples();
   const double h = model.longest_step_s;
-  const LateColumns late_columns = columns_of(u.path);
-  LinearStepper stepper(u.plant, columns, u.parameters, late_columns, h);
-  LinearStepper back(u.plant, columns, u.parameters, late_columns, h);
+  const CommandColumns command_columns = columns_of(u.path);
+  LinearStepper stepper(u.plant, columns, u.parameters, command_columns, h);
+  LinearStepper back(u.plant, columns, u.parameters, command_columns, h);
   const bool any_late = u.any_late();
   std::vector<LinearMotion> motions;  // by row, if a sensor has latency
   std::vector<double> row(columns);

@@ -127,7 +127,7 @@ std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wante
 }
 
 /// Adds residual tests, outliers and influential runs to the chosen report and the findings.
-void judge(const Subject& subject, std::size_t report, SubjectFit& result) {
+void add_diagnostics(const Subject& subject, std::size_t report, SubjectFit& result) {
   const SteadyFit& fit = *result.chosen;
   EstimatorReport& chosen = result.reports[report];
   if (fit.degrees_of_freedom >= 1) {
@@ -230,7 +230,7 @@ SubjectFit fit_rows(const Subject& subject, const SubjectOptions& options) {
       noise_alternatives(subject, options, result.problem, *result.chosen, candidates);
   put_weights(report, result);
   if (!options.side_by_side) return result;
-  judge(subject, report, result);
+  add_diagnostics(subject, report, result);
   if (options.loss == Loss::kSquared) {
     append(power_law_findings(subject, wanted, candidates, result.problem.family), result.findings);
   }
