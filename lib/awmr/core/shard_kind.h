@@ -1,6 +1,5 @@
 /// Parts of a job on disk. A part is a directory: shard.json identifies the shard and its origin,
-/// the
-/// files next to it have its results.
+/// the files next to it have its results.
 #pragma once
 
 #include <filesystem>

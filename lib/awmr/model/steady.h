@@ -23,8 +23,7 @@ std::optional<double> stop_time_s(const Resistance<double>& law, double mass_nor
                                   double speed_mps);
 
 /// Time constant with which a resistance slows the motion at the speed w > 0, s: inertia w/g(w).
-/// `inertia` is
-/// m' for surge and I'z for yaw.
+/// `inertia` is m' for surge and I'z for yaw.
 inline double relaxation_time_s(const Resistance<double>& law, double inertia, double w) {
   return inertia * w / law.at(w);
 }

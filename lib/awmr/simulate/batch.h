@@ -56,8 +56,7 @@ Result<BatchArithmetic> batch_arithmetic();
 std::string batch_rounding();
 
 /// The metrics of each run, in order. Errors (input) of a run: as failure_of(). All controllers
-/// have
-/// the same driven wheels, split and form of the allocation.
+/// have the same driven wheels, split and form of the allocation.
 std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
                                             const Scenario& scenario, double sample_time_s,
                                             const BatchArithmetic& arithmetic);

@@ -1,8 +1,7 @@
 /// The closed loop of a single run (Row = double) and of sixteen runs at a time (lanes::Row):
 ///   sensors -> guidance -> controller -> actuators -> rows and metrics -> vehicle
 /// Sensors, guidance, disturbances and the ground are computed run by run; controller, motors,
-/// motion
-/// and metrics by steps on rows (loop_steps.h, vehicle_steps.h). Private to this folder.
+/// motion and metrics by steps on rows (loop_steps.h, vehicle_steps.h). Private to this folder.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,5 @@
 /// Forces on the vehicle over one sample: of its motors, of disturbances and slopes. Templates on
-/// the
-/// scalar: a double, or a batch with a trajectory per lane (vehicle_steps.h). Private to this
+/// the scalar: a double, or a batch with a trajectory per lane (vehicle_steps.h). Private to this
 /// folder.
 #pragma once
 

@@ -3,10 +3,8 @@
 /// runs is in lanes/row.h. Private to this folder.
 ///
 /// A step of the loop (vehicle_steps.h, loop_steps.h) is a template on a view of the rows:
-/// `view(rows)`
-/// are State<T> with the view's scalar T, a double or a register of doubles, and `view.store()`
-/// writes
-/// them back.
+/// `view(rows)` are State<T> with the view's scalar T, a double or a register of doubles, and
+/// `view.store()` writes them back.
 #pragma once
 
 #include <cstddef>

@@ -165,8 +165,7 @@ std::string plant_text(const Scenario& scenario);
 /// Errors (input): a parameter of the corner has no interval.
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
 /// The plant of model_at_corner(). Errors (input): as there, as check_scenario, as Model::plant and
-/// as
-/// check_work (in simulate.h).
+/// as check_work (in simulate.h).
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
                                 Motion motion = Motion::kPlanar);
 

@@ -1,6 +1,5 @@
 /// Guidance of a scenario: measurements -> heading and speed references of the laws. Private to
-/// this
-/// folder.
+/// this folder.
 #pragma once
 
 #include <optional>

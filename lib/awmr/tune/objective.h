@@ -6,13 +6,11 @@
 ///     ln J = sum_i w_i ln((x_i + f_i)/(x0_i + f_i)) / sum_i w_i
 ///
 /// over settling time, heading ITAE, overshoot, control variation, effort and speed ITAE. f_i is a
-/// floor in the
-/// unit of x_i, below which a difference does not matter: the baseline scores exactly 1, even where
-/// its overshoot is 0. Over several vehicles, ln J of a mode and scenario is (mean + CVaR)/2, CVaR
-/// the
-/// mean over the worst share of them. The objective is the geometric mean of J over modes and
-/// scenarios, plus
-/// for each soft goal and mode the excess of the quantile of its excess (goals.h) over 1.
+/// floor in the unit of x_i, below which a difference does not matter: the baseline scores exactly
+/// 1, even where its overshoot is 0. Over several vehicles, ln J of a mode and scenario is (mean +
+/// CVaR)/2, CVaR the mean over the worst share of them. The objective is the geometric mean of J
+/// over modes and scenarios, plus for each soft goal and mode the excess of the quantile of its
+/// excess (goals.h) over 1.
 ///
 /// With a geometric mean the best gains do not depend on the baseline: halving a metric has the
 /// same weight for any baseline. In a sum of ratios, a metric that is large for the baseline hardly

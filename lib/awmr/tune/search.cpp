@@ -25,8 +25,7 @@ constexpr double kLastStep = 1e-3;
 /// Smallest improvement of a local search after which another one is started.
 constexpr double kWorthwhile = 1e-4;
 /// Starts of the feasibility search in addition to the baseline and the middle of the bounds, and
-/// steps of
-/// each.
+/// steps of each.
 constexpr int kRandomStarts = 30;
 constexpr int kStartEvaluations = 300;
 

@@ -5,9 +5,8 @@
 ///   first order  S_i  = Var(E[f | x_i])/V            fraction of V that knowing x_i removes
 ///   total        ST_i = E[Var(f | all but x_i)]/V    fraction of V that remains if only x_i is unknown
 /// From samples A and B of all inputs, and A with the i-th input of B (AB_i), by Jansen's
-/// estimators
-/// (M. Jansen, Computer Physics Communications 117, 1999, as in A. Saltelli et al., same journal
-/// 181, 2010):
+/// estimators (M. Jansen, Computer Physics Communications 117, 1999, as in A. Saltelli et al., same
+/// journal 181, 2010):
 ///   S_i  = 1 - sum_j (f(B_j) - f(AB_ij))^2/(2 N V),   ST_i = sum_j (f(A_j) - f(AB_ij))^2/(2 N V)
 #pragma once
 

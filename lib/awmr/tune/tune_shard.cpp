@@ -173,8 +173,7 @@ Result<Json> read_gains_json(const std::vector<Part>& parts) {
 }
 
 /// The text of judged.csv: `gains,draw,mode,scenario,completed,broke_off` and the figures,
-/// scenarios
-/// by number, from 1.
+/// scenarios by number, from 1.
 std::string evaluation_csv(const Tuning& tuning, const TuneOptions& options) {
   const std::vector<EvaluatedRuns>& all = tuning.robust->runs;
   const std::size_t draws = at(options.shard->share_of(options.evaluation_draws));

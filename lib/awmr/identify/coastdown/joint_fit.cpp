@@ -15,8 +15,7 @@ namespace {
 
 constexpr int kMaximumRounds = 200;
 /// The fit has converged where the last step is shorter than this, in standard errors, and where
-/// the
-/// noise levels change by less, relative to themselves.
+/// the noise levels change by less, relative to themselves.
 constexpr double kTolerance = 1e-8;
 
 /// One number for each of the two sets of rows.

@@ -44,8 +44,7 @@ struct OffsetColumn {
 };
 
 /// Path of the logged commands to the wheels: direct, delayed, through motor lag, or with a
-/// constant
-/// error.
+/// constant error.
 struct CommandPath {
   std::optional<DelayColumn> delay = {};  ///< of all commands; negative: their time stamps are late
   std::optional<DelayColumn> steering_delay = {};  ///< of the steering, on top of that
@@ -133,8 +132,7 @@ DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s
                           const CommandPath& path);
 
 /// Runs the model over rows [begin, end) from `motion` and calls visit(row, motion) at every row,
-/// as
-/// replay() does.
+/// as replay() does.
 template <class Visit>
 void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end,
                    const CommandPath& path, LinearStepper& stepper, double longest_step_s,

@@ -87,8 +87,7 @@ struct FreeTerm {
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind);
 
 /// Free quantities of a fit, by kind: the parameters, the terms of the commands, the biases, those
-/// of
-/// the sensors.
+/// of the sensors.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);
 
 /// By quantity: the coordinate of the initial guess; 0 for a bias.

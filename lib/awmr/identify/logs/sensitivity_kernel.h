@@ -24,8 +24,7 @@ inline constexpr std::size_t kStages = 4;
 ///     S_dot = A S + B
 ///
 /// `stages`: A at each stage. `driven`: B at each stage, [kStages][kDrivenSize][columns], of the
-/// rates
-/// of u, v, r and the steering angle. `s`: [kStateSize][columns], in and out.
+/// rates of u, v, r and the steering angle. `s`: [kStateSize][columns], in and out.
 void step_sensitivities(const std::array<StateSlopes, kStages>& stages, const double* driven,
                         double h_s, std::size_t columns, double* s);
 
