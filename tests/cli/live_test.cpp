@@ -89,7 +89,7 @@ TEST_F(Live, APipeInPiecesEndsInTheLogAndItsModel) {
   EXPECT_THAT(run.err, Not(HasSubstr("\033"))) << "lines, not a screen";
 }
 
-TEST_F(Live, IsToldOnceInJson) {
+TEST_F(Live, IsReportedOnceInJson) {
   const ProcessResult run = shell("cat " + kDrive + " | " + live("--log - --json --every 0.1"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.err, IsEmpty());
@@ -99,7 +99,7 @@ TEST_F(Live, IsToldOnceInJson) {
   EXPECT_EQ(json.at("written"), nlohmann::json::array({path("live.csv"), path("live.json")}));
 }
 
-TEST_F(Live, AWrongUnitIsToldWhileTheDriveGoesOn) {
+TEST_F(Live, AWrongUnitIsReportedDuringTheDrive) {
   const std::string drive = drive_with("speed_mps", 3.6);
   // Ten seconds of the drive, then nothing until it is reported.
   const ProcessResult run =
@@ -170,7 +170,7 @@ TEST_F(Live, AnInterruptionKeepsWhatItHas) {
   }
 }
 
-TEST_F(Live, EndsWhereItIsEnoughOrSaysThatItIsNot) {
+TEST_F(Live, EndsIfEnoughOrReportsThatItIsNot) {
   const std::string fit = " --fit surge.alpha --enough 0.05 --until-enough --every 0.1";
   const ProcessResult enough =
       shell("{ head -n 900 " + kDrive + kOnAndOn + " | " + live("--log -" + fit));
@@ -185,7 +185,7 @@ TEST_F(Live, EndsWhereItIsEnoughOrSaysThatItIsNot) {
   EXPECT_THAT(too_few.err, AllOf(HasSubstr("[not-enough]"), HasSubstr("surge.alpha +-")));
 }
 
-TEST_F(Live, DamagedLinesAreSetAsideAndTold) {
+TEST_F(Live, DamagedLinesAreSetAsideAndReported) {
   const ProcessResult run =
       shell("{ echo boot; head -n 700 " + kDrive + "; echo 7.1,0.2; tail -n +701 " + kDrive +
             "; printf 15.1,0.2,0; } | " + live("--log -"));
@@ -232,7 +232,7 @@ TEST_F(Live, ATerminalShowsOneScreen) {
                              HasSubstr("[          ]")));
 }
 
-TEST_F(Live, RefusesWhatItCannotRecord) {
+TEST_F(Live, RefusesSourcesThatItCannotRecord) {
   struct Case {
     std::string words;
     std::string error;

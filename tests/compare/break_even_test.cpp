@@ -72,7 +72,7 @@ TEST(BreakEven, IsWhereTheLeadEnds) {
   EXPECT_TRUE(some_ends);
 }
 
-TEST(BreakEven, DoesNotDependOnThreadsAndStandsInTheFileOnlyWhenRequested) {
+TEST(BreakEven, DoesNotDependOnThreadsAndIsWrittenOnRequest) {
   const Provenance provenance{"compare", {}, {{"model.json", "abc"}}};
   const CompareOptions one{.samples = 2, .seed = 3, .threads = 1};
   const auto first = compared(turn(60.0), one);
@@ -91,7 +91,7 @@ TEST(BreakEven, DoesNotDependOnThreadsAndStandsInTheFileOnlyWhenRequested) {
   EXPECT_THAT(comparison_table(without), Not(HasSubstr("break-even")));
 }
 
-TEST(BreakEven, IsEmptyWhereNothingIsFollowed) {
+TEST(BreakEven, IsEmptyInOpenLoop) {
   const auto comparison = compared(short_open_loop());
   ASSERT_TRUE(comparison);
   EXPECT_TRUE(comparison->break_even->empty());
@@ -179,7 +179,7 @@ TEST(BreakEven, IsDecidedWithAllOfAScrubThatChangesWithTheRate) {
               HasSubstr("still ahead in 0, no longer in 0, undecided in 1"));
 }
 
-TEST(BreakEven, IsNotKeptAgainstWhatTheTyresHold) {
+TEST(BreakEven, IsNotDecidedAboveTheLargestMomentWithoutATurn) {
   const std::vector<double> ends_m = ending_moments_m();
   ASSERT_FALSE(ends_m.empty());
   const YawScrub moving = scrub_of({0.5 * ends_m.front(), 0.9 * ends_m.front()});
@@ -192,7 +192,7 @@ TEST(BreakEven, IsNotKeptAgainstWhatTheTyresHold) {
               HasSubstr("still ahead in 0, no longer in 0, undecided in 1"));
 }
 
-TEST(BreakEven, SaysHowManyTurnsWouldDecide) {
+TEST(BreakEven, ReportsTheNumberOfTurnsForADecision) {
   const std::vector<double> ends_m = ending_moments_m();
   ASSERT_FALSE(ends_m.empty());
   const double end_m = ends_m.front();
@@ -207,7 +207,7 @@ TEST(BreakEven, SaysHowManyTurnsWouldDecide) {
   EXPECT_THAT(comparison_table(comparison), HasSubstr("differential turns in total would decide"));
 }
 
-TEST(BreakEven, OfYawResistanceThatHoldsScrubIsRefused) {
+TEST(BreakEven, RefusesYawResistanceThatIncludesScrub) {
   Model model = uncertain_model();
   model.yaw_by_sides_alone = true;
   const auto comparison = compare(model, kPaperGains, {turn(60.0)}, {.break_even = true});

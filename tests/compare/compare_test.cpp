@@ -93,7 +93,7 @@ TEST(Compare, SampleZeroIsTheModelItself) {
   }
 }
 
-TEST(Compare, TheNoiseOfSampleZeroDoesNotHangOnTheSeed) {
+TEST(Compare, NoiseOfSampleZeroDoesNotDependOnTheSeed) {
   Scenario noisy = short_heading();
   noisy.sensors.emplace();
   noisy.sensors->heading.noise = radians(1.0);

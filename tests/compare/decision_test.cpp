@@ -107,7 +107,7 @@ TEST(Decision, NamesTheModeThatIsNeverBehind) {
   EXPECT_EQ(level.kind(), DecisionKind::kLevel);
 }
 
-TEST(Decision, NamesTheTrialThatTellsThePlantsApart) {
+TEST(Decision, NamesTheTrialThatDiscriminatesThePlants) {
   const Decision scrub{{kDifferential, kSteering}, {on_tyres({kSteering})}};
   EXPECT_THAT(scrub.deciding_trials(), ElementsAre(kDifferentialTurns));
   const Decision steered{{kDifferential, kSteering}, {on_tyres({kDifferential})}};
@@ -172,7 +172,7 @@ TEST(Decision, DoesNotDependOnThreadsAndIsInTheFile) {
   EXPECT_EQ(counts.at("survived").at("gains").at("of"), 1);
 }
 
-TEST(Decision, NeedsTwoToChooseFrom) {
+TEST(Decision, NeedsTwoModes) {
   Model skid = uncertain_model();
   skid.vehicle.drive = Drive::kDifferential;
   const auto comparison = compare(skid, kPaperGains, {short_heading()}, {.other_settings = true});
@@ -181,7 +181,7 @@ TEST(Decision, NeedsTwoToChooseFrom) {
   EXPECT_FALSE(evaluate_scenarios(*comparison, {}, 1).front().decision);
 }
 
-TEST(Decision, SaysWhatCouldNotBeRun) {
+TEST(Decision, ReportsSettingsThatCouldNotBeRun) {
   Scenario slippery = short_heading();
   slippery.patches.push_back({.centre_m = {5.0, 0.0}, .radius_m = 1.0, .force_max = 0.1});
   const auto comparison = compared({slippery}, 0);
@@ -205,7 +205,8 @@ TEST(Decision, AnUndecidedLeadIsNotCalledBest) {
   const auto verdict = [&] { return evaluate_scenarios(comparison, {}, 1).front().verdict; };
   EXPECT_THAT(verdict(), ::testing::StartsWith("differential is best"));
   comparison.changes = {on_tyres({kSteering})};
-  EXPECT_EQ(evaluate_scenarios(comparison, {}, 1).front().decision->kind(), DecisionKind::kUndecided);
+  EXPECT_EQ(evaluate_scenarios(comparison, {}, 1).front().decision->kind(),
+            DecisionKind::kUndecided);
   EXPECT_THAT(verdict(), ::testing::StartsWith("differential is ahead here"));
   EXPECT_THAT(verdict(), ::testing::HasSubstr("undecided: steering first on the four-wheel plant"));
 }

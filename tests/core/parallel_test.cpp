@@ -78,7 +78,7 @@ TEST(ParallelFor, ThrowsTheExceptionOfTheSmallestItemAndGoesOnAfterwards) {
   }
 }
 
-TEST(ParallelFor, StopsBeforeTheNextItemAndTellsOfItsOwnOnTheCallersThread) {
+TEST(ParallelFor, StopsBeforeTheNextItemAndReportsOnTheCallersThread) {
   std::atomic<int> begun = 0;
   int told = 0;
   const std::thread::id caller = std::this_thread::get_id();

@@ -52,7 +52,7 @@ std::map<std::string, double> parameters_of(const std::string& text) {
 // Printed with six decimals, so a product of two errs by some 1e-6 of its larger factor.
 constexpr double kPrinted = 2e-5;
 
-TEST(Export, OfMotorsWithBackEmfIsNotWorkedOutForAutopilots) {
+TEST(Export, RefusesBackEmfForAutopilots) {
   Model model = paper_robot();
   model[ParameterId::kBackEmf] = {0.25, 0.01, {}, Source::kFitted, "trajectory"};
   for (const ExportFormat format : {ExportFormat::kArduPilot, ExportFormat::kPx4}) {
@@ -61,7 +61,7 @@ TEST(Export, OfMotorsWithBackEmfIsNotWorkedOutForAutopilots) {
   EXPECT_THAT(text_of(model, ExportFormat::kPython), HasSubstr("MOTOR_BACK_EMF_S_PER_M = 0.25"));
 }
 
-TEST(Export, OfFrontWheelDriveIsNotWorkedOutForAutopilots) {
+TEST(Export, RefusesFrontWheelDriveForAutopilots) {
   Model model = paper_robot();
   model.vehicle.drive = Drive::kFrontWheel;
   for (const ExportFormat format : {ExportFormat::kArduPilot, ExportFormat::kPx4}) {

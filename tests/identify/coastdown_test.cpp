@@ -110,7 +110,7 @@ TEST(CoastDown, TheClosedFormIsTheIntegratedOneForOtherFamiliesToo) {
   EXPECT_NEAR(*result->model[ParameterId::kMassNorm].value / m, 1.0, 1e-3);
 }
 
-TEST(CoastDown, IsManyTimesSurerThanAStopTime) {
+TEST(CoastDown, HasAMuchSmallerErrorThanAStopTime) {
   const Truth& t = kTruths[0];
   TrialData stop = surge_only(t, 0.02, 7);
   stop.coastdown = TrialSet<StopTimeRow>{
@@ -145,7 +145,7 @@ TEST(CoastDown, WithoutASurgeLawRefusesTheMassAndReportsTheRatio) {
   EXPECT_TRUE(told);  // 0.5/0.9
 }
 
-TEST(CoastDown, SetsASpeedThatDoesNotFallAside) {
+TEST(CoastDown, SetsAsideACurveWithoutADeceleration) {
   TrialData data = surge_only(kTruths[0], 0.0, 1);
   CoastCurve flat{"curve.csv", 2, {}, {}};
   Random random(3, 1);
@@ -240,7 +240,7 @@ TEST(CoastDown, CombinesBothKindsAndReportsAContradiction) {
   EXPECT_TRUE(disagreement(identify(vehicle(), data, {}, {})->model));
 }
 
-TEST(CoastDown, JointlyTheCurveSharpensTheExponentToo) {
+TEST(CoastDown, JointFitImprovesTheExponent) {
   const Truth& t = kTruths[0];
   TrialData data = surge_only(t, 0.03, 9);
   Random random(9, 1);

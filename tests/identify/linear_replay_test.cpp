@@ -205,14 +205,14 @@ TEST(LinearReplay, OfFrontWheelDriveHasTheDerivativesOfJets) {
                kRounding);
 }
 
-TEST(LinearReplay, LooksBackAsJetsDo) {
+TEST(LinearReplay, DelayedStatesHaveTheDerivativesOfJets) {
   for (const bool servo : {true, false}) {
     const DrivingLog log = commands(servo);
     expect_equal(by_jets(log, 0.004).earlier, by_hand(log, 0.004).earlier, kRounding, kSpeedDelay);
   }
 }
 
-TEST(LinearReplay, OfALateSensorChangesByTheMotionsRate) {
+TEST(LinearReplay, DerivativeByASensorDelayIsTheRateOfTheMotion) {
   // Central differences over 2e-6 s of a motion whose rates are below 10 and change within at least
   // 0.02 s: the error is below 1e-6. Exceptions are steps with a kink, at a limit of the servo or
   // where the vehicle stops.

@@ -158,7 +158,7 @@ TEST_F(RecoverShards, NamesMissingAndDuplicateParts) {
   EXPECT_THAT(fault({directory_.path()}), HasSubstr("shard.json"));
 }
 
-TEST_F(RecoverShards, PartsThatWouldBeEmptyOrAreNoneAreRefused) {
+TEST_F(RecoverShards, RefusesEmptyAndInvalidParts) {
   for (const Shard shard : {Shard{0, 2}, Shard{3, 2}, Shard{1, 0}, Shard{-1, -1}, Shard{1, 8}}) {
     const auto part = recover_part(model(), seven_runs(), shard, {});
     ASSERT_FALSE(part);

@@ -81,7 +81,7 @@ TEST(Refusal, RefusesAMassUncertainByOrdersOfMagnitude) {
   EXPECT_TRUE(has_finding(result->model, "not-identifiable"));
 }
 
-TEST(Refusal, AnExponentOfOneOrMoreMakesAStopTimeWorthless) {
+TEST(Refusal, RefusesAStopTimeForAnExponentOfOneOrMore) {
   TrialData data = synthetic({1.0, 1.3, 0.3, 0.8, 0.1}, 0.0, 1);
   data.coastdown->rows = {{2, 1.0, 0.5}};
   for (const double most : {1.0, 2.5}) {

@@ -77,7 +77,7 @@ TEST(Scrub, EqualsTheExcessMomentOfDifferentialTurns) {
   EXPECT_THAT(codes(model), Not(Contains("scrub-beyond-trials")));
 }
 
-TEST(Scrub, IntervalsHoldAtTheirRateAtLeast) {
+TEST(Scrub, IntervalsCoverTheTruthAtLeastAtTheirRate) {
   constexpr int kTables = 500;
   int held = 0;
   for (int seed = 1; seed <= kTables; ++seed) {
@@ -150,7 +150,7 @@ int alarms_with(const MakeTurn& turn) {
   return alarms;
 }
 
-TEST(Scrub, OfTurnsWithOneForceOrAtOneRateDoesNotSeemToChange) {
+TEST(Scrub, IsConstantForTurnsWithOneForceOrAtOneRate) {
   // One force with scattered rates: the scrub of a turn then falls with its rate by arithmetic
   // alone.
   const TurningRow exact = by_sides(0.2, 0.01, 1.0, 20);
@@ -232,7 +232,7 @@ TEST(Scrub, IsReadBackFromModelJson) {
   EXPECT_EQ(read->yaw_scrub->rows, 4);
 }
 
-TEST(Scrub, AModelThatContradictsItselfIsRefused) {
+TEST(Scrub, RefusesAContradictoryModel) {
   const Model model = identified(turns(0.012, 0.02, 1));
   const auto is_refused = [&](const char* place, const auto& change) {
     Model changed = model;

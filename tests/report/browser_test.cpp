@@ -192,7 +192,7 @@ TEST_F(ReportInBrowser, SavesChartsWithoutColoursOfThePage) {
 }
 
 // The steps are too close for any mode to settle.
-TEST_F(ReportInBrowser, SaysWhatNeverSettled) {
+TEST_F(ReportInBrowser, ShowsRunsThatNeverSettled) {
   const TemporaryDirectory directory;
   for (const char* name : {"model.json", "gains.json"})
     fs::copy(file(name), directory.path() / name);

@@ -108,7 +108,7 @@ TEST(IlosInTheLoop, LeavesNoOffsetOnASideSlopeWhereLineOfSightDoes) {
   }
 }
 
-TEST(PurePursuitInTheLoop, ComesToALineFromBesideIt) {
+TEST(PurePursuitInTheLoop, ReachesALineFromTheSide) {
   for (const YawMode mode : kYawModes) {
     const Scenario s =
         line_scenario({{0.0, 0.0}, {80.0, 0.0}}, PurePursuit<double>{3.0, true}, 6.0);

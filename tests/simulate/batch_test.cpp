@@ -347,7 +347,7 @@ TEST_F(Batch, IsTheRunOfSimulateWithFrontWheelDrive) {
   }
 }
 
-TEST_F(Batch, DoesNotDependOnTheRunsBesideNorOnThePlaceAmongThem) {
+TEST_F(Batch, DoesNotDependOnOtherRunsAndPosition) {
   std::vector<BatchRun> runs = drawn_runs(37, 0.2);
   for (std::size_t i = 0; i < runs.size(); ++i) runs[i].mode = kYawModes[i % std::size(kYawModes)];
   const Scenario scenario =
@@ -460,7 +460,7 @@ TEST_F(Batch, RowsAreThoseOfSimulateInEveryShippedScenario) {
   }
 }
 
-TEST(Instructions, AreRefusedByNameWhereThereAreNone) {
+TEST(Instructions, RefusesUnsupportedOnesByName) {
   for (const std::string name : {"mmx", "sse2"}) {
     ::setenv("AWMR_INSTRUCTIONS", name.c_str(), 1);
     const auto arithmetic = batch_arithmetic();

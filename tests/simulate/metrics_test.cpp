@@ -109,7 +109,7 @@ TEST(Metrics, ControlVariationIsPerSecondAndOverTheLimits) {
   EXPECT_NEAR(metrics_of(run, kSteps, weak).control_variation, (2.0 + 2.0) / 4.0, 1e-12);
 }
 
-TEST(Metrics, WorkIsForceTimesTheWheelsSpeedAndNothingComesBack) {
+TEST(Metrics, WorkIsPositiveForceTimesTheWheelsSpeed) {
   awmr::Run run = by_hand({0.0, 0.0, 0.0, 0.0, 0.0});
   for (RunRow& row : run.rows) {
     row.state.u_mps = 0.8;

@@ -38,13 +38,13 @@ Scenario with_gps(Guidance guidance) {
 }
 Scenario waypoints() {
   return with_gps(WaypointPath{.points_m = {{20.0, 10.0}, {40.0, 0.0}, {60.0, 10.0}, {80.0, 0.0}},
-                                 .acceptance_m = kAcceptance_m,
-                                 .slow_down_m = {}});
+                               .acceptance_m = kAcceptance_m,
+                               .slow_down_m = {}});
 }
 Scenario line() {
   return with_gps(LinePath{.points_m = {{0.0, 0.0}, {80.0, 0.0}},
-                             .law = LineOfSight<double>{radians(60.0), 4.0, false},
-                             .slow_down_m = {}});
+                           .law = LineOfSight<double>{radians(60.0), 4.0, false},
+                           .slow_down_m = {}});
 }
 
 struct Figures {

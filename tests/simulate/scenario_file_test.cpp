@@ -69,7 +69,7 @@ TEST(ScenarioFile, EveryShippedScenarioReads) {
   EXPECT_GE(count, 4);
 }
 
-TEST(YawModeNames, GoBothWays) {
+TEST(YawModeNames, ConvertInBothDirections) {
   for (const YawMode mode : kYawModes) EXPECT_EQ(value_in(kYawModeNames, name_of(mode)), mode);
   EXPECT_FALSE(value_in(kYawModeNames, "sideways"));
 }
@@ -97,7 +97,7 @@ TEST(ScenarioFile, TyresHaveDefaultsAndAreOffWithoutTheirKey) {
   EXPECT_EQ(given->tyres->rest_speed_mps, 0.2);
 }
 
-TEST(ScenarioFile, WhatHasNoMeaningOnTyresIsAFaultAtItsKey) {
+TEST(ScenarioFile, RefusesKeysThatDoNotApplyOnTyres) {
   const auto refused = read(with_tyres(
       R"("tyres": {}, "slippery": [{"x_m": 1, "y_m": 2, "radius_m": 3, "force_max": 0.1}],
          "corner": {"sway.alpha": "hi", "mass_norm": "lo"})"));
@@ -214,8 +214,8 @@ TEST(ScenarioFile, ReadsLinesAndTimedPaths) {
                                       "delta_deg": 45, "width_m": 2})"));
   ASSERT_TRUE(line) << to_text(line.error());
   EXPECT_EQ(std::get<LinePath>(line->guidance).points_m[1].y_m, 3.0);
-  EXPECT_TRUE(std::get<LineOfSight<double>>(std::get<LinePath>(line->guidance).law)
-                  .sideslip_compensation);
+  EXPECT_TRUE(
+      std::get<LineOfSight<double>>(std::get<LinePath>(line->guidance).law).sideslip_compensation);
   const auto integral = read(replaced(kHeading, steps,
                                       R"({"type": "line", "from_m": [0, 1], "to_m": [2, 3],
                                           "law": "ilos", "lookahead_m": 3,

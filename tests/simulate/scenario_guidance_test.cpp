@@ -23,7 +23,7 @@ Scenario along(Guidance guidance) {
   return scenario;
 }
 
-TEST(ScenarioGuidance, HoldsTheHeadingOfTheLastStepThatHasCome) {
+TEST(ScenarioGuidance, CommandsTheHeadingOfTheLastStep) {
   const HeadingSteps steps{{{0.0, 0.1}, {2.0, 0.2}, {5.0, 0.3}}};
   EXPECT_EQ(heading_at(steps, 0.0), 0.1);
   EXPECT_EQ(heading_at(steps, 1.99), 0.1);
@@ -62,8 +62,8 @@ TEST(ScenarioGuidance, GoesToOnePointAfterTheOtherAndSlowsDownBeforeTheLast) {
 
 TEST(ScenarioGuidance, FollowsALineToItsEndAndSlowsDownBeforeIt) {
   const Scenario scenario = along(LinePath{.points_m = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}},
-                                             .law = LineOfSight<double>{1.0, 1.0, false},
-                                             .slow_down_m = 4.0});
+                                           .law = LineOfSight<double>{1.0, 1.0, false},
+                                           .slow_down_m = 4.0});
   ScenarioGuidance guidance(scenario, 0.01, at(0.0, 0.0));
   const GuidanceOutput first = guidance.step(0.0, at(7.0, 0.2));
   expect_on_first_leg(first, 0.2);

@@ -80,7 +80,7 @@ TEST_P(ScenarioFiles, RunsInEveryMode) {
 }
 
 /// Left and right are equal up to rounding of sums in another order.
-TEST_P(ScenarioFiles, IsTheSameInAMirror) {
+TEST_P(ScenarioFiles, IsInvariantUnderReflection) {
   Scenario s = scenario();
   s.duration_s = std::min(s.duration_s, 60.0);
   const Scenario other = mirrored(s);
@@ -113,7 +113,7 @@ bool switch_alike(const awmr::Run& a, const awmr::Run& b) {
 /// the controller's model has a limit cycle of some 0.001 rad/s in which differences grow (tenfold
 /// in 1.5 s): 20 s are compared. The estimate of the position reads cos psi and sin psi in turns, one
 /// in a step, so that it rotates with the world to within the turn of a step.
-TEST_P(ScenarioFiles, IsTheSameElsewhere) {
+TEST_P(ScenarioFiles, IsInvariantUnderTranslationAndRotation) {
   Scenario s = scenario();
   if (std::holds_alternative<LissajousPath>(s.guidance)) return;
   if (s.sensors) {
@@ -159,7 +159,7 @@ TEST(RunOfAModel, IsItsPlantUnderItsOwnControllerAtItsSampleTime) {
   EXPECT_EQ(controller_for(model, kPaperGains)->yaw.alpha, controller.yaw.alpha);
 }
 
-TEST(RunOfAModel, NamesWhatTheModelLacks) {
+TEST(RunOfAModel, NamesTheMissingParameter) {
   Model model = model_with_intervals();
   model[ParameterId::kMassNorm].value.reset();
   const auto run = simulate(model, kPaperGains, heading_steps({30.0}), YawMode::kSteering);

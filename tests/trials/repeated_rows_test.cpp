@@ -50,7 +50,7 @@ std::string told_of(Reader read, const std::string& text) {
 /// The table with its rows duplicated.
 std::string copied(const std::string& text) { return text + text.substr(text.find('\n') + 1); }
 
-TEST(RepeatedRows, ATableThatStandsTwiceIsNamedWithItsLines) {
+TEST(RepeatedRows, ADuplicatedTableIsNamedWithItsLines) {
   // Times to 0.01 s: five pairs of runs with s = 0.3 % of 5 to 18 s contain 0.7 equal ones by
   // chance.
   const std::string table = surge_text(1, 1, {0.005, 0.0, 2});

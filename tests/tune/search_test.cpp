@@ -414,7 +414,7 @@ TEST(Tune, RefusesAScenarioWithConstantThrust) {
   EXPECT_EQ(tuning.error().faults.size(), 1U) << to_text(tuning.error());
 }
 
-TEST(Tune, AMillionEvaluationsOfLongScenariosHadNoEnd) {
+TEST(Tune, RefusesAMillionEvaluationsOfLongScenarios) {
   TuneOptions options = short_options();
   options.global_evaluations = 1'000'000;
   options.scenarios.front().duration_s = 2000.0;
@@ -424,7 +424,7 @@ TEST(Tune, AMillionEvaluationsOfLongScenariosHadNoEnd) {
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("give at most"));
 }
 
-TEST(Tune, PassesOnThatTheModelLacksAParameter) {
+TEST(Tune, ReportsAMissingParameterOfTheModel) {
   Model model = paper_model();
   model[ParameterId::kMassNorm].value.reset();
   const Result<Tuning> tuning = tune(model, short_options());
@@ -440,7 +440,7 @@ TEST(MeanAndTail, IsTheMeanOfAllAndOfTheWorst) {
   EXPECT_EQ(mean_and_tail({1.0, 3.0}, 1.0), 2.0);
 }
 
-TEST(Conditions, AreTheVehiclesWhereItSaysAndTheDefaultsElse) {
+TEST(Conditions, AreThoseOfTheVehicleOrTheDefaults) {
   Vehicle vehicle = paper_vehicle();
   EXPECT_EQ(conditions_of(vehicle).heading_noise_deg, 1.0);
   vehicle.sensors = {.heading_deg = 0.3, .speed_latency_s = 0.05};
@@ -537,7 +537,7 @@ TEST(Observed, AnObserverCompensatesAConstantDisturbance) {
   EXPECT_EQ(held->gains.observer.yaw_max_m, 0.02);
 }
 
-TEST(Observed, IsEvaluatedNextToTheSameGainsWithoutObserver) {
+TEST(Observed, IsComparedWithTheSameGainsWithoutObserver) {
   TuneOptions options;
   options.draws = 1;
   options.evaluation_draws = 10;
@@ -571,7 +571,7 @@ TEST(Observed, NamesOptionsThatContradictAnObserver) {
   }
 }
 
-TEST(Robust, ALatencyOfManySamplesIsRefusedBeforeItTakesForEver) {
+TEST(Robust, RefusesALatencyOfManySamples) {
   TuneOptions options = short_options();
   options.nominal = false;
   options.evaluation_draws = 0;
@@ -595,7 +595,7 @@ TEST(Search, RefusesGainsWithWhichNoRunSettles) {
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("no run settles"));
 }
 
-TEST(Robust, WithoutDrawsAndWithoutACovarianceNoiseAloneIsDrawn) {
+TEST(Robust, DrawsOnlyNoiseWithoutACovariance) {
   TuneOptions options = short_options();
   options.nominal = false;
   options.draws = 2;

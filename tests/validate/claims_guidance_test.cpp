@@ -40,7 +40,7 @@ TEST(GuidanceClaims, TheTimedPathIsTooTightForSteering) {
   EXPECT_THAT(claim_of("C11").why, HasSubstr("too tight for steering"));
 }
 
-TEST(GuidanceClaims, CombinedIsNotAloneAtTheTop) {
+TEST(GuidanceClaims, CombinedIsNotTheOnlyBestMode) {
   EXPECT_FALSE(claim_of("C12").reproduced);
   EXPECT_THAT(claim_of("C12").why, HasSubstr("differential keeps closer"));
 }

@@ -285,11 +285,11 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
     for (const ModeRows& one : rows.modes) {
       if (one.contender.mode == YawMode::kSteering) continue;
       const ModeSetting setting{&scenario,
-                          one.contender.mode,
-                          plant,
-                          make_controller(nominal, model.vehicle, gains),
-                          model.vehicle.sample_time_s,
-                          arithmetic};
+                                one.contender.mode,
+                                plant,
+                                make_controller(nominal, model.vehicle, gains),
+                                model.vehicle.sample_time_s,
+                                arithmetic};
       for (Question& question : questions_of(setting, rows, scoring, entry)) {
         questions.push_back(std::move(question));
       }

@@ -128,7 +128,8 @@ std::string overall_of(const std::vector<EvaluatedScenario>& scenarios) {
 std::string comparison_table(const Comparison& comparison, const CompareOptions& options) {
   std::string text;
   const Comparison part = evaluated_part(comparison);
-  const std::vector<EvaluatedScenario> scenarios = evaluate_scenarios(part, options.preferences, options.seed);
+  const std::vector<EvaluatedScenario> scenarios =
+      evaluate_scenarios(part, options.preferences, options.seed);
   for (const EvaluatedScenario& scenario : scenarios) {
     const std::size_t samples = scenario.rows.modes.front().rows.size() - 1;
     text += fmt::format(

@@ -129,9 +129,9 @@ struct ChangedScenario {
 /// Returns the required runs, in the order of the scenarios. Changes that cannot be run are added
 /// to `changes` with their reason.
 std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& gains,
-                                           const std::vector<Scenario>& scenarios,
-                                           const Tyres<double>& tyres,
-                                           std::vector<Change>& changes) {
+                                               const std::vector<Scenario>& scenarios,
+                                               const Tyres<double>& tyres,
+                                               std::vector<Change>& changes) {
   std::vector<ChangedScenario> changed;
   for (const Scenario& scenario : scenarios) {
     if (std::holds_alternative<OpenLoop>(scenario.guidance)) continue;  // nothing is ranked
@@ -250,7 +250,8 @@ std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedG
                                     const CompareOptions& options) {
   std::vector<Change> changes;
   if (gains.size() * yaw_modes(model.vehicle).size() < 2) return changes;  // nothing to rank
-  std::vector<ChangedScenario> changed = changed_scenarios(gains, scenarios, options.tyres, changes);
+  std::vector<ChangedScenario> changed =
+      changed_scenarios(gains, scenarios, options.tyres, changes);
   // One task per thread; each has at most as many samples as a batch.
   CompareOptions few;
   few.samples = std::min(options.samples, static_cast<int>(kBatchRuns) - 1);

@@ -38,8 +38,9 @@ bool same_runs(const ModeRows& a, const ModeRows& b) {
 
 }  // namespace
 
-std::vector<EvaluatedScenario> evaluate_scenarios(const Comparison& comparison, const Preferences& preferences,
-                                     std::uint64_t seed) {
+std::vector<EvaluatedScenario> evaluate_scenarios(const Comparison& comparison,
+                                                  const Preferences& preferences,
+                                                  std::uint64_t seed) {
   std::vector<EvaluatedScenario> all;
   for (ScenarioRows& scenario : group(comparison)) {
     auto differences = paired_differences(scenario, preferences, seed);

@@ -31,8 +31,9 @@ struct EvaluatedScenario {
 };
 
 /// `comparison`: an evaluated_part(), which must outlive the result.
-std::vector<EvaluatedScenario> evaluate_scenarios(const Comparison& comparison, const Preferences& preferences,
-                                     std::uint64_t seed);
+std::vector<EvaluatedScenario> evaluate_scenarios(const Comparison& comparison,
+                                                  const Preferences& preferences,
+                                                  std::uint64_t seed);
 /// Ranked scenarios.
 std::vector<EvaluatedScenario> ranked_of(const std::vector<EvaluatedScenario>& scenarios);
 

@@ -63,7 +63,7 @@ class ClosedLoop {
     RunDisturbance disturbance;
     Sensed sensed = {};
     std::optional<ScenarioGuidance> guidance = {};  ///< set after the first measurement
-    PathRow path = {};                          ///< of the present sample
+    PathRow path = {};                              ///< of the present sample
     RunEnd ending =
         RunEnd::kDuration;  ///< how the current sample ends the run; kDuration: it continues
     std::vector<RunRow> rows = {};

@@ -25,12 +25,13 @@ Scenario under(const LoopConditions& c, Scenario scenario) {
     return Channel{.noise = noise, .latency_s = latency_s, .correlation_s = correlation_s};
   };
   if (!scenario.sensors) {
-    scenario.sensors = Sensors{
-        .heading = channel(radians(c.heading_noise_deg), c.heading_latency_s, c.heading_correlation_s),
-        .yaw_rate =
-            channel(radians(c.yaw_rate_noise_degps), c.yaw_rate_latency_s, c.yaw_rate_correlation_s),
-        .speed = channel(c.speed_noise_mps, c.speed_latency_s, c.speed_correlation_s),
-        .gps = {}};
+    scenario.sensors =
+        Sensors{.heading = channel(radians(c.heading_noise_deg), c.heading_latency_s,
+                                   c.heading_correlation_s),
+                .yaw_rate = channel(radians(c.yaw_rate_noise_degps), c.yaw_rate_latency_s,
+                                    c.yaw_rate_correlation_s),
+                .speed = channel(c.speed_noise_mps, c.speed_latency_s, c.speed_correlation_s),
+                .gps = {}};
   }
   if (!scenario.actuators) {
     scenario.actuators = Actuators{.motor_time_constant_s = c.motor_time_constant_s};

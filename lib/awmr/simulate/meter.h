@@ -294,8 +294,8 @@ void remember(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, double
 
 /// Adds a row to the sums. Call it for every row, in order.
 template <class T>
-void measure(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle,
-             const MetricsTask& task, const MetricsTime& time, MetricsAccumulator<T>& m) {
+void measure(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, const MetricsTask& task,
+             const MetricsTime& time, MetricsAccumulator<T>& m) {
   using math::select;
   m.rows += T(1.0);
   if (task.has_headings) meter::measure_heading(row, time, m);

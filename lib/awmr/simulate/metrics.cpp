@@ -19,8 +19,7 @@ double goal_rad(const RunRow& row, const Scenario& scenario) {
 
 /// True if the commanded speed is constant, so that a speed drop is defined.
 bool asks_for_one_speed(const Scenario& scenario) {
-  if (scenario.avoidance || std::holds_alternative<LissajousPath>(scenario.guidance))
-    return false;
+  if (scenario.avoidance || std::holds_alternative<LissajousPath>(scenario.guidance)) return false;
   const auto* waypoints = std::get_if<WaypointPath>(&scenario.guidance);
   const auto* line = std::get_if<LinePath>(&scenario.guidance);
   return !(waypoints && waypoints->slow_down_m) && !(line && line->slow_down_m);

@@ -121,8 +121,7 @@ void ScenarioGuidance::describe(const LinePath& path, const Sensed& sensed,
   output.path.leg = std::min(part.progress.segment, count - 2);
   output.path.target_m = path.points_m[static_cast<std::size_t>(output.path.leg) + 1];
   output.path.cross_track_m = part.guided.cross_track_m;
-  output.no_passage =
-      !output.finished && !way_is_free(sensed.position_m, path.points_m.back(), 0);
+  output.no_passage = !output.finished && !way_is_free(sensed.position_m, path.points_m.back(), 0);
 }
 
 void ScenarioGuidance::describe(const LissajousPath&, const Sensed& sensed,

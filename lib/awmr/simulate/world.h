@@ -91,10 +91,10 @@ struct Battery {
 
 /// Errors of one sensor, in the unit of its reading.
 struct Channel {
-  double noise = 0.0;    ///< >= 0: standard deviation
-  double bias = 0.0;     ///< constant over a run; its sign matters
-  double quantum = 0.0;  ///< >= 0: step of the reading; 0: none
-  double latency_s = 0.0;   ///< >= 0: latency of a reading
+  double noise = 0.0;      ///< >= 0: standard deviation
+  double bias = 0.0;       ///< constant over a run; its sign matters
+  double quantum = 0.0;    ///< >= 0: step of the reading; 0: none
+  double latency_s = 0.0;  ///< >= 0: latency of a reading
   /// tau, s, >= 0: errors a time t apart have the correlation exp(-t/tau); 0: independent readings.
   double correlation_s = 0.0;
 };

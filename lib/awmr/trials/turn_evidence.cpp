@@ -185,8 +185,8 @@ struct TurnCriterion {
 };
 
 std::vector<TurnCriterion> criteria_of(const TrialSet<TurningRow>& turning,
-                                      const std::optional<SpeedCurve>& speed,
-                                      const Vehicle& vehicle) {
+                                       const std::optional<SpeedCurve>& speed,
+                                       const Vehicle& vehicle) {
   TurnCriterion steered{{}, kMostSteered, kLeastSteered, kPossibleShare};
   TurnCriterion by_sides{{}, kMostBySides, 0.0, kPossibleShare};
   const Interval grip{0.003, std::sqrt(kPossibleAcceleration_mps2 / kMostAcceleration_mps2)};

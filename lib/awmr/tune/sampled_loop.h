@@ -39,7 +39,7 @@ struct SampledHeadingLoop {
   double direct_share = 0.0;           ///< s: 1 differential, 0 steering, 1/2 combined
   double motor_time_constant_s = 0.0;  ///< T_m, >= 0
   double observer_radps = 0.0;         ///< L, >= 0, L T_s < 1; 0: no observer
-  int latency_samples = 0;                ///< n, 0 ... 1000: latency of the readings in samples
+  int latency_samples = 0;             ///< n, 0 ... 1000: latency of the readings in samples
   /// Delay of the held command before motors and servo, s, >= 0; need not be a multiple of T_s. The
   /// same delay of the readings gives the same loop.
   double command_delay_s = 0.0;

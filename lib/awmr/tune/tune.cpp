@@ -277,7 +277,7 @@ std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
 
 /// Runs the candidates on new draws. A shard stores its runs; otherwise their statistics are added.
 Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
-             const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
+                           const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
   if (options.evaluation_draws == 0) return {};
   setting.seed ^= kEvaluationSeeds;
   const std::vector<int> draws = evaluation_draws_of(options);

@@ -84,9 +84,9 @@ Scenario lissajous_scenario(bool closed_loop) {
       .initial = pose(10.0, 0.0, 90.0),
       .speed_mps = 0.0,
       .guidance = LissajousPath{.path = {10.0, 10.0, 0.01, 0.03},
-                                  .closed_loop = closed_loop,
-                                  .position_gain_per_s = 0.5,
-                                  .tolerance_m = 1.0}};
+                                .closed_loop = closed_loop,
+                                .position_gain_per_s = 0.5,
+                                .tolerance_m = 1.0}};
 }
 
 Scenario polyline_scenario() {
@@ -95,9 +95,9 @@ Scenario polyline_scenario() {
           .initial = pose(80.0, 0.0, 0.0),
           .speed_mps = kPathSpeed_mps,
           .guidance = LinePath{.points_m = {{80, 0}, {90, 20}, {80, 40}, {70, 20}, {80, 0}},
-                                 .law = lane(3.0),
-                                 .corner_m = 2.0,
-                                 .slow_down_m = {}}};
+                               .law = lane(3.0),
+                               .corner_m = 2.0,
+                               .slow_down_m = {}}};
 }
 
 }  // namespace awmr

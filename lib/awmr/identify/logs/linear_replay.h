@@ -83,8 +83,8 @@ class LinearStepper {
   /// `columns`: 0 for the state alone. `command_columns`: columns_of() the command path. `longest_step_s`:
   /// as for LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
-                const std::vector<ParameterColumn>& parameters, const CommandColumns& command_columns,
-                double longest_step_s = 0.0);
+                const std::vector<ParameterColumn>& parameters,
+                const CommandColumns& command_columns, double longest_step_s = 0.0);
   /// One classical Runge-Kutta step of h seconds with friction, as rk4_step_with_friction().
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// Makes one step along the rates at the present state, which are returned; h of either sign.
