@@ -179,7 +179,7 @@ TEST(BreakEven, IsDecidedWithAllOfAScrubThatChangesWithTheRate) {
               HasSubstr("still ahead in 0, no longer in 0, undecided in 1"));
 }
 
-TEST(BreakEven, IsNotDecidedAboveTheLargestMomentWithoutATurn) {
+TEST(BreakEven, IsNotKeptAboveTheLargestMomentWithoutATurn) {
   const std::vector<double> ends_m = ending_moments_m();
   ASSERT_FALSE(ends_m.empty());
   const YawScrub moving = scrub_of({0.5 * ends_m.front(), 0.9 * ends_m.front()});

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
-#include <map>
 #include <utility>
 
 #include "awmr/compare/ranking.h"
@@ -181,13 +179,6 @@ void answer(Question& question) {
       });
 }
 
-/// True if the run turns at rates outside those of the scrub measurement by more than the allowed
-/// extrapolation.
-bool turns_at_other_rates(const BreakEven& entry) {
-  return entry.measured_degps && (entry.fastest_degps > kLittleFurther * entry.measured_degps->hi ||
-                                  kLittleFurther * entry.fastest_degps < entry.measured_degps->lo);
-}
-
 /// Adds the measured scrub of the model's differential turns to an otherwise complete entry.
 void add_measured(const Model& model, BreakEven& entry) {
   const auto& scrub = model.yaw_scrub;
@@ -217,42 +208,30 @@ void add_measured(const Model& model, BreakEven& entry) {
   if (turns <= kMostTurns) entry.turns_to_decide = static_cast<int>(turns);
 }
 
-/// Lines of the table: number of leads that the measured scrub ends. `all`: entries of one pair of
-/// modes.
-std::string decided(const std::vector<const BreakEven*>& all) {
-  std::map<Lead, int> count;
-  int at_other_rates = 0;
-  double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;
-  std::optional<int> turns;
-  for (const BreakEven* entry : all) {
-    ++count[*lead_of(*entry)];
-    if (entry->yaw_coulomb_m && turns_at_other_rates(*entry)) {
-      ++at_other_rates;
-      slowest = std::min(slowest, entry->fastest_degps);
-      fastest = std::max(fastest, entry->fastest_degps);
+/// The questions of all scenarios and modes. `without`: rows of sample 0 without scrub. `entry`: the
+/// values that are common to all.
+Result<std::vector<Question>> all_questions(const Model& model, const Gains<double>& gains,
+                                            const std::vector<Scenario>& scenarios,
+                                            const std::vector<ComparisonRow>& without,
+                                            const Preferences& preferences,
+                                            const BreakEven& entry) {
+  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant());
+  const Controller<double> controller = make_controller(nominal, model.vehicle, gains);
+  std::vector<Question> questions;
+  for (const Scenario& scenario : scenarios) {
+    AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model));
+    const ScenarioRows rows = nominal_rows(without, scenario.name);
+    const std::vector<ScoredMetric> scoring = scoring_of(rows, preferences);
+    if (!has_a_goal(rows) || scoring.empty()) continue;
+    for (const ModeRows& one : rows.modes) {
+      if (one.contender.mode == YawMode::kSteering) continue;
+      const ModeSetting setting{&scenario,  one.contender.mode,          plant,
+                                controller, model.vehicle.sample_time_s, arithmetic};
+      std::ranges::move(questions_of(setting, rows, scoring, entry), std::back_inserter(questions));
     }
-    if (entry->turns_to_decide) {
-      turns = std::min(turns.value_or(*entry->turns_to_decide), *entry->turns_to_decide);
-    }
   }
-  std::string text = fmt::format(
-      "    with the measured scrub: still ahead in {}, no longer in {}, undecided in "
-      "{}\n",
-      count[Lead::kKept], count[Lead::kLost], count[Lead::kOpen]);
-  if (at_other_rates > 0) {
-    const Interval rates = *all.front()->measured_degps;
-    text += fmt::format(
-        "    {} of the undecided results reach {:.3g} to {:.3g} deg/s; scrub was measured at "
-        "{:.3g} to "
-        "{:.3g}\n",
-        at_other_rates, slowest, fastest, rates.lo, rates.hi);
-  }
-  if (turns) {
-    text += fmt::format(
-        "    about {} differential turns in total would decide the first undecided result\n",
-        *turns);
-  }
-  return text;
+  return questions;
 }
 
 }  // namespace
@@ -267,7 +246,6 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
         "yaw resistance was identified from differential turns and already includes their scrub; "
         "add steered turns (steering_deg, wheel_force) to the turning table and identify again");
   }
-  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
   AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant());
   const Interval force = model.vehicle.wheel_force;
   BreakEven entry;
@@ -276,25 +254,9 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
   entry.sliding_m = sliding_moment_m(nominal);
   AWMR_ASSIGN_OR_RETURN(const std::vector<ComparisonRow> without,
                         rows_without_scrub(model, gains, scenarios, comparison, options.threads));
-  std::vector<Question> questions;
-  for (const Scenario& scenario : scenarios) {
-    AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model));
-    const ScenarioRows rows = nominal_rows(without, scenario.name);
-    const std::vector<ScoredMetric> scoring = scoring_of(rows, options.preferences);
-    if (!has_a_goal(rows) || scoring.empty()) continue;
-    for (const ModeRows& one : rows.modes) {
-      if (one.contender.mode == YawMode::kSteering) continue;
-      const ModeSetting setting{&scenario,
-                                one.contender.mode,
-                                plant,
-                                make_controller(nominal, model.vehicle, gains),
-                                model.vehicle.sample_time_s,
-                                arithmetic};
-      for (Question& question : questions_of(setting, rows, scoring, entry)) {
-        questions.push_back(std::move(question));
-      }
-    }
-  }
+  AWMR_ASSIGN_OR_RETURN(
+      std::vector<Question> questions,
+      all_questions(model, gains, scenarios, without, options.preferences, entry));
   parallel_for(questions.size(), options.threads, [&](std::size_t i) { answer(questions[i]); });
   std::vector<BreakEven> answers;
   for (Question& question : questions) {
@@ -305,60 +267,17 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
   return answers;
 }
 
+bool turns_at_other_rates(const BreakEven& entry) {
+  return entry.measured_degps && (entry.fastest_degps > kLittleFurther * entry.measured_degps->hi ||
+                                  kLittleFurther * entry.fastest_degps < entry.measured_degps->lo);
+}
+
 std::optional<Lead> lead_of(const BreakEven& entry) {
   if (!entry.measured_m) return std::nullopt;
   if (!entry.yaw_coulomb_m) return Lead::kKept;
   if (turns_at_other_rates(entry)) return Lead::kOpen;
   if (entry.measured_m->hi < *entry.yaw_coulomb_m) return Lead::kKept;
   return entry.measured_m->lo > *entry.yaw_coulomb_m ? Lead::kLost : Lead::kOpen;
-}
-
-std::string break_even_table(const std::vector<BreakEven>& entries) {
-  std::string text =
-      "break-even: tyre scrub (Coulomb yaw moment of a differential turn) at which a mode is no "
-      "longer ahead\n";
-  if (entries.empty())
-    return text +
-           "  neither differential nor combined is ahead of another "
-           "mode\n";
-  std::map<std::pair<YawMode, YawMode>, std::vector<const BreakEven*>> pairs;
-  for (const BreakEven& entry : entries) pairs[{entry.mode, entry.against}].push_back(&entry);
-  for (const auto& [modes, all] : pairs) {
-    const auto least = std::min_element(all.begin(), all.end(), [](const auto* a, const auto* b) {
-      return a->yaw_coulomb_m.value_or(a->most_m) < b->yaw_coulomb_m.value_or(b->most_m);
-    });
-    const auto lasting = std::count_if(all.begin(), all.end(), [](const BreakEven* entry) {
-      return !entry->yaw_coulomb_m.has_value();
-    });
-    text += fmt::format("  {} ahead of {} in {} scenario{}: ", name_of(modes.first),
-                        name_of(modes.second), all.size(), all.size() == 1 ? "" : "s");
-    if ((*least)->yaw_coulomb_m) {
-      text += fmt::format("until {:.3g} m ({})", *(*least)->yaw_coulomb_m, (*least)->scenario);
-    }
-    if (lasting > 0) {
-      text += fmt::format("{}in {} for any scrub up to {:.3g} m",
-                          (*least)->yaw_coulomb_m ? "; " : "", lasting, (*least)->most_m);
-    }
-    text += '\n';
-    if (all.front()->measured_m) text += decided(all);
-  }
-  text += fmt::format("  largest possible scrub at tyre friction 0.8: {:.3g} m; ",
-                      entries.front().sliding_m);
-  const BreakEven& first = entries.front();
-  if (first.measured_m && !first.measured_degps) {
-    return text + fmt::format(
-                      "yours: at least {:.3g} m, at which\n"
-                      "  the vehicle did not turn (awmr suggest lists forces to turn with)\n",
-                      first.measured_m->lo);
-  }
-  if (const auto& measured_m = first.measured_m) {
-    return text +
-           fmt::format("yours, measured: {:.3g} to {:.3g} m\n", measured_m->lo, measured_m->hi);
-  }
-  return text +
-         "yours: unknown.\n"
-         "  Record differential turns with straight wheels (awmr suggest lists them) in the "
-         "turning table\n";
 }
 
 }  // namespace awmr

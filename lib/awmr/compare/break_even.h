@@ -18,6 +18,10 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
                                              const Comparison& comparison,
                                              const CompareOptions& options);
 
+/// True if the run turns at rates outside those of the scrub measurement by more than the allowed
+/// extrapolation.
+bool turns_at_other_rates(const BreakEven& entry);
+
 /// One line for each pair of modes over all scenarios, and the trials that decide it.
 std::string break_even_table(const std::vector<BreakEven>& entries);
 

@@ -182,6 +182,34 @@ std::vector<BatchRun> runs_of(const SampledPlants& plants, const Controller<doub
   return runs;
 }
 
+/// Runs a block and stores its rows in `slots`, or the errors in `failures`; both are by row.
+void run_block(const Model& model, const std::vector<NamedGains>& gains,
+               const std::vector<Scenario>& scenarios, std::uint64_t seed,
+               const SampledPlants& plants, const BatchArithmetic& arithmetic, const Layout& layout,
+               const Block& block, Slots& slots, std::vector<Status>& failures) {
+  const Scenario& scenario = scenarios[block.scenario];
+  const NamedGains& set = gains[block.gains];
+  // The controller has the nominal values, not the drawn ones.
+  const auto controller = make_controller(plants.nominal, model.vehicle, set.gains);
+  const YawMode mode = kYawModes[block.mode];
+  const std::vector<BatchRun> runs = runs_of(plants, controller, block, mode, seed);
+  auto metrics = simulate_batch(runs, scenario, model.vehicle.sample_time_s, arithmetic);
+  for (std::size_t i = 0; i < metrics.size(); ++i) {
+    const std::size_t index = layout.row(block.place(i));
+    if (!metrics[i]) {
+      failures[index] = tl::unexpected(metrics[i].error());
+      continue;
+    }
+    metrics[i]->electric_work_j =
+        electric_work_j(*metrics[i], model.vehicle, runs[i].plant.mass_norm);
+    slots[index] = ComparisonRow{.scenario = scenario.name,
+                                 .mode = mode,
+                                 .sample = static_cast<int>(block.samples[i]),
+                                 .metrics = *metrics[i],
+                                 .gains = set.name};
+  }
+}
+
 std::size_t finished_count(const Slots& slots) {
   return at(
       std::count_if(slots.begin(), slots.end(), [](const auto& slot) { return slot.has_value(); }));
@@ -230,29 +258,9 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   parallel_for(
       blocks.size(), options.threads,
       [&](std::size_t b) {
-        const Block& block = blocks[b];
-        const Scenario& scenario = scenarios[block.scenario];
-        const NamedGains& set = gains[block.gains];
-        // The controller has the nominal values, not the drawn ones.
-        const auto controller = make_controller(plants.nominal, model.vehicle, set.gains);
-        const YawMode mode = kYawModes[block.mode];
-        const std::vector<BatchRun> runs = runs_of(plants, controller, block, mode, options.seed);
-        auto metrics = simulate_batch(runs, scenario, model.vehicle.sample_time_s, arithmetic);
-        for (std::size_t i = 0; i < metrics.size(); ++i) {
-          const std::size_t index = layout.row(block.place(i));
-          if (metrics[i]) {
-            metrics[i]->electric_work_j =
-                electric_work_j(*metrics[i], model.vehicle, runs[i].plant.mass_norm);
-            slots[index] = ComparisonRow{.scenario = scenario.name,
-                                         .mode = mode,
-                                         .sample = static_cast<int>(block.samples[i]),
-                                         .metrics = *metrics[i],
-                                         .gains = set.name};
-          } else {
-            failures[index] = tl::unexpected(metrics[i].error());
-          }
-        }
-        done += metrics.size();
+        run_block(model, gains, scenarios, options.seed, plants, arithmetic, layout, blocks[b],
+                  slots, failures);
+        done += blocks[b].samples.size();
       },
       control);
   for (const Status& failure : failures) AWMR_RETURN_IF_ERROR(failure);

@@ -232,6 +232,24 @@ Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, std::optional<double
   return {};
 }
 
+/// Speed of routes and limits of the heading, for the sketches.
+void set_sketch_values(const Plant<double>& plant, const Vehicle& vehicle,
+                       const HeadingGains<double>& gains, double full_force,
+                       AutopilotParameters& parameters) {
+  const double route_mps = route_speed_mps(plant, full_force);
+  parameters.route_speed_mps = single(route_mps);
+  parameters.on_course_rad = single(on_course_rad(plant, gains, route_mps));
+  parameters.off_course_mrad =
+      single(off_course_mrad(plant, vehicle, gains, full_force, route_mps));
+}
+
+void set_position_filter(const Vehicle& vehicle, AutopilotParameters& parameters) {
+  const double latency_s = vehicle.sensors.position_latency_s.value_or(kUsualFixLatency_s);
+  parameters.position = position_filter<float>(
+      vehicle.sensors.position_m.value_or(kUsualFixNoise_m), latency_s, vehicle.sample_time_s);
+  parameters.position_latency_ms = static_cast<std::uint32_t>(std::lround(1000.0 * latency_s));
+}
+
 }  // namespace
 
 Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains<double>& gains,
@@ -251,16 +269,8 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   AutopilotParameters parameters;
   parameters.resistance = options.resistance;
   parameters.sample_time_s = single(model.vehicle.sample_time_s);
-  const double route_mps = route_speed_mps(plant, full_force);
-  parameters.route_speed_mps = single(route_mps);
-  parameters.on_course_rad = single(on_course_rad(plant, gains.heading, route_mps));
-  parameters.off_course_mrad =
-      single(off_course_mrad(plant, model.vehicle, gains.heading, full_force, route_mps));
-  const SensorQuality& sensors = model.vehicle.sensors;
-  const double latency_s = sensors.position_latency_s.value_or(kUsualFixLatency_s);
-  parameters.position = position_filter<float>(sensors.position_m.value_or(kUsualFixNoise_m),
-                                               latency_s, model.vehicle.sample_time_s);
-  parameters.position_latency_ms = static_cast<std::uint32_t>(std::lround(1000.0 * latency_s));
+  set_sketch_values(plant, model.vehicle, gains.heading, full_force, parameters);
+  set_position_filter(model.vehicle, parameters);
   parameters.parts = options.parts;
   if (gains.observer.is_on()) {
     parameters.parts.insert(FirmwarePart::kObserver);
