@@ -123,7 +123,7 @@ TEST_F(Check, TablesWithoutASwayResistanceGiveGainsAndAHeader) {
 TEST_F(Check, ThePapersProjectHasNoProblems) {
   const ProcessResult result = awmr("check configs/paper/project.json");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("speed-mismatch")) << "its oddities are told all the same";
+  EXPECT_THAT(result.err, HasSubstr("speed-mismatch")) << "its oddities are reported all the same";
 }
 
 TEST_F(Check, ListsWhatIsMissingInOrder) {

@@ -103,9 +103,9 @@ TEST_F(Live, AWrongUnitIsReportedDuringTheDrive) {
   const std::string drive = drive_with("speed_mps", 3.6);
   // Ten seconds of the drive, then nothing until it is reported.
   const ProcessResult run =
-      shell("{ head -n 1001 " + drive + "; for i in $(seq 200); do grep -q km/h " + path("said") +
-            " && break; sleep 0.1; done; } | " + live("--log - --every 0.1") + " 2> " +
-            path("said") + "; code=$?; cat " + path("said") + " >&2; exit $code");
+      shell("{ head -n 1001 " + drive + "; for i in $(seq 200); do grep -q km/h " +
+            path("messages") + " && break; sleep 0.1; done; } | " + live("--log - --every 0.1") +
+            " 2> " + path("messages") + "; code=$?; cat " + path("messages") + " >&2; exit $code");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, AllOf(HasSubstr("map it by --column 'speed_mps="), HasSubstr("km/h")));
   EXPECT_LT(run.err.find("speed looks like km/h"), run.err.find("rows are in")) << run.err;

@@ -200,7 +200,7 @@ TEST_F(SafeSketches, StopAtEveryHazardStayStoppedAndDriveAgainOnceArmed) {
       EXPECT_EQ(seen["off"], 1);
       EXPECT_EQ(seen["drives_again"], 0) << "without ARM";
       EXPECT_EQ(seen["cause"], hazard.cause);
-      EXPECT_EQ(seen["rearmed"], 1) << "once it was mended";
+      EXPECT_EQ(seen["rearmed"], 1) << "after the fault was removed";
     }
   }
 }

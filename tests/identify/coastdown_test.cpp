@@ -137,12 +137,12 @@ TEST(CoastDown, WithoutASurgeLawRefusesTheMassAndReportsTheRatio) {
   EXPECT_THAT(result->refused,
               ::testing::ElementsAre(ParameterId::kMassNorm, ParameterId::kInertiaNorm));
   EXPECT_NEAR(*result->model[ParameterId::kSurgeBeta].value, t.b1, 1e-6);
-  bool told = false;
+  bool reported = false;
   for (const Finding& f : result->model.record.findings) {
-    told = told ||
-           (f.code == "not-identifiable" && f.message.find("m'/a1 = 0.5556") != std::string::npos);
+    reported = reported || (f.code == "not-identifiable" &&
+                            f.message.find("m'/a1 = 0.5556") != std::string::npos);
   }
-  EXPECT_TRUE(told);  // 0.5/0.9
+  EXPECT_TRUE(reported);  // 0.5/0.9
 }
 
 TEST(CoastDown, SetsAsideACurveWithoutADeceleration) {

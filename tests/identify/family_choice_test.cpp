@@ -232,7 +232,8 @@ TEST(Families, SearchesAgainFromABetterAlternative) {
   EXPECT_EQ(again.surge, Family::kPower);
   EXPECT_LT(aic_lead(alternative.fit, again.fit), 10.0);
   const FamilyFit kept = searched_again(logs, options, again, unlucky);
-  EXPECT_EQ(kept.fit.coordinates, again.fit.coordinates) << "a rival without a fit is no rival";
+  EXPECT_EQ(kept.fit.coordinates, again.fit.coordinates)
+      << "an alternative without a fit is ignored";
 }
 
 TEST(Families, ReportALimitThatEndsTheLastSearch) {

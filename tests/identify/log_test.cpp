@@ -248,12 +248,12 @@ TEST(Log, ReportsAContradictionWithTables) {
   data.logs = {drive({t.a1 * 1.3, t.b1, t.a3, t.b3, t.mass_norm}, 3)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
-  const bool said =
+  const bool has_finding_of_it =
       std::any_of(result->model.record.findings.begin(), result->model.record.findings.end(),
                   [](const Finding& f) {
                     return f.code == "estimates-disagree" && f.message.starts_with("surge.alpha");
                   });
-  EXPECT_TRUE(said);
+  EXPECT_TRUE(has_finding_of_it);
 }
 
 TEST(Log, CorrelatedErrorsAreFoundAndWidenTheIntervals) {
@@ -625,7 +625,7 @@ TEST(Log, WholeLogsThatScatterBeyondChanceWidenTheIntervals) {
   // share is 4e-6.
   EXPECT_NEAR(factor(6, 3.0), std::sqrt(1.2) * 3.0, 1e-4);
   EXPECT_EQ(factor(6, 1.3), 1.0);
-  EXPECT_EQ(factor(2, 5.0), 1.0) << "two logs do not tell";
+  EXPECT_EQ(factor(2, 5.0), 1.0) << "two logs are too few";
 }
 
 /// Oscillating errors, d'' = -2 zeta omega d' - omega^2 d + noise, integrated with small steps,

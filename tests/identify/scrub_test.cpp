@@ -112,7 +112,7 @@ TEST(Scrub, RefusesANegativeScrub) {
 TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
   // 0.2 r m, from 0.05 to 0.3 rad/s.
   constexpr int kTables = 200;
-  int told = 0, held = 0;
+  int findings = 0, held = 0;
   for (std::uint64_t seed = 1; seed <= kTables; ++seed) {
     TrialData data = synthetic(kTruth, 0.01, seed);
     Random random(seed, 5);
@@ -126,11 +126,11 @@ TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
     const auto& changing = model.yaw_scrub->changing_m;
     if (!changing) continue;
     EXPECT_THAT(codes(model), Contains("scrub-grows"));
-    ++told;
+    ++findings;
     held += changing->lo < 0.2 * 0.05 && changing->hi > 0.2 * 0.30 ? 1 : 0;
   }
   RecordProperty("held", held);
-  EXPECT_EQ(told, kTables);
+  EXPECT_EQ(findings, kTables);
   // Both ends must hold, each with 97.5 % on its side.
   EXPECT_GT(held / double(kTables), 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / kTables));
 }

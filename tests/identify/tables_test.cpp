@@ -282,8 +282,8 @@ TEST(Tables, FourRowsGiveThePowerLawForEveryRequestedFamily) {
     EXPECT_TRUE(alpha.ci95->contains(1.2));
     // Student's t with two degrees of freedom is 4.303, on either side.
     EXPECT_GT(alpha.ci95->hi - alpha.ci95->lo, 8.0 * *alpha.std_error);
-    const Finding* told = finding(result->model, "families-not-compared");
-    EXPECT_EQ(told != nullptr, by_aicc);
+    const Finding* reported = finding(result->model, "families-not-compared");
+    EXPECT_EQ(reported != nullptr, by_aicc);
   }
 }
 

@@ -105,10 +105,10 @@ void expect_value_or_refusal(const TrialData& data, const IdentifyOptions& optio
     }
   }
   if (result->refused.empty()) return;
-  const bool said = std::ranges::any_of(model.record.findings, [](const Finding& f) {
+  const bool reported = std::ranges::any_of(model.record.findings, [](const Finding& f) {
     return f.code == "not-identifiable" && f.severity == Severity::kError;
   });
-  EXPECT_TRUE(said);
+  EXPECT_TRUE(reported);
 }
 
 /// References to all numbers of the tables.

@@ -174,7 +174,7 @@ TEST(Acceptance, ABandWithoutGivenNoiseTakesTheLogsOwn) {
   // The standard deviation of 400 readings is known to 1/sqrt(2 * 400) = 3.5 %, by medians to some
   // 5 %.
   EXPECT_NEAR(x->noise, 0.05, 0.01);
-  EXPECT_FALSE(x->inside) << "the vehicle drove 8 m, and the position says none";
+  EXPECT_FALSE(x->inside) << "the vehicle drove 8 m, and the position does not change";
 }
 
 TEST(Acceptance, RefusesALogThatDoesNotMatchTheScenario) {
