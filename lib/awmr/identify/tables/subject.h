@@ -28,8 +28,8 @@ struct Subject {
 
 /// g1: tau_speed = g1(u), from the surge runs.                                  [paper (45)-(54)]
 Subject surge_subject(const Vehicle& vehicle, const TrialSet<SurgeRow>& runs);
-/// g3: tau_turn = g3(r), from the turning runs after subtracting the wheels' dead zone F'0.  [paper
-/// (61)-(63)]
+/// g3: tau_turn = g3(r), from the turning runs after subtracting the wheels' dead zone F'0.
+///                                                                              [paper (61)-(63)]
 Subject yaw_subject(const Vehicle& vehicle, const TrialSet<TurningRow>& runs, double dead_zone);
 
 /// Subtracts the dead zone F'0 from each F', and reduces tau_turn by the same factor. Rows within
