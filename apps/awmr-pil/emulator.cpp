@@ -34,11 +34,11 @@ Result<std::unique_ptr<Emulator>> Emulator::load(const std::filesystem::path& el
   avr_global_logger_set(no_log);
   elf_firmware_t firmware{};
   if (elf_read_firmware(elf.c_str(), &firmware) != 0) {
-    return input_error(ErrorCode::kWrongFile, elf.string(), "is no firmware for an AVR");
+    return input_error(ErrorCode::kWrongFile, elf.string(), "is not a firmware for an AVR");
   }
   std::unique_ptr<Emulator> emulator(new Emulator);
   emulator->avr_ = avr_make_mcu_by_name("atmega2560");
-  if (emulator->avr_ == nullptr) return program_fault("libsimavr knows no atmega2560");
+  if (emulator->avr_ == nullptr) return program_fault("libsimavr does not support the atmega2560");
   avr_t* avr = emulator->avr_;
   avr_init(avr);
   avr->log = LOG_NONE;

@@ -99,8 +99,8 @@ class FrameLink : public Chip {
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(type, bytes, length));
     if (answered) return {};
     return refusal(ErrorCode::kNoAnswer,
-                   fmt::format("the chip gave no whole answer to {} requests '{}' in a row: is it "
-                               "flashed with this firmware, the baud right, the line too noisy?",
+                   fmt::format("the chip gave no complete answer to {} requests '{}' in a row: "
+                               "check its firmware, the baud rate and the noise of the line",
                                attempts_for(type), static_cast<char>(type)));
   }
 
@@ -126,7 +126,7 @@ class FrameLink : public Chip {
       AWMR_ASSIGN_OR_RETURN(const std::optional<std::uint8_t> byte, line_->receive(patience));
       if (!byte) return false;
       if (!reader_.take(*byte)) continue;
-      // Ignore a late answer to an earlier request that was repeated.
+      // Ignores a delayed answer to an earlier request that was repeated.
       if (reader_.type() != type || reader_.sequence() != sequence_) continue;
       if (reader_.length() == length) return true;
       return program_fault(fmt::format("the chip answered with {} bytes to a request '{}'",

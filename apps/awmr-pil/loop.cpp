@@ -23,8 +23,8 @@ using cli::Injection;
 
 float single(double value) { return static_cast<float>(value); }
 
-/// The chip itself guides, avoids and shapes. Its input is the heading of a scenario without these,
-/// and the speed 0 at the end of the path or if there is no passage.
+/// Guidance, avoidance and shaping run on the chip. Its input is the heading of a scenario without
+/// these, and the speed: 0 at the end of the path or if there is no passage.
 AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed,
                         const GuidanceOutput& output) {
   const bool stops = output.finished || output.no_passage;
@@ -33,7 +33,7 @@ AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed
   in.measured = {single(sensed.motion.psi_rad), single(sensed.motion.u_mps),
                  single(sensed.motion.v_mps), single(sensed.motion.r_radps)};
   in.position_m = {single(sensed.position_m.x_m), single(sensed.position_m.y_m)};
-  in.reference.psi_rad = single(output.course.psi_goal_rad);
+  in.reference.psi_rad = single(output.path.psi_goal_rad);
   in.reference.speed_mps = stops ? 0.0F : single(setup.scenario.speed_mps);
   const auto now_ms = static_cast<std::uint32_t>(std::llround(t_s * 1000.0));
   in.times = {now_ms, now_ms, now_ms, now_ms};
@@ -108,14 +108,14 @@ void fail_actuators(Injection injection, LoopRow& row) {
   if (injection == Injection::kServoReversed) row.steering_command_rad *= -1.0;
 }
 
-/// Moves the simulated vehicle on by a sample under the row's command.
+/// Simulates the vehicle over one sample with the row's command.
 Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) {
   physics.step(row.t_s, row.force, row.steering_command_rad);
   if (physics.resolved()) return {};
   return input_error(
       ErrorCode::kDiverges, fmt::format("scenario '{}'", scenario),
-      fmt::format("the simulated vehicle cannot go on after {:g} s: resistance is too stiff there "
-                  "for any step, or a number is no longer finite",
+      fmt::format("the simulation cannot continue after {:g} s: resistance is too stiff there "
+                  "for any step, or a number is not finite",
                   row.t_s));
 }
 
@@ -123,7 +123,7 @@ Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) 
 
 void know_receiver(const Gps& gps, Model& model) {
   model.vehicle.sensors.position_m = fix_noise_m(gps);
-  model.vehicle.sensors.position_late_s = gps.latency_s;
+  model.vehicle.sensors.position_latency_s = gps.latency_s;
 }
 
 bool has_unsigned_speed(const Scenario& scenario) {
@@ -139,7 +139,7 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
   }
   if (scenario.held_tau_speed()) {
     faults.push_back({ErrorCode::kUnsupported, file + ":/guidance/tau_speed",
-                      "the firmware holds a speed, not a thrust: give speed_mps in its place"});
+                      "the firmware controls a speed, not a thrust: give speed_mps instead"});
   }
   if (scenario.control.allocation.value_or(AllocationForm::kExact) != AllocationForm::kExact) {
     faults.push_back({ErrorCode::kUnsupported, file + ":/control/allocation",

@@ -35,7 +35,8 @@ struct LoopRow {
   double steering_command_rad = 0.0;  ///< likewise
 };
 
-/// The receiver of the scenario as that of the vehicle, so that the firmware's filter is the simulator's.
+/// Sets the vehicle's GPS to the scenario's receiver, so that firmware and simulator have the same
+/// filter.
 void know_receiver(const Gps& gps, Model& model);
 
 /// True if the simulated speed sensor gives |u|, so that the firmware computes the direction.

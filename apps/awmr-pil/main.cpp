@@ -1,4 +1,4 @@
-// awmr-pil: `awmr pil`'s work, in a program of its own because libsimavr is under the GPL-3.
+// awmr-pil: implementation of `awmr pil`, a separate program because libsimavr is under the GPL-3.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -40,7 +40,7 @@ int run(int argc, char** argv) {
   CLI::App* serve = app.add_subcommand(
       "serve", "Emulate a board: FIRMWARE.elf's USART on a pseudo-terminal, whose name is printed");
   serve->add_option("FIRMWARE", terminal_elf, "pil_uart.elf of awmr pil --build-dir")->required();
-  CLI::App* pil = app.add_subcommand("run", "What `awmr pil` does");
+  CLI::App* pil = app.add_subcommand("run", "Implementation of `awmr pil`");
   awmr::cli::add_pil_options(*pil, options);
   pil->add_option("-o,--output", options.output, "pil.json to write")->required();
   pil->add_flag("--quiet", quiet, "Print errors only");

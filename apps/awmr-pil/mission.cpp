@@ -46,24 +46,24 @@ Points points_of(const std::vector<Position<double>>& points_m, double acceptanc
 
 void add(const OpenLoop&, Mission&) {}
 void add(const HeadingSteps&, Mission&) {}
-void add(const WaypointCourse& course, Mission& mission) {
-  mission.points = points_of(course.points_m, course.acceptance_m);
-  mission.skip_passed = course.skip_passed;
-  if (course.slow_down_m) mission.slow_down_m = in_float(*course.slow_down_m);
+void add(const WaypointPath& guided, Mission& mission) {
+  mission.points = points_of(guided.points_m, guided.acceptance_m);
+  mission.skip_passed = guided.skip_passed;
+  if (guided.slow_down_m) mission.slow_down_m = in_float(*guided.slow_down_m);
 }
-void add(const LineCourse& course, Mission& mission) {
-  mission.points = points_of(course.points_m, 0.0);
+void add(const LinePath& guided, Mission& mission) {
+  mission.points = points_of(guided.points_m, 0.0);
   mission.line = LineMission{
       std::visit([](const auto& law) -> LineLaws<std::variant, float> { return in_float(law); },
-                 course.law),
-      course.law.index(), in_float(course.corner_m)};
-  if (course.slow_down_m) mission.slow_down_m = in_float(*course.slow_down_m);
+                 guided.law),
+      guided.law.index(), in_float(guided.corner_m)};
+  if (guided.slow_down_m) mission.slow_down_m = in_float(*guided.slow_down_m);
 }
-void add(const LissajousCourse& course, Mission& mission) {
-  const Lissajous<double>& path = course.path;
+void add(const LissajousPath& guided, Mission& mission) {
+  const Lissajous<double>& path = guided.path;
   mission.path = PathMission{{in_float(path.amplitude_x_m), in_float(path.amplitude_y_m),
                               in_float(path.rate_x_radps), in_float(path.rate_y_radps)},
-                             course.closed_loop ? in_float(course.position_gain_per_s) : 0.0F};
+                             guided.closed_loop ? in_float(guided.position_gain_per_s) : 0.0F};
 }
 
 Avoidance<float> in_float(const Avoidance<double>& a) {
@@ -179,7 +179,7 @@ std::string header_with(const Mission& mission, std::uint32_t crc) {
 
 Mission mission_of(const Scenario& scenario) {
   Mission mission;
-  std::visit([&mission](const auto& course) { add(course, mission); }, scenario.guidance);
+  std::visit([&mission](const auto& guided) { add(guided, mission); }, scenario.guidance);
   mission.split = scenario.control.split;
   if (scenario.avoidance && !scenario.obstacles.empty()) {
     mission.avoidance = in_float(*scenario.avoidance);

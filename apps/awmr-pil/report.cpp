@@ -92,12 +92,12 @@ void evaluate(const PilOptions& options, double period_cycles, Report& report) {
   checks.push_back({"rows as in the host's float run", report.from_float.same_length ? 0.0 : 1.0,
                     0.0, report.from_float.same_length, ""});
   if (report.from_double) {
-    checks.push_back(at_most("heading from the host's double run, give or take a sample",
+    checks.push_back(at_most("heading difference from the host's double run, within one sample",
                              report.heading_apart_deg, *options.heading_max_deg, "deg"));
   }
   if (const auto& injected = report.injected) {
     const bool reset = options.injection == cli::Injection::kReset;
-    checks.push_back({reset ? "taken up after the reset" : "injected fault raised",
+    checks.push_back({reset ? "restarted after the reset" : "injected fault raised",
                       injected->worked ? 0.0 : 1.0, 0.0, injected->worked, ""});
     checks.push_back({"safe command given", injected->safe ? 0.0 : 1.0, 0.0, injected->safe, ""});
     checks.push_back({"no other fault", injected->quiet ? 0.0 : 1.0, 0.0, injected->quiet, ""});
@@ -161,7 +161,7 @@ std::string report_summary(const PilOptions& options, const LoopSetup& setup,
       report.chip.real_time_factor);
   if (figures.repeats) text += fmt::format("  {} requests sent again\n", *figures.repeats);
   if (!report.restarts.empty()) {
-    text += fmt::format("  reset in mid-run, and started anew: {} times\n", report.restarts.size());
+    text += fmt::format("  reset during the run and restarted: {} times\n", report.restarts.size());
   }
   if (const auto& hostile = report.chip.hostile) {
     text +=

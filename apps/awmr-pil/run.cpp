@@ -19,6 +19,7 @@
 #include "executor.h"
 #include "firmware_build.h"
 #include "gains_origin.h"
+#include "injection_result.h"
 #include "injections.h"
 #include "loop.h"
 #include "report.h"
@@ -99,15 +100,6 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   return in;
 }
 
-/// Samples before which the chip was restarted.
-std::vector<std::size_t> restarts_of(const std::vector<LoopRow>& rows) {
-  std::vector<std::size_t> restarts;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (rows[k].step.restarted) restarts.push_back(k);
-  }
-  return restarts;
-}
-
 /// Runs the same loop in float on this machine, with resets at the same samples as the chip.
 Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
                                       const std::vector<std::size_t>& resets = {}) {
@@ -163,7 +155,7 @@ Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& i
 Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Inputs& in, Chip& chip,
                                           const Watch& watch) {
   if (options.port || options.injection != Injection::kNone) return std::optional<Hostile>();
-  watch.doing("looking for the longest step");
+  watch.doing("searching for the longest step");
   const auto host = host_executor(in.parameters, in.setup.mission);
   if (const auto started = host->start(); !started) return tl::unexpected(started.error());
   AWMR_ASSIGN_OR_RETURN(const Hostile hostile, provoke(chip, *host, in.parameters.block.safety,
@@ -234,52 +226,6 @@ PilOptions resolved(PilOptions options, const Inputs& in) {
     options.heading_max_deg = avoids || in.setup.scenario.sensors ? 2.0 : 0.05;
   }
   return options;
-}
-
-/// Checks that the first fault comes in time with the right cause, and that the vehicle stays
-/// disarmed.
-Injected disarming_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
-  Injected result;
-  result.expected = effect_of(setup.injection).fault;
-  const auto has_fault = [](const LoopRow& row) { return row.step.output.fault != kFaultNone; };
-  const auto first = std::find_if(rows.begin(), rows.end(), has_fault);
-  if (first == rows.end()) return result;
-  const auto at = static_cast<std::size_t>(first - rows.begin());
-  result.seen = first->step.output.fault;
-  result.quiet = at >= setup.middle;
-  result.worked = (result.seen & result.expected) != 0 &&
-                  is_expected_cause(setup.injection, first->cause) &&
-                  static_cast<double>(at - std::min(at, setup.middle)) * setup.sample_time_s <=
-                      effect_of(setup.injection).within_s;
-  result.safe = std::all_of(first, rows.end(), [&](const LoopRow& row) {
-    const Allocation<float>& command = row.step.output.command;
-    return has_fault(row) && std::max({std::abs(command.force.left), std::abs(command.force.right),
-                                       std::abs(command.steering_rad)}) <= 0.0F;
-  });
-  return result;
-}
-
-Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
-  Injected result;
-  result.expected = effect_of(setup.injection).fault;
-  if (disarms(setup.injection)) return disarming_of(setup, rows);
-  const Window window = injection_window(setup.injection, setup.middle, rows.size());
-  result.seen = window.first < window.last ? 0xFF : 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const AutopilotOutput& out = rows[i].step.output;
-    if (i < window.first || i >= window.last) {
-      result.quiet = result.quiet && out.fault == kFaultNone;
-      continue;
-    }
-    result.seen &= out.fault;
-    const bool still =
-        std::max({std::abs(out.command.force.left), std::abs(out.command.force.right),
-                  std::abs(out.command.steering_rad)}) <= 0.0F;
-    result.safe = result.safe && still;
-  }
-  result.worked = setup.injection == Injection::kReset ? restarts_of(rows) == setup.resets
-                                                       : (result.seen & result.expected) != 0;
-  return result;
 }
 
 Status compare_runs(const PilOptions& options, const Inputs& in, Report& report) {

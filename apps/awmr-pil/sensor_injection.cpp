@@ -134,10 +134,10 @@ void CheckedSensors::sense_position(std::size_t k, bool fails, const AutopilotIn
     if (is(Injection::kGpsJump)) fix_m_.x_m += kGpsJump_m;
   }
   if (!is(Injection::kGpsLate)) return take_fix(*fix_, fix_m_, in);
-  late_.push_back({now_ms, *fix_, fix_m_});
-  if (now_ms - late_.front().sent_ms < kGpsLate_ms) return;
-  take_fix(late_.front().fix, late_.front().position_m, in);
-  late_.pop_front();
+  delayed_.push_back({now_ms, *fix_, fix_m_});
+  if (now_ms - delayed_.front().sent_ms < kGpsLate_ms) return;
+  take_fix(delayed_.front().fix, delayed_.front().position_m, in);
+  delayed_.pop_front();
 }
 
 void CheckedSensors::take_fix(const GpsFix& fix, const Position<float>& position_m,

@@ -13,10 +13,10 @@
 
 namespace awmr::pil {
 
-/// Commands of the autopilot in the step before.
+/// Commands of the autopilot in the previous step.
 struct Commanded {
   float moment_m;     ///< yaw moment; 0: the motors are off
-  float psi_ref_rad;  ///< heading that is to be held
+  float psi_ref_rad;  ///< commanded heading
 };
 
 /// Compass, gyroscope and GPS of one run.
@@ -24,7 +24,8 @@ class CheckedSensors {
  public:
   CheckedSensors(cli::Injection injection, double sample_time_s, const GpsLimits& limits);
 
-  /// The k-th step: puts the times of what is believed into `in`. `fails`: the injection is at work.
+  /// The k-th step: stores the times of the accepted readings in `in`. `fails`: the injection is
+  /// active.
   SensorFault step(std::size_t k, bool fails, const Commanded& before, AutopilotInput& in);
 
  private:
@@ -38,19 +39,19 @@ class CheckedSensors {
   double heading_rad_ = 0.0;  ///< output of the complementary filter
   bool has_heading_ = false;
   std::optional<double> stuck_rad_;  ///< heading that the compass keeps
-  double turned_rad_ = 0.0;          ///< how far a compass that turns away has turned
+  double turned_rad_ = 0.0;          ///< angle of a compass that turns away
   std::optional<GpsFix> fix_;
   Position<float> fix_m_{};
   bool has_position_ = false;
   /// A delayed fix of the receiver.
-  struct LateFix {
+  struct DelayedFix {
     std::uint32_t sent_ms;
     GpsFix fix;
     Position<float> position_m;
   };
-  std::deque<LateFix> late_;
+  std::deque<DelayedFix> delayed_;
   std::uint32_t heading_ms_ = 0, speed_ms_ = 0;
-  float psi_ref_rad_ = 0.0F;  ///< heading that is to be held
+  float psi_ref_rad_ = 0.0F;  ///< commanded heading
 
   void sense_heading(bool fails, const AutopilotInput& in);
   void sense_position(std::size_t k, bool fails, const AutopilotInput& in);

@@ -98,8 +98,8 @@ sigset_t handled_signals() {
   return signals;
 }
 
-/// Signal that asks the ending thread whether the program is about to end. The lowest pending
-/// signal number is delivered first, so this one is answered only if no other is pending.
+/// Signal with which the ending thread is queried whether the program is about to end. The lowest
+/// pending signal number is delivered first, so this one is answered only if no other is pending.
 int question() { return SIGRTMIN; }
 
 /// Discards all further output on stderr: errors of the main thread (a killed compiler, a missing

@@ -76,8 +76,8 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
   if (command.emit.table_error || table.worst_share() <= kTableError) return;
   outcome.findings.push_back(
       {command.model.filename().string(), 0, Severity::kWarning, "coarse-table",
-       fmt::format("the {} resistance is so steep at low speed that its best table is off by up to "
-                   "{:.2g} % of it, where {:g} % is usual: the chip's feed-forward is off by that",
+       fmt::format("the {} resistance is so steep at low speed that its best table has an error of "
+                   "up to {:.2g} % (usual: {:g} %); the chip's feed-forward has the same error",
                    name, 100.0 * table.worst_share(), 100.0 * kTableError)});
 }
 
@@ -136,7 +136,7 @@ std::vector<Finding> sample_time(double sample_time_s, const EmitCommand& comman
   return findings;
 }
 
-/// Errors (input): sizes that cannot be, each by its place in the model's file.
+/// Errors (input): impossible sizes, each with its place in the model's file.
 Status check_vehicle(const EmitCommand& command, const Vehicle& vehicle) {
   if (command.as_is) return {};
   return check_plausible(
@@ -162,8 +162,7 @@ Status add_parameters(const Model& model, const Gains<double>& gains, const Emit
 }
 
 void add_line_law(CLI::App& command, EmitOptions& options) {
-  std::vector<std::string> laws;
-  for (const AnyLineLaw& law : line_laws()) laws.emplace_back(name_of(law));
+  const std::vector<std::string> laws = line_law_names();
   const auto set = [&options, laws](const std::string& name) {
     options.line_law = static_cast<std::size_t>(std::ranges::find(laws, name) - laws.begin());
     options.parts.insert(FirmwarePart::kLine);

@@ -20,8 +20,8 @@ void add_emit_options(CLI::App& command, EmitOptions& options) {
       ->default_str("table");
   command
       .add_option("--table-error", options.table_error,
-                  "Largest error of a table, as a share of the resistance or of a tenth of the "
-                  "largest force [5e-4; where no table is as good, that of the best one]")
+                  "Largest error of a table, as a fraction of the resistance or of a tenth of the "
+                  "largest force [5e-4; if no table meets that, the error of the best one]")
       ->check(within(1e-7, 0.1));
   command
       .add_option_function<std::vector<std::string>>(
@@ -35,16 +35,17 @@ void add_emit_options(CLI::App& command, EmitOptions& options) {
       ->delimiter(',')
       ->check(one_of(names_in(kFirmwarePartNames)));
   add_choice(command, "--split", options.split, kCombinedSplitNames,
-             "What a path of the combined mode cannot deliver goes to the other, or is lost")
+             "Combined mode at a limit: the other path takes over the rest of the moment, or the "
+             "rest is lost")
       ->default_str("redistribute");
   const auto timeout = [&](const char* name, std::uint32_t& value, const char* meaning) {
     command.add_option(name, value, meaning)
         ->check(within<std::uint32_t>(1, 3600000))
         ->capture_default_str();
   };
-  timeout("--heading-timeout-ms", options.heading_timeout_ms, "Oldest heading to steer by");
-  timeout("--speed-timeout-ms", options.speed_timeout_ms, "Oldest speed and position to steer by");
-  timeout("--command-timeout-ms", options.command_timeout_ms, "Longest silence of the commander");
+  timeout("--heading-timeout-ms", options.heading_timeout_ms, "Largest age of a heading");
+  timeout("--speed-timeout-ms", options.speed_timeout_ms, "Largest age of speed and position");
+  timeout("--command-timeout-ms", options.command_timeout_ms, "Command timeout");
   command
       .add_option("--step-timeout-ms", options.step_timeout_ms,
                   "Longest time between steps [three sample times]")

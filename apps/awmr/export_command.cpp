@@ -46,8 +46,7 @@ void add_export(CLI::App& app, Session& session) {
                   [command] { return execute(*command); });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--gains", command->gains,
-           "gains.json from tune; what follows from gains is left "
-           "out without it");
+           "gains.json from tune; without it, values derived from gains are left out");
   add_choice(*sub, "--format", command->format, kExportFormatNames,
              "ROS 2 parameters (YAML), MATLAB script, Python module, CSV, or the parameters that "
              "follow from the model of ArduPilot Rover or PX4's rovers, each with its derivation")

@@ -13,7 +13,7 @@ namespace awmr::cli {
 std::string to_text(const Finding& finding, const Style& style);
 
 /// If there are few findings, one line each, largest effect first. Otherwise every error and the
-/// first of the others, at least three in all, then the count of each further code.
+/// first of the others, at least three, then the count of each further code.
 std::string findings_text(const std::vector<Finding>& findings, const Style& style);
 
 }  // namespace awmr::cli

@@ -17,8 +17,8 @@ void note_other_mode(const Json& json, const std::filesystem::path& gains,
   if (mode && name_of(*mode) == tuned) return;
   findings.push_back(
       {gains.string(), 0, Severity::kWarning, "gains-of-another-mode",
-       fmt::format("these gains were tuned for the mode {} alone and are used in {}: their "
-                   "constraints and margins do not hold there. Tune for {} (awmr tune)",
+       fmt::format("these gains were tuned for mode {} only and are used in {}: their "
+                   "constraints and margins are not valid there. Tune for {} (awmr tune)",
                    tuned, mode ? std::string(name_of(*mode)) : "other modes as well",
                    mode ? "this mode, or for all of them" : "all modes")});
 }
@@ -35,9 +35,10 @@ Status note_other_model(const std::filesystem::path& gains, const std::filesyste
   if (is_made_from(json, own.sha256).value_or(true)) return {};
   findings.push_back(
       {gains.string(), 0, Severity::kWarning, "gains-of-another-model",
-       fmt::format("these gains were tuned on another model than {}, or on it before it changed: "
-                   "their constraints and margins do not hold for this one. Tune again (awmr tune)",
-                   model.filename().string())});
+       fmt::format(
+           "these gains were tuned on another model than {}, or on it before it changed: "
+           "their constraints and margins are not valid for this one. Tune again (awmr tune)",
+           model.filename().string())});
   return {};
 }
 

@@ -11,11 +11,11 @@
 
 namespace awmr::cli {
 
-/// Adds a warning (`gains-of-another-model`) where the gains' file names the inputs that it was made
-/// from and the model is none of them, by SHA-256. Gains written by hand name no inputs and give no
-/// finding, nor do those of a pipe, which can be read only once. Another (`gains-of-another-mode`) where they
-/// were tuned for one mode alone and are used in another; `mode`: in which, absent: in all. Errors: as
-/// read_json_file.
+/// Adds the warning `gains-of-another-model` if the gains' file names its inputs and the model is
+/// not one of them, by SHA-256. No finding for gains written by hand, which name no inputs, or from
+/// a pipe, which can be read only once. Adds the warning `gains-of-another-mode` if they were tuned
+/// for one mode only and are used in another. `mode`: the one in which they are used; absent: all.
+/// Errors: as read_json_file.
 Status note_other_model(const std::filesystem::path& gains, const std::filesystem::path& model,
                         std::vector<Finding>& findings, std::optional<YawMode> mode = {});
 

@@ -19,7 +19,7 @@ inline void add_heading_rate_limit(CLI::App& command, HeadingRateChoice& choice,
       .add_option("--heading-rate-limit", choice,
                   fmt::format("Rate limit of heading commands in closed-loop scenarios, deg/s; "
                               "'measured': the highest yaw rate of the turning trials; 'none': "
-                              "only the scenarios' own shaping (default: {})",
+                              "only the shaping in the scenarios (default: {})",
                               by_default))
       ->check(CLI::Validator(fault_of_rate, "measured, none or deg/s", ""));
 }

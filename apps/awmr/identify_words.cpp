@@ -24,10 +24,10 @@ Result<Interval> span_of(std::string_view option, const std::string& text) {
   if (from_s && until_s && *from_s < *until_s) return Interval{*from_s, *until_s};
   return input_error(
       ErrorCode::kOutOfRange, std::string(option),
-      fmt::format("'{}' is no span of time: give A:B in s, A before B, as 12.5:40", text));
+      fmt::format("'{}' is not a span of time: give A:B in s, A before B, such as 12.5:40", text));
 }
 
-/// Errors: a span that is none; an end before the begin.
+/// Errors: an invalid span; an end before the begin.
 Status add_parts(const IdentifyWords& words, TrialOptions& trials) {
   trials.used_s = {words.from_s, words.until_s};
   if (!(words.from_s < words.until_s)) {
@@ -100,7 +100,7 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
 
 void add_log_options(CLI::App& sub, IdentifyCommand& command) {
   sub.add_flag("--steady-from-log", command.steady_from_logs,
-               "Take steady stretches of the logs as surge and turning runs");
+               "Use steady stretches of the logs as surge and turning runs");
   sub.add_option("--starts", command.identify.starts,
                  "Random starts of a fit of logs without tables (default 6)")
       ->check(within(0, 1000));
@@ -128,7 +128,7 @@ void add_part_options(CLI::App& sub, IdentifyWords& words) {
   sub.add_option("--until", words.until_s, "Use each log up to this time, s")
       ->check(within(-kMostTime_s, kMostTime_s));
   sub.add_option("--exclude", words.excluded,
-                 "A:B: leave out this time of each log, s; what is before and after counts as two "
+                 "A:B: leave out this time of each log, s; the parts before and after count as two "
                  "logs; may be repeated");
 }
 

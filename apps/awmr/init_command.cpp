@@ -97,7 +97,8 @@ Status write_all(const std::vector<OutputFile>& files) {
 std::string example_summary(const InitCommand& command, const std::vector<OutputFile>& files) {
   const bool here = command.directory == ".";
   return fmt::format(
-      "wrote {} files to {} and {}: the paper's vehicle, its tables, scenarios, made-up drives\n"
+      "wrote {} files to {} and {}: the paper's vehicle, its tables, scenarios, synthetic drives
+      "
       "next: {}awmr run configs/paper/project.json -o out\n",
       files.size(), (command.directory / "configs").string(),
       (command.directory / "datasets").string(),
@@ -134,13 +135,14 @@ void add_init(CLI::App& app, Session& session) {
   add_directory(*sub, "DIR", command->directory,
                 "Directory for the project; nothing in it is overwritten")
       ->required();
-  auto* drive = add_choice(*sub, "--drive", command->drive, kDriveNames,
-                           "four_wheel (default): four driven wheels, steered in front; "
-                           "differential: without steering; front_wheel: the front wheels alone "
-                           "are driven, and steered");
-  sub->add_flag("--example", command->example,
-                "Write the paper's vehicle, tables and scenarios, and made-up drives, instead: the "
-                "examples of every command's help run in DIR")
+  auto* drive = add_choice(
+      *sub, "--drive", command->drive, kDriveNames,
+      "four_wheel (default): four driven wheels, steered in front; "
+      "differential: without steering; front_wheel: only the front wheels are driven, and steered");
+  sub->add_flag(
+         "--example", command->example,
+         "Write the paper's vehicle, tables and scenarios, and synthetic drives, instead: the "
+         "examples of every command's help run in DIR")
       ->excludes(drive);
 }
 

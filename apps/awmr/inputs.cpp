@@ -70,7 +70,7 @@ Result<std::vector<ColumnMapping>> columns_of_file(const std::filesystem::path& 
 }  // namespace
 
 std::string columns_schema() {
-  return json_schema_text(kColumnsSchema, "Where the columns of a log come from",
+  return json_schema_text(kColumnsSchema, "Column mappings of a log",
                           [](JsonObject& json) { columns_from_json(json); });
 }
 

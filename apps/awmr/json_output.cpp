@@ -40,7 +40,7 @@ std::string error_text(const Error& error) {
 }
 
 std::string result_schema() {
-  return json_schema_text(kResultSchema, "What a command prints with --json", [](JsonObject& json) {
+  return json_schema_text(kResultSchema, "Output of a command with --json", [](JsonObject& json) {
     json.schema(kResultSchema);
     json.string("command");
     json.string("version");
@@ -53,7 +53,7 @@ std::string result_schema() {
 }
 
 std::string error_schema() {
-  return json_schema_text(kErrorSchema, "What a command prints with --json where it fails",
+  return json_schema_text(kErrorSchema, "Output of a failed command with --json",
                           [](JsonObject& json) {
                             json.schema(kErrorSchema);
                             json.string("version");

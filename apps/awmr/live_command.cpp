@@ -32,7 +32,7 @@ enum class LiveEnd { kStream, kInterrupted, kDuration, kIdle, kEnough, kFull };
 constexpr NameTable<LiveEnd, 6> kLiveEndWords{{{"the stream ended", LiveEnd::kStream},
                                                {"interrupted", LiveEnd::kInterrupted},
                                                {"the duration is over", LiveEnd::kDuration},
-                                               {"nothing more came", LiveEnd::kIdle},
+                                               {"no more data arrived", LiveEnd::kIdle},
                                                {"enough was recorded", LiveEnd::kEnough},
                                                {"the recording is full", LiveEnd::kFull}}};
 
@@ -56,7 +56,7 @@ Result<fs::path> record_of(const LiveCommand& command) {
   std::error_code error;
   if (!command.record && fs::exists(record, error)) {
     return input_error(ErrorCode::kWouldOverwrite, record.string(),
-                       "there is a recording already; name another with --record FILE");
+                       "this recording already exists; name another with --record FILE");
   }
   if (fs::exists(record, error) && !fs::is_regular_file(record, error)) {
     return input_error(
@@ -223,7 +223,7 @@ Result<Outcome> execute(const LiveCommand& requested) {
     return input_error(
         ErrorCode::kTooFewData,
         command.source.port.value_or(command.source.log.value_or("")).string(),
-        fmt::format("{} before anything came", name_in(kLiveEndWords, followed.end)));
+        fmt::format("{} before any data arrived", name_in(kLiveEndWords, followed.end)));
   }
   screen.say(fmt::format("{}: {} rows are in {}; fitting all of it",
                          name_in(kLiveEndWords, followed.end), followed.recording.rows(),

@@ -55,7 +55,7 @@ Result<Outcome> execute(const LogCommand& command) {
 void add_log(CLI::App& app, Session& session) {
   auto command = std::make_shared<LogCommand>();
   CLI::App* sub =
-      add_command(app, session, "log", "Turn the log of the emitted sketches into the CSV of a log",
+      add_command(app, session, "log", "Convert a log of the emitted sketches to CSV",
                   "awmr log LOG00.AWL -o log.csv", [command] { return execute(*command); });
   add_file(*sub, "FILE", command->file,
            "The on-board log, which `identify --log` and `validate --log` also read directly")

@@ -57,7 +57,7 @@ void add_completion(CLI::App& app, Session& session) {
                                 return text_outcome(completion_text(*shell, commands_of(app)));
                               });
   sub->group(kServiceGroup);
-  add_choice(*sub, "SHELL", *shell, kShellNames, "What the completions are for")->required();
+  add_choice(*sub, "SHELL", *shell, kShellNames, "Shell of the completions")->required();
 }
 
 void add_man(CLI::App& app, Session& session) {
@@ -76,7 +76,7 @@ void add_man(CLI::App& app, Session& session) {
                               });
   sub->group(kServiceGroup);
   auto* command = sub->add_option("COMMAND", words->command,
-                                  "Whose page; without it, that of the program itself");
+                                  "Command of the page (default: the program itself)");
   add_directory(*sub, "-o,--output", words->directory, "Write the pages of all commands here")
       ->excludes(command);
 }

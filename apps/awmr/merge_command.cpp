@@ -83,8 +83,7 @@ Result<Outcome> execute(const MergeCommand& command) {
 void add_merge(CLI::App& app, Session& session) {
   auto command = std::make_shared<MergeCommand>();
   CLI::App* sub = add_command(
-      app, session, "merge",
-      "Put the parts of a compare, a recover or a tune together (--shard I/N)",
+      app, session, "merge", "Combine the parts of compare, recover or tune (--shard I/N)",
 
       "awmr compare --model model.json --gains gains.json --scenario "
       "configs/paper/scenarios/c3_heading_steps.json --samples 20 --shard 1/2 -o part1\n"

@@ -34,8 +34,8 @@ void add_bounds(CLI::App& command, PilOptions& options) {
       ->check(within(0.0, 1e9));
   command
       .add_option("--heading-max-deg", options.heading_max_deg,
-                  "Largest difference of the heading from the host's double run, give or take a "
-                  "sample [0.05; 2 where obstacles are avoided or sensors simulated]")
+                  "Largest difference of the heading from the host's double run, within one sample "
+                  "[0.05; 2 if obstacles are avoided or sensors simulated]")
       ->check(within(0.0, 360.0));
 }
 
@@ -45,10 +45,11 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
   add_file(command, "--model", options.model, "model.json from identify")->required();
   add_file(command, "--gains", options.gains, "gains.json from tune")->required();
   add_file(command, "--scenario", options.scenario, "scenario.json")->required();
-  add_choice(command, "--mode", options.mode, kYawModeNames, "Which makes the yaw moment")
+  add_choice(command, "--mode", options.mode, kYawModeNames,
+             "Yaw control by wheel forces, by steering or by both")
       ->required();
   add_choice(command, "--link", options.link, kPilLinkNames,
-             "Through the chip's RAM, fast, or through its UART in frames")
+             "Data exchange through the chip's RAM (fast), or through its UART in frames")
       ->default_str("memory");
   add_file(command, "--port", options.port,
            "Serial port of a real board, flashed with DIR/pil_uart.elf of --build-dir; "
@@ -71,7 +72,7 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
       ->default_str("none");
   command
       .add_option("--line-noise", options.line_noise,
-                  "Share of bits flipped and of bytes lost on the emulated UART")
+                  "Fraction of bits flipped and of bytes lost on the emulated UART")
       ->check(within(0.0, 0.5))
       ->capture_default_str();
   add_directory(command, "--build-dir", options.build_directory,

@@ -25,7 +25,7 @@ struct PlantChoice {
   std::optional<PlantKind> kind = {};  ///< overrides the scenarios'; empty: no override
   /// validation.json whose tyres override the scenarios' and the defaults.
   std::optional<std::filesystem::path> tyres_file = {};
-  bool checks_other = false;  ///< of `compare`: without a `kind`, the other plant runs as well
+  bool checks_other = false;  ///< for `compare`: without a `kind`, the other plant runs as well
   bool runs_other() const { return checks_other && !kind; }
 };
 
@@ -34,7 +34,7 @@ inline constexpr const char* kTyresOption = "--tyres";
 /// Key of the plant among the options recorded in an output.
 inline constexpr const char* kPlantName = "plant";
 
-/// Of `compare`: the plants that the scenarios say, and whether the others change the verdict.
+/// For `compare`: the plants of the scenarios, with a check whether the others change the ranking.
 inline constexpr const char* kBothPlants = "both";
 
 inline void add_plant_of(CLI::App& command, PlantChoice& choice, std::vector<std::string> names,
@@ -68,8 +68,8 @@ inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
                "other plant and with slower and faster gains");
 }
 
-/// The tyres of the file; without one the defaults. Adds how well they predict (`tyres-simulated`).
-/// Errors: as read_tyres().
+/// Reads the tyres of the file; without a file, the defaults. Adds a finding on their prediction
+/// errors (`tyres-simulated`). Errors: as read_tyres().
 inline Result<Tyres<double>> tyres_of(const PlantChoice& choice, std::vector<Finding>& findings) {
   if (!choice.tyres_file) return Tyres<double>{};
   AWMR_ASSIGN_OR_RETURN(const TyreFit fit, read_tyres(*choice.tyres_file));
@@ -85,7 +85,7 @@ inline Result<Tyres<double>> tyres_of(const PlantChoice& choice, std::vector<Fin
 }
 
 /// Applies the choice to every scenario. Errors (input): a scenario uses a feature that the
-/// four-wheel plant does not support; no run has the tyres of the file.
+/// four-wheel plant does not support; no run uses the tyres of the file.
 inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
                      std::span<Scenario> scenarios) {
   std::vector<Fault> faults;

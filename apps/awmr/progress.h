@@ -21,7 +21,7 @@ void show_progress(ProgressManner manner);
 /// True if progress is enabled and stderr can be redrawn.
 bool draws_progress();
 bool tells_progress_in_lines();
-/// A line on stderr, but not with `--quiet` or `--json`: why work that begins now takes long.
+/// Prints a line on stderr on why the next step takes long; not with `--quiet` or `--json`.
 void print_notice(std::string_view text);
 
 /// Width of the terminal; longer lines would wrap and could not be redrawn.

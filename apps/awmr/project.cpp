@@ -173,7 +173,7 @@ Result<Project> read_project(const fs::path& path) {
 }
 
 std::string project_schema() {
-  return json_schema_text(kProjectSchema, "A project: all that `awmr run` needs",
+  return json_schema_text(kProjectSchema, "A project: the inputs of `awmr run`",
                           [](JsonObject& json) { project_from_json(json, "", {}); });
 }
 

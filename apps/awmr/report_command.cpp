@@ -14,8 +14,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Writes all figures or none. A note lists those without data. A plot.py that is there already may have
-/// been edited, and stays.
+/// Writes all figures or none. A note lists those without data. An existing plot.py is kept,
+/// because the user may have edited it.
 Status write_figures(FigureSet figures, const fs::path& directory, Outcome& outcome) {
   AWMR_RETURN_IF_ERROR(make_directory(directory));
   const fs::path plot = directory / kPlotName;

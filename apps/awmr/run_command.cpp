@@ -219,7 +219,7 @@ Result<Outcome> execute(const RunCommand& command) {
 
 void add_run(CLI::App& app, Session& session) {
   auto command = std::make_shared<RunCommand>();
-  CLI::App* sub = add_command(app, session, "run", "Do every step from one project file",
+  CLI::App* sub = add_command(app, session, "run", "Run all steps of a project file",
                               "awmr run configs/paper/project.json -o out",
                               [command] { return execute(*command); });
   add_file(*sub, "PROJECT", command->project, "project.json")->required();

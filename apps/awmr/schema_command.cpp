@@ -92,9 +92,11 @@ void add_schema(CLI::App& app, Session& session) {
                                 return show_schema(words->format);
                               });
   sub->group(kServiceGroup);
-  auto* format = sub->add_option("FORMAT", words->format, "Which; without it, their names")
-                     ->check(one_of(schema_names()));
-  add_directory(*sub, "-o,--output", words->directory, "Write all of them here")->excludes(format);
+  auto* format =
+      sub->add_option("FORMAT", words->format, "File format; without it, all names are listed")
+          ->check(one_of(schema_names()));
+  add_directory(*sub, "-o,--output", words->directory, "Write all schemas to this directory")
+      ->excludes(format);
 }
 
 }  // namespace awmr::cli

@@ -29,10 +29,10 @@ namespace {
 /// Describes how the run ended, if its guidance has an end.
 std::string end_of(const Run& run, const Scenario& scenario) {
   if (run.end == RunEnd::kNoPassage) {
-    return "  no passage: the obstacles leave no way to the guidance target; stopped\n";
+    return "  no passage: obstacles block the way to the guidance target; stopped\n";
   }
-  const bool ends = std::holds_alternative<WaypointCourse>(scenario.guidance) ||
-                    std::holds_alternative<LineCourse>(scenario.guidance);
+  const bool ends = std::holds_alternative<WaypointPath>(scenario.guidance) ||
+                    std::holds_alternative<LinePath>(scenario.guidance);
   if (!ends) return "";
   if (run.end == RunEnd::kDuration) return "  did not reach the end of its path in time\n";
   if (run.missed_waypoints == 0) return "  reached the end of its path\n";
@@ -40,10 +40,10 @@ std::string end_of(const Run& run, const Scenario& scenario) {
                      run.missed_waypoints);
 }
 
-/// Reports resets of the position's estimate.
+/// Reports resets of the position estimate.
 std::string resets_of(const Run& run) {
   if (run.position_resets == 0) return "";
-  return fmt::format("  the position's estimate was reset {} time(s), after rejected fixes\n",
+  return fmt::format("  the position estimate was reset {} time(s), after rejected fixes\n",
                      run.position_resets);
 }
 
@@ -190,7 +190,8 @@ void add_simulate(CLI::App& app, Session& session) {
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--gains", command->gains, "gains.json; not needed in open loop");
   add_file(*sub, "--scenario", command->scenario, "scenario.json")->required();
-  add_choice(*sub, "--mode", command->mode, kYawModeNames, "Which makes the yaw moment")
+  add_choice(*sub, "--mode", command->mode, kYawModeNames,
+             "Yaw control by wheel forces, by steering or by both")
       ->required();
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit, kNoRate);

@@ -65,7 +65,7 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
 }
 
 Result<Suggestion> suggest_with_progress(const Model& model, const SuggestOptions& options) {
-  const Working working("weighing trials");
+  const Working working("evaluating trials");
   return suggest(model, options);
 }
 
@@ -105,10 +105,10 @@ Result<Outcome> execute(const SuggestCommand& command) {
 
 void add_suggest(CLI::App& app, Session& session) {
   auto held = std::make_shared<SuggestCommand>();
-  CLI::App* sub = add_command(
-      app, session, "suggest", "Rank the trials that could be recorded next, as a field sheet",
-      "awmr suggest --model model.json --parameter mass_norm -o suggest.json",
-      [held] { return execute(*held); });
+  CLI::App* sub =
+      add_command(app, session, "suggest", "Rank the trials to record next, as a field sheet",
+                  "awmr suggest --model model.json --parameter mass_norm -o suggest.json",
+                  [held] { return execute(*held); });
   SuggestCommand& command = *held;
   add_file(*sub, "--model", command.model, "model.json from identify")->required();
   sub->add_option("--parameter", command.parameter,

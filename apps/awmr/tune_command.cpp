@@ -26,7 +26,8 @@ Result<Tuning> tune_with_progress(const Model& model, TuneOptions options) {
   return tune(model, options);
 }
 
-/// The configuration file with the options of the command line. Puts `--allocation` into `model`.
+/// Reads the configuration file and applies the options of the command line. Sets `--allocation` in
+/// `model`.
 Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
   TuneConfig config;
   if (command.config) {
@@ -120,7 +121,7 @@ CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
   sub.add_option_function<std::string>(
          "--mode",
          [&command](const std::string& name) { command.mode = value_in(kYawModeNames, name); },
-         "Tune for this mode alone (default: one set of gains for all modes)")
+         "Tune for this mode only (default: one set of gains for all modes)")
       ->check(one_of(names_in(kYawModeNames)));
   return nominal;
 }

@@ -24,7 +24,7 @@ NamedComparison compared(const Model& model, const Gains<double>& gains,
   return {std::move(comparison), std::move(options)};
 }
 
-/// Columns of comparison.csv; NaN where a metric is undefined.
+/// Columns of comparison.csv; NaN if a metric is undefined.
 py::dict comparison_columns(const NamedComparison& named) {
   const std::vector<ComparisonRow>& rows = named.comparison.rows;
   py::dict columns;
@@ -61,8 +61,8 @@ py::dict comparison_columns(const NamedComparison& named) {
 void bind_compare(py::module_& module) {
   py::class_<NamedComparison>(module, "Comparison", "The modes on the same scenarios.")
       .def_property_readonly("columns", comparison_columns,
-                             "comparison.csv as a dict of NumPy arrays, units in the names, NaN "
-                             "where a metric has no meaning")
+                             "comparison.csv as a dict of NumPy arrays, units in the names, NaN if "
+                             "a metric does not apply")
       .def(
           "csv", [](const NamedComparison& named) { return comparison_csv(named.comparison); },
           "the bytes of comparison.csv")
@@ -71,17 +71,18 @@ void bind_compare(py::module_& module) {
           [](const NamedComparison& named) {
             return comparison_table(named.comparison, named.options);
           },
-          "figures by scenario and mode, the ranking and a verdict, as text")
+          "metrics by scenario and mode, the ranking and a verdict, as text")
       .def("__str__", [](const NamedComparison& named) {
         return comparison_table(named.comparison, named.options);
       });
-  module.def("compare", compared, py::arg("model"), py::arg("gains"), py::arg("scenarios"),
-             py::kw_only(), py::arg("samples") = 0, py::arg("seed") = 1, py::arg("threads") = 0,
-             py::arg("heading_rate_limit") = py::none(),
-             "The yaw-control modes on a list of scenarios, for the model's own values and "
-             "`samples` draws from its covariance. The numbers are those of `awmr compare`, "
-             "whatever the threads (0: all). heading_rate_limit: deg/s, \"measured\" or \"none\"; "
-             "by default measured, if the model has that rate. Raises InputError.");
+  module.def(
+      "compare", compared, py::arg("model"), py::arg("gains"), py::arg("scenarios"), py::kw_only(),
+      py::arg("samples") = 0, py::arg("seed") = 1, py::arg("threads") = 0,
+      py::arg("heading_rate_limit") = py::none(),
+      "The yaw-control modes on a list of scenarios, for the model's own values and "
+      "`samples` draws from its covariance. The numbers are those of `awmr compare`, "
+      "for any number of threads (0: all). heading_rate_limit: deg/s, \"measured\" or \"none\"; "
+      "by default measured, if the model has that rate. Raises InputError.");
 }
 
 }  // namespace awmr::python

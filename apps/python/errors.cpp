@@ -48,14 +48,14 @@ void bind_errors(py::module_& module) {
   classes = new Classes;
   classes->base = new_class(
       module, "Error",
-      "What went wrong, in the command line's words: a line for each fault. `faults` is a list of "
+      "An error, with the messages of the command line: one line per fault. `faults` is a list of "
       "(place, message), the place FILE:LINE:COLUMN, FILE:/json/pointer or an option; `codes` "
       "has each fault's code (awmr explain CODE), `exit_code` is the command line's.",
       PyExc_Exception);
   classes->input =
       new_class(module, "InputError", "A file or a value is wrong (exit code 2).", classes->base);
-  classes->refused = new_class(module, "Refused",
-                               "The work ran and the answer is no (exit code 1).", classes->base);
+  classes->refused = new_class(
+      module, "Refused", "The function ran with a negative result (exit code 1).", classes->base);
   classes->fault = new_class(module, "ProgramFault", "A fault of the library itself (exit code 3).",
                              classes->base);
   py::register_exception_translator([](std::exception_ptr thrown) {

@@ -98,9 +98,10 @@ void bind_identify(py::module_& module) {
       py::arg("starts") = 6, py::arg("bootstrap") = 0, py::arg("time_limit_s") = 0.0,
       py::arg("cross_validate") = false, py::arg("threads") = 0,
       "Fits the vehicle's parameters. `method`: \"log-linear\", \"nonlinear\" or \"trajectory\" "
-      "(None: by the data); `noise`: \"force\", \"speed\" or \"time\"; `family`, `fit`: lists of "
+      "(None: chosen by the data); `noise`: \"force\", \"speed\" or \"time\"; `family`, `fit`: "
+      "lists of "
       "names, as --family and --fit have them; `time_limit_s` in s, 0: none; `threads` 0: all. The "
-      "numbers are those of `awmr identify`, whatever the threads. Raises InputError.");
+      "numbers are those of `awmr identify`, for any number of threads. Raises InputError.");
   module.def("suggest", suggested, py::arg("model"), py::kw_only(), py::arg("parameter") = "",
              py::arg("repeats") = 3,
              "The trials to record next, best first: dicts with `settings` as text, `numbers` and "

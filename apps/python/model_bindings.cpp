@@ -21,9 +21,9 @@ py::object interval_of(const std::optional<Interval>& interval) {
 
 void bind_findings(py::module_& module) {
   py::class_<Finding>(module, "Finding",
-                      "Something to know about the data or the result: `severity` is \"note\", "
-                      "\"warning\" or \"error\", `code` stable for scripts, `line` 0 where it is "
-                      "about no line.")
+                      "A message about the data or the result: `severity` is \"note\", "
+                      "\"warning\" or \"error\", `code` stable for scripts, `line` is 0 if it does "
+                      "not refer to a line.")
       .def_readonly("file", &Finding::file)
       .def_readonly("line", &Finding::line)
       .def_readonly("code", &Finding::code)
@@ -44,7 +44,7 @@ Result<VehicleOfFile> read_with_its_file(const std::filesystem::path& path) {
 }
 
 void bind_vehicle(py::module_& module) {
-  py::class_<Vehicle>(module, "Vehicle", "What is known of the vehicle before any trial.")
+  py::class_<Vehicle>(module, "Vehicle", "The vehicle's data before any trial.")
       .def_readonly("name", &Vehicle::name)
       .def_readonly("mass_kg", &Vehicle::mass_kg, "m, kg")
       .def_readonly("length_m", &Vehicle::length_m, "along the body's x, m")
@@ -69,10 +69,10 @@ void bind_vehicle(py::module_& module) {
 }
 
 void bind_estimate(py::module_& module) {
-  py::class_<Estimate>(module, "Estimate",
-                       "One identified number. `value` is None where the data cannot show it, "
-                       "`std_error` and `ci95` (lo, hi) where there is no uncertainty; all in the "
-                       "parameter's unit (`awmr.units`).")
+  py::class_<Estimate>(
+      module, "Estimate",
+      "One identified number. `value` is None if the data do not determine it, `std_error` and "
+      "`ci95` (lo, hi) if there is no uncertainty; all in the parameter's unit (`awmr.units`).")
       .def_readonly("value", &Estimate::value)
       .def_readonly("std_error", &Estimate::std_error)
       .def_property_readonly("ci95", [](const Estimate& e) { return interval_of(e.ci95); })
@@ -190,7 +190,7 @@ void bind_gains(py::module_& module) {
       [](const G& gains, const std::filesystem::path& path) {
         value_or_raise(write_gains(gains, path));
       },
-      py::arg("gains"), py::arg("path"), "Writes gains.json, without how they were found.");
+      py::arg("gains"), py::arg("path"), "Writes gains.json, without the results of a tuning.");
 }
 
 }  // namespace

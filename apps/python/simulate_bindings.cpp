@@ -76,11 +76,10 @@ void bind_simulate(py::module_& module) {
           "columns", run_columns,
           "run.csv as a dict of NumPy arrays, units in the names: t_s, x_m, y_m, "
           "psi_rad (unwrapped), u_mps, v_mps, r_radps, force_left, force_right "
-          "(over F_max), steering_rad, ...; the row at t has the command that "
-          "holds until the next")
+          "(over F_max), steering_rad, ...; the row at t has the command until the next row")
       .def_property_readonly(
           "metrics", [](const EvaluatedRun& evaluated) { return metrics_dict(evaluated.metrics); },
-          "as in comparison.csv, units in the names; None where one has no meaning")
+          "as in comparison.csv, units in the names; None if a metric does not apply")
       .def_property_readonly(
           "completed", [](const EvaluatedRun& evaluated) { return evaluated.metrics.completed; })
       .def_property_readonly(
@@ -91,8 +90,8 @@ void bind_simulate(py::module_& module) {
           "the bytes of run.csv");
   module.def("simulate", simulated, py::arg("model"), py::arg("gains"), py::arg("scenario"),
              py::kw_only(), py::arg("mode") = "combined",
-             "One run of the model under its own controller. `mode`: \"differential\", "
-             "\"steering\" or \"combined\". Raises InputError where the model lacks a parameter.");
+             "One run of the model with its own controller. `mode`: \"differential\", "
+             "\"steering\" or \"combined\". Raises InputError if the model lacks a parameter.");
 }
 
 }  // namespace awmr::python

@@ -182,7 +182,7 @@ void bind_trials(py::module_& module) {
       py::arg("prefer") = "printed", py::arg("as_is") = false, py::arg("steady_from_logs") = false,
       "Reads and joins the trial files of one vehicle: paths; `coastdown` and `log` one or a "
       "list. `columns`: mappings such as \"speed_mps=V*0.2778\", as --column has them. "
-      "`prefer`: \"printed\" or \"timed\", where a row gives a speed twice. Raises "
+      "`prefer`: \"printed\" or \"timed\", if a row gives a speed twice. Raises "
       "InputError with every fault of every file.");
 }
 

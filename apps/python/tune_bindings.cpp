@@ -97,7 +97,7 @@ py::list goals_of(const Tuning& tuning) {
 }  // namespace
 
 void bind_tune(py::module_& module) {
-  py::class_<Tuning>(module, "Tuning", "Gains and how they were found.")
+  py::class_<Tuning>(module, "Tuning", "Gains and the results of the tuning.")
       .def_readonly("gains", &Tuning::gains)
       .def_readonly("objective", &Tuning::objective, "1 for the baseline, less is better")
       .def_readonly("evaluations", &Tuning::evaluations)
@@ -115,15 +115,15 @@ void bind_tune(py::module_& module) {
           "figure's median, q95 and tail_mean over fresh draws; empty for "
           "nominal gains")
       .def_property_readonly("goals", goals_of,
-                             "list of dicts by gains, goal and mode: runs, runs that hold it, the "
-                             "share's ci95 and the verdict met, missed or open");
+                             "list of dicts by gains, goal and mode: runs, runs that meet it, ci95 "
+                             "of the share, and the verdict met, missed or open");
   module.def("tune", tuned, py::arg("model"), py::kw_only(), py::arg("config") = py::none(),
              py::arg("nominal") = false, py::arg("draws") = py::none(), py::arg("observer") = false,
              "Searches the controller's gains under T2 < T1. `config`: path of tune.json; `draws`: "
              "plants from the model's covariance (default 32); `nominal`: none, no noise, no lag; "
              "`observer`: a disturbance observer is tuned with them. "
-             "The numbers are those of `awmr tune`. Raises Refused where no gains meet the "
-             "constraints, InputError where the model lacks a parameter.");
+             "The numbers are those of `awmr tune`. Raises Refused if no gains meet the "
+             "constraints, InputError if the model lacks a parameter.");
 }
 
 }  // namespace awmr::python

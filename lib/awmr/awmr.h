@@ -4,13 +4,13 @@
 ///     check a vehicle's plausibility     model/plausibility.h
 ///     read trials                        trials/load.h
 ///     fit a model to them                identify/identify.h
-///     ask which trial to record next     identify/planning/suggest.h
-///     ask how well a fit can be          identify/planning/recover.h
+///     rank the trials to record next     identify/planning/suggest.h
+///     test a plan of trials, simulated   identify/planning/recover.h
 ///     search gains                       tune/tune.h, tune/tune_file.h
-///     run the closed loop, judge a run   simulate/simulate.h, simulate/metrics.h
-///     hold a model against its trials    validate/validate.h
+///     simulate the closed loop, metrics  simulate/simulate.h, simulate/metrics.h
+///     validate a model on its trials     validate/validate.h
 ///     compare the yaw-control modes      compare/compare.h, compare/resume.h
-///     make firmware                      emit/emit.h
+///     write firmware                     emit/emit.h
 ///     write other programs' parameters   emit/export.h
 ///     make the report                    report/report.h
 ///

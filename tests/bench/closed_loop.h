@@ -17,7 +17,7 @@ MetricsAccumulator<T> driven(const Scenario& scenario, double sample_time_s,
                              const Resistance<T>& yaw, const MetricsVehicle<T>& vehicle,
                              const Command& command, const Move& move) {
   const auto& headings = std::get<HeadingSteps>(scenario.guidance);
-  const auto course = metered_course(scenario);
+  const auto task = metrics_task(scenario);
   const T none = T(0.0);
   MetricsAccumulator<T> sums;
   State<T> s{};
@@ -33,7 +33,7 @@ MetricsAccumulator<T> driven(const Scenario& scenario, double sample_time_s,
     measure<T>(
         {s, a.force, at_all_wheels(held, T(1.0)), a.steering_rad, yaw(s.r_radps), T(goal_rad), none,
          none, none, T(scenario.speed_mps), none},
-        vehicle, course,
+        vehicle, task,
         {t_s, sample_time_s, k == 0, k == 0 || std::abs(goal_rad - goal_before_rad) > 0.0, false},
         sums);
     goal_before_rad = goal_rad;

@@ -58,14 +58,14 @@ TEST_F(BadInput, UnknownJsonKeyIsNamedByPointer) {
   expect_refused_input(result, path + ":/mass_kq:", "mass_kg");
 }
 
-TEST_F(BadInput, OneUsableRowCannotIdentifyAndSaysWhatWould) {
+TEST_F(BadInput, OneUsableRowIsRefusedWithTheMissingTrial) {
   const ProcessResult result = identify_surge("tau_speed,speed_mps\n1,0.5\n");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("not-identifiable"));
   EXPECT_THAT(result.err, HasSubstr("surge.beta"));
 }
 
-TEST_F(BadInput, EqualThrustsCannotIdentifyAndSayWhatWould) {
+TEST_F(BadInput, EqualThrustsAreRefusedWithTheMissingTrial) {
   const ProcessResult result = identify_surge("tau_speed,speed_mps\n1,0.5\n1,0.52\n1,0.49\n");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("not-identifiable"));
@@ -83,14 +83,14 @@ TEST_F(BadInput, UnknownOptionAndCommandExitWithTwo) {
   EXPECT_EQ(awmr("").exit_code, 2);
 }
 
-TEST_F(BadInput, WithoutAnyWordTheCommandsAreShown) {
+TEST_F(BadInput, WithoutArgumentsTheCommandsAreShown) {
   const ProcessResult result = awmr("");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("identify"));
   EXPECT_THAT(result.err, HasSubstr("awmr init my_rover"));
 }
 
-TEST_F(BadInput, ALaterStepNamesWhatTheModelLacksAndTheTrialThatShowsIt) {
+TEST_F(BadInput, ALaterStepNamesTheMissingParameterAndItsTrial) {
   ASSERT_EQ(
       awmr("identify --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv -o " +
            output().string())

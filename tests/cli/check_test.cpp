@@ -74,14 +74,14 @@ class Check : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(Check, AFilledProjectHasNothingToMend) {
+TEST_F(Check, AFilledProjectHasNoProblems) {
   const ProcessResult result = awmr("check " + project());
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("no problems found; next: awmr run"));
   EXPECT_EQ(awmr("check " + path("project.json").string()).exit_code, 0);
 }
 
-TEST_F(Check, WhatCheckIsContentWithRunsToGainsAndAHeader) {
+TEST_F(Check, AProjectWithoutProblemsGivesGainsAndAHeader) {
   const ProcessResult result = run();
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const nlohmann::ordered_json model = read("out/model.json");
@@ -98,7 +98,7 @@ TEST_F(Check, WhatCheckIsContentWithRunsToGainsAndAHeader) {
   EXPECT_THAT(read_all(path("out/awmr_params.h")), HasSubstr("#define AWMR_HEADING_LAMBDA"));
 }
 
-TEST_F(Check, WithoutASwayResistanceTablesAloneReachGainsAndAHeader) {
+TEST_F(Check, TablesWithoutASwayResistanceGiveGainsAndAHeader) {
   const ProcessResult checked = check_with("vehicle.json", "/sway_alpha", nullptr);
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
   EXPECT_THAT(checked.err, HasSubstr("vehicle.json:/sway_alpha: not given"));
@@ -120,10 +120,10 @@ TEST_F(Check, WithoutASwayResistanceTablesAloneReachGainsAndAHeader) {
   EXPECT_THAT(read_all(path("out/awmr_params.h")), HasSubstr("#define AWMR_SWAY_ALPHA"));
 }
 
-TEST_F(Check, ThePapersProjectHasNothingToMend) {
+TEST_F(Check, ThePapersProjectHasNoProblems) {
   const ProcessResult result = awmr("check configs/paper/project.json");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("speed-mismatch")) << "its oddities are told all the same";
+  EXPECT_THAT(result.err, HasSubstr("speed-mismatch")) << "its oddities are reported all the same";
 }
 
 TEST_F(Check, ListsWhatIsMissingInOrder) {
@@ -140,7 +140,7 @@ TEST_F(Check, ListsWhatIsMissingInOrder) {
   EXPECT_THAT(result.err, Not(HasSubstr("yaw_inertia_kgm2"))) << "optional, the box stands in";
 }
 
-TEST_F(Check, WhatGainsNeedAndNothingShowsIsNamed) {
+TEST_F(Check, NamesParametersWithoutATrial) {
   nlohmann::ordered_json json = read("project.json");
   json["trials"].erase("coastdown");
   write("project.json", json);
@@ -149,7 +149,7 @@ TEST_F(Check, WhatGainsNeedAndNothingShowsIsNamed) {
   EXPECT_THAT(result.err, HasSubstr("no trial for mass_norm"));
 }
 
-TEST_F(Check, WrongUnitsOfTheVehicleAreNamedWithTheValueTheyWouldBe) {
+TEST_F(Check, WrongUnitsOfTheVehicleAreNamedWithTheConvertedValue) {
   const std::tuple<const char*, double, const char*> cases[] = {
       {"/mass_kg", 2100, "looks like g: 2.1"},
       {"/length_m", 320, "looks like mm: 0.32"},
@@ -182,7 +182,7 @@ TEST_F(Check, NumbersBeyondEveryVehicleAreBadInputWithTheLikelyUnit) {
               HasSubstr("looks like ms: 0.02"));
 }
 
-TEST_F(Check, IdentifyRefusesWhatCannotBeUnlessItIsTakenAsItIs) {
+TEST_F(Check, IdentifyRefusesImpossibleValuesUnlessAsIs) {
   nlohmann::ordered_json vehicle = read("vehicle.json");
   vehicle["half_track_m"] = 0.17;
   write("odd.json", vehicle);
@@ -197,7 +197,7 @@ TEST_F(Check, IdentifyRefusesWhatCannotBeUnlessItIsTakenAsItIs) {
   EXPECT_THAT(result.err, AllOf(HasSubstr("warning: "), HasSubstr("[implausible-vehicle]")));
 }
 
-TEST_F(Check, EmitAndRunRefuseWhatCannotBeUnlessItIsTakenAsItIs) {
+TEST_F(Check, EmitAndRunRefuseImpossibleValuesUnlessAsIs) {
   ASSERT_EQ(
       awmr("identify --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv "
            "--coastdown datasets/paper/coastdown.csv --turning datasets/paper/turning.csv -o " +
@@ -225,7 +225,7 @@ TEST_F(Check, EmitAndRunRefuseWhatCannotBeUnlessItIsTakenAsItIs) {
   }
 }
 
-TEST_F(Check, ContradictionsOfTheTrialsNameTheMappingThatMends) {
+TEST_F(Check, ContradictionsOfTheTrialsNameTheUnitFix) {
   write_all(path("surge.csv"),
             "wheel_force,distance_m,elapsed_s\n51,5,12.5\n102,5,5.9\n153,5,3.8\n204,5,2.8\n");
   const ProcessResult result = awmr("check " + project());
@@ -247,7 +247,7 @@ TEST_F(Check, MillisecondsOfEveryTrialAreNamed) {
                                 HasSubstr("--column 'stop_time_s=\"stop_time_s\"*0.001'")));
 }
 
-TEST_F(Check, WhatCannotBeReadIsBadInput) {
+TEST_F(Check, AnUnreadableFileIsBadInput) {
   write_all(path("surge.csv"), "wheel_force,distance_m,elapsed_s\n0.2,5,fast\n");
   EXPECT_EQ(awmr("check " + project()).exit_code, 2);
   fs::remove(path("surge.csv"));

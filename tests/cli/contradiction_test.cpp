@@ -111,7 +111,7 @@ TEST_F(Contradiction, MergeRefusesAPartWithEditedRows) {
   EXPECT_EQ(merge().exit_code, 0);
 }
 
-TEST_F(Contradiction, ACompassWhoseNumbersTheVehicleCannotHoldIsRefused) {
+TEST_F(Contradiction, RefusesACompassWithImpossibleNumbers) {
   const auto circle = [&](double centre, double ahead, double left) {
     std::string text = "t_s,field_ahead,field_left,yaw_rate_radps\n";
     for (int i = 0; i < 800; ++i) {

@@ -192,7 +192,7 @@ TEST_F(DataLoss, APipeInAResultsDirectoryIsRefused) {
   }
 }
 
-TEST_F(DataLoss, OutputsInPlacesThatCannotBeAreBadInput) {
+TEST_F(DataLoss, RefusesOutputsInImpossiblePlaces) {
   ASSERT_EQ(
       awmr("identify --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv "
            "--coastdown datasets/paper/coastdown.csv --turning datasets/paper/turning.csv -o " +

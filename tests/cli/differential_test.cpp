@@ -97,7 +97,7 @@ TEST_F(DifferentialDrive, IsIdentified) {
   for (const auto& finding : model["findings"]) EXPECT_NE(finding["code"], "not-identifiable");
 }
 
-TEST_F(DifferentialDrive, HasNoServoToAskFor) {
+TEST_F(DifferentialDrive, HasNoServoParameter) {
   const ProcessResult result = identify("--fit steering.time_constant_s");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, AllOf(HasSubstr("--fit"), HasSubstr("differential")));

@@ -25,7 +25,7 @@ class Init : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(Init, WritesAProjectOfWhichEveryMeasuredValueIsOpen) {
+TEST_F(Init, WritesAProjectWithNullForEveryMeasuredValue) {
   const ProcessResult result = init();
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, AllOf(HasSubstr("field_sheet.html"), HasSubstr("awmr check")));
@@ -40,7 +40,7 @@ TEST_F(Init, WritesAProjectOfWhichEveryMeasuredValueIsOpen) {
   EXPECT_TRUE(json("scenarios/heading_steps.json")["speed_mps"].is_null());
 }
 
-TEST_F(Init, ExplainsEveryKeyThatItLeavesOpen) {
+TEST_F(Init, ExplainsEveryKeyThatIsNull) {
   for (const char* drive :
        {" --drive four_wheel", " --drive differential", " --drive front_wheel"}) {
     ASSERT_EQ(init(drive).exit_code, 0);
@@ -62,7 +62,7 @@ TEST_F(Init, ExplainsEveryKeyThatItLeavesOpen) {
   }
 }
 
-TEST_F(Init, ARobotWithoutSteeringIsRequestedNone) {
+TEST_F(Init, ARobotWithoutSteeringHasNoSteeringKeys) {
   ASSERT_EQ(init(" --drive differential").exit_code, 0);
   EXPECT_EQ(json("vehicle.json")["drive"], "differential");
   EXPECT_EQ(json("vehicle.json").count("steering"), 0U);
@@ -70,7 +70,7 @@ TEST_F(Init, ARobotWithoutSteeringIsRequestedNone) {
   EXPECT_THAT(read_all(path("README.md")), Not(HasSubstr("steering.max_deg")));
 }
 
-TEST_F(Init, ARobotOfFrontWheelDriveIsRequestedItsSteering) {
+TEST_F(Init, AFrontWheelDriveHasSteeringKeys) {
   ASSERT_EQ(init(" --drive front_wheel").exit_code, 0);
   EXPECT_EQ(json("vehicle.json")["drive"], "front_wheel");
   EXPECT_EQ(json("vehicle.json").count("steering"), 1U);
@@ -97,7 +97,7 @@ TEST_F(Init, WhereItCannotWriteItLeavesNothing) {
   EXPECT_EQ(read_all(directory_.path() / "rover"), "a file");
 }
 
-TEST_F(Init, TheOpenValuesAreRefusedByTheStepsThatNeedThem) {
+TEST_F(Init, NullValuesAreRefusedByTheStepsThatNeedThem) {
   ASSERT_EQ(init().exit_code, 0);
   const ProcessResult result =
       awmr("run " + path("project.json").string() + " -o " + path("out").string());

@@ -89,7 +89,7 @@ TEST_F(Live, APipeInPiecesEndsInTheLogAndItsModel) {
   EXPECT_THAT(run.err, Not(HasSubstr("\033"))) << "lines, not a screen";
 }
 
-TEST_F(Live, IsToldOnceInJson) {
+TEST_F(Live, IsReportedOnceInJson) {
   const ProcessResult run = shell("cat " + kDrive + " | " + live("--log - --json --every 0.1"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.err, IsEmpty());
@@ -99,13 +99,13 @@ TEST_F(Live, IsToldOnceInJson) {
   EXPECT_EQ(json.at("written"), nlohmann::json::array({path("live.csv"), path("live.json")}));
 }
 
-TEST_F(Live, AWrongUnitIsToldWhileTheDriveGoesOn) {
+TEST_F(Live, AWrongUnitIsReportedDuringTheDrive) {
   const std::string drive = drive_with("speed_mps", 3.6);
   // Ten seconds of the drive, then nothing until it is reported.
   const ProcessResult run =
-      shell("{ head -n 1001 " + drive + "; for i in $(seq 200); do grep -q km/h " + path("said") +
-            " && break; sleep 0.1; done; } | " + live("--log - --every 0.1") + " 2> " +
-            path("said") + "; code=$?; cat " + path("said") + " >&2; exit $code");
+      shell("{ head -n 1001 " + drive + "; for i in $(seq 200); do grep -q km/h " +
+            path("messages") + " && break; sleep 0.1; done; } | " + live("--log - --every 0.1") +
+            " 2> " + path("messages") + "; code=$?; cat " + path("messages") + " >&2; exit $code");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, AllOf(HasSubstr("map it by --column 'speed_mps="), HasSubstr("km/h")));
   EXPECT_LT(run.err.find("speed looks like km/h"), run.err.find("rows are in")) << run.err;
@@ -128,7 +128,7 @@ TEST_F(Live, AGrowingFileIsFollowedUntilNothingMoreComes) {
             live("--log " + path("growing.csv") + " --idle 2 --every 0.2"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(read_all(path("live.csv")), read_all(kDrive));
-  EXPECT_THAT(run.out, HasSubstr("nothing more came: 1501 rows"));
+  EXPECT_THAT(run.out, HasSubstr("no more data arrived: 1501 rows"));
 }
 
 TEST_F(Live, KeepsLogAndModelWhereItsTerminalIsClosed) {
@@ -146,7 +146,7 @@ TEST_F(Live, APipeThatNobodyWritesToEndsAtTheDuration) {
   const ProcessResult run =
       shell("mkfifo " + path("pipe") + "; " + live("--log " + path("pipe") + " --duration 1"));
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("the duration is over before anything came"));
+  EXPECT_THAT(run.err, HasSubstr("the duration is over before any data arrived"));
 }
 
 TEST_F(Live, EndsAtADurationWithWhatItHas) {
@@ -170,7 +170,7 @@ TEST_F(Live, AnInterruptionKeepsWhatItHas) {
   }
 }
 
-TEST_F(Live, EndsWhereItIsEnoughOrSaysThatItIsNot) {
+TEST_F(Live, EndsIfEnoughOrReportsThatItIsNot) {
   const std::string fit = " --fit surge.alpha --enough 0.05 --until-enough --every 0.1";
   const ProcessResult enough =
       shell("{ head -n 900 " + kDrive + kOnAndOn + " | " + live("--log -" + fit));
@@ -185,7 +185,7 @@ TEST_F(Live, EndsWhereItIsEnoughOrSaysThatItIsNot) {
   EXPECT_THAT(too_few.err, AllOf(HasSubstr("[not-enough]"), HasSubstr("surge.alpha +-")));
 }
 
-TEST_F(Live, DamagedLinesAreSetAsideAndTold) {
+TEST_F(Live, DamagedLinesAreSetAsideAndReported) {
   const ProcessResult run =
       shell("{ echo boot; head -n 700 " + kDrive + "; echo 7.1,0.2; tail -n +701 " + kDrive +
             "; printf 15.1,0.2,0; } | " + live("--log -"));
@@ -232,18 +232,18 @@ TEST_F(Live, ATerminalShowsOneScreen) {
                              HasSubstr("[          ]")));
 }
 
-TEST_F(Live, RefusesWhatItCannotRecord) {
+TEST_F(Live, RefusesSourcesThatItCannotRecord) {
   struct Case {
     std::string words;
     std::string error;
   };
   write_all(path("there.csv"), "a recording");
   const Case cases[] = {
-      {live("--log /dev/null"), "the stream ended before anything came"},
+      {live("--log /dev/null"), "the stream ended before any data arrived"},
       {live("--log - <&-"), "standard input is closed"},
       {live("--log nowhere.csv"), "nowhere.csv: cannot open the file"},
       {live("--log " + path("")), "this is a directory"},
-      {live("--port /dev/null"), "is no serial port"},
+      {live("--port /dev/null"), "is not a serial port"},
       {live("--port nowhere"), "nowhere: No such file"},
       {live("--port /dev/null --baud 12345"), "--baud: 12345: one of 9600"},
       {live(""), "give the source of the log"},

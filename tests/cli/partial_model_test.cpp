@@ -38,7 +38,7 @@ class PartialModelCommands : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(PartialModelCommands, ThatStraightMotionWillDoForRun) {
+TEST_F(PartialModelCommands, RunForStraightMotion) {
   for (const std::string& command :
        {"simulate --mode combined --scenario " + path("straight.json") + " -o " + path("run.csv"),
         "validate -o " + path("validation.json"), "recover --runs 5 -o " + path("recover.json"),
@@ -51,7 +51,7 @@ TEST_F(PartialModelCommands, ThatStraightMotionWillDoForRun) {
   }
 }
 
-TEST_F(PartialModelCommands, ThatTurnNameWhatIsMissingAndTheTrialThatShowsIt) {
+TEST_F(PartialModelCommands, NameTheMissingParameterAndItsTrialForTurns) {
   const std::string gains = " --gains " + path("gains.json");
   const std::string turn = " --scenario " + path("turn.json");
   for (const std::string& command :

@@ -199,7 +199,7 @@ TEST_F(PlantOption, RefusesWhatHasNoMeaningOnTyresByName) {
       awmr(with("compare", "--scenario configs/scenarios/worst_corner.json --plant four-wheel -o " +
                                path("comparison")));
   EXPECT_EQ(corner.exit_code, 2);
-  EXPECT_THAT(corner.err, HasSubstr("/corner: yaw.alpha has no part on tyres"));
+  EXPECT_THAT(corner.err, HasSubstr("/corner: yaw.alpha has no effect on tyres"));
   const ProcessResult break_even =
       awmr(with("compare", "--break-even --scenario " + changed_c3("tyres", Json::object()) +
                                " -o " + path("comparison")));

@@ -87,7 +87,7 @@ TEST_F(ShardsOfCommands, OfATuningAreMergedToTheBytesOfASingleRun) {
               HasSubstr("another kind of work"));
 }
 
-TEST_F(ShardsOfCommands, OfTheLargestSeedAreMergedAndSayHowHeadingsWereLed) {
+TEST_F(ShardsOfCommands, OfTheLargestSeedAreMergedWithTheHeadingRateLimit) {
   const std::string seed = "--seed 18446744073709551615 ";
   const std::string parts =
       parts_of("large", compare(seed + "--shard 1/2"), compare(seed + "--shard 2/2"));
@@ -136,7 +136,7 @@ TEST_F(ShardsOfCommands, AFinishedPartIsLeftAsItIsAndNoOtherIs) {
   }
 }
 
-TEST_F(ShardsOfCommands, WhatNoRunGivesIsRefusedByTheMerge) {
+TEST_F(ShardsOfCommands, MergeRefusesParametersThatNoRunGives) {
   const std::string requested = "--fit steering.time_constant_s ";
   const ProcessResult whole = awmr(recover(requested));
   EXPECT_EQ(whole.exit_code, 1);

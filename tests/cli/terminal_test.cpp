@@ -48,7 +48,7 @@ TEST_F(Terminal, ShowsTheWorstFindingsAndCountsTheRest) {
   EXPECT_EQ(awmr(identify() + " --quiet").err, "");
 }
 
-TEST_F(Terminal, HasColoursWhereNothingSaysOtherwise) {
+TEST_F(Terminal, HasColoursByDefault) {
   const char* const coloured = "\033[1;33mwarning:\033[0m";
   EXPECT_THAT(on_terminal("", identify()), HasSubstr(coloured));
   EXPECT_THAT(on_terminal("NO_COLOR=1", identify()), Not(HasSubstr("\033[1")));

@@ -72,7 +72,7 @@ TEST(BreakEven, IsWhereTheLeadEnds) {
   EXPECT_TRUE(some_ends);
 }
 
-TEST(BreakEven, DoesNotDependOnThreadsAndStandsInTheFileOnlyWhenRequested) {
+TEST(BreakEven, DoesNotDependOnThreadsAndIsWrittenOnRequest) {
   const Provenance provenance{"compare", {}, {{"model.json", "abc"}}};
   const CompareOptions one{.samples = 2, .seed = 3, .threads = 1};
   const auto first = compared(turn(60.0), one);
@@ -91,7 +91,7 @@ TEST(BreakEven, DoesNotDependOnThreadsAndStandsInTheFileOnlyWhenRequested) {
   EXPECT_THAT(comparison_table(without), Not(HasSubstr("break-even")));
 }
 
-TEST(BreakEven, IsEmptyWhereNothingIsFollowed) {
+TEST(BreakEven, IsEmptyInOpenLoop) {
   const auto comparison = compared(short_open_loop());
   ASSERT_TRUE(comparison);
   EXPECT_TRUE(comparison->break_even->empty());
@@ -112,7 +112,7 @@ TEST(BreakEven, IsRefusedForPartsAndSeveralSetsOfGains) {
 }
 
 /// The comparison with scrub measured in the model's differential turns.
-Comparison told_with(const std::optional<YawScrub>& scrub, std::optional<double> held_m = {}) {
+Comparison table_with(const std::optional<YawScrub>& scrub, std::optional<double> held_m = {}) {
   Model model = uncertain_model();
   model.yaw_scrub = scrub;
   model.yaw_held_m = held_m;
@@ -133,7 +133,7 @@ YawScrub scrub_of(const Interval& scrub_m) {
 /// Break-even moments of the model without scrub.
 std::vector<double> ending_moments_m() {
   std::vector<double> moments_m;
-  const Comparison comparison = told_with(std::nullopt);
+  const Comparison comparison = table_with(std::nullopt);
   for (const BreakEven& entry : *comparison.break_even) {
     if (entry.yaw_coulomb_m) moments_m.push_back(*entry.yaw_coulomb_m);
   }
@@ -145,14 +145,14 @@ TEST(BreakEven, IsDecidedByTheScrubThatWasMeasured) {
   const std::vector<double> ends_m = ending_moments_m();
   ASSERT_FALSE(ends_m.empty());
   const double least_m = ends_m.front(), most_m = ends_m.back();
-  const auto told = [](const Interval& scrub_m) {
-    return comparison_table(told_with(scrub_of(scrub_m)));
+  const auto reported = [](const Interval& scrub_m) {
+    return comparison_table(table_with(scrub_of(scrub_m)));
   };
-  EXPECT_THAT(told({0.5 * least_m, 0.9 * least_m}),
+  EXPECT_THAT(reported({0.5 * least_m, 0.9 * least_m}),
               HasSubstr("still ahead in 1, no longer in 0, undecided in 0"));
-  EXPECT_THAT(told({1.1 * most_m, 2.0 * most_m}),
+  EXPECT_THAT(reported({1.1 * most_m, 2.0 * most_m}),
               HasSubstr("still ahead in 0, no longer in 1, undecided in 0"));
-  EXPECT_THAT(told({0.5 * least_m, 2.0 * most_m}),
+  EXPECT_THAT(reported({0.5 * least_m, 2.0 * most_m}),
               HasSubstr("still ahead in 0, no longer in 0, undecided in 1"));
 }
 
@@ -161,7 +161,7 @@ TEST(BreakEven, IsOpenWhereScrubWasMeasuredAtOtherRates) {
   ASSERT_FALSE(ends_m.empty());
   YawScrub scrub = scrub_of({0.5 * ends_m.front(), 0.9 * ends_m.front()});
   scrub.yaw_rate_radps = {radians(1.0), radians(2.0)};
-  const Comparison comparison = told_with(scrub);
+  const Comparison comparison = table_with(scrub);
   for (const BreakEven& entry : *comparison.break_even) {
     if (entry.yaw_coulomb_m) {
       EXPECT_EQ(lead_of(entry), Lead::kOpen);
@@ -175,30 +175,30 @@ TEST(BreakEven, IsDecidedWithAllOfAScrubThatChangesWithTheRate) {
   ASSERT_FALSE(ends_m.empty());
   YawScrub scrub = scrub_of({0.5 * ends_m.front(), 0.9 * ends_m.front()});
   scrub.changing_m = Interval{0.1 * ends_m.front(), 3.0 * ends_m.back()};
-  EXPECT_THAT(comparison_table(told_with(scrub)),
+  EXPECT_THAT(comparison_table(table_with(scrub)),
               HasSubstr("still ahead in 0, no longer in 0, undecided in 1"));
 }
 
-TEST(BreakEven, IsNotKeptAgainstWhatTheTyresHold) {
+TEST(BreakEven, IsNotKeptAboveTheLargestMomentWithoutATurn) {
   const std::vector<double> ends_m = ending_moments_m();
   ASSERT_FALSE(ends_m.empty());
   const YawScrub moving = scrub_of({0.5 * ends_m.front(), 0.9 * ends_m.front()});
-  EXPECT_THAT(comparison_table(told_with(moving, 2.0 * ends_m.back())),
+  EXPECT_THAT(comparison_table(table_with(moving, 2.0 * ends_m.back())),
               HasSubstr("still ahead in 0, no longer in 0, undecided in 1"));
   // If the vehicle never turned, the largest moment is the lower bound.
-  EXPECT_THAT(comparison_table(told_with(std::nullopt, 2.0 * ends_m.back())),
+  EXPECT_THAT(comparison_table(table_with(std::nullopt, 2.0 * ends_m.back())),
               HasSubstr("still ahead in 0, no longer in 1, undecided in 0"));
-  EXPECT_THAT(comparison_table(told_with(std::nullopt, 0.5 * ends_m.front())),
+  EXPECT_THAT(comparison_table(table_with(std::nullopt, 0.5 * ends_m.front())),
               HasSubstr("still ahead in 0, no longer in 0, undecided in 1"));
 }
 
-TEST(BreakEven, SaysHowManyTurnsWouldDecide) {
+TEST(BreakEven, ReportsTheNumberOfTurnsForADecision) {
   const std::vector<double> ends_m = ending_moments_m();
   ASSERT_FALSE(ends_m.empty());
   const double end_m = ends_m.front();
   // The end is half-way from the middle: half as wide, and four times as many turns.
   const Comparison comparison =
-      told_with(scrub_of({0.9 * end_m - 0.2 * end_m, 0.9 * end_m + 0.2 * end_m}));
+      table_with(scrub_of({0.9 * end_m - 0.2 * end_m, 0.9 * end_m + 0.2 * end_m}));
   for (const BreakEven& entry : *comparison.break_even) {
     if (entry.yaw_coulomb_m == end_m) {
       EXPECT_NEAR(entry.turns_to_decide.value_or(0), 40, 1);
@@ -207,7 +207,7 @@ TEST(BreakEven, SaysHowManyTurnsWouldDecide) {
   EXPECT_THAT(comparison_table(comparison), HasSubstr("differential turns in total would decide"));
 }
 
-TEST(BreakEven, OfYawResistanceThatHoldsScrubIsRefused) {
+TEST(BreakEven, RefusesYawResistanceThatIncludesScrub) {
   Model model = uncertain_model();
   model.yaw_by_sides_alone = true;
   const auto comparison = compare(model, kPaperGains, {turn(60.0)}, {.break_even = true});

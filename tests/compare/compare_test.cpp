@@ -87,13 +87,13 @@ TEST(Compare, SampleZeroIsTheModelItself) {
                             {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}}),
                    scenario, controller);
     // Batches round differently from simulate(), by 1e-13 or so: tests/simulate/batch_test.cpp.
-    const double judge = *direct.heading_iae_degs;
-    EXPECT_NEAR(*c.rows[4 * i].metrics.heading_iae_degs, judge, 1e-9 * judge);
+    const double expected = *direct.heading_iae_degs;
+    EXPECT_NEAR(*c.rows[4 * i].metrics.heading_iae_degs, expected, 1e-9 * expected);
     EXPECT_EQ(nominal.rows[i].metrics.heading_iae_degs, c.rows[4 * i].metrics.heading_iae_degs);
   }
 }
 
-TEST(Compare, TheNoiseOfSampleZeroDoesNotHangOnTheSeed) {
+TEST(Compare, NoiseOfSampleZeroDoesNotDependOnTheSeed) {
   Scenario noisy = short_heading();
   noisy.sensors.emplace();
   noisy.sensors->heading.noise = radians(1.0);

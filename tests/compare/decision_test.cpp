@@ -107,7 +107,7 @@ TEST(Decision, NamesTheModeThatIsNeverBehind) {
   EXPECT_EQ(level.kind(), DecisionKind::kLevel);
 }
 
-TEST(Decision, NamesTheTrialThatTellsThePlantsApart) {
+TEST(Decision, NamesTheTrialThatDiscriminatesThePlants) {
   const Decision scrub{{kDifferential, kSteering}, {on_tyres({kSteering})}};
   EXPECT_THAT(scrub.deciding_trials(), ElementsAre(kDifferentialTurns));
   const Decision steered{{kDifferential, kSteering}, {on_tyres({kDifferential})}};
@@ -172,16 +172,16 @@ TEST(Decision, DoesNotDependOnThreadsAndIsInTheFile) {
   EXPECT_EQ(counts.at("survived").at("gains").at("of"), 1);
 }
 
-TEST(Decision, NeedsTwoToChooseFrom) {
+TEST(Decision, NeedsTwoModes) {
   Model skid = uncertain_model();
   skid.vehicle.drive = Drive::kDifferential;
   const auto comparison = compare(skid, kPaperGains, {short_heading()}, {.other_settings = true});
   ASSERT_TRUE(comparison) << to_text(comparison.error());
   EXPECT_THAT(comparison->changes, IsEmpty());
-  EXPECT_FALSE(judge(*comparison, {}, 1).front().decision);
+  EXPECT_FALSE(evaluate_scenarios(*comparison, {}, 1).front().decision);
 }
 
-TEST(Decision, SaysWhatCouldNotBeRun) {
+TEST(Decision, ReportsSettingsThatCouldNotBeRun) {
   Scenario slippery = short_heading();
   slippery.patches.push_back({.centre_m = {5.0, 0.0}, .radius_m = 1.0, .force_max = 0.1});
   const auto comparison = compared({slippery}, 0);
@@ -202,10 +202,11 @@ TEST(Decision, AnUndecidedLeadIsNotCalledBest) {
     comparison.rows.push_back(row);
   }
   comparison.whole_samples = 1;
-  const auto verdict = [&] { return judge(comparison, {}, 1).front().verdict; };
+  const auto verdict = [&] { return evaluate_scenarios(comparison, {}, 1).front().verdict; };
   EXPECT_THAT(verdict(), ::testing::StartsWith("differential is best"));
   comparison.changes = {on_tyres({kSteering})};
-  EXPECT_EQ(judge(comparison, {}, 1).front().decision->kind(), DecisionKind::kUndecided);
+  EXPECT_EQ(evaluate_scenarios(comparison, {}, 1).front().decision->kind(),
+            DecisionKind::kUndecided);
   EXPECT_THAT(verdict(), ::testing::StartsWith("differential is ahead here"));
   EXPECT_THAT(verdict(), ::testing::HasSubstr("undecided: steering first on the four-wheel plant"));
 }
@@ -215,10 +216,10 @@ TEST(Decision, NamesTheModeThatCompletesNoRunOfAChange) {
   comparison.whole_samples = 1;
   comparison.changes = {on_tyres({kSteering, kCombined})};
   comparison.changes[0].completed = {{kDifferential, 0, 1}, {kSteering, 1, 1}, {kCombined, 1, 1}};
-  EXPECT_THAT(judge(comparison, {}, 1).front().verdict,
+  EXPECT_THAT(evaluate_scenarios(comparison, {}, 1).front().verdict,
               ::testing::HasSubstr("; differential completed 0 of 1 on the four-wheel plant"));
   comparison.changes[0].completed[0].count = 1;
-  EXPECT_THAT(judge(comparison, {}, 1).front().verdict,
+  EXPECT_THAT(evaluate_scenarios(comparison, {}, 1).front().verdict,
               ::testing::Not(::testing::HasSubstr("completed 0 of")));
 }
 

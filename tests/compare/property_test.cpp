@@ -53,7 +53,7 @@ TEST(CompareProperty, InTheBoxEveryMetricIsFinite) {
   EXPECT_TRUE(rc::check([] { is_finite_or_refused(1.0); }));
 }
 
-TEST(CompareProperty, AndTenTimesBeyondIt) {
+TEST(CompareProperty, TenTimesOutsideTheBoxTheSameHolds) {
   EXPECT_TRUE(rc::check([] { is_finite_or_refused(10.0); }));
 }
 

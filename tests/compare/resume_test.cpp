@@ -56,7 +56,7 @@ TEST(Resume, StoppedBeforeTheFirstSampleNothingIsEvaluated) {
   EXPECT_EQ(comparison_table(c), "");
 }
 
-TEST(Resume, GoingOnEndsInTheSameBytes) {
+TEST(Resume, ContinuationGivesTheSameBytes) {
   const TemporaryDirectory directory;
   const Comparison part = stopped_after(16 * 6 + 20);
   write_all(directory.path() / "comparison.csv", comparison_csv(part));
@@ -144,7 +144,7 @@ TEST(Resume, RefusesEditedRows) {
               HasSubstr("is not as it was written"));
 }
 
-TEST(ComparisonCsv, ANameThatASpreadsheetRunsLandedRawInACell) {
+TEST(ComparisonCsv, EscapesNamesThatASpreadsheetWouldRun) {
   const std::string csv = comparison_csv(compared({.samples = 0, .seed = 3, .threads = 1}));
   EXPECT_THAT(csv, HasSubstr("\n\"'=b, \"\"quoted\"\"\nline\",differential,"));
 }

@@ -86,7 +86,7 @@ PairedDifference iae_difference(const Comparison& c, std::uint64_t seed) {
   return {};
 }
 
-TEST(PairedDifferences, CancelWhatTheModesShare) {
+TEST(PairedDifferences, CancelCommonVariation) {
   const PairedDifference d = iae_difference(paired(100, 0.0), 1);
   EXPECT_EQ(d.first.mode, YawMode::kDifferential);
   EXPECT_EQ(d.second.mode, YawMode::kSteering);
@@ -115,7 +115,7 @@ TEST(Bootstrap, LeavesOutLessForFewValues) {
   EXPECT_EQ(bootstrap_tail(1, 0.025), 0.025);
 }
 
-TEST(Bootstrap, HoldsAMeanOfTenAsOftenAsItSays) {
+TEST(Bootstrap, CoversAMeanOfTenAtItsRate) {
   int held = 0;
   constexpr int kTrials = 400;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -242,7 +242,7 @@ Comparison settling(std::array<double, 3> seconds, std::array<int, 3> failures =
   return c;
 }
 
-TEST(Ranking, TellsEquivalentFromUndecidedAndBehind) {
+TEST(Ranking, DistinguishesEquivalentUndecidedAndBehind) {
   // Of four ranked metrics one differs: scores by (ratio)^(1/4), with an offset of 0.1 s/0.05.
   const auto ranking = ranking_of(settling({10.0, 10.5, 20.0}));
   EXPECT_THAT(ranks(ranking), ElementsAre(1, 1, 3));
@@ -258,13 +258,13 @@ TEST(Ranking, TellsEquivalentFromUndecidedAndBehind) {
   EXPECT_DOUBLE_EQ(ranking[0].first_by_weights, ranking[1].first_by_weights);
 }
 
-TEST(Ranking, OfTwoModesDoesNotHangOnAThird) {
+TEST(Ranking, OfTwoModesDoesNotDependOnAThird) {
   const double alone = ranking_of(settling({10.0, 14.0, 14.0}))[1].score;
   const double beside_a_bad_one = ranking_of(settling({10.0, 14.0, 1000.0}))[1].score;
   EXPECT_NEAR(beside_a_bad_one, alone, 1e-12);
 }
 
-TEST(Ranking, AFailureThatMayBeChanceBarsNoClearWinner) {
+TEST(Ranking, AnInsignificantFailureDoesNotPreventABestMode) {
   // One failure of 40 is not significantly lower; twelve are (McNemar: 2^-11) and rank after a
   // worse score.
   EXPECT_EQ(ranking_of(settling({10.0, 30.0, 31.0}, {1, 0, 0}))[0].contender.mode,
@@ -275,7 +275,7 @@ TEST(Ranking, AFailureThatMayBeChanceBarsNoClearWinner) {
   EXPECT_LT(failing[2].score, 1.0);
 }
 
-TEST(Ranking, FollowsTheUsersWeightsAndSaysHowMuchItHangsOnThem) {
+TEST(Ranking, FollowsTheUsersWeightsAndReportsItsSensitivity) {
   // Differential settles in half the time of steering with 1.75 times its motor activity. With
   // offsets of 2 s and 1 /s (floors over the relevance) both factors are 1.5.
   Comparison c;
@@ -295,7 +295,7 @@ TEST(Ranking, FollowsTheUsersWeightsAndSaysHowMuchItHangsOnThem) {
   EXPECT_NEAR(by_time[0].first_by_weights + by_time[1].first_by_weights, 1.0, 1e-12);
 }
 
-TEST(Preferences, RefuseWhatIsNoWeight) {
+TEST(Preferences, RefuseInvalidWeights) {
   for (const char* text :
        {"finish_time_s", "finish_time_s=", "finish_time_s=-1", "finish_time_s=nan",
         "finish_time_s=1001", "finish_time_s=1e400", "=1", "path_length_m=1"}) {
@@ -331,7 +331,7 @@ TEST(PairedDifferences, AreRelevantEquivalentOrUndecided) {
   EXPECT_EQ(conclusion(spread), Conclusion::kUndecided);
 }
 
-TEST(Ranking, IsEmptyWhereThereIsNothingToFollow) {
+TEST(Ranking, IsEmptyInOpenLoop) {
   Comparison c;
   ComparisonRow open{.scenario = "s", .mode = YawMode::kSteering, .sample = 0, .metrics = {}};
   c.rows = {open};

@@ -39,13 +39,13 @@ struct Evaluated {
 
 Evaluated evaluate(const Comparison& c) {
   Evaluated j{c, {}};
-  j.scenario = judge(j.comparison, {}, 1).front();
+  j.scenario = evaluate_scenarios(j.comparison, {}, 1).front();
   return j;
 }
 
 std::string verdict(const Comparison& c) { return evaluate(c).scenario.verdict; }
 
-TEST(Verdict, NamesTheBestAndWhatTheOtherIsBehindIn) {
+TEST(Verdict, NamesTheBestAndTheLargestDifference) {
   const std::string text = verdict(twenty(3.0, 0.1));
   EXPECT_THAT(text, HasSubstr("differential is best; steering is behind"));
   EXPECT_THAT(text, HasSubstr("settling_time_s: 3"));
@@ -53,7 +53,7 @@ TEST(Verdict, NamesTheBestAndWhatTheOtherIsBehindIn) {
   EXPECT_THAT(text, HasSubstr("all completed"));
 }
 
-TEST(Verdict, GivesTheGapAsWhatTheOtherTakesMoreWhicheverComesFirst) {
+TEST(Verdict, GivesTheDifferenceOfTheOtherInEitherOrder) {
   for (const double behind_s : {3.0, -3.0}) {
     const std::string text = verdict(twenty(behind_s, 0.1));
     EXPECT_THAT(text, HasSubstr(behind_s > 0.0 ? "steering is behind" : "differential is behind"));
@@ -62,7 +62,7 @@ TEST(Verdict, GivesTheGapAsWhatTheOtherTakesMoreWhicheverComesFirst) {
   }
 }
 
-TEST(Verdict, SaysThatATieIsATie) {
+TEST(Verdict, ReportsATie) {
   // A mean of 0.1 s with a standard error of 5/sqrt(20) = 1.1 s: 11 % of 10 s, in one of four
   // metrics.
   EXPECT_THAT(verdict(twenty(0.1, 5.0)), HasSubstr("are tied: these runs do not separate them"));
@@ -89,7 +89,7 @@ TEST(Verdict, GivesAnIntervalOfFailuresFromTwoRunsOn) {
   EXPECT_THAT(keep(1), Not(HasSubstr("95 %")));
 }
 
-TEST(Verdict, SaysWhereNoneCompleted) {
+TEST(Verdict, ReportsThatNoneCompleted) {
   Comparison c = twenty(3.0, 0.1);
   EXPECT_THAT(verdict(c), Not(HasSubstr("none completed")));
   for (ComparisonRow& row : c.rows) row.metrics.completed = row.sample == 1;
@@ -103,7 +103,7 @@ TEST(Verdict, DoesNotRankByAFailureThatMayBeChance) {
   EXPECT_THAT(verdict(twenty(0.0, 0.0, 1)), HasSubstr("tied"));
 }
 
-TEST(Verdict, OfAFewSamplesNoneIsLedByWhatNeverCompletes) {
+TEST(Verdict, RanksAModeThatNeverCompletesLast) {
   // 0 of 4 compared with 4 of 4: McNemar's p is 0.125, but steering fails each of them although it
   // is faster.
   Comparison c = twenty(-3.0, 0.1, 20);
@@ -113,7 +113,7 @@ TEST(Verdict, OfAFewSamplesNoneIsLedByWhatNeverCompletes) {
   EXPECT_THAT(text, HasSubstr("steering completed 0 of 4"));
 }
 
-TEST(Verdict, SharesTheFirstPlaceAmongWhatIsTheSame) {
+TEST(Verdict, SharesRankOneAmongEqualModes) {
   const Evaluated same = evaluate(twenty(0.0, 0.0));
   for (const RankedMode& mode : same.scenario.ranking) {
     EXPECT_EQ(mode.rank, 1);
@@ -122,7 +122,7 @@ TEST(Verdict, SharesTheFirstPlaceAmongWhatIsTheSame) {
   }
 }
 
-TEST(Verdict, TiesWhatIsEquivalentInEveryMetric) {
+TEST(Verdict, TiesModesThatAreEquivalentInEveryMetric) {
   // Ten metrics with tiny but certain differences, each a hundredth of the relevance margin.
   Comparison c = twenty(0.0, 0.0);
   for (ComparisonRow& row : c.rows) {
@@ -142,7 +142,7 @@ TEST(Verdict, ReportsNoUncertaintyForASingleSample) {
   EXPECT_THAT(verdict(c), HasSubstr("nominal model only, no uncertainty"));
 }
 
-TEST(Tally, CountsTheBestAndWhatIsNotToldApart) {
+TEST(Tally, CountsTheBestAndTheTied) {
   const Evaluated clear = evaluate(twenty(3.0, 0.1));
   const Evaluated alike = evaluate(twenty(0.1, 2.0));
   const auto tallies = tally({clear.scenario, alike.scenario});
@@ -154,7 +154,7 @@ TEST(Tally, CountsTheBestAndWhatIsNotToldApart) {
   EXPECT_THAT(tallies[1].best_or_tied, ElementsAre(2, 2));
 }
 
-TEST(Tally, AModeWithoutTheMetricIsBeatenByOneThatHasIt) {
+TEST(Tally, AModeWithoutTheMetricIsWorse) {
   Comparison c = twenty(-3.0, 0.1);
   for (ComparisonRow& row : c.rows) {
     if (row.mode == YawMode::kSteering) row.metrics.settling_time_s.reset();

@@ -172,7 +172,7 @@ TEST(Allocation, StaysInsideTheLimitsAndFiniteWhateverIsRequested) {
   }
 }
 
-TEST(Allocation, SaysWhenSteeringHasNoAuthority) {
+TEST(Allocation, ReportsSteeringWithoutAuthority) {
   for (const double tau_speed : {0.0, -0.5, 1e-9}) {
     EXPECT_TRUE(allocate(YawMode::kSteering, tau_speed, 0.1, limits()).steering_powerless);
     const Allocation<double> combined = allocate(YawMode::kCombined, tau_speed, 0.1, limits());
@@ -263,7 +263,7 @@ TEST(Allocation, RedistributionNeverDeliversLessOfTheMomentThanTheFixedHalf) {
   }));
 }
 
-TEST(Allocation, WhatClippedForcesLeaveOfTheMomentGoesToTheSteering) {
+TEST(Allocation, SteeringTakesOverTheMomentOfClippedForces) {
   // tau_speed 3.6 leaves each force 0.1 of room: less than half of the moment requires. Steering
   // has room for the rest, to either side.
   for (const double tau_turn_m : {0.3, -0.3}) {
@@ -308,7 +308,7 @@ TEST(AllocationForSmallAngles, IsThePapersEquationWithItsMisprintsCorrected) {
   EXPECT_DOUBLE_EQ(combined.force.left, tau_speed / 4.0 - tau_turn_m / (8.0 * 0.36));
 }
 
-TEST(AllocationForSmallAngles, GivesWhatALimitTakesFromOnePathToTheOther) {
+TEST(AllocationForSmallAngles, MovesTheRestOfALimitedPathToTheOther) {
   // The stop, 20 deg, leaves steering l_f tau_speed d_max/2 of the moment; differential force
   // provides the rest.
   const Allocation<double> stopped = allocate(YawMode::kCombined, 1.0, 0.4, small_angle_limits());
@@ -384,7 +384,7 @@ TEST(Allocation, MotorsWithBackEmfMakeTheForcesOfTheAllocation) {
   }));
 }
 
-TEST(Allocation, IsThatAtRestWhereNoSpeedIsSaid) {
+TEST(Allocation, AssumesRestWithoutASpeed) {
   AllocationLimits<double> l = limits();
   l.back_emf_s_per_m = 0.3;
   const Allocation<double> unsaid = allocate(YawMode::kCombined, 3.9, 0.1, l);
@@ -422,7 +422,7 @@ TEST(FrontWheelAllocation, DeliversExactlyWhatIsRequestedInsideTheLimits) {
   }));
 }
 
-TEST(FrontWheelAllocation, StaysInsideTheLimitsAndGivesBackWhatTheyTake) {
+TEST(FrontWheelAllocation, StaysInsideTheLimitsAndRedistributes) {
   EXPECT_TRUE(rc::check([] {
     const AllocationLimits<double> l = front_limits();
     const double tau_speed = drawn(-3, 3);

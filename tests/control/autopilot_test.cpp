@@ -198,7 +198,7 @@ TEST_F(AutopilotLeads, PastAPointThatAnObstacleCovers) {
   EXPECT_NEAR(step_at({0.0F, -9.0F}).psi_ref_rad, std::atan2(9.0F, 10.0F), 1e-4F);
 }
 
-TEST_F(AutopilotLeads, WithAShapedHeadingThatBeginsAnewAfterAFault) {
+TEST_F(AutopilotLeads, WithAShapedHeadingThatRestartsAfterAFault) {
   const HeadingShaping<float> filter{4.0F, 0.5F, 2.0F};
   shape_headings(autopilot_, filter, kSampleTime_s);
   in_.measured.psi_rad = 3.0F;
@@ -315,7 +315,7 @@ TEST_F(AutopilotLeads, WithDrivesThatMakeUpForBackEmfAndForcesThatItLeaves) {
   }
 }
 
-TEST_F(AutopilotLeads, AskingForAPositionWhereSomethingLeadsByIt) {
+TEST_F(AutopilotLeads, NeedingAPositionOnlyIfAPartUsesIt) {
   EXPECT_EQ(fault_without_position(), kFaultNone);
   const Position<float> corners[] = {{0.0F, 0.0F}, {5.0F, 5.0F}};
   follow_line(autopilot_, {corners, 2, 0.0F, {1.0F, 1.0F, false}}, 0.01F);
@@ -334,7 +334,7 @@ TEST_F(AutopilotLeads, AskingForAPositionWhereSomethingLeadsByIt) {
   EXPECT_EQ(fault_without_position(), kFaultNone);
 }
 
-TEST_F(AutopilotLeads, ByNothingOnceItIsStartedAgain) {
+TEST_F(AutopilotLeads, ByNoPartAfterARestart) {
   const Position<float> corners[] = {{0.0F, 0.0F}, {5.0F, 5.0F}};
   const Obstacle<float> obstacles[] = {{{1.5F, 0.0F}, 0.5F}};
   Sector<float> sectors[1];

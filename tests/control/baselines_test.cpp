@@ -96,7 +96,7 @@ TEST(Ilos, FarFromTheLineTheIntegralHardlyGrows) {
   EXPECT_LT(far_s, 0.01 * near_s);
 }
 
-TEST(Ilos, BeginsAnewOnEachSegment) {
+TEST(Ilos, RestartsOnEachSegment) {
   const P points[] = {{0, 0}, {10, 0}, {10, 10}};
   const Polyline<double, IntegralLos<double>> line{points, 3, 0.0, {2.0, 0.5, false}};
   auto progress = start_polyline(0.0);
@@ -226,7 +226,7 @@ TEST(Lqi, OnTheModelItselfTheErrorFollowsTheLinearLoop) {
   EXPECT_NEAR(state.error_rad, 0.3, 1e-15);
 }
 
-TEST(Lqi, IntegratesButForWhatALimitTakesAwayOfWhatTheErrorAsksFor) {
+TEST(Lqi, StopsIntegratingAtALimit) {
   const auto after = [](double error_rad, double made_m, bool limited) {
     LqiState<double> state{1.0, error_rad};
     Allocation<double> a{};

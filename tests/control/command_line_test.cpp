@@ -59,7 +59,7 @@ TEST(CommandLine, TakesWholeLines) {
   }
 }
 
-TEST(CommandLine, RefusesWhatIsNoCommand) {
+TEST(CommandLine, RefusesInvalidCommands) {
   for (const char* text :
        {"....S 0\n", "S\n",    "S \n",     "S 1e9\n", "S nan\n",   "S 1 2\n",
         "S1\n",      "S  1\n", "S -\n",    "S .\n",   "S 1.2.3\n", "S 123456789\n",
@@ -75,7 +75,7 @@ TEST(CommandLine, RefusesWhatIsNoCommand) {
   EXPECT_EQ(only_verdict(reader, "K\n"), CommandVerdict::kTaken);
 }
 
-TEST(CommandLine, StopActsAtItsLastLetterWhereverItStands) {
+TEST(CommandLine, StopActsAtItsLastLetterAnywhereInALine) {
   for (const std::string& before : {std::string(), std::string("...."), std::string("S 1 S"),
                                     std::string("SS"), std::string("STO"), std::string(200, 'x'),
                                     std::string("#7 "), std::string("\xff\x00", 2)}) {

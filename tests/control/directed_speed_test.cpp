@@ -120,7 +120,7 @@ TEST_F(RollingVehicle, BrakesFromADriveAndStaysAtRest) {
   }
 }
 
-TEST_F(RollingVehicle, DrivesBackwardWhereThatIsWanted) {
+TEST_F(RollingVehicle, DrivesBackwardOnCommand) {
   for (int i = 0; i < 1500; ++i) step(-0.5F);
   EXPECT_NEAR(vehicle_.u, -0.5, 0.1);
   for (int i = 0; i < 1500; ++i) step(0.5F);

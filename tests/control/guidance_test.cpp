@@ -172,7 +172,7 @@ TEST(LissajousPath, OnThePathTheClosedFormIsTheOpenOne) {
   EXPECT_NEAR(closed.speed_mps, open.speed_mps, 1e-15);
 }
 
-TEST(LissajousPath, BehindItTheClosedFormCatchesUpAndBesideItTurnsTowardsIt) {
+TEST(LissajousPath, ClosedFormCatchesUpAndTurnsTowardsThePath) {
   const PathPoint<double> path{{0.0, 0.0}, 1.0, 0.0, 0.0, 0.0};
   EXPECT_NEAR(closed_path(path, 0.5, {-1.0, 0.0}, 0.0, 0.0).speed_mps, 1.5, 1e-15);
   EXPECT_NEAR(closed_path(path, 0.5, {9.0, 0.0}, 0.0, 0.0).speed_mps, 0.0, 1e-15);

@@ -80,13 +80,13 @@ TEST(DisturbanceObservers, SeeWhatTheCommandAndTheResistanceLeaveOut) {
   const GeneralisedForces<double> allocated{
       .tau_speed = 0.7, .tau_steering_m = 0.04, .tau_diff_m = 0.03};
   for (const bool anti_windup : {true, false}) {
-    Observers<double> told = observers;
-    told.anti_windup = anti_windup;
-    ObserversState<double> state = start_observers(told, motion.momentum);
+    Observers<double> reported = observers;
+    reported.anti_windup = anti_windup;
+    ObserversState<double> state = start_observers(reported, motion.momentum);
     AxisForces<double> seen{};
     for (int i = 0; i < 2000; ++i) {
-      seen = estimate(told, motion, state);
-      advance(told, seen, {1.1, 0.3}, allocated, motion, 0.01, state);
+      seen = estimate(reported, motion, state);
+      advance(reported, seen, {1.1, 0.3}, allocated, motion, 0.01, state);
     }
     EXPECT_NEAR(seen.surge, -((anti_windup ? 0.7 : 1.1) + 0.15 - 0.9), 1e-12);
     EXPECT_NEAR(seen.yaw_m, -((anti_windup ? 0.07 : 0.3) - 0.2), 1e-12);

@@ -158,7 +158,7 @@ TEST(PositionEstimate, DoesNotUseAFixThatJumps) {
   EXPECT_LT(drive.error_m(), 0.021);
 }
 
-TEST(PositionEstimate, IsResetWhereFiveFixesInARowAreElsewhereAndReportsIt) {
+TEST(PositionEstimate, ResetsAfterFiveRejectedFixesAndReportsIt) {
   Drive<double> drive(position_filter<double>(1.5, 0.2, kStep_s));
   drive.run(30.0);
   for (int fixes = 0; fixes < kRejections; ++fixes) {
@@ -183,7 +183,7 @@ TEST(PositionEstimate, DoesTheWorkOnAFixAtOnceWhereStepsAreLong) {
   EXPECT_NEAR(estimate.step({{0.05, 0.0}, 0.2, false}, rest).x_m, 0.963 * 0.05, 1e-5);
 }
 
-TEST(PositionEstimate, RejectsAFixThatIsNoNumber) {
+TEST(PositionEstimate, RejectsANonFiniteFix) {
   PositionEstimate<float> estimate(position_filter<float>(1.5, 0.2, kStep_s));
   const Measurement<float> rest{0.0F, 0.0F, 0.0F, 0.0F};
   estimate.step({{1.0F, 2.0F}, 0.0F, true}, rest);

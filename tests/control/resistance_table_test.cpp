@@ -41,7 +41,7 @@ TEST(ResistanceTable, IsOdd) {
   for (const float speed : {0.25F, 1.0F, 1.25F, 3.5F}) EXPECT_EQ(kTable(-speed), -kTable(speed));
 }
 
-TEST(RestingTable, IsFedForwardAsMuchAsTheSpeedAndTheIntentAsk) {
+TEST(RestingTable, IsFedForwardBySpeedAndIntent) {
   const RestingTable table{kTable, 0.5F, 5.0F};
   EXPECT_EQ(table(0.25F), 2.5F);
   EXPECT_EQ(table(1.25F), kTable(1.25F));
@@ -52,7 +52,7 @@ TEST(RestingTable, IsFedForwardAsMuchAsTheSpeedAndTheIntentAsk) {
   EXPECT_EQ(fed_forward(table, 1.25F, -9.0F), kTable(1.25F));
 }
 
-TEST(ResistanceTable, IsNoNumberFromTheLastCellOn) {
+TEST(ResistanceTable, IsNaNFromTheLastCellOn) {
   EXPECT_FALSE(std::isnan(kTable(std::nextafterf(4.0F, 0.0F))));
   for (const float speed : {4.0F, 5.0F, std::numeric_limits<float>::infinity(), std::nanf("")}) {
     EXPECT_TRUE(std::isnan(kTable(speed))) << speed;

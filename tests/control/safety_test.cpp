@@ -24,7 +24,7 @@ AllocationConstants<float> constants() {
   return prepared(limits);
 }
 
-TEST(LastGate, LetsPassWhatIsAtItsLimitsAndNothingBeyond) {
+TEST(LastGate, AcceptsValuesUpToTheLimits) {
   const AllocationConstants<float> c = constants();
   struct Command {
     float Allocation<float>::*angle;
@@ -47,7 +47,7 @@ TEST(LastGate, LetsPassWhatIsAtItsLimitsAndNothingBeyond) {
   }
 }
 
-TEST(LastGate, KnowsLimitsOfOneSign) {
+TEST(LastGate, AcceptsLimitsOfOneSign) {
   AllocationConstants<float> c = constants();
   c.force_min = 0.25F;
   const auto passes = [&c](float left) {
@@ -181,7 +181,7 @@ TEST_F(AutopilotFaults, InputsThatWereNotRenewedAreStale) {
   expect_fault(in, kFaultCommandTimeout, "command");
 }
 
-TEST_F(AutopilotFaults, SeveralComeTogether) {
+TEST_F(AutopilotFaults, CombinesSeveralBits) {
   AutopilotInput in = good();
   in.mode = 7;
   in.measured.u_mps = kNaN;

@@ -230,7 +230,7 @@ struct Receiver {
   }
 };
 
-TEST(GpsCheck, BelievesADriveThroughMidnightAndLostSentences) {
+TEST(GpsCheck, AcceptsADriveThroughMidnightAndLostSentences) {
   Receiver gps;
   gps.fix.utc_ms = kDay_ms - 3000;
   EXPECT_TRUE(gps.drive(50));
@@ -388,7 +388,7 @@ TEST(GpsCheck, FindsAVehicleThatDoesNotTurnToItsHeading) {
   EXPECT_GT(off_course_after_m(3.14, 1.0 / 5.4, 300.0), 0.0);
 }
 
-TEST(GpsCheck, TakesANewHeadingForANewCourse) {
+TEST(GpsCheck, AcceptsANewCommandedHeading) {
   // The heading is reversed every 6 m, which adds 6 m (3.1 - 0.262) = 17 m rad; the limit is 20.
   Receiver gps;
   for (int i = 0; i < 3000; ++i) {
@@ -489,7 +489,7 @@ int faults_of_slow_drives(float wander_m, float speed_share, float off_rad) {
   return faults;
 }
 
-TEST(MotionCheck, BelievesAWanderingPositionOfASlowVehicle) {
+TEST(MotionCheck, AcceptsADriftingPositionOfASlowVehicle) {
   // The limits are 3.2 and 3.5 standard deviations of the drift: at most one in 200.
   EXPECT_LE(faults_of_slow_drives(1.5F, 1.0F, 0.0F), 1);
   EXPECT_EQ(faults_of_slow_drives(1.0F, 1.0F, 0.0F), 0);

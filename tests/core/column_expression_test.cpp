@@ -44,7 +44,7 @@ TEST(ColumnExpression, HasFunctionsAndPi) {
   EXPECT_DOUBLE_EQ(value_of("sqrt (a) + abs(b)", {9.0, -2.0}), 5.0);
 }
 
-TEST(ColumnExpression, NamesWithOtherCharactersStandInBackticksOrQuotes) {
+TEST(ColumnExpression, NamesWithOtherCharactersAreQuoted) {
   const auto parsed =
       ColumnExpression::parse("`wheel speed/left` + \"V (km/h)\" + `pi` + a.b[2].c");
   ASSERT_TRUE(parsed) << parsed.error();
@@ -57,7 +57,7 @@ TEST(ColumnExpression, AColumnCountsOnceHoweverOftenItIsUsed) {
   EXPECT_THAT(parsed->names(), ElementsAre("a", "b"));
 }
 
-TEST(ColumnExpression, RefusesWhatIsNoArithmetic) {
+TEST(ColumnExpression, RefusesInvalidFormulas) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"a=1", "= is not allowed"},
       {"a==1", "= is not allowed"},
@@ -109,7 +109,7 @@ TEST(ParseColumn, TakesEveryForm) {
   EXPECT_EQ(parse_column("runs/drive_2.csv:speed_mps=V/3.6")->file, "runs/drive_2.csv");
 }
 
-TEST(ParseColumn, RefusesWhatIsOfNoForm) {
+TEST(ParseColumn, RefusesInvalidMappings) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"x", "no '='"},        {"=a", "NAME is empty"}, {"x=", "EXPRESSION is empty"},
       {":x=a", "FILE is"},    {"f:=a", "NAME is"},     {"x=a*0", "scale of 0"},
@@ -199,7 +199,7 @@ TEST(CsvExpressions, TheFilesOwnMappingComesBeforeTheOthers) {
   EXPECT_THAT(table->mapped(), ElementsAre(1U));
 }
 
-TEST(CsvExpressions, TheVehiclesMappingStandsBehindTheOthers) {
+TEST(CsvExpressions, TheVehiclesMappingHasTheLowestPriority) {
   ColumnMapping vehicle = *parse_column("x=a");
   vehicle.standing = true;
   const auto both = read_text("a,b\n1,2\n", {{"x"}}, {vehicle, *parse_column("x=b")});

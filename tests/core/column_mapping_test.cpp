@@ -53,7 +53,7 @@ TEST(ColumnMapping, ReadsBackWhatAnOutputNamesAsItsOption) {
                  {"x", "a", -0.5, -2e-7});
 }
 
-TEST(ColumnMapping, RefusesWhatIsNotOfTheForm) {
+TEST(ColumnMapping, RefusesInvalidMappings) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"speed_mps", "no '='"},          {"=V", "NAME is empty"},
       {"x=", "SOURCE is empty"},        {"x=*2", "SOURCE is empty"},

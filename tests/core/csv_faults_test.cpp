@@ -106,7 +106,7 @@ TEST(CsvFaults, DecimalCommasAndPointsInOneFile) {
                                 HasSubstr("\"1.5\" with a point in line 3"))));
 }
 
-TEST(CsvFaults, CommasThatMayPartThousands) {
+TEST(CsvFaults, AmbiguousThousandsSeparators) {
   EXPECT_THAT(faults("tau_speed;speed_mps\n1;1,250\n2;-12,500\n"),
               ElementsAre(AllOf(StartsWith("a.csv:2:3: "), HasSubstr("thousands separator"))));
   EXPECT_THAT(cell_faults("1,2,5", ';'), ElementsAre(HasSubstr("expected a number")));

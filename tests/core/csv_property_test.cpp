@@ -80,7 +80,7 @@ TEST(CsvNumber, OfFifteenAndMoreDigitsIsThatOfFromChars) {
   }
 }
 
-TEST(FormatNumber, IsWhatOneWouldWrite) {
+TEST(FormatNumber, WritesTheShortestForm) {
   EXPECT_EQ(format_number(0.1), "0.1");
   EXPECT_EQ(format_number(-2.0), "-2");
   EXPECT_EQ(format_number(1e300), "1e+300");

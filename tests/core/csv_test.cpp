@@ -83,7 +83,7 @@ std::string notes_of(const Result<CsvTable>& table) {
   return text;
 }
 
-TEST(Csv, ReadsDecimalCommasBetweenSemicolonsAndTabsAndSaysSo) {
+TEST(Csv, ReadsAndReportsDecimalCommas) {
   for (const std::string d : {";", "\t"}) {
     const auto table =
         read_text("tau_speed" + d + "speed_mps\n0,5" + d + "2,5e-1\n2" + d + "+1,66\n", kSurge);
@@ -92,12 +92,12 @@ TEST(Csv, ReadsDecimalCommasBetweenSemicolonsAndTabsAndSaysSo) {
   }
 }
 
-TEST(Csv, ThreeDecimalsAreDecimalsWhereAnotherCellTells) {
+TEST(Csv, ThreeDecimalsAreDecimalsIfAnotherCellShowsIt) {
   const auto table = read_text("tau_speed;speed_mps\n0,500;0,250\n2,000;1,660\n", kSurge);
   expect_two_rows(table);
 }
 
-TEST(Csv, SaysNothingOfAPlainFile) {
+TEST(Csv, ReportsNothingForAPlainFile) {
   EXPECT_EQ(notes_of(read_text("\xEF\xBB\xBFtau_speed,speed_mps\r\n1,2\r\n", kSurge)), "");
 }
 
@@ -180,7 +180,7 @@ TEST(Csv, PlacesACellByLineAndCharacter) {
   EXPECT_THAT(table->place(0, "elapsed_s"), EndsWith("a.csv:2:1"));
 }
 
-TEST(Csv, ReadsVerticalBarsAndSaysSo) {
+TEST(Csv, ReadsAndReportsVerticalBars) {
   const auto table = read_text("tau_speed|speed_mps\n0,5|0,25\n2|1,66\n", kSurge);
   expect_two_rows(table);
   EXPECT_THAT(notes_of(table), HasSubstr("vertical bars"));
@@ -196,7 +196,7 @@ TEST(Csv, ReadsAMinusSignOfUnicode) {
   EXPECT_THAT(table->column("a"), ElementsAre(-0.5, 0.01));
 }
 
-TEST(Csv, LeavesOutLinesAboveTheHeaderAndSaysSo) {
+TEST(Csv, SkipsAndReportsLinesAboveTheHeader) {
   for (const std::string above :
        {"=~=~=~=~=~= PuTTY log 2026.01.31 12:00:00 =~=~=~=~=~=\n", "sep=;\n", "\"sep=,\"\n",
         "Robot 5\n", "Robot 5; May 2026\nfirst floor\n", "% recorded by MATLAB\n"}) {
@@ -226,7 +226,7 @@ TEST(Csv, AMappingTakesAnotherNameAndUnit) {
   EXPECT_THAT(table->column("yaw_rate_radps"), ElementsAre(6.0, -9.0));
 }
 
-TEST(Csv, AMappingWinsOverAColumnOfTheSameName) {
+TEST(Csv, AMappingHasPriorityOverAColumnOfTheSameName) {
   const auto table = read_text("x,y\n1,2\n", {{"x"}}, {{"x", "y", 1.0, 0.0}});
   ASSERT_TRUE(table) << to_text(table.error());
   EXPECT_THAT(table->column("x"), ElementsAre(2.0));

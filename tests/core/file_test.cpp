@@ -172,7 +172,7 @@ TEST_F(FileTest, APipeWaitsForItsWriterAndReader) {
   writer.join();
 }
 
-TEST_F(FileTest, QueriesTellWhatIsThereAndWhatCannotBeLookedUp) {
+TEST_F(FileTest, QueriesReportExistenceAndLookUpErrors) {
   ASSERT_TRUE(write_file(path("a.txt"), ""));
   ASSERT_EQ(::mkfifo(path("a.pipe").c_str(), 0600), 0);
   fs::create_symlink("a.loop", path("a.loop"));

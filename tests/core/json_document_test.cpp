@@ -46,7 +46,7 @@ TEST(JsonDocument, EveryTruncationIsAFaultWithAPlace) {
   }
 }
 
-TEST(JsonDocument, RefusesWhatIsNoJson) {
+TEST(JsonDocument, RefusesInvalidJson) {
   for (const char* text :
        {"{'a': 1}", "{\"a\": 1,}", "[1,]", "{\"a\": NaN}", "{\"a\": Infinity}", "{\"a\": .5}",
         "{\"a\": 0x10}", "{\"a\": +1}", "{\"a\": 01}", "{} {}", "{\"a\": 1} x", "// c\n{}",

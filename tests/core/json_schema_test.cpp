@@ -10,7 +10,7 @@ Json schema_from(const std::function<void(JsonObject&)>& read) {
   return Json::parse(json_schema_text("test/1", "A test", read));
 }
 
-TEST(JsonSchema, HasWhatTheReaderAsksFor) {
+TEST(JsonSchema, HasTheKeysOfTheReader) {
   const Json schema = schema_from([](JsonObject& json) {
     json.schema("test/1");
     json.number("mass", {.min = 0.0, .max = 10.0, .min_excluded = true});
@@ -55,7 +55,7 @@ TEST(JsonSchema, GoesDownIntoObjectsThatMayBeThere) {
 
 constexpr NameTable<int, 3> kKinds{{{"point", 0}, {"circle", 1}, {"box", 2}}};
 
-TEST(JsonSchema, TellsWhichKeysGoWithWhichName) {
+TEST(JsonSchema, RelatesKeysToTheNameOfAChoice) {
   const Json schema = schema_from([](JsonObject& json) {
     const int kind = json.choice("kind", kKinds);
     json.choice("colour", kKinds);  // does not select anything
@@ -70,7 +70,7 @@ TEST(JsonSchema, TellsWhichKeysGoWithWhichName) {
   EXPECT_EQ(circle.at("/then/properties"_json_pointer), Json({{"width", false}}));
 }
 
-TEST(JsonSchema, TellsWhichKeysGoWithAChoiceThatIsNotMade) {
+TEST(JsonSchema, RelatesKeysToAnAbsentChoice) {
   const Json schema = schema_from([](JsonObject& json) {
     int kind = 1;
     if (json.has("kind")) kind = json.choice("kind", kKinds);

@@ -78,21 +78,21 @@ TEST(ParallelFor, ThrowsTheExceptionOfTheSmallestItemAndGoesOnAfterwards) {
   }
 }
 
-TEST(ParallelFor, StopsBeforeTheNextItemAndTellsOfItsOwnOnTheCallersThread) {
+TEST(ParallelFor, StopsBeforeTheNextItemAndReportsOnTheCallersThread) {
   std::atomic<int> begun = 0;
-  int told = 0;
+  int reported = 0;
   const std::thread::id caller = std::this_thread::get_id();
   LoopControl control;
   control.stop = [&] { return begun >= 5; };
   control.progress = [&] {
     EXPECT_EQ(std::this_thread::get_id(), caller);
-    ++told;
+    ++reported;
   };
   parallel_for(
       1000, 2, [&](std::size_t) { ++begun; }, control);
   EXPECT_GE(begun, 5);
   EXPECT_LE(begun, 6);  // both threads may have fetched an item before the fifth
-  EXPECT_LE(told, begun);
+  EXPECT_LE(reported, begun);
 }
 
 }  // namespace

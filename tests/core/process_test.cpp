@@ -67,14 +67,14 @@ TEST(Process, PastItsTimeLimitItEndsWithAllThatItStarted) {
   EXPECT_TRUE(is_over());
 }
 
-TEST(Process, WhatItLeftRunningDoesNotHoldItUp) {
+TEST(Process, DoesNotWaitForChildrenOfTheProgram) {
   const auto start = std::chrono::steady_clock::now();
   const ProgramEnd end = run("/bin/sh", {"-c", "sleep 30 & exit 3"});
   EXPECT_EQ(end.exit_code, 3);
   EXPECT_LT(seconds_since(start), 10.0);
 }
 
-TEST(Process, TalkingWithoutEndItIsCutShort) {
+TEST(Process, LimitsTheOutputOfAProgram) {
   const ProgramEnd end = run("/usr/bin/yes", {}, 0.3);
   EXPECT_TRUE(end.timed_out);
   EXPECT_EQ(end.output.size(), 65536u);
@@ -87,7 +87,7 @@ TEST(Process, WhatCannotBeStartedIsAnError) {
   EXPECT_EQ(exit_code(end.error()), 2);
 }
 
-TEST(Process, ProgramsAreNotLookedForWhereTheUserHappensToStand) {
+TEST(Process, DoesNotSearchProgramsInTheWorkingDirectory) {
   const TemporaryDirectory here;
   const std::string old = std::getenv("PATH");
   ::setenv("PATH", (".::" + here.path().filename().string() + ":/usr/bin:/bin").c_str(), 1);
@@ -99,7 +99,7 @@ TEST(Process, ProgramsAreNotLookedForWhereTheUserHappensToStand) {
   EXPECT_FALSE(missing.has_value());
 }
 
-TEST(Process, ThePlainEnvironmentLeavesOutWhatBendsACompiler) {
+TEST(Process, PlainEnvironmentOmitsCompilerVariables) {
   ::setenv("CPATH", "/elsewhere", 1);
   ::setenv("GCC_EXEC_PREFIX", "/elsewhere/", 1);
   const std::vector<std::string> environment = plain_environment("/private");

@@ -49,7 +49,7 @@ TEST(ErrorText, ShortensLongCellsInMessages) {
   EXPECT_LT(to_text(error).size(), 2200U);
 }
 
-TEST(ErrorText, ANewlineInANameForgedALine) {
+TEST(ErrorText, EscapesALineBreakInAName) {
   EXPECT_EQ(to_text(Error{ErrorKind::kInput, {{ErrorCode::kMissing, "a\nb", "no \"\x1B[31m\""}}}),
             "error: a\\nb: no \"\\x1b[31m\" [missing]\n");
 }

@@ -24,7 +24,7 @@ std::string meaning_of(const std::vector<std::string>& header,
   return *time ? (*time)->expression : "";
 }
 
-TEST(FindTime, TakesAUnitThatLeavesNoDoubt) {
+TEST(FindTime, AcceptsAnUnambiguousUnit) {
   EXPECT_EQ(meaning_of({"v", "time_ms"}), "`time_ms`*0.001");
   EXPECT_EQ(meaning_of({"t_us"}), "`t_us`*1e-06");
   EXPECT_EQ(meaning_of({"__time", "/odom/v"}), "`__time`") << "PlotJuggler's";
@@ -56,7 +56,7 @@ TEST(FindTime, TakesSecondsSince1970WithTheirFractionWhereThereIsNoOtherTime) {
   EXPECT_EQ(meaning_of({"timestamp", "time_ms"}, {"1700000000.5", "3"}), "`time_ms`*0.001");
 }
 
-TEST(FindTime, RefusesWhatMayBeTwoTimes) {
+TEST(FindTime, RefusesTwoPossibleTimes) {
   EXPECT_THAT(meaning_of({"time_ms", "gps_timestamp_us"}),
               AllOf(HasSubstr("refused"), HasSubstr("\"time_ms\" in ms"),
                     HasSubstr("\"gps_timestamp_us\" in us")));
@@ -130,7 +130,7 @@ TEST(CsvTime, TheColumnOfTheContractComesFirst) {
   EXPECT_THAT(table->notes(), IsEmpty());
 }
 
-TEST(CsvTime, RefusesWhatItIsNotSureOf) {
+TEST(CsvTime, RefusesAmbiguousTimes) {
   EXPECT_THAT(faults_of(read_text("time,v\n0,1\n", kLog)),
               ElementsAre(HasSubstr("the column t_s is missing")));
   EXPECT_THAT(faults_of(read_text("time_ms,t_us,v\n0,0,1\n", kLog)),

@@ -52,7 +52,7 @@ std::map<std::string, double> parameters_of(const std::string& text) {
 // Printed with six decimals, so a product of two errs by some 1e-6 of its larger factor.
 constexpr double kPrinted = 2e-5;
 
-TEST(Export, OfMotorsWithBackEmfIsNotWorkedOutForAutopilots) {
+TEST(Export, RefusesBackEmfForAutopilots) {
   Model model = paper_robot();
   model[ParameterId::kBackEmf] = {0.25, 0.01, {}, Source::kFitted, "trajectory"};
   for (const ExportFormat format : {ExportFormat::kArduPilot, ExportFormat::kPx4}) {
@@ -61,7 +61,7 @@ TEST(Export, OfMotorsWithBackEmfIsNotWorkedOutForAutopilots) {
   EXPECT_THAT(text_of(model, ExportFormat::kPython), HasSubstr("MOTOR_BACK_EMF_S_PER_M = 0.25"));
 }
 
-TEST(Export, OfFrontWheelDriveIsNotWorkedOutForAutopilots) {
+TEST(Export, RefusesFrontWheelDriveForAutopilots) {
   Model model = paper_robot();
   model.vehicle.drive = Drive::kFrontWheel;
   for (const ExportFormat format : {ExportFormat::kArduPilot, ExportFormat::kPx4}) {
@@ -130,7 +130,7 @@ TEST(Export, Px4sYawRateLimitIsWhatFullCommandsGiveUpToWhatWasMeasured) {
 
 TEST(Export, LeavesOutAndReportsValuesThatDoNotFollowFromTheModel) {
   const std::string px4 = text_of(paper_robot(), ExportFormat::kPx4);
-  EXPECT_THAT(px4, HasSubstr("# left out: RA_WHEEL_BASE: the model knows the front axle alone"));
+  EXPECT_THAT(px4, HasSubstr("# left out: RA_WHEEL_BASE: the model has only the front axle"));
   EXPECT_EQ(parameters_of(px4).count("RA_WHEEL_BASE"), 0U);
   EXPECT_NEAR(parameters_of(px4).at("RA_MAX_STR_ANG"),
               radians(paper_robot().vehicle.steering_max_deg), 1e-6);

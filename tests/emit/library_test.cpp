@@ -249,7 +249,7 @@ Model steep_robot() {
   return model;
 }
 
-TEST(ResistanceTables, AreTheBestThereIsWhereNoBoundIsGiven) {
+TEST(ResistanceTables, AreTheBestOnesWithoutABound) {
   const auto best = autopilot_parameters(steep_robot(), kPaperGains, paper_inputs(), {});
   ASSERT_TRUE(best);
   const double reached = best->surge.worst_share();

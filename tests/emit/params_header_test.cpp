@@ -121,7 +121,7 @@ TEST(ParamsHeader, KeepsNamesFromFilesInsideTheirComments) {
   }
 }
 
-TEST(ParamsHeader, NeedsEveryParameterAndNamesTheTrialThatShowsIt) {
+TEST(ParamsHeader, NeedsEveryParameterAndNamesTheTrialThatIdentifiesIt) {
   Model model = paper_robot();
   model[ParameterId::kMassNorm].value.reset();
   model[ParameterId::kYawAlpha].value.reset();
@@ -191,7 +191,7 @@ TEST(ParamsHeader, RefusesWhenT2IsNotBelowT1) {
   EXPECT_TRUE(params_header(paper_robot(), gains, paper_inputs()));
 }
 
-TEST(ParamsHeader, RefusesLimitsThatFloatCannotTellApart) {
+TEST(ParamsHeader, RefusesLimitsThatAreEqualInFloat) {
   Model model = paper_robot();
   model.vehicle.wheel_force = {std::nextafter(0.5, 0.0), 0.5};
   const auto header = params_header(model, kPaperGains, paper_inputs());

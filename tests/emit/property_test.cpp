@@ -65,7 +65,7 @@ TEST(EmitProperty, InTheBoxEveryCommandIsWithinItsLimits) {
   EXPECT_TRUE(rc::check([] { is_within_limits_or_refused(1.0); }));
 }
 
-TEST(EmitProperty, AndTenTimesBeyondIt) {
+TEST(EmitProperty, TenTimesOutsideTheBoxTheSameHolds) {
   EXPECT_TRUE(rc::check([] { is_within_limits_or_refused(10.0); }));
 }
 

@@ -163,7 +163,7 @@ TemporaryDirectory* SafeSketches::paper_ = nullptr;
 TemporaryDirectory* SafeSketches::rolling_ = nullptr;
 TemporaryDirectory* SafeSketches::slow_ = nullptr;
 
-TEST_F(SafeSketches, DriveWhereNothingIsWrongAlsoAcrossTheClocksWrap) {
+TEST_F(SafeSketches, DriveWithoutFaultsAcrossTheWrapOfTheClock) {
   for (const char* sketch : {"HeadingHold", "WaypointFollowing"}) {
     // millis() wraps 12 s after the start, during the drive.
     for (const char* start_ms : {"1000", "4294955000"}) {
@@ -200,7 +200,7 @@ TEST_F(SafeSketches, StopAtEveryHazardStayStoppedAndDriveAgainOnceArmed) {
       EXPECT_EQ(seen["off"], 1);
       EXPECT_EQ(seen["drives_again"], 0) << "without ARM";
       EXPECT_EQ(seen["cause"], hazard.cause);
-      EXPECT_EQ(seen["rearmed"], 1) << "once it was mended";
+      EXPECT_EQ(seen["rearmed"], 1) << "after the fault was removed";
     }
   }
 }
@@ -215,7 +215,7 @@ TEST_F(SafeSketches, TheTableOfHazardsIsWhatIsTested) {
   EXPECT_EQ(cases, names);
 }
 
-TEST_F(SafeSketches, AtSpeedZeroNothingPushesAVehicleThatRolls) {
+TEST_F(SafeSketches, AtSpeedZeroNoForceAcceleratesARollingVehicle) {
   for (const auto* directory : {paper_, rolling_}) {
     for (const double push : {0.0, -0.3, -0.87, -2.0, 0.87}) {
       for (const double noise : {0.05, 0.3}) {
@@ -293,7 +293,7 @@ TEST_F(SafeSketches, HoldTheHeadingAfterSevenHundredTurns) {
   EXPECT_EQ(seen["fault"], 0);
 }
 
-TEST_F(SafeSketches, RecordNothingOfASensorThatIsNotBelieved) {
+TEST_F(SafeSketches, RecordNoReadingsOfARejectedSensor) {
   auto good = drive(*paper_, "RecordTrials none");
   EXPECT_EQ(good["rows_broken"], 1);
   for (const char* broken :

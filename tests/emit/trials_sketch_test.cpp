@@ -120,7 +120,7 @@ TEST(TrialRecorder, ItsTablesGiveBackTheVehicle) {
   EXPECT_NEAR(value(ParameterId::kMassNorm), truth.mass, 0.03 * truth.mass);
 }
 
-TEST(TrialRecorder, LettingGoStopsAndTheRunWaitsAgain) {
+TEST(TrialRecorder, StopsIfTheCommandsEndAndWaitsAgain) {
   const Trial runs[] = {{kSurge, 0.5F, 0.0F}, {kTurning, 0.5F, 0.2F}};
   Drive drive{Recorder(runs, 2, kSettings)};
   EXPECT_EQ(drive.recorder.force(), 0.0F);
@@ -153,7 +153,7 @@ TEST(TrialRecorder, ARunThatIsNotSteadyOrWithoutFixesGivesNoRow) {
   EXPECT_EQ(heavy.recorder.state(), kWaiting);
 }
 
-TEST(TrialRecorder, ACoastDownHasRowsEnoughAndNeedsNobodyToHoldIt) {
+TEST(TrialRecorder, ACoastDownHasEnoughRowsWithoutCommands) {
   const Trial runs[] = {{kCoastdown, 0.2F, 0.0F}};
   Drive drive{Recorder(runs, 1, kSettings)};
   drive.recorder.go();

@@ -23,7 +23,8 @@ void check(const awmr_output& out, bool is_following) {
             "a fault gives the safe command");
   }
   if (is_following) return;
-  require(std::isfinite(out.tau_speed) && std::isfinite(out.tau_turn_m), "what the laws asked for");
+  require(std::isfinite(out.tau_speed) && std::isfinite(out.tau_turn_m),
+          "finite outputs of the laws");
   require(std::isfinite(out.psi_ref_rad), "the heading");
   require((out.fault & AWMR_FAULT_OUTPUT) == 0, "the last gate has nothing to do");
 }

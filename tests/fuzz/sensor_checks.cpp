@@ -63,10 +63,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           gps.take_fix(fix, bounded(word, 0.01F), bounded(in.get<std::int16_t>(), 0.01F), now_ms,
                        {bounded(word, 1e-3F), bounded(static_cast<std::int16_t>(use), 0.02F),
                         static_cast<std::int8_t>(use >> 6U), (use & 16U) != 0});
-      require(!taken || fix.utc_ms != last_utc_ms, "a sentence that is repeated is not believed");
+      require(!taken || fix.utc_ms != last_utc_ms, "a repeated sentence is rejected");
       last_utc_ms = fix.utc_ms;
       if (taken && gps.fault(now_ms) == awmr::kGpsSilent)
-        require(false, "a believed fix is not silence");
+        require(false, "an accepted fix is not silence");
     }
     if ((use & 32U) != 0) gps.take_unusable(awmr::GpsSentence::kDamaged, now_ms);
     const awmr::SensorFault a = heading.fault(now_ms);

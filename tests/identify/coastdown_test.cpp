@@ -110,7 +110,7 @@ TEST(CoastDown, TheClosedFormIsTheIntegratedOneForOtherFamiliesToo) {
   EXPECT_NEAR(*result->model[ParameterId::kMassNorm].value / m, 1.0, 1e-3);
 }
 
-TEST(CoastDown, IsManyTimesSurerThanAStopTime) {
+TEST(CoastDown, HasAMuchSmallerErrorThanAStopTime) {
   const Truth& t = kTruths[0];
   TrialData stop = surge_only(t, 0.02, 7);
   stop.coastdown = TrialSet<StopTimeRow>{
@@ -137,15 +137,15 @@ TEST(CoastDown, WithoutASurgeLawRefusesTheMassAndReportsTheRatio) {
   EXPECT_THAT(result->refused,
               ::testing::ElementsAre(ParameterId::kMassNorm, ParameterId::kInertiaNorm));
   EXPECT_NEAR(*result->model[ParameterId::kSurgeBeta].value, t.b1, 1e-6);
-  bool told = false;
+  bool reported = false;
   for (const Finding& f : result->model.record.findings) {
-    told = told ||
-           (f.code == "not-identifiable" && f.message.find("m'/a1 = 0.5556") != std::string::npos);
+    reported = reported || (f.code == "not-identifiable" &&
+                            f.message.find("m'/a1 = 0.5556") != std::string::npos);
   }
-  EXPECT_TRUE(told);  // 0.5/0.9
+  EXPECT_TRUE(reported);  // 0.5/0.9
 }
 
-TEST(CoastDown, SetsASpeedThatDoesNotFallAside) {
+TEST(CoastDown, SetsAsideACurveWithoutADeceleration) {
   TrialData data = surge_only(kTruths[0], 0.0, 1);
   CoastCurve flat{"curve.csv", 2, {}, {}};
   Random random(3, 1);
@@ -240,7 +240,7 @@ TEST(CoastDown, CombinesBothKindsAndReportsAContradiction) {
   EXPECT_TRUE(disagreement(identify(vehicle(), data, {}, {})->model));
 }
 
-TEST(CoastDown, JointlyTheCurveSharpensTheExponentToo) {
+TEST(CoastDown, JointFitImprovesTheExponent) {
   const Truth& t = kTruths[0];
   TrialData data = surge_only(t, 0.03, 9);
   Random random(9, 1);

@@ -65,7 +65,7 @@ TEST(Compass, FindsAKnownEllipseToTheRounding) {
   }
 }
 
-TEST(Compass, IntervalsHoldTheTruthAsOftenAsTheySay) {
+TEST(Compass, IntervalsCoverTheTruthAtTheirRate) {
   const Truth truth;
   const int kRuns = 400;
   int held[4] = {};
@@ -105,7 +105,7 @@ TEST(Compass, ATurnThatDoesNotCoverTheCircleIsRefusedWithWhatIsMissing) {
   }
 }
 
-TEST(Compass, RefusesOrReportsAFieldThatIsNoEllipse) {
+TEST(Compass, RefusesOrReportsAFieldThatIsNotAnEllipse) {
   FieldRecord same{.file = "field.csv"};
   for (int i = 0; i < 100; ++i) {
     same.t_s.push_back(i);
@@ -124,7 +124,7 @@ TEST(Compass, RefusesOrReportsAFieldThatIsNoEllipse) {
   EXPECT_EQ(rough->findings[0].code, "compass-residual");
 }
 
-TEST(Compass, AxesThatAreExchangedOrTurnedShowAgainstTheGyroscope) {
+TEST(Compass, ReportsAxesThatContradictTheGyroscope) {
   FieldRecord exchanged = record_of({}, {});
   std::swap(exchanged.ahead, exchanged.left);
   FieldRecord turned = record_of({}, {});

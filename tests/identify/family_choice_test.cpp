@@ -189,7 +189,7 @@ TEST(Families, OfMotorsThatLagLeaveTheMassRightWhereOnlyTheSpeedIsMeasured) {
 /// The parameter is the noise of the speed in m/s.
 class FamiliesAtNoise : public ::testing::TestWithParam<double> {};
 
-TEST_P(FamiliesAtNoise, OfFrictionFromRestAreRight) {
+TEST_P(FamiliesAtNoise, AreIdentifiedRightWithFrictionFromRest) {
   TrialData data;
   data.logs = {ramps_with_friction(GetParam(), 17)};
   const auto result = identify(robot(), data, {}, {});
@@ -207,7 +207,7 @@ INSTANTIATE_TEST_SUITE_P(Short, FamiliesAtNoise, ::testing::Values(1e-5, 5e-2));
 /// Also between the extremes.
 INSTANTIATE_TEST_SUITE_P(Long, FamiliesAtNoise, ::testing::Values(5e-4, 1e-3, 5e-3, 2e-2));
 
-TEST(Families, AreFittedWithoutATermThatTheFamilyBeforeThemHad) {
+TEST(Families, DropTermsOfThePreviousFamily) {
   const std::vector<DrivingLog> logs = with_coulomb_friction(0.2);
   const LogFitOptions options = from_nothing(logs);
   const FamilyFit rubbing = fit_family(logs, options, Family::kCoulombPower, Family::kPower);
@@ -232,7 +232,8 @@ TEST(Families, SearchesAgainFromABetterAlternative) {
   EXPECT_EQ(again.surge, Family::kPower);
   EXPECT_LT(aic_lead(alternative.fit, again.fit), 10.0);
   const FamilyFit kept = searched_again(logs, options, again, unlucky);
-  EXPECT_EQ(kept.fit.coordinates, again.fit.coordinates) << "a rival without a fit is no rival";
+  EXPECT_EQ(kept.fit.coordinates, again.fit.coordinates)
+      << "an alternative without a fit is ignored";
 }
 
 TEST(Families, ReportALimitThatEndsTheLastSearch) {
@@ -291,7 +292,7 @@ TEST(Families, AreComparedUnderTheNoiseOfTheSmallerErrors) {
   EXPECT_EQ(aic_lead(none, none), 0.0);
 }
 
-TEST(Windows, InPartsHoldEverySampleOnce) {
+TEST(Windows, PartsContainEverySampleOnce) {
   const std::vector<DrivingLog> logs{drive(kTruths[0], 4)};
   for (const FitWindow& window : fit_windows(logs)) {
     std::size_t samples = 0, next = window.rows.begin;

@@ -85,7 +85,7 @@ TEST(Identify, CovarianceIsSymmetricAndHasNoNegativeDirection) {
               *result->model[ParameterId::kSurgeAlpha].std_error, 1e-12);
 }
 
-TEST(Identify, StopTimesErrorCarriesTheSurgeFitsCorrelation) {
+TEST(Identify, StopTimeErrorIncludesTheCorrelationOfTheSurgeFit) {
   // d ln m' = d ln a1 + (-1/(1 - b1) + mean ln u) d b1, from the joint covariance of (a1, b1) under one
   // place of the errors.
   const auto result = identify(vehicle(), synthetic(kTruths[0], 0.03, 7),

@@ -153,7 +153,7 @@ TEST(LateLog, WithdrawsTheIntervalsOfLogsWithDifferentTrims) {
   EXPECT_FALSE(result->model[ParameterId::kInertiaNorm].ci95);
 }
 
-TEST(LateLog, TakesASteeringCommandThatIsTheMeasuredAngleForIt) {
+TEST(LateLog, DetectsASteeringCommandThatIsTheMeasuredAngle) {
   const Truth& t = kTruths[1];
   Plant<double> slow = plant(t);
   slow.steering_time_constant_s = 0.1;

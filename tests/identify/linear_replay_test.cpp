@@ -99,7 +99,7 @@ Plant<double> plant_by_hand(bool servo, double step_s, Drive drive, Friction fri
   return plant;
 }
 
-ByHand by_hand(const DrivingLog& log, double step_s, double late_s = kSpeedDelay_s,
+ByHand by_hand(const DrivingLog& log, double step_s, double latency_s = kSpeedDelay_s,
                Drive drive = Drive::kFourWheel, Friction friction = Friction::kNone) {
   const LogSignals signals(log);
   std::vector<ParameterColumn> parameters;
@@ -121,7 +121,7 @@ ByHand by_hand(const DrivingLog& log, double step_s, double late_s = kSpeedDelay
                 [&](std::size_t, const LinearMotion& motion) {
                   found.motions.push_back(motion);
                   found.earlier.push_back(earlier_motion(signals, 0, found.motions, back,
-                                                         {late_s, kSpeedDelay}, step_s));
+                                                         {latency_s, kSpeedDelay}, step_s));
                 });
   return found;
 }
@@ -205,14 +205,14 @@ TEST(LinearReplay, OfFrontWheelDriveHasTheDerivativesOfJets) {
                kRounding);
 }
 
-TEST(LinearReplay, LooksBackAsJetsDo) {
+TEST(LinearReplay, DelayedStatesHaveTheDerivativesOfJets) {
   for (const bool servo : {true, false}) {
     const DrivingLog log = commands(servo);
     expect_equal(by_jets(log, 0.004).earlier, by_hand(log, 0.004).earlier, kRounding, kSpeedDelay);
   }
 }
 
-TEST(LinearReplay, OfALateSensorChangesByTheMotionsRate) {
+TEST(LinearReplay, DerivativeByASensorDelayIsTheRateOfTheMotion) {
   // Central differences over 2e-6 s of a motion whose rates are below 10 and change within at least
   // 0.02 s: the error is below 1e-6. Exceptions are steps with a kink, at a limit of the servo or
   // where the vehicle stops.

@@ -88,7 +88,7 @@ TEST(Log, AtOneConstantThrustShowsOnlyACombinationOfAlphaAndBeta) {
   EXPECT_TRUE(refused(*result, ParameterId::kMassNorm));
 }
 
-TEST(Log, GapsAndIrregularSamplesAreNoHindrance) {
+TEST(Log, IsIdentifiedWithGapsAndIrregularSamples) {
   const Truth& t = kTruths[1];
   DrivingLog full = drive(t, 6, {.duration_s = 30.0});
   DrivingLog log;
@@ -170,7 +170,7 @@ void move_commands(DrivingLog& log, int rows) {
   move(*log.steering_command_rad);
 }
 
-TEST(Log, FindsByItselfThatCommandsActLateOrWereLoggedLate) {
+TEST(Log, FindsALatencyOfCommandsAndOfTheirTimeStamps) {
   for (const int rows : {-4, 5}) {
     TrialData data;
     data.logs = {drive(kTruths[1], 8)};
@@ -217,7 +217,7 @@ TEST(Log, SeparatesMotorLagFromADeadTime) {
   expect_recovered(*result, ParameterId::kSurgeAlpha, kTruths[1].a1, 4.5);
 }
 
-TEST(Log, AnInertiaThatTheVehicleCannotHaveIsRefused) {
+TEST(Log, RefusesAnImpossibleInertia) {
   TrialData data;
   data.logs = {drive(kTruths[1], 3)};
   Vehicle small = robot();
@@ -248,12 +248,12 @@ TEST(Log, ReportsAContradictionWithTables) {
   data.logs = {drive({t.a1 * 1.3, t.b1, t.a3, t.b3, t.mass_norm}, 3)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
-  const bool said =
+  const bool has_finding_of_it =
       std::any_of(result->model.record.findings.begin(), result->model.record.findings.end(),
                   [](const Finding& f) {
                     return f.code == "estimates-disagree" && f.message.starts_with("surge.alpha");
                   });
-  EXPECT_TRUE(said);
+  EXPECT_TRUE(has_finding_of_it);
 }
 
 TEST(Log, CorrelatedErrorsAreFoundAndWidenTheIntervals) {
@@ -291,7 +291,7 @@ TEST(Log, CrossValidationIsReportedWithTheFamilyThatWasChosen) {
   }
 }
 
-TEST(Log, ALateSpeedIsFoundAndAllowedFor) {
+TEST(Log, FindsAndCompensatesALatencyOfTheSpeed) {
   const Truth& t = kTruths[0];
   constexpr std::size_t kLate = 10;  // rows of 10 ms
   TrialData data;
@@ -321,7 +321,7 @@ DrivingLog commanded_early(DrivingLog log, std::size_t rows) {
   return log;
 }
 
-TEST(Log, WhereEverySensorSeemsLateTheActuatorsAreNamed) {
+TEST(Log, ReportsTheActuatorsIfAllSensorsAreDelayed) {
   TrialData data;
   data.logs = {commanded_early(drive(kTruths[0], 22, {.duration_s = 40.0}), 6)};
   const auto result = identify(robot(), data, {}, {});
@@ -359,7 +359,7 @@ TEST(Log, AServoTooFastForALogIsNamed) {
               ::testing::HasSubstr("steering.time_constant_s is 1e-05 s, too fast"));
 }
 
-TEST(Log, AFitWhoseTimeIsOverEndsAndShowsNothingWrong) {
+TEST(Log, AFitAtItsTimeLimitReportsNoWrongValue) {
   TrialData data;
   const Truth& t = kTruths[0];
   data.logs = {drive(t, 3, {.duration_s = 4.0})};
@@ -426,7 +426,7 @@ INSTANTIATE_TEST_SUITE_P(Short, BackEmfOfSeeds, ::testing::Values(1));
 /// Also the coverage of the interval.
 INSTANTIATE_TEST_SUITE_P(Long, BackEmfOfSeeds, ::testing::Values(3));
 
-TEST(BackEmf, OfIdealMotorsIsNotFoundAndRefusedNoBetterThanZero) {
+TEST(BackEmf, IsNotFoundForIdealMotorsAndRefusedOnRequest) {
   TrialData data;
   data.logs = {drive(kTruths[0], 31, {.duration_s = 40.0})};
   const auto by_itself = identify(robot(), data, {}, {});
@@ -547,7 +547,7 @@ Identification identified_with_change(double factor, std::uint64_t seed) {
   return identify(robot(), data, {}, {}).value();
 }
 
-TEST(Log, ASpeedInAnotherUnitWithoutPositionsShowsInTheInertiaAndWithdrawsTheIntervals) {
+TEST(Log, WithdrawsTheIntervalsIfTheInertiaShowsAWrongUnitOfTheSpeed) {
   DrivingLog log = drive(kTruths[0], 25, {.duration_s = 20.0});
   // rad/s of wheels of 0.1 m: I'z/m' reads 0.82 * 10 times that of the box, beyond the largest, 3.
   for (double& u : log[LogChannel::kSpeed]->value) u *= 10.0;
@@ -582,7 +582,7 @@ INSTANTIATE_TEST_SUITE_P(Short, HeldOut, ::testing::Values(31U));
 /// Also the rates of both errors, roughly.
 INSTANTIATE_TEST_SUITE_P(Long, HeldOut, ::testing::Values(32U, 33U, 34U, 35U));
 
-TEST(Log, AnErrorThatWandersBesidesTheWhiteOneIsTakenApart) {
+TEST(Log, SeparatesDriftFromWhiteNoise) {
   ChannelNoise truth{.white_std = 0.02, .drift_std = 0.03, .correlation_s = 0.5};
   Random random(7, 3);
   std::vector<ErrorSeries> series(10);
@@ -625,7 +625,7 @@ TEST(Log, WholeLogsThatScatterBeyondChanceWidenTheIntervals) {
   // share is 4e-6.
   EXPECT_NEAR(factor(6, 3.0), std::sqrt(1.2) * 3.0, 1e-4);
   EXPECT_EQ(factor(6, 1.3), 1.0);
-  EXPECT_EQ(factor(2, 5.0), 1.0) << "two logs do not tell";
+  EXPECT_EQ(factor(2, 5.0), 1.0) << "two logs are too few";
 }
 
 /// Oscillating errors, d'' = -2 zeta omega d' - omega^2 d + noise, integrated with small steps,
@@ -652,7 +652,7 @@ std::vector<ErrorSeries> swinging(double omega, double zeta, double white_std, d
   return series;
 }
 
-TEST(Log, AnErrorThatSwingsIsOfSecondOrder) {
+TEST(Log, DetectsAnOscillatingErrorAsSecondOrder) {
   for (const double zeta : {0.2, 0.5, 1.0, 2.0}) {
     for (const double white_std : {0.0, 0.3}) {
       SCOPED_TRACE(::testing::Message() << "zeta " << zeta << ", white " << white_std);

@@ -33,7 +33,7 @@ double posterior_weight(const Model& model, FitSubject subject) {
   return sum;
 }
 
-TEST(NoiseAverage, KeepsThePapersValuesAndHoldsTheOtherEstimatorsThatTheRunsAllow) {
+TEST(NoiseAverage, KeepsThePapersValuesAndCoversTheOtherEstimators) {
   const Model model = identified();
   const Estimate& mass = model[ParameterId::kMassNorm];
   // Golden: the log-linear values of README.md, and the quantiles of the mixture by SciPy's Student t
@@ -80,7 +80,7 @@ TEST(NoiseAverage, KeepsTheErrorLocationIfAFamilyIsRequested) {
   }
 }
 
-TEST(NoiseAverage, WhoNamesTheErrorGetsItsIntervalAlone) {
+TEST(NoiseAverage, UsesOnlyTheRequestedErrorModel) {
   IdentifyOptions options;
   options.method = Method::kNonlinear;
   options.noise = ErrorModel::kForce;

@@ -50,7 +50,7 @@ TEST(RecoverProperty, InTheBoxEveryFigureIsFinite) {
   EXPECT_TRUE(rc::check([] { is_finite_or_refused(1.0); }));
 }
 
-TEST(RecoverProperty, AndTenTimesBeyondIt) {
+TEST(RecoverProperty, TenTimesOutsideTheBoxTheSameHolds) {
   EXPECT_TRUE(rc::check([] { is_finite_or_refused(10.0); }));
 }
 

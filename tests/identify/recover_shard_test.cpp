@@ -158,7 +158,7 @@ TEST_F(RecoverShards, NamesMissingAndDuplicateParts) {
   EXPECT_THAT(fault({directory_.path()}), HasSubstr("shard.json"));
 }
 
-TEST_F(RecoverShards, PartsThatWouldBeEmptyOrAreNoneAreRefused) {
+TEST_F(RecoverShards, RefusesEmptyAndInvalidParts) {
   for (const Shard shard : {Shard{0, 2}, Shard{3, 2}, Shard{1, 0}, Shard{-1, -1}, Shard{1, 8}}) {
     const auto part = recover_part(model(), seven_runs(), shard, {});
     ASSERT_FALSE(part);
@@ -217,9 +217,9 @@ TEST_F(RecoverShards, DamagedTablesAreNamed) {
     expect(first_run(run), std::string("row 1 has run ") + run + " instead of 1");
   }
   for (const char* cell : {"nan", "inf", "1e308", "", "x", "0x1"}) {
-    expect(with(cell), "recovery.csv:2:1: is no run of a recovery");
+    expect(with(cell), "recovery.csv:2:1: is not a run of a recovery");
   }
-  expect(table.substr(0, row + 2) + "2" + table.substr(row + 3), "recovery.csv:2:1: is no run");
+  expect(table.substr(0, row + 2) + "2" + table.substr(row + 3), "recovery.csv:2:1: is not a run");
   expect("sum" + table.substr(3), "recovery.csv:1:1: these are not the columns");
   expect("", "recovery.csv:1:1: these are not the columns");
   change(second, table);

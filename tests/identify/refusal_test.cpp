@@ -81,7 +81,7 @@ TEST(Refusal, RefusesAMassUncertainByOrdersOfMagnitude) {
   EXPECT_TRUE(has_finding(result->model, "not-identifiable"));
 }
 
-TEST(Refusal, AnExponentOfOneOrMoreMakesAStopTimeWorthless) {
+TEST(Refusal, RefusesAStopTimeForAnExponentOfOneOrMore) {
   TrialData data = synthetic({1.0, 1.3, 0.3, 0.8, 0.1}, 0.0, 1);
   data.coastdown->rows = {{2, 1.0, 0.5}};
   for (const double most : {1.0, 2.5}) {
@@ -109,7 +109,7 @@ TEST(Refusal, TimeNoiseWithoutTimesIsRefused) {
   for (const Finding& f : result->model.record.findings) {
     if (f.code != "not-identifiable" || f.severity != Severity::kError) continue;
     EXPECT_THAT(f.message, HasSubstr("elapsed_s in every row"));
-    EXPECT_THAT(f.message, Not(HasSubstr("do not hold two different")));
+    EXPECT_THAT(f.message, Not(HasSubstr("do not contain two different")));
   }
 }
 
@@ -127,7 +127,7 @@ TEST(Refusal, AFitThatDidNotConvergeIsTheReason) {
   ASSERT_FALSE(result->refused.empty());
   for (const Finding& f : result->model.record.findings) {
     if (f.code != "not-identifiable" || f.severity != Severity::kError) continue;
-    EXPECT_THAT(f.message, Not(HasSubstr("do not hold two different"))) << f.message;
+    EXPECT_THAT(f.message, Not(HasSubstr("do not contain two different"))) << f.message;
   }
 }
 

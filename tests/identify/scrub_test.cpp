@@ -77,7 +77,7 @@ TEST(Scrub, EqualsTheExcessMomentOfDifferentialTurns) {
   EXPECT_THAT(codes(model), Not(Contains("scrub-beyond-trials")));
 }
 
-TEST(Scrub, IntervalsHoldAtTheirRateAtLeast) {
+TEST(Scrub, IntervalsCoverTheTruthAtLeastAtTheirRate) {
   constexpr int kTables = 500;
   int held = 0;
   for (int seed = 1; seed <= kTables; ++seed) {
@@ -112,7 +112,7 @@ TEST(Scrub, RefusesANegativeScrub) {
 TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
   // 0.2 r m, from 0.05 to 0.3 rad/s.
   constexpr int kTables = 200;
-  int told = 0, held = 0;
+  int findings = 0, held = 0;
   for (std::uint64_t seed = 1; seed <= kTables; ++seed) {
     TrialData data = synthetic(kTruth, 0.01, seed);
     Random random(seed, 5);
@@ -126,11 +126,11 @@ TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
     const auto& changing = model.yaw_scrub->changing_m;
     if (!changing) continue;
     EXPECT_THAT(codes(model), Contains("scrub-grows"));
-    ++told;
+    ++findings;
     held += changing->lo < 0.2 * 0.05 && changing->hi > 0.2 * 0.30 ? 1 : 0;
   }
   RecordProperty("held", held);
-  EXPECT_EQ(told, kTables);
+  EXPECT_EQ(findings, kTables);
   // Both ends must hold, each with 97.5 % on its side.
   EXPECT_GT(held / double(kTables), 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / kTables));
 }
@@ -150,7 +150,7 @@ int alarms_with(const MakeTurn& turn) {
   return alarms;
 }
 
-TEST(Scrub, OfTurnsWithOneForceOrAtOneRateDoesNotSeemToChange) {
+TEST(Scrub, IsConstantForTurnsWithOneForceOrAtOneRate) {
   // One force with scattered rates: the scrub of a turn then falls with its rate by arithmetic
   // alone.
   const TurningRow exact = by_sides(0.2, 0.01, 1.0, 20);
@@ -232,7 +232,7 @@ TEST(Scrub, IsReadBackFromModelJson) {
   EXPECT_EQ(read->yaw_scrub->rows, 4);
 }
 
-TEST(Scrub, AModelThatContradictsItselfIsRefused) {
+TEST(Scrub, RefusesAContradictoryModel) {
   const Model model = identified(turns(0.012, 0.02, 1));
   const auto is_refused = [&](const char* place, const auto& change) {
     Model changed = model;

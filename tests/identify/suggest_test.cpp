@@ -63,7 +63,7 @@ TEST(Suggest, ATurningRunDoesNotImproveSurge) {
   }
 }
 
-TEST(Suggest, ThePromiseForARepeatedTrialIsTheStandardErrorOfMoreRuns) {
+TEST(Suggest, PredictedErrorOfARepeatedTrialIsThatOfMoreRuns) {
   // One number, ln u, with noise s from n runs adds n (d ln u/d p)^2/s^2 to the information: four
   // times the runs give four times the information.
   const Model model = some_model(0.05);
@@ -116,7 +116,7 @@ TEST(Suggest, ATermFittedAsZeroHasAFiniteErrorThatTrialsShrink) {
   EXPECT_NEAR(suggestion->trials.front().std_error_before, kSigma, 1e-6);
 }
 
-TEST(Suggest, RefusesAnUnknownParameterWithTheNamesThereAre) {
+TEST(Suggest, RefusesAnUnknownParameterAndListsTheNames) {
   const auto suggestion = suggest(some_model(0.05), {.parameter = "mass"});
   ASSERT_FALSE(suggestion);
   EXPECT_NE(to_text(suggestion.error()).find("mass_norm"), std::string::npos);

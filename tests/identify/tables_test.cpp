@@ -89,7 +89,7 @@ TEST(Families, AutoSelectsThePowerLawOnlyIfItIsTheTruth) {
               ::testing::HasSubstr("use " + option_text("family coulomb-linear")));
 }
 
-TEST(Families, TheDeadZoneOfTheWheelsFreesTheTurningRuns) {
+TEST(Families, DeadZoneOfTheWheelsIsSubtractedFromTheTurningRuns) {
   const Resistance<double> surge{.alpha = 1.3, .beta = 0.7};
   const Resistance<double> yaw{.alpha = 0.3, .beta = 0.8};
   constexpr double kZone = 0.05;
@@ -114,7 +114,7 @@ TEST(Families, TheDeadZoneOfTheWheelsFreesTheTurningRuns) {
   EXPECT_NEAR(*result->model[ParameterId::kYawBeta].value, 0.8, 1e-6);
 }
 
-TEST(Losses, LeaveOneBadRunWithoutSayWhileSquaresFollowIt) {
+TEST(Losses, RobustOnesIgnoreABadRunThatSquaresFollow) {
   const Resistance<double> law{.alpha = 1.3157, .beta = 0.8841};
   TrialData data = runs_on(law, 0.0, 0.003, 2);
   data.surge->rows[10].speed_mps *= 0.7;
@@ -154,7 +154,7 @@ TEST(Outliers, AreNamedWithTheirLineAndTheirInfluence) {
   EXPECT_THAT(influential->message, ::testing::HasSubstr("surge.alpha becomes"));
 }
 
-TEST(Outliers, ThatAreGrossAreSetAsideByName) {
+TEST(Outliers, GrossOnesAreSetAsideWithTheirLine) {
   for (const double factor : {1e-3, 0.1, 0.5, 10.0}) {
     const TrialData clean = runs_on({.alpha = 1.3157, .beta = 0.8841}, 0.0, 0.003, 2);
     TrialData data = clean;
@@ -218,7 +218,7 @@ TEST(Outliers, OfTimedRunsAreSetAsideByTheirTime) {
   }
 }
 
-TEST(Outliers, OfAPowerLawThatCoulombFrictionExplainsStay) {
+TEST(Outliers, RunsThatCoulombFrictionExplainsAreKept) {
   // The slowest run is far off any power law of the others.
   TrialData data = runs_on({.alpha = 0.8, .beta = 1.0, .coulomb = 0.1}, 0.0, 1e-4, 3);
   const auto result = identify(vehicle(), data, {}, {});
@@ -328,8 +328,8 @@ TEST(Tables, FourRowsGiveThePowerLawForEveryRequestedFamily) {
     EXPECT_TRUE(alpha.ci95->contains(1.2));
     // Student's t with two degrees of freedom is 4.303, on either side.
     EXPECT_GT(alpha.ci95->hi - alpha.ci95->lo, 8.0 * *alpha.std_error);
-    const Finding* told = finding(result->model, "families-not-compared");
-    EXPECT_EQ(told != nullptr, by_aicc);
+    const Finding* reported = finding(result->model, "families-not-compared");
+    EXPECT_EQ(reported != nullptr, by_aicc);
   }
 }
 

@@ -105,10 +105,10 @@ void expect_value_or_refusal(const TrialData& data, const IdentifyOptions& optio
     }
   }
   if (result->refused.empty()) return;
-  const bool said = std::ranges::any_of(model.record.findings, [](const Finding& f) {
+  const bool reported = std::ranges::any_of(model.record.findings, [](const Finding& f) {
     return f.code == "not-identifiable" && f.severity == Severity::kError;
   });
-  EXPECT_TRUE(said);
+  EXPECT_TRUE(reported);
 }
 
 /// References to all numbers of the tables.
@@ -145,7 +145,7 @@ double mutated(double value, int how) {
 }
 constexpr int kMutations = 5;
 
-TEST(Typo, TwoHundredthsOfTorqueWrittenTwoTenthsEndsWithAValueOrARefusal) {
+TEST(Typo, ACellTenTimesTooLargeGivesAValueOrARefusal) {
   for (const IdentifyOptions& options : ways()) {
     TrialData data = paper_tables();
     data.turning->rows.front().tau_turn_m = 0.2;
@@ -153,7 +153,7 @@ TEST(Typo, TwoHundredthsOfTorqueWrittenTwoTenthsEndsWithAValueOrARefusal) {
   }
 }
 
-TEST(Typo, AFallingTableIsRefusedInWords) {
+TEST(Typo, RefusesATableThatFallsWithTheForce) {
   TrialData data = paper_tables();
   std::vector<SurgeRow>& rows = data.surge->rows;
   for (std::size_t i = 0; i < rows.size() / 2; ++i) {
@@ -194,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(Short, TypoInACell, ::testing::Values(4));
 /// Every mutation of every cell.
 INSTANTIATE_TEST_SUITE_P(Long, TypoInACell, ::testing::Values(1));
 
-TEST(Typo, ColumnsScaledToTheEndOfTheNumbers) {
+TEST(Typo, AcceptsColumnsScaledToTheLimitsOfDouble) {
   const std::vector<IdentifyOptions> every = ways();
   std::size_t turn = 0;
   for (const double scale : {1e308, 1e-308, 5e-324, 1e150, 1e-150}) {

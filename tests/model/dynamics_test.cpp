@@ -33,7 +33,7 @@ void expect_same(const State<double>& a, const State<double>& b) {
   RC_ASSERT(std::abs(a.steering_rad - b.steering_rad) < kRounding);
 }
 
-TEST(Dynamics, FourWheelFormIsTheReducedFormWhereTheSidesAreDrivenAlike) {
+TEST(Dynamics, FourWheelFormEqualsTheReducedFormForEqualForcesOfASide) {
   EXPECT_TRUE(rc::check([] {
     const Plant<double> plant = paper_plant_of<double>();
     const State<double> s = drawn_state();
@@ -63,7 +63,7 @@ TEST(Dynamics, MirroredVehicleMovesAsTheMirrorImage) {
   }));
 }
 
-TEST(Dynamics, NeitherPlaceNorHeadingMattersToTheBody) {
+TEST(Dynamics, DoNotDependOnPositionAndHeading) {
   EXPECT_TRUE(rc::check([] {
     const Plant<double> plant = paper_plant_of<double>();
     const State<double> s = drawn_state();
@@ -101,7 +101,7 @@ TEST(Dynamics, EachEquationBySubstitution) {
   EXPECT_DOUBLE_EQ(d.steering_rad, (0.25 - 0.2) / 0.02);
 }
 
-TEST(Dynamics, TheFrontWheelsTurnWithTheirForceAcross) {
+TEST(Dynamics, FrontWheelsTurnTheVehicleByTheirLateralForce) {
   // Two wheels, each with 0.3 sin 30 deg sideways, 0.4 m ahead of the centre of gravity.
   EXPECT_DOUBLE_EQ(steering_moment_m(0.4, 0.3, pi<double>() / 6.0), 0.12);
 }
@@ -132,7 +132,7 @@ Plant<double> with_back_emf() {
 }
 
 /// 4 (F' - k_e u) = g1(u) + m' du/dt.
-TEST(Resistance, IsFedForwardWithAChordAtRestWhereItWouldJump) {
+TEST(Resistance, IsFedForwardWithAChordIfItJumpsAtRest) {
   Resistance<double> law = paper_plant().surge;
   EXPECT_EQ(feed_forward(law).rest_speed, law.rest_speed);
   law.coulomb = 0.05;
@@ -142,7 +142,7 @@ TEST(Resistance, IsFedForwardWithAChordAtRestWhereItWouldJump) {
   EXPECT_DOUBLE_EQ(law(0.01), 0.5 * law(0.02));
 }
 
-TEST(BackEmf, StraightAheadEveryMotorLosesWithTheSpeed) {
+TEST(BackEmf, ReducesEveryMotorsForceWithTheSpeed) {
   const Plant<double> plant = with_back_emf();
   State<double> s{};
   s.u_mps = 0.8;
@@ -154,7 +154,7 @@ TEST(BackEmf, StraightAheadEveryMotorLosesWithTheSpeed) {
   EXPECT_NEAR(back.u_mps, (4.0 * (0.5 + 0.3 * 0.8) + plant.surge(0.8)) / plant.mass_norm, 1e-13);
 }
 
-TEST(BackEmf, OfMotorsThatAreOffThereIsNone) {
+TEST(BackEmf, IsZeroForMotorsThatAreOff) {
   EXPECT_TRUE(rc::check([] {
     const State<double> s = drawn_state();
     const SideForces<double> off{0.0, 0.0};
@@ -171,7 +171,7 @@ TEST(BackEmf, OfMotorsThatAreOffThereIsNone) {
 
 /// A wheel force acts along the rolling direction, so back-EMF takes the power k_e w^2 of each
 /// wheel out of the motion: sum m' u u_dot + m' v v_dot + I'z r r_dot.
-TEST(BackEmf, TakesItsPowerOutOfTheMotionOfEveryWheel) {
+TEST(BackEmf, BrakesEveryWheelByItsPower) {
   EXPECT_TRUE(rc::check([] {
     const Plant<double> plant = with_back_emf();
     const State<double> s = drawn_state();

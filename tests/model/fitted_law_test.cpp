@@ -52,7 +52,7 @@ double mean_of_law(const Model& model, TrialKind kind, const std::vector<double>
   return sum / static_cast<double>(rates.size()) + zone;
 }
 
-TEST(FittedLaw, HasTheVarianceThatDifferencesTell) {
+TEST(FittedLaw, HasTheVarianceByFiniteDifferences) {
   const Model model = model_of_laws();
   const std::vector<double> rates{0.1, 0.3, 0.9};
   for (const TrialKind kind : {TrialKind::kTurning, TrialKind::kSurge}) {
@@ -83,7 +83,7 @@ TEST(FittedLaw, IsAbsentWithoutItsPower) {
   EXPECT_TRUE(fitted_law(model, TrialKind::kSurge));
 }
 
-TEST(FittedLaw, IsKnownUpToTheFastestTurnOfTablesAndLogs) {
+TEST(FittedLaw, IsMeasuredUpToTheFastestTurnOfTablesAndLogs) {
   Model model = model_of_laws();
   EXPECT_FALSE(measured_yaw_rate_degps(model));
   TrialPoint turn;

@@ -122,7 +122,7 @@ TEST(FloatMath, BearingAtTheAxesAndTheDiagonalsIsWithinItsLastPlace) {
   EXPECT_NEAR(float_math::bearing(-1.0F, -1.0F), -1.5 * kQuarter, 3e-5);
 }
 
-TEST(FloatMath, BearingOfWhatIsNotFiniteIsNaN) {
+TEST(FloatMath, BearingOfNonFiniteInputIsNaN) {
   const float infinity = std::numeric_limits<float>::infinity();
   for (const float x : {infinity, -infinity, std::nanf("")}) {
     EXPECT_TRUE(std::isnan(float_math::bearing(x, 1.0F)));
@@ -217,7 +217,7 @@ TEST(FloatMath, RatioIsToTheNearestOfSixteenBits) {
   }
 }
 
-TEST(FloatMath, WhatIsNoAngleGivesNaN) {
+TEST(FloatMath, NonFiniteAnglesGiveNaN) {
   const float infinity = std::numeric_limits<float>::infinity();
   for (const float x : {infinity, -infinity, std::nanf(""), 8200.0F, -1e30F}) {
     EXPECT_TRUE(std::isnan(float_math::sin(x)));

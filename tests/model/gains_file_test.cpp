@@ -70,7 +70,7 @@ TEST(GainsFile, WritesAndReadsAFrictionWidthWhereItIsNotTheDefault) {
   EXPECT_EQ(read_gains(file.path())->heading.friction_width_radps, 0.15);
 }
 
-TEST(GainsFile, PassesOverTheContractsOtherKeys) {
+TEST(GainsFile, IgnoresTheOtherKeysOfTheFormat) {
   Json json = Json::parse(kText);
   for (const char* key : {"command", "version", "options", "inputs", "time_constants",
                           "constraints", "objective", "metrics", "search", "baseline"}) {

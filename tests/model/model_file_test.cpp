@@ -144,7 +144,7 @@ TEST(ModelFile, RoundTripsArbitraryNumbersAndGaps) {
   }
 }
 
-TEST(ModelFile, RoundTripsAModelOfWhichNothingIsKnown) {
+TEST(ModelFile, RoundTripsAModelWithoutValues) {
   Model model;
   model.vehicle = some_vehicle();
   model.record.provenance.command = "identify";
@@ -213,7 +213,7 @@ TEST(ModelFile, RefusesUnknownKeysAtEveryLevel) {
   }
 }
 
-TEST(ModelFile, RefusesValuesThatCannotBe) {
+TEST(ModelFile, RefusesImpossibleValues) {
   const std::vector<Edit> edits{{"/schema", "awmr.vehicle/1"},
                                 {"/surge/alpha/value", 0},
                                 {"/surge/alpha/value", "1"},
@@ -285,7 +285,7 @@ TEST(Model, RefusesAPlantByTheNameOfEachMissingParameterWithItsTrial) {
   EXPECT_THAT(nothing.plant().error().faults, SizeIs(8));  // a power law has no other terms
 }
 
-TEST(Model, BecomesAPlantOfAMotionThatTakesNoMoreThanIsKnown) {
+TEST(Model, GivesAPlantForAMotionWhoseParametersAreKnown) {
   for (const Motion motion :
        {Motion::kSteadySurge, Motion::kSteadyTurn, Motion::kStraight, Motion::kPlanar}) {
     for (const ParameterInfo& parameter : parameter_table()) {
@@ -311,7 +311,7 @@ TEST(Model, BecomesAPlantOfAMotionThatTakesNoMoreThanIsKnown) {
   EXPECT_EQ(rates.u_mps, state_rates(*some_model().plant(), state, force, 0.0).u_mps);
 }
 
-TEST(Model, KnowsWhichParametersAMotionTakes) {
+TEST(Model, ListsTheParametersOfAMotion) {
   struct Takers {
     ParameterId id;
     bool steady_surge, steady_turn, straight;

@@ -37,7 +37,7 @@ std::string words(const Vehicle& v) {
   return text;
 }
 
-TEST(Plausibility, VehiclesThatThereAreRaiseNoWord) {
+TEST(Plausibility, AcceptsRealVehicles) {
   const Vehicle built[] = {paper_vehicle(),
                            vehicle(0.16, 0.17, 0.09, 0.05, 0.035),   // model car, 1:28
                            vehicle(0.25, 0.15, 0.12, 0.04, 0.055),   // construction-kit toy
@@ -94,14 +94,14 @@ TEST(Plausibility, TheInertiaOfAnotherVehicleIsNamedAndAMeasuredOneIsNot) {
   EXPECT_THAT(words(v), IsEmpty());
 }
 
-TEST(Plausibility, RequiresNoSteeringOfAVehicleWithoutSteering) {
+TEST(Plausibility, AcceptsAVehicleWithoutSteering) {
   Vehicle v = vehicle(2.1, 0.32, 0.22, 0.085, 0.085);
   v.drive = Drive::kDifferential;
   v.steering_max_deg = v.steering_max_rate_degps = v.steering_time_constant_s = 0.0;
   EXPECT_THAT(words(v), IsEmpty());
 }
 
-TEST(Plausibility, AsFindingsTheyNameTheFilesPlace) {
+TEST(Plausibility, FindingsNameTheFile) {
   const auto findings =
       plausibility_findings(vehicle(2.1, 0.32, 0.22, 0.1, 0.17), Severity::kError, "rover.json");
   ASSERT_EQ(findings.size(), 1U);

@@ -62,7 +62,7 @@ TEST(SiUnits, AreThoseOfThePaperByHand) {
   EXPECT_EQ(si_quantities(model).size(), 6U);  // no exponent, no time, no term of other families
 }
 
-TEST(SiUnits, CarryTheCovarianceOver) {
+TEST(SiUnits, PropagateTheCovariance) {
   const SiQuantity alpha = quantity(uncertain_model(), "/surge/alpha");
   // Var ln(a/m') = 0.05^2 + 2 * 0.6 * 0.05 * 0.1 + 0.1^2
   const double relative = std::sqrt(0.0025 + 0.006 + 0.01);
@@ -72,7 +72,7 @@ TEST(SiUnits, CarryTheCovarianceOver) {
   EXPECT_NEAR(alpha.estimate.ci95->hi, value * std::exp(2.0 * relative), 1e-12 * value);
 }
 
-TEST(SiUnits, TurnTheIntervalOfTheMassOver) {
+TEST(SiUnits, InvertTheIntervalOfTheMass) {
   const Model model = uncertain_model();
   const Estimate force = quantity(model, "/max_wheel_force").estimate;
   const Interval& mass = *model[ParameterId::kMassNorm].ci95;
@@ -81,7 +81,7 @@ TEST(SiUnits, TurnTheIntervalOfTheMassOver) {
   EXPECT_NEAR(*force.std_error, 0.1 * *force.value, 1e-12 * *force.value);
 }
 
-TEST(SiUnits, LeaveAnIntervalOutThatWouldBeEndless) {
+TEST(SiUnits, OmitAnUnboundedInterval) {
   Model model = uncertain_model();
   model[ParameterId::kMassNorm].ci95 = Interval{0.0, 0.2};
   EXPECT_FALSE(quantity(model, "/max_wheel_force").estimate.ci95);

@@ -33,7 +33,7 @@ State<double> moving(double u_mps, double r_radps = 0.0) {
   return s;
 }
 
-TEST(Sliding, HoldsWhatIsPushedByLessThanFriction) {
+TEST(Sliding, HoldsAVehicleUnderAForceBelowFriction) {
   for (const double force : {0.0, 0.19, -0.19, 0.2, -0.2}) {
     const State<double> s = after(moving(0.0), force, 0.004, 0.02, 50);
     EXPECT_EQ(s.u_mps, 0.0);
@@ -41,7 +41,7 @@ TEST(Sliding, HoldsWhatIsPushedByLessThanFriction) {
   }
 }
 
-TEST(Sliding, LetsGoOfWhatIsPushedByMore) {
+TEST(Sliding, ReleasesAVehicleUnderAForceAboveFriction) {
   // 0.3 s at (0.25 - 0.2)/0.1 m/s^2
   EXPECT_NEAR(after(moving(0.0), 0.25, 0.0, 0.02, 15).u_mps, 0.15, 1e-14);
   EXPECT_NEAR(after(moving(0.0), -0.25, 0.0, 0.02, 15).u_mps, -0.15, 1e-14);
@@ -54,7 +54,7 @@ TEST(Sliding, StopsInTheMiddleOfAStepAndStays) {
   EXPECT_EQ(after(moving(-0.11), 0.1, 0.0, 0.02, 30).u_mps, 0.0);
 }
 
-TEST(Sliding, TurnsRoundWhereTheForceIsStronger) {
+TEST(Sliding, ReversesUnderAForceAboveFriction) {
   // Back at (0.3 + 0.2)/0.1 m/s^2 for 0.022 s, then forward at (0.3 - 0.2)/0.1 for the other 0.038 s
   EXPECT_NEAR(after(moving(-0.11), 0.3, 0.0, 0.02, 3).u_mps, 0.038, 1e-14);
 }

@@ -19,7 +19,7 @@ TEST(Steady, TheRateIsTheRootOfTheCurve) {
   }
 }
 
-TEST(Steady, WhatMotorsLoseAddsToTheCurve) {
+TEST(Steady, BackEmfAddsToTheCurve) {
   const Resistance<double> power{.alpha = 1.2, .beta = 0.8};
   const Resistance<double> every{
       .alpha = 1.2, .beta = 0.8, .rest_speed = 0.0, .coulomb = 0.1, .quadratic = 0.05};
@@ -44,7 +44,7 @@ double by_bisection(const Resistance<double>& law, double force) {
   return 0.5 * (lo + hi);
 }
 
-TEST(Steady, NewtonFindsWhatBisectionDoes) {
+TEST(Steady, NewtonAgreesWithBisection) {
   for (const double alpha : {1e-6, 0.3, 1.2, 1e3}) {
     for (const double beta : {1e-3, 0.1, 0.5, 1.0, 2.0, 4.0}) {
       for (const double quadratic : {0.0, 1e-9, 0.05, 10.0}) {
@@ -74,7 +74,7 @@ TEST(Steady, NewtonFindsWhatBisectionDoes) {
   }
 }
 
-TEST(Steady, AForceThatDoesNotOvercomeFrictionHasNone) {
+TEST(Steady, AForceBelowFrictionHasNoSteadyRate) {
   const Resistance<double> law{.alpha = 1.2, .beta = 0.8, .rest_speed = 0.0, .coulomb = 0.1};
   EXPECT_FALSE(steady_rate(law, 0.1).has_value());
   EXPECT_FALSE(steady_rate(law, 0.05).has_value());

@@ -50,7 +50,7 @@ TEST(Tyre, GrowsWithASmallSlipByItsCorneringStiffness) {
   }
 }
 
-TEST(Tyre, SaturatesAtWhatTheCircleOfFrictionLeaves) {
+TEST(Tyre, SaturatesAtTheRemainderOfTheFrictionCircle) {
   const double grip = kTyres.friction * kLoad;
   for (const double share : {0.0, 0.3, 0.6, 0.99, 1.0}) {
     const double left_over = grip * std::sqrt(1.0 - share * share);

@@ -79,7 +79,7 @@ TEST(VehicleFile, RefusesADriveThatContradictsItsSteering) {
   EXPECT_THAT(faults_after({"/steering", {}, true}), ElementsAre(StartsWith("/steering")));
 }
 
-TEST(VehicleFile, TakesTheBoxFormulaWhereNoInertiaIsGiven) {
+TEST(VehicleFile, UsesTheBoxFormulaWithoutAnInertia) {
   const ScratchFile file("vehicle.json", edited(paper_text(), {"/yaw_inertia_kgm2", {}, true}));
   const auto vehicle = read_vehicle(file.path());
   ASSERT_TRUE(vehicle) << to_text(vehicle.error());
@@ -125,7 +125,7 @@ TEST(VehicleFile, NamesTheNearestKnownKey) {
   EXPECT_THAT(faults_after({"/sway_alfa", 3.0}), ElementsAre(HasSubstr("sway_alpha")));
 }
 
-TEST(VehicleFile, RefusesValuesThatCannotBe) {
+TEST(VehicleFile, RefusesImpossibleValues) {
   const std::vector<Edit> edits{{"/schema", "awmr.vehicle/2"},
                                 {"/schema", 1},
                                 {"/name", 5},
@@ -184,7 +184,7 @@ TEST(VehicleFile, AcceptsTheEndsOfItsRanges) {
   }
 }
 
-TEST(VehicleFile, TakesWhatGainsAreTunedFor) {
+TEST(VehicleFile, ReadsTheConditionsOfTuning) {
   Json json = Json::parse(paper_text());
   json["allocation"] = "paper";
   json["noise"] = {{"heading_deg", 0.5}, {"position_m", 0.01}};
@@ -196,7 +196,7 @@ TEST(VehicleFile, TakesWhatGainsAreTunedFor) {
   ASSERT_TRUE(vehicle) << to_text(vehicle.error());
   EXPECT_EQ(vehicle->allocation, AllocationForm::kPaper);
   const SensorQuality expected{
-      .heading_deg = 0.5, .position_m = 0.01, .heading_late_s = 0.03, .yaw_rate_late_s = 0.0};
+      .heading_deg = 0.5, .position_m = 0.01, .heading_latency_s = 0.03, .yaw_rate_latency_s = 0.0};
   EXPECT_TRUE(vehicle->sensors == expected);
   EXPECT_EQ(vehicle->motor_time_constant_s, 0.04);
   EXPECT_EQ(vehicle->back_emf_s_per_m, 0.3);
@@ -223,7 +223,7 @@ TEST(VehicleFile, ReportsAllFaultsAtOnce) {
   EXPECT_THAT(faults_of(read_vehicle, json.dump()), SizeIs(4));
 }
 
-TEST(VehicleFile, RefusesWhatIsNoObject) {
+TEST(VehicleFile, RefusesADocumentThatIsNotAnObject) {
   for (const char* text : {"", "[]", "3", "null", "{", "{\"name\": }"}) {
     const ScratchFile file("vehicle.json", text);
     const auto vehicle = read_vehicle(file.path());

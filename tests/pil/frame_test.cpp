@@ -63,7 +63,7 @@ TEST(Frame, IsFoundInsideOfADamagedOne) {
   }
 }
 
-TEST(Frame, OfALengthThatDoesNotFitIsGivenUpAtOnce) {
+TEST(Frame, WithAWrongLengthIsDroppedAtOnce) {
   pil::FrameReader reader{};
   const Bytes bad{pil::kFrameStart, pil::kStep, 1, 200};
   EXPECT_EQ(taken(reader, bad + framed(6, {7})), std::vector<int>{6});

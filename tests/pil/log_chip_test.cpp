@@ -29,7 +29,7 @@ class StepChip : public Chip {
   void SetUp() override { run_chip("step_chip"); }
 };
 
-TEST_F(StepChip, AStepThatDoesNotEndResetsTheChipAndTheLogSaysSo) {
+TEST_F(StepChip, AStepThatDoesNotEndResetsTheChipAndIsLogged) {
   const auto log = read_awl(file_, "a.awl");
   ASSERT_TRUE(log) << to_text(log.error());
   EXPECT_EQ(log->runs, 2U);

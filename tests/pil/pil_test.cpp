@@ -212,7 +212,7 @@ void PilGuidance::expect_leads_by_itself(const std::string& scenario) {
 }
 
 /// In the first half minute.
-TEST_P(PilGuidance, LeadsByItselfBitForBitAsOnTheHost) {
+TEST_P(PilGuidance, GuidanceOnTheChipGivesTheBitsOfTheHost) {
   expect_leads_by_itself(shortened(std::string("configs/") + GetParam() + ".json", 30.0));
 }
 
@@ -257,7 +257,7 @@ INSTANTIATE_TEST_SUITE_P(, PilGuidance, ::testing::ValuesIn(kGuided), name_of_fi
 /// those of PilScenario.
 class PilWholeScenario : public PilGuidance {};
 
-TEST_P(PilWholeScenario, LeadsByItselfBitForBitAsOnTheHost) {
+TEST_P(PilWholeScenario, GuidanceOnTheChipGivesTheBitsOfTheHost) {
   expect_leads_by_itself(std::string("configs/") + GetParam() + ".json");
 }
 
@@ -279,7 +279,7 @@ TEST_F(Pil, RefusesTheLqiByName) {
 }
 
 /// If the only task is a heading that has been reached, the commands decay to the smallest numbers.
-TEST_F(Pil, AHeadingThatDecaysToNothingIsTheHostsBitsInEveryMode) {
+TEST_F(Pil, ADecayingHeadingGivesTheHostsBitsInEveryMode) {
   for (const char* mode : {"differential", "steering"}) {
     const ProcessResult run = pil("configs/scenarios/low_battery.json", mode, "");
     ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
@@ -287,7 +287,7 @@ TEST_F(Pil, AHeadingThatDecaysToNothingIsTheHostsBitsInEveryMode) {
   }
 }
 
-TEST_F(Pil, FrictionAtRestADeadZoneAndBackEmfAreMadeUpForAsInTheSimulator) {
+TEST_F(Pil, CompensatesFrictionDeadZoneAndBackEmfAsTheSimulator) {
   const auto given = [](double value, const char* unit) {
     return Json{{"value", value}, {"std_error", nullptr}, {"ci95", nullptr},
                 {"unit", unit},   {"source", "given"},    {"method", "by hand"}};
@@ -475,7 +475,7 @@ INSTANTIATE_TEST_SUITE_P(, PilFault, ::testing::ValuesIn(kFaults), [](const auto
   return name;
 });
 
-TEST_F(Pil, AChipThatIsResetInMidRunIsStartedAnewAndGoesOnAsItsTwin) {
+TEST_F(Pil, AChipResetDuringTheRunRestartsAsTheHostDoes) {
   const std::string line = shortened("configs/paper/scenarios/c9_line.json", 8.0);
   for (const auto& [scenario, link] : {std::pair{shortened(kC8, 40.0), "--link memory"},
                                        {line, "--link memory"},
@@ -491,7 +491,7 @@ TEST_F(Pil, AChipThatIsResetInMidRunIsStartedAnewAndGoesOnAsItsTwin) {
   EXPECT_EQ(result_of(kC3)["restarts"].get<int>(), 0);
 }
 
-TEST_F(Pil, OverABudgetItFailsAndSaysWhich) {
+TEST_F(Pil, FailsOverABudgetAndNamesIt) {
   const ProcessResult run = pil(kC3, "steering", "--cycles-max 100 --ram-max 100 --flash-max 100");
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.out, HasSubstr("FAILED: cycles"));
@@ -500,7 +500,7 @@ TEST_F(Pil, OverABudgetItFailsAndSaysWhich) {
   EXPECT_EQ(result()["verdict"], "failed");
 }
 
-TEST_F(Pil, BadInputIsTwo) {
+TEST_F(Pil, BadInputExitsWith2) {
   const ProcessResult open =
       pil("configs/paper/scenarios/c1_full_thrust.json", "steering", "", "none.json");
   EXPECT_EQ(open.exit_code, 2);
@@ -527,7 +527,7 @@ TEST_F(Pil, GivesTheSameRunOverALineThatFlipsBitsAndLosesBytes) {
   }
 }
 
-TEST_F(Pil, OverALineThatFlipsAHundredthOfTheBitsItEndsWithWords) {
+TEST_F(Pil, ReportsALineThatFlipsAHundredthOfTheBits) {
   const ProcessResult run = pil(kC13, "combined", "--link uart --line-noise 1e-2", "none.json");
   EXPECT_EQ(run.exit_code, 1) << run.out;
   EXPECT_THAT(run.err, HasSubstr("the line too noisy"));
@@ -580,7 +580,7 @@ TEST_F(Pil, ALinkInTheBuildDirectoryIsNotFollowed) {
   EXPECT_EQ(read_all(path("precious")), "precious");
 }
 
-TEST_F(Pil, ATmpdirThatIsMissingOrReadOnlyIsTwoWithWords) {
+TEST_F(Pil, RefusesAMissingOrReadOnlyTmpdir) {
   for (const std::string& place :
        {path("missing"), std::string("/proc"), path("model.json"), std::string("relative")}) {
     const ProcessResult run = pil_after("TMPDIR=" + place, "", "none.json");
@@ -590,7 +590,7 @@ TEST_F(Pil, ATmpdirThatIsMissingOrReadOnlyIsTwoWithWords) {
   EXPECT_FALSE(exists("none.json"));
 }
 
-TEST_F(Pil, ABuildDirectoryThatLooksLikeAnOptionIsTwoWithWords) {
+TEST_F(Pil, RefusesABuildDirectoryThatLooksLikeAnOption) {
   const ProcessResult run = pil(kC13, "combined", "--build-dir=-x", "none.json");
   EXPECT_EQ(run.exit_code, 2) << run.err;
   EXPECT_THAT(run.err, HasSubstr("looks like an option"));
@@ -601,7 +601,7 @@ TEST_F(Pil, ABuildDirectoryThatLooksLikeAnOptionIsTwoWithWords) {
   EXPECT_EQ(kernel.exit_code, 2) << kernel.err;
 }
 
-TEST_F(Pil, ASampleTimeBeyondTheTimerIsRefusedInWordsAndNotByTheCompiler) {
+TEST_F(Pil, RefusesASampleTimeBeyondTheTimer) {
   Json model = Json::parse(read_all(path("model.json")));
   for (const double sample_time_s : {0.033, 0.05, 4e-7}) {
     model["vehicle"]["sample_time_s"] = sample_time_s;
@@ -643,7 +643,7 @@ TEST_F(Pil, ASignalLeavesNoFolderBehind) {
   }
 }
 
-TEST_F(Pil, AFolderThatAKilledRunLeftIsGoneAfterTheNext) {
+TEST_F(Pil, RemovesTheFolderOfAKilledRun) {
   std::filesystem::create_directory(path("left"));
   const std::string killed = "timeout --signal=KILL 1 " + std::string(AWMR_PROGRAM);
   const std::string run_c8 = " pil --model " + path("model.json") + " --gains " +
@@ -668,7 +668,7 @@ TEST_F(Pil, AFolderThatAKilledRunLeftIsGoneAfterTheNext) {
   EXPECT_EQ(entries("left"), 4u);
 }
 
-TEST_F(Pil, BoundsThatAreNoNumbersAreTwo) {
+TEST_F(Pil, RefusesBoundsThatAreNotNumbers) {
   for (const char* option : {"--difference-max nan", "--heading-max-deg nan", "--cycles-max -1",
                              "--heading-max-deg inf", "--flash-max 1e3", "--ram-max 0"}) {
     EXPECT_EQ(pil(kC13, "combined", option, "none.json").exit_code, 2) << option;

@@ -156,7 +156,7 @@ TEST_F(ReportInBrowser, OnADeskAllIsDrawnWithoutErrorsOrRequestsAndNothingIsCut)
   EXPECT_THAT(page.at("requests"), IsEmpty()) << page.at("requests");
   EXPECT_GT(page.at("charts"), 30);
   EXPECT_EQ(page.at("drawn"), page.at("charts"));
-  EXPECT_EQ(page.at("unlabelled"), 0) << "a screen reader has nothing to say of a chart";
+  EXPECT_EQ(page.at("unlabelled"), 0) << "a chart has no label for screen readers";
   EXPECT_THAT(page.at("overflowing"), IsEmpty()) << page.at("overflowing");
   EXPECT_THAT(page.at("clipped"), IsEmpty()) << page.at("clipped");
   EXPECT_THAT(page.at("wide_tables"), IsEmpty()) << page.at("wide_tables");
@@ -192,7 +192,7 @@ TEST_F(ReportInBrowser, SavesChartsWithoutColoursOfThePage) {
 }
 
 // The steps are too close for any mode to settle.
-TEST_F(ReportInBrowser, SaysWhatNeverSettled) {
+TEST_F(ReportInBrowser, ShowsRunsThatNeverSettled) {
   const TemporaryDirectory directory;
   for (const char* name : {"model.json", "gains.json"})
     fs::copy(file(name), directory.path() / name);

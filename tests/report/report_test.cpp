@@ -53,7 +53,7 @@ TEST(Report, LoadsNothingFromOutside) {
   }
 }
 
-TEST(Report, ANameCannotEndTheScriptThatHoldsIt) {
+TEST(Report, EscapesNamesInsideTheScript) {
   const std::string hostile = "</script><script>alert(1)</script><!-- @js@ @data@";
   const auto html = report_of(model_text(some_model(hostile)));
   ASSERT_TRUE(html);
@@ -63,7 +63,7 @@ TEST(Report, ANameCannotEndTheScriptThatHoldsIt) {
   EXPECT_THAT(*html, HasSubstr("alert(1)"));
 }
 
-TEST(Report, NamesThePlaceOfWhatIsBroken) {
+TEST(Report, NamesThePlaceOfAFault) {
   const auto syntax = report_of("{\"schema\": \"awmr.model/1\",\n  oops}");
   ASSERT_FALSE(syntax);
   EXPECT_THAT(syntax.error().faults.front().place, HasSubstr("model.json:2:"));

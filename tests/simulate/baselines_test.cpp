@@ -29,7 +29,7 @@ Scenario line_scenario(std::vector<Position<double>> points_m, AnyLineLaw law, d
              .duration_s = 200.0,
              .initial = {},
              .speed_mps = 1.0,
-             .guidance = LineCourse{
+             .guidance = LinePath{
                  .points_m = std::move(points_m), .law = law, .corner_m = 0.0, .slow_down_m = {}}};
   s.initial.y_m = y_m;
   s.initial.u_mps = 1.0;
@@ -93,7 +93,7 @@ Scenario on_a_side_slope(const AnyLineLaw& law) {
 
 double last_cross_track_m(const Scenario& scenario, YawMode mode) {
   const awmr::Run run = run_of(scenario, mode);
-  return run.rows[run.rows.size() - 2].course.cross_track_m;
+  return run.rows[run.rows.size() - 2].path.cross_track_m;
 }
 
 TEST(IlosInTheLoop, LeavesNoOffsetOnASideSlopeWhereLineOfSightDoes) {
@@ -108,13 +108,13 @@ TEST(IlosInTheLoop, LeavesNoOffsetOnASideSlopeWhereLineOfSightDoes) {
   }
 }
 
-TEST(PurePursuitInTheLoop, ComesToALineFromBesideIt) {
+TEST(PurePursuitInTheLoop, ReachesALineFromTheSide) {
   for (const YawMode mode : kYawModes) {
     const Scenario s =
         line_scenario({{0.0, 0.0}, {80.0, 0.0}}, PurePursuit<double>{3.0, true}, 6.0);
     const awmr::Run run = run_of(s, mode);
     EXPECT_EQ(run.end, RunEnd::kFinished);
-    EXPECT_NEAR(run.rows[run.rows.size() - 2].course.cross_track_m, 0.0, 1e-3) << name_of(mode);
+    EXPECT_NEAR(run.rows[run.rows.size() - 2].path.cross_track_m, 0.0, 1e-3) << name_of(mode);
   }
 }
 
@@ -125,7 +125,7 @@ TEST(StanleyInTheLoop, ApproachesTheLineInTheSameTimeAtAnySpeed) {
     s.speed_mps = s.initial.u_mps = speed_mps;
     s.duration_s = std::log(10.0) / 0.2;
     for (const YawMode mode : kYawModes) {
-      EXPECT_NEAR(run_of(s, mode).rows.back().course.cross_track_m, 0.03, 0.01) << name_of(mode);
+      EXPECT_NEAR(run_of(s, mode).rows.back().path.cross_track_m, 0.03, 0.01) << name_of(mode);
     }
   }
 }
@@ -140,7 +140,7 @@ TEST(PurePursuitInTheLoop, RoundsACornerOnItsInside) {
     const awmr::Run run = run_of(s, mode);
     EXPECT_EQ(run.end, RunEnd::kFinished);
     for (const RunRow& row : run.rows) {
-      EXPECT_LT(std::abs(row.course.cross_track_m), 2.0) << name_of(mode) << row.t_s;
+      EXPECT_LT(std::abs(row.path.cross_track_m), 2.0) << name_of(mode) << row.t_s;
       EXPECT_LT(row.state.x_m, 30.5) << name_of(mode) << row.t_s;
     }
   }

@@ -347,7 +347,7 @@ TEST_F(Batch, IsTheRunOfSimulateWithFrontWheelDrive) {
   }
 }
 
-TEST_F(Batch, DoesNotDependOnTheRunsBesideNorOnThePlaceAmongThem) {
+TEST_F(Batch, DoesNotDependOnOtherRunsAndPosition) {
   std::vector<BatchRun> runs = drawn_runs(37, 0.2);
   for (std::size_t i = 0; i < runs.size(); ++i) runs[i].mode = kYawModes[i % std::size(kYawModes)];
   const Scenario scenario =
@@ -413,11 +413,11 @@ std::vector<double> numbers_of(const RunRow& row) {
           row.tau_turn_m,
           row.psi_ref_rad,
           row.u_ref_mps,
-          row.course.psi_goal_rad,
-          row.course.cross_track_m,
-          row.course.target_m.x_m,
-          row.course.target_m.y_m,
-          static_cast<double>(row.course.leg),
+          row.path.psi_goal_rad,
+          row.path.cross_track_m,
+          row.path.target_m.x_m,
+          row.path.target_m.y_m,
+          static_cast<double>(row.path.leg),
           row.measured.psi_rad,
           row.measured.u_mps,
           row.measured_position_m.x_m,
@@ -460,7 +460,7 @@ TEST_F(Batch, RowsAreThoseOfSimulateInEveryShippedScenario) {
   }
 }
 
-TEST(Instructions, AreRefusedByNameWhereThereAreNone) {
+TEST(Instructions, RefusesUnsupportedOnesByName) {
   for (const std::string name : {"mmx", "sse2"}) {
     ::setenv("AWMR_INSTRUCTIONS", name.c_str(), 1);
     const auto arithmetic = batch_arithmetic();

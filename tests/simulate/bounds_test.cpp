@@ -29,23 +29,23 @@ Guidance any_guidance(double beyond) {
     case 1:
       return HeadingSteps{{{0.0, between(-400.0 * beyond, 400.0 * beyond)}, {0.5, 0.0}}};
     case 2:
-      return WaypointCourse{.points_m = {{between(-9.0, 9.0) * beyond, 0.0}, {1.0, 1.0}},
-                            .acceptance_m = 0.2,
-                            .skip_passed = false,
-                            .slow_down_m = {}};
+      return WaypointPath{.points_m = {{between(-9.0, 9.0) * beyond, 0.0}, {1.0, 1.0}},
+                          .acceptance_m = 0.2,
+                          .skip_passed = false,
+                          .slow_down_m = {}};
     case 3:
-      return LineCourse{.points_m = {{-1.0, 0.0}, {0.1, between(-1.0, 1.0)}, {9.0 * beyond, 1.0}},
-                        .law = PurePursuit<double>{ratio_between(1e-3, 10.0 * beyond), true},
-                        .corner_m = 0.0,
-                        .slow_down_m = {}};
+      return LinePath{.points_m = {{-1.0, 0.0}, {0.1, between(-1.0, 1.0)}, {9.0 * beyond, 1.0}},
+                      .law = PurePursuit<double>{ratio_between(1e-3, 10.0 * beyond), true},
+                      .corner_m = 0.0,
+                      .slow_down_m = {}};
     case 4:
-      return LineCourse{.points_m = {{-1.0, between(-1.0, 1.0)}, {9.0 * beyond, 1.0}},
-                        .law = IntegralLos<double>{ratio_between(1e-3, 10.0 * beyond),
-                                                   ratio_between(1e-3, 10.0 * beyond), true},
-                        .corner_m = 0.0,
-                        .slow_down_m = {}};
+      return LinePath{.points_m = {{-1.0, between(-1.0, 1.0)}, {9.0 * beyond, 1.0}},
+                      .law = IntegralLos<double>{ratio_between(1e-3, 10.0 * beyond),
+                                                 ratio_between(1e-3, 10.0 * beyond), true},
+                      .corner_m = 0.0,
+                      .slow_down_m = {}};
     default:
-      return LissajousCourse{.path = {10.0 * beyond, 10.0, 0.1 * beyond, 0.3}, .closed_loop = true};
+      return LissajousPath{.path = {10.0 * beyond, 10.0, 0.1 * beyond, 0.3}, .closed_loop = true};
   }
 }
 
@@ -55,7 +55,7 @@ Scenario any_scenario(double beyond) {
              .initial = {},
              .speed_mps = between(0.0, 3.0 * beyond),
              .guidance = any_guidance(beyond)};
-  if (std::holds_alternative<LissajousCourse>(s.guidance)) s.speed_mps = 0.0;
+  if (std::holds_alternative<LissajousPath>(s.guidance)) s.speed_mps = 0.0;
   s.initial.psi_rad = between(-100.0, 100.0) * beyond;
   s.initial.u_mps = between(-3.0, 3.0) * beyond;
   s.initial.v_mps = between(-1.0, 1.0) * beyond;
@@ -103,7 +103,9 @@ RC_GTEST_PROP(Bounds, InThePhysicalBoxARunIsFiniteBoundedAndWithinItsLimits, ())
   is_finite_bounded_and_within_limits(1.0);
 }
 
-RC_GTEST_PROP(Bounds, AndTenTimesBeyondIt, ()) { is_finite_bounded_and_within_limits(10.0); }
+RC_GTEST_PROP(Bounds, TenTimesOutsideTheBoxTheSameHolds, ()) {
+  is_finite_bounded_and_within_limits(10.0);
+}
 
 Scenario coasting(double r_radps, double duration_s = 2.0) {
   Scenario s{.name = "coast",
@@ -120,7 +122,7 @@ awmr::Run run_of(const Plant<double>& plant, const Scenario& scenario) {
                   YawMode::kDifferential, {});
 }
 
-TEST(Bounds, AStiffResistanceAtSpeedIsFollowedAndNotBlownUp) {
+TEST(Bounds, IntegratesAStiffResistanceStably) {
   // b3 = 4 from -121 deg/s: g3'(r)/I'z is 940 /s there, and RK4 at 3.3 ms overflowed.
   Plant<double> plant = paper_plant();
   plant.yaw.beta = 4.0;
@@ -167,7 +169,7 @@ TEST(Bounds, StepsPerSampleDoNotOverflowTheirInteger) {
   }
 }
 
-TEST(Bounds, ADurationOfMoreRowsThanThereIsRoomForIsRefusedBeforeItStarts) {
+TEST(Bounds, RefusesADurationWithTooManyRowsBeforeItStarts) {
   for (const double duration_s : {1e18, 1e7, 1e300, 2.1e4}) {
     const Status refused = check_work(paper_plant(), "model.json", coasting(0.1, duration_s), 0.01);
     ASSERT_FALSE(refused.has_value()) << duration_s;
@@ -179,7 +181,7 @@ TEST(Bounds, ADurationOfMoreRowsThanThereIsRoomForIsRefusedBeforeItStarts) {
   EXPECT_TRUE(check_work(paper_plant(), "model.json", coasting(0.1, 1.9e4), 0.01).has_value());
 }
 
-TEST(Bounds, ADisturbanceBeyondAllNumbersEndsTheRunBeforeItsRow) {
+TEST(Bounds, ANonFiniteDisturbanceEndsTheRunBeforeItsRow) {
   Scenario scenario = coasting(0.0);
   scenario.disturbance.surge = {constant(1e308, 0.5)};
   const awmr::Run run = run_of(paper_plant(), scenario);

@@ -29,7 +29,7 @@ const struct {
     {"dead zone", {.alpha = 1.3157, .beta = 0.8841}, 0.06},
 };
 
-TEST(Families, SettleAtTheSpeedThatTheLawAndTheDeadZoneLeave) {
+TEST(Families, SettleAtTheSteadySpeedOfTheLawWithDeadZone) {
   for (const auto& c : kCases) {
     Plant<double> plant = plant_of(c.surge, c.dead_zone);
     const Vehicle vehicle = paper_vehicle();
@@ -81,7 +81,7 @@ TEST(BackEmf, IsMadeUpForByTheController) {
 }
 
 /// If a speed needs more than full voltage, the vehicle drives at the speed of full voltage.
-TEST(BackEmf, AtFullVoltageEndsAtTheNoLoadSpeedLessWhatResists) {
+TEST(BackEmf, FullVoltageGivesTheNoLoadSpeedReducedByResistance) {
   const Resistance<double> surge{.alpha = 1.3157, .beta = 0.8841};
   const Plant<double> plant = geared(0.8, surge);
   const Controller<double> controller = make_controller(plant, paper_vehicle(), kPaperGains);
@@ -93,7 +93,7 @@ TEST(BackEmf, AtFullVoltageEndsAtTheNoLoadSpeedLessWhatResists) {
 }
 
 /// Motors that are off do not brake: the stop time is that of the law, also with a lag.
-TEST(BackEmf, IsGoneWhereTheMotorsAreOff) {
+TEST(BackEmf, IsZeroWithTheMotorsOff) {
   const Plant<double> ideal = geared(0.0, {.alpha = 1.3157, .beta = 0.8841});
   const Plant<double> plant = geared(0.5, {.alpha = 1.3157, .beta = 0.8841});
   State<double> start{};

@@ -123,7 +123,7 @@ TEST(FourWheelRuns, MetersTheWorkOfTheTyres) {
 }
 
 /// Steps of a tenth of the length change the heading by less than a hundredth of a degree.
-TEST(FourWheelRuns, DoNotHangOnTheStep) {
+TEST(FourWheelRuns, DoNotDependOnTheStep) {
   for (const YawMode mode : kYawModes) {
     for (const double tau_turn_m : {0.02, 0.1, 0.2}) {
       const Scenario scenario = on_tyres(open_loop(1.4, tau_turn_m, 5.0));

@@ -28,7 +28,7 @@ inline Scenario random_layout(std::uint64_t number) {
       .initial = {},
       .speed_mps = 1.0,
       .guidance =
-          WaypointCourse{
+          WaypointPath{
               .points_m = {kGoal_m}, .acceptance_m = 1.0, .skip_passed = false, .slow_down_m = {}},
       .avoidance = kAvoidance};
   const auto between = [&](double lo, double hi) { return lo + (hi - lo) * random.uniform(); };

@@ -62,40 +62,40 @@ TEST(Metrics, SpeedDropCountsFromWhereTheSpeedWasReached) {
   EXPECT_FALSE(evaluate(run).speed_drop_mps);
 }
 
-TEST(Metrics, ACourseThatSlowsDownAtItsEndHasNoSpeedDrop) {
+TEST(Metrics, APathThatSlowsDownAtItsEndHasNoSpeedDrop) {
   awmr::Run run = by_hand({0.0, 0.0, 0.0, 0.0, 0.0});
   run.rows[3].state.u_mps = 0.4;
   const auto drop = [&](const Guidance& guidance) {
-    const Scenario scenario{"course", 4.0, {}, 1.0, guidance};
+    const Scenario scenario{"path", 4.0, {}, 1.0, guidance};
     return metrics_of(run, scenario, make_controller(paper_plant(), paper_vehicle(), {}))
         .speed_drop_mps;
   };
-  WaypointCourse waypoints{{{4.0, 0.0}}, 0.5, false, {}};
-  LineCourse line{{{0.0, 0.0}, {4.0, 0.0}}, LineOfSight<double>{1.0, 1.0, false}, 0.0, {}};
+  WaypointPath waypoints{{{4.0, 0.0}}, 0.5, false, {}};
+  LinePath line{{{0.0, 0.0}, {4.0, 0.0}}, LineOfSight<double>{1.0, 1.0, false}, 0.0, {}};
   EXPECT_NEAR(*drop(waypoints), 0.6, 1e-12);
   EXPECT_NEAR(*drop(line), 0.6, 1e-12);
   waypoints.slow_down_m = 1.0;
   line.slow_down_m = 1.0;
   EXPECT_FALSE(drop(waypoints));
   EXPECT_FALSE(drop(line));
-  EXPECT_FALSE(drop(LissajousCourse{}));
+  EXPECT_FALSE(drop(LissajousPath{}));
 }
 
 TEST(Metrics, ATimedPathIsCompletedWhereItStaysWithinTheToleranceInTheSecondHalf) {
   awmr::Run run = by_hand({0.0, 0.0, 0.0, 0.0, 0.0});
   const double off_m[] = {9.0, 9.0, 0.2, 0.3, 0.1};
   for (std::size_t i = 0; i < 5; ++i) {
-    run.rows[i].course.target_m = {run.rows[i].state.x_m, off_m[i]};
+    run.rows[i].path.target_m = {run.rows[i].state.x_m, off_m[i]};
   }
   const auto completed = [&](double tolerance_m) {
-    LissajousCourse course;
-    course.tolerance_m = tolerance_m;
-    const Scenario scenario{"path", 4.0, {}, 1.0, course};
+    LissajousPath path;
+    path.tolerance_m = tolerance_m;
+    const Scenario scenario{"path", 4.0, {}, 1.0, path};
     return metrics_of(run, scenario, make_controller(paper_plant(), paper_vehicle(), {})).completed;
   };
   EXPECT_TRUE(completed(0.3));
   EXPECT_FALSE(completed(0.29));
-  EXPECT_TRUE(completed(LissajousCourse{}.tolerance_m));
+  EXPECT_TRUE(completed(LissajousPath{}.tolerance_m));
 }
 
 TEST(Metrics, ControlVariationIsPerSecondAndOverTheLimits) {
@@ -109,7 +109,7 @@ TEST(Metrics, ControlVariationIsPerSecondAndOverTheLimits) {
   EXPECT_NEAR(metrics_of(run, kSteps, weak).control_variation, (2.0 + 2.0) / 4.0, 1e-12);
 }
 
-TEST(Metrics, WorkIsForceTimesTheWheelsSpeedAndNothingComesBack) {
+TEST(Metrics, WorkIsPositiveForceTimesTheWheelsSpeed) {
   awmr::Run run = by_hand({0.0, 0.0, 0.0, 0.0, 0.0});
   for (RunRow& row : run.rows) {
     row.state.u_mps = 0.8;
@@ -277,10 +277,10 @@ TEST(Validity, WarnsOfScenarioPartsWithoutEffect) {
   EXPECT_EQ(codes_of(unattainable_requests(after, model)), Codes{"late-step"});
 
   Scenario blocked = kSteps;
-  WaypointCourse course;
-  course.points_m = {{5.0, 0.0}, {10.0, 0.0}};
-  course.acceptance_m = 0.5;
-  blocked.guidance = course;
+  WaypointPath path;
+  path.points_m = {{5.0, 0.0}, {10.0, 0.0}};
+  path.acceptance_m = 0.5;
+  blocked.guidance = path;
   blocked.obstacles = {{{10.0, 0.9}, 1.0}, {{5.0, 1.1}, 1.0}};
   const auto findings = unattainable_requests(blocked, model);
   ASSERT_EQ(codes_of(findings), Codes{"blocked-waypoint"});

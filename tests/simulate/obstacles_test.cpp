@@ -55,7 +55,7 @@ std::vector<Obstacle<double>> ring(const Position<double>& centre, int left_out)
   return discs;
 }
 
-TEST(Passage, AClosedRingLeavesNoneAndAGapDoes) {
+TEST(Passage, IsBlockedByAClosedRingAndNotByAGap) {
   // Neighbours are 2 * 8 sin(9 deg) = 2.50 m apart; inflated by 1.3 m each disc has 1.7 m. Without
   // one disc the gap is 2 * 8 sin(18 deg) = 4.94 m, more than 3.4 m.
   EXPECT_FALSE(passage_exists(ring({30.0, 0.0}, -1), 1.3, {0.0, 0.0}, {30.0, 0.0}));
@@ -142,7 +142,7 @@ TEST(NoPassage, TheVehicleStopsAndReportsIt) {
 TEST(NoPassage, AnObstacleOnTheWaypointMakesItMissed) {
   Scenario scenario = random_layout(0);
   scenario.obstacles = {{{15.0, 0.0}, 2.0}};
-  std::get<WaypointCourse>(scenario.guidance).points_m = {{15.0, 0.5}, kGoal_m};
+  std::get<WaypointPath>(scenario.guidance).points_m = {{15.0, 0.5}, kGoal_m};
   const awmr::Run run = run_of(scenario, YawMode::kCombined);
   EXPECT_EQ(run.end, RunEnd::kFinished);
   EXPECT_EQ(run.missed_waypoints, 1);

@@ -135,7 +135,7 @@ TEST(PlantSampler, PlantsAtGivenNormalsDoNotHaveTheMassThatTheGripAsksFor) {
   }
 }
 
-TEST(PlantSampler, LeavesAloneWhatTheCovarianceDoesNotCover) {
+TEST(PlantSampler, KeepsParametersOutsideTheCovariance) {
   const Model model = uncertain_model();
   const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
@@ -243,7 +243,7 @@ TEST(PlantSampler, DrawsATermWellAboveZeroAsTheNormalThatItsFitGave) {
   EXPECT_NEAR(squares, 1.0, 5.0 * std::sqrt(2.0 / kDraws));
 }
 
-TEST(PlantSampler, SaysWhenNextToNoDrawIsAdmissible) {
+TEST(PlantSampler, RefusesIfNearlyNoDrawIsAdmissible) {
   Model model = uncertain_model();
   model[ParameterId::kSurgeBeta].value = -1.0;  // 60 standard errors below 0
   const auto sampler = PlantSampler::make(model);
@@ -269,7 +269,7 @@ TEST(PlantSampler, DrawsFromASingularCovariance) {
   }
 }
 
-TEST(PlantSampler, RefusesWhatIsNoCovariance) {
+TEST(PlantSampler, RefusesAMatrixThatIsNotACovariance) {
   Model none = fitted_paper_model();
   Model indefinite = uncertain_model();
   indefinite.covariance.matrix[0][1] = indefinite.covariance.matrix[1][0] = 1.0;

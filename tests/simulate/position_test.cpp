@@ -37,14 +37,14 @@ Scenario with_gps(Guidance guidance) {
   return s;
 }
 Scenario waypoints() {
-  return with_gps(WaypointCourse{.points_m = {{20.0, 10.0}, {40.0, 0.0}, {60.0, 10.0}, {80.0, 0.0}},
-                                 .acceptance_m = kAcceptance_m,
-                                 .slow_down_m = {}});
+  return with_gps(WaypointPath{.points_m = {{20.0, 10.0}, {40.0, 0.0}, {60.0, 10.0}, {80.0, 0.0}},
+                               .acceptance_m = kAcceptance_m,
+                               .slow_down_m = {}});
 }
 Scenario line() {
-  return with_gps(LineCourse{.points_m = {{0.0, 0.0}, {80.0, 0.0}},
-                             .law = LineOfSight<double>{radians(60.0), 4.0, false},
-                             .slow_down_m = {}});
+  return with_gps(LinePath{.points_m = {{0.0, 0.0}, {80.0, 0.0}},
+                           .law = LineOfSight<double>{radians(60.0), 4.0, false},
+                           .slow_down_m = {}});
 }
 
 struct Figures {
@@ -56,11 +56,11 @@ struct Figures {
 };
 
 double from_leg_m(const Scenario& s, const RunRow& row) {
-  const auto* course = std::get_if<WaypointCourse>(&s.guidance);
-  const auto leg = static_cast<std::size_t>(row.course.leg);
+  const auto* path = std::get_if<WaypointPath>(&s.guidance);
+  const auto leg = static_cast<std::size_t>(row.path.leg);
   const Position<double> from =
-      course && leg > 0 ? course->points_m[leg - 1] : Position<double>{0.0, 0.0};
-  const Position<double> along = seen_from(from, row.course.target_m);
+      path && leg > 0 ? path->points_m[leg - 1] : Position<double>{0.0, 0.0};
+  const Position<double> along = seen_from(from, row.path.target_m);
   const Position<double> at = seen_from(from, {row.state.x_m, row.state.y_m});
   return (along.x_m * at.y_m - along.y_m * at.x_m) / std::hypot(along.x_m, along.y_m);
 }
@@ -83,12 +83,12 @@ Figures figures(const Scenario& scenario, std::uint64_t seeds) {
       f.cross_track_m += std::pow(from_leg_m(scenario, b), 2);
       f.position_m += squared_distance_m2(b.measured_position_m, at);
       rows += 1.0;
-      if (a.course.leg == b.course.leg) {
+      if (a.path.leg == b.path.leg) {
         const double jump = std::remainder(b.psi_ref_rad - a.psi_ref_rad, 2.0 * pi<double>());
         f.jump_deg = std::max(f.jump_deg, degrees(std::abs(jump)));
       }
-      const bool passed = a.course.leg != b.course.leg || (finished && k + 1 == run.rows.size());
-      if (passed && distance_m(a.course.target_m, at) > kAcceptance_m + 2.0) ++f.wrong;
+      const bool passed = a.path.leg != b.path.leg || (finished && k + 1 == run.rows.size());
+      if (passed && distance_m(a.path.target_m, at) > kAcceptance_m + 2.0) ++f.wrong;
     }
   }
   f.cross_track_m = std::sqrt(f.cross_track_m / rows);

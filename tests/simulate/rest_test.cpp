@@ -83,7 +83,7 @@ TEST(Rest, WorkOfTheMotorsIsKineticEnergyPlusDissipation) {
   EXPECT_NEAR(work, energy(run.rows.back().state) - energy(run.rows[10].state), 1e-4);
 }
 
-TEST(Simulate, RowsStandAtWholeSamplesFromZeroToTheDuration) {
+TEST(Simulate, RowsAreAtWholeSamplesFromZeroToTheDuration) {
   const awmr::Run run = run_open_loop(paper_plant(), {}, 1.0, {1.0, 0.0});
   ASSERT_EQ(run.rows.size(), 101u);
   for (std::size_t i = 0; i < run.rows.size(); ++i) {

@@ -69,7 +69,7 @@ TEST(ScenarioFile, EveryShippedScenarioReads) {
   EXPECT_GE(count, 4);
 }
 
-TEST(YawModeNames, GoBothWays) {
+TEST(YawModeNames, ConvertInBothDirections) {
   for (const YawMode mode : kYawModes) EXPECT_EQ(value_in(kYawModeNames, name_of(mode)), mode);
   EXPECT_FALSE(value_in(kYawModeNames, "sideways"));
 }
@@ -97,16 +97,15 @@ TEST(ScenarioFile, TyresHaveDefaultsAndAreOffWithoutTheirKey) {
   EXPECT_EQ(given->tyres->rest_speed_mps, 0.2);
 }
 
-TEST(ScenarioFile, WhatHasNoMeaningOnTyresIsAFaultAtItsKey) {
+TEST(ScenarioFile, RefusesKeysThatDoNotApplyOnTyres) {
   const auto refused = read(with_tyres(
       R"("tyres": {}, "slippery": [{"x_m": 1, "y_m": 2, "radius_m": 3, "force_max": 0.1}],
          "corner": {"sway.alpha": "hi", "mass_norm": "lo"})"));
   ASSERT_FALSE(refused);
   const std::string text = to_text(refused.error());
-  EXPECT_NE(text.find(":/slippery: a patch limits the forces along the wheels alone"),
-            std::string::npos)
+  EXPECT_NE(text.find(":/slippery: a patch limits only the longitudinal forces"), std::string::npos)
       << text;
-  EXPECT_NE(text.find(":/corner: sway.alpha has no part on tyres"), std::string::npos) << text;
+  EXPECT_NE(text.find(":/corner: sway.alpha has no effect on tyres"), std::string::npos) << text;
   EXPECT_EQ(text.find("mass_norm"), std::string::npos);
 }
 
@@ -146,10 +145,10 @@ const std::string kFull = R"({
 TEST(ScenarioFile, ReadsTheWholeWorldInSiUnits) {
   const auto s = read(kFull);
   ASSERT_TRUE(s) << to_text(s.error());
-  const auto& course = std::get<WaypointCourse>(s->guidance);
-  EXPECT_EQ(course.points_m[1].y_m, 4.0);
-  EXPECT_TRUE(course.skip_passed);
-  EXPECT_EQ(course.slow_down_m, 2.0);
+  const auto& path = std::get<WaypointPath>(s->guidance);
+  EXPECT_EQ(path.points_m[1].y_m, 4.0);
+  EXPECT_TRUE(path.skip_passed);
+  EXPECT_EQ(path.slow_down_m, 2.0);
   EXPECT_EQ(s->avoidance->sigma_rad, radians(10.0));
   EXPECT_EQ(s->shaping->accel_max_radps2, radians(300.0));
   EXPECT_EQ(s->disturbance.surge[0].window.to_s, 2.0);
@@ -214,24 +213,24 @@ TEST(ScenarioFile, ReadsLinesAndTimedPaths) {
                                   R"({"type": "line", "from_m": [0, 1], "to_m": [2, 3],
                                       "delta_deg": 45, "width_m": 2})"));
   ASSERT_TRUE(line) << to_text(line.error());
-  EXPECT_EQ(std::get<LineCourse>(line->guidance).points_m[1].y_m, 3.0);
-  EXPECT_TRUE(std::get<LineOfSight<double>>(std::get<LineCourse>(line->guidance).law)
-                  .sideslip_compensation);
+  EXPECT_EQ(std::get<LinePath>(line->guidance).points_m[1].y_m, 3.0);
+  EXPECT_TRUE(
+      std::get<LineOfSight<double>>(std::get<LinePath>(line->guidance).law).sideslip_compensation);
   const auto integral = read(replaced(kHeading, steps,
                                       R"({"type": "line", "from_m": [0, 1], "to_m": [2, 3],
                                           "law": "ilos", "lookahead_m": 3,
                                           "integral_gain_mps": 0.4, "corner_m": 1})"));
   ASSERT_TRUE(integral) << to_text(integral.error());
-  const auto& ilos = std::get<IntegralLos<double>>(std::get<LineCourse>(integral->guidance).law);
+  const auto& ilos = std::get<IntegralLos<double>>(std::get<LinePath>(integral->guidance).law);
   EXPECT_EQ(ilos.lookahead_m, 3.0);
   EXPECT_EQ(ilos.integral_gain_mps, 0.4);
-  EXPECT_EQ(std::get<LineCourse>(integral->guidance).corner_m, 1.0);
+  EXPECT_EQ(std::get<LinePath>(integral->guidance).corner_m, 1.0);
   const auto pursued = read(replaced(kHeading, steps,
                                      R"({"type": "line", "from_m": [0, 1], "to_m": [2, 3],
                                          "law": "pure_pursuit", "lookahead_m": 3,
                                          "sideslip_compensation": false})"));
   ASSERT_TRUE(pursued) << to_text(pursued.error());
-  const auto& law = std::get<PurePursuit<double>>(std::get<LineCourse>(pursued->guidance).law);
+  const auto& law = std::get<PurePursuit<double>>(std::get<LinePath>(pursued->guidance).law);
   EXPECT_EQ(law.lookahead_m, 3.0);
   EXPECT_FALSE(law.sideslip_compensation);
   const std::string timed = R"({"type": "lissajous", "amplitude_m": [1, 2],
@@ -239,7 +238,7 @@ TEST(ScenarioFile, ReadsLinesAndTimedPaths) {
   const auto closed =
       read(replaced(replaced(kHeading, steps, timed), "\"speed_mps\": 1", "\"speed_mps\": 0"));
   ASSERT_TRUE(closed) << to_text(closed.error());
-  EXPECT_EQ(std::get<LissajousCourse>(closed->guidance).path.rate_y_radps, 0.2);
+  EXPECT_EQ(std::get<LissajousPath>(closed->guidance).path.rate_y_radps, 0.2);
   // A closed timed path has the path's speed.
   EXPECT_THAT(to_text(read(replaced(kHeading, steps, timed)).error()), HasSubstr("/speed_mps"));
 }

@@ -23,7 +23,7 @@ Scenario along(Guidance guidance) {
   return scenario;
 }
 
-TEST(ScenarioGuidance, HoldsTheHeadingOfTheLastStepThatHasCome) {
+TEST(ScenarioGuidance, CommandsTheHeadingOfTheLastStep) {
   const HeadingSteps steps{{{0.0, 0.1}, {2.0, 0.2}, {5.0, 0.3}}};
   EXPECT_EQ(heading_at(steps, 0.0), 0.1);
   EXPECT_EQ(heading_at(steps, 1.99), 0.1);
@@ -34,62 +34,62 @@ TEST(ScenarioGuidance, HoldsTheHeadingOfTheLastStepThatHasCome) {
 
 /// Towards (10 m, 0) at the full speed, this far from the leg.
 void expect_on_first_leg(const GuidanceOutput& output, double cross_track_m) {
-  EXPECT_EQ(output.course.leg, 0);
-  EXPECT_EQ(output.course.target_m.x_m, 10.0);
-  EXPECT_EQ(output.course.target_m.y_m, 0.0);
-  EXPECT_NEAR(output.course.cross_track_m, cross_track_m, 1e-12);
+  EXPECT_EQ(output.path.leg, 0);
+  EXPECT_EQ(output.path.target_m.x_m, 10.0);
+  EXPECT_EQ(output.path.target_m.y_m, 0.0);
+  EXPECT_NEAR(output.path.cross_track_m, cross_track_m, 1e-12);
   EXPECT_EQ(output.reference.speed_mps, 2.0);
 }
 
 TEST(ScenarioGuidance, GoesToOnePointAfterTheOtherAndSlowsDownBeforeTheLast) {
-  const Scenario scenario = along(WaypointCourse{
+  const Scenario scenario = along(WaypointPath{
       .points_m = {{10.0, 0.0}, {10.0, 10.0}}, .acceptance_m = 1.0, .slow_down_m = 4.0});
   ScenarioGuidance guidance(scenario, 0.01, at(0.0, 0.0));
   const GuidanceOutput first =
       guidance.step(0.0, at(7.5, 0.5));  // within 4 m, but not of the last one
   expect_on_first_leg(first, 0.5);
   const GuidanceOutput last = guidance.step(0.01, at(10.0, 0.5));
-  EXPECT_EQ(last.course.leg, 1);
-  EXPECT_EQ(last.course.target_m.y_m, 10.0);
+  EXPECT_EQ(last.path.leg, 1);
+  EXPECT_EQ(last.path.target_m.y_m, 10.0);
   EXPECT_EQ(last.reference.speed_mps, 2.0);
   EXPECT_NEAR(guidance.step(0.02, at(10.0, 8.0)).reference.speed_mps, 1.0, 1e-12);  // 2 of 4 m
   const GuidanceOutput there = guidance.step(0.03, at(10.0, 9.5));
   EXPECT_TRUE(there.finished);
   EXPECT_EQ(there.reference.speed_mps, 0.0);
-  EXPECT_EQ(there.course.leg, 1);
-  EXPECT_EQ(there.course.cross_track_m, 0.0);
+  EXPECT_EQ(there.path.leg, 1);
+  EXPECT_EQ(there.path.cross_track_m, 0.0);
 }
 
 TEST(ScenarioGuidance, FollowsALineToItsEndAndSlowsDownBeforeIt) {
-  const Scenario scenario = along(LineCourse{.points_m = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}},
-                                             .law = LineOfSight<double>{1.0, 1.0, false},
-                                             .slow_down_m = 4.0});
+  const Scenario scenario = along(LinePath{.points_m = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}},
+                                           .law = LineOfSight<double>{1.0, 1.0, false},
+                                           .slow_down_m = 4.0});
   ScenarioGuidance guidance(scenario, 0.01, at(0.0, 0.0));
   const GuidanceOutput first = guidance.step(0.0, at(7.0, 0.2));
   expect_on_first_leg(first, 0.2);
   const GuidanceOutput last = guidance.step(0.01, at(10.2, 7.0));
-  EXPECT_EQ(last.course.leg, 1);
-  EXPECT_EQ(last.course.target_m.y_m, 10.0);
-  EXPECT_NEAR(last.course.cross_track_m, -0.2, 1e-12);
+  EXPECT_EQ(last.path.leg, 1);
+  EXPECT_EQ(last.path.target_m.y_m, 10.0);
+  EXPECT_NEAR(last.path.cross_track_m, -0.2, 1e-12);
   EXPECT_NEAR(last.reference.speed_mps, 2.0 * 3.0 / 4.0, 1e-12);
   const GuidanceOutput there = guidance.step(0.02, at(10.0, 10.1));
   EXPECT_TRUE(there.finished);
-  EXPECT_EQ(there.course.leg, 1);
+  EXPECT_EQ(there.path.leg, 1);
   EXPECT_EQ(there.reference.speed_mps, 0.0);
 }
 
 TEST(ScenarioGuidance, FollowsAPathAtItsSpeedOrAtTheScenarios) {
-  LissajousCourse course;
-  course.path = {10.0, 8.0, 0.1, 0.3};
-  Scenario scenario = along(course);
+  LissajousPath path;
+  path.path = {10.0, 8.0, 0.1, 0.3};
+  Scenario scenario = along(path);
   scenario.speed_mps = 0.0;
   ScenarioGuidance guidance(scenario, 0.01, at(10.0, 0.0));
-  const PathPoint<double> point = course.path.at(3.0);
+  const PathPoint<double> point = path.path.at(3.0);
   const GuidanceOutput output = guidance.step(3.0, at(point.position_m.x_m, point.position_m.y_m));
   EXPECT_NEAR(output.reference.psi_rad, std::atan2(point.vy_mps, point.vx_mps), 1e-12);
   EXPECT_NEAR(output.reference.speed_mps, std::hypot(point.vx_mps, point.vy_mps), 1e-12);
-  EXPECT_EQ(output.course.target_m.x_m, point.position_m.x_m);
-  EXPECT_NEAR(output.course.cross_track_m, 0.0, 1e-12);
+  EXPECT_EQ(output.path.target_m.x_m, point.position_m.x_m);
+  EXPECT_NEAR(output.path.cross_track_m, 0.0, 1e-12);
   scenario.speed_mps = 1.5;
   EXPECT_EQ(
       ScenarioGuidance(scenario, 0.01, at(10.0, 0.0)).step(3.0, at(0.0, 0.0)).reference.speed_mps,

@@ -80,7 +80,7 @@ TEST_P(ScenarioFiles, RunsInEveryMode) {
 }
 
 /// Left and right are equal up to rounding of sums in another order.
-TEST_P(ScenarioFiles, IsTheSameInAMirror) {
+TEST_P(ScenarioFiles, IsInvariantUnderReflection) {
   Scenario s = scenario();
   s.duration_s = std::min(s.duration_s, 60.0);
   const Scenario other = mirrored(s);
@@ -101,7 +101,7 @@ TEST_P(ScenarioFiles, IsTheSameInAMirror) {
 bool switch_alike(const awmr::Run& a, const awmr::Run& b) {
   const std::size_t rows = std::min(a.rows.size(), b.rows.size());
   for (std::size_t i = 0; i < rows; ++i) {
-    if (a.rows[i].course.leg != b.rows[i].course.leg) return false;
+    if (a.rows[i].path.leg != b.rows[i].path.leg) return false;
   }
   return true;
 }
@@ -113,9 +113,9 @@ bool switch_alike(const awmr::Run& a, const awmr::Run& b) {
 /// the controller's model has a limit cycle of some 0.001 rad/s in which differences grow (tenfold
 /// in 1.5 s): 20 s are compared. The estimate of the position reads cos psi and sin psi in turns, one
 /// in a step, so that it rotates with the world to within the turn of a step.
-TEST_P(ScenarioFiles, IsTheSameElsewhere) {
+TEST_P(ScenarioFiles, IsInvariantUnderTranslationAndRotation) {
   Scenario s = scenario();
-  if (std::holds_alternative<LissajousCourse>(s.guidance)) return;
+  if (std::holds_alternative<LissajousPath>(s.guidance)) return;
   if (s.sensors) {
     s.sensors->heading.quantum = 0.0;  // its steps do not rotate with the world
     // The random numbers for x and y do not rotate either.
@@ -159,7 +159,7 @@ TEST(RunOfAModel, IsItsPlantUnderItsOwnControllerAtItsSampleTime) {
   EXPECT_EQ(controller_for(model, kPaperGains)->yaw.alpha, controller.yaw.alpha);
 }
 
-TEST(RunOfAModel, NamesWhatTheModelLacks) {
+TEST(RunOfAModel, NamesTheMissingParameter) {
   Model model = model_with_intervals();
   model[ParameterId::kMassNorm].value.reset();
   const auto run = simulate(model, kPaperGains, heading_steps({30.0}), YawMode::kSteering);

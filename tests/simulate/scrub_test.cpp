@@ -68,7 +68,7 @@ TEST(Scrub, OfASteadyDifferentialTurnIsWhatItsTrialMeasures) {
   EXPECT_NEAR(r, steady_rate(paper_plant().yaw, tau_turn_m - kScrub_m).value(), 1e-6 * r);
 }
 
-TEST(Scrub, HoldsWhatIsWeakerThanItself) {
+TEST(Scrub, HoldsAVehicleUnderASmallerMoment) {
   // The chord of g3 + c ends below 1e-3 rad/s (physics.cpp), and half of c is balanced below its end.
   const awmr::Run run =
       run_open_loop(scrubbing_plant(), turning(0.0, 0.0), 5.0, {1.0, 0.5 * kScrub_m});

@@ -32,11 +32,11 @@ Scenario straight_on(Guidance guidance) {
           .guidance = std::move(guidance)};
 }
 
-WaypointCourse through(std::vector<Position<double>> points_m) {
-  WaypointCourse course;
-  course.points_m = std::move(points_m);
-  course.acceptance_m = 0.5;
-  return course;
+WaypointPath through(std::vector<Position<double>> points_m) {
+  WaypointPath path;
+  path.points_m = std::move(points_m);
+  path.acceptance_m = 0.5;
+  return path;
 }
 
 DisturbanceTerm constant(double value) {

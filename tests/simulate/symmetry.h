@@ -26,9 +26,9 @@ inline Scenario mirrored(Scenario s) {
   if (auto* heading = std::get_if<HeadingSteps>(&s.guidance)) {
     for (HeadingStep& step : heading->steps) step.psi_rad *= -1.0;
   }
-  if (auto* points = std::get_if<WaypointCourse>(&s.guidance)) mirror_points(points->points_m);
-  if (auto* line = std::get_if<LineCourse>(&s.guidance)) mirror_points(line->points_m);
-  if (auto* timed = std::get_if<LissajousCourse>(&s.guidance)) timed->path.amplitude_y_m *= -1.0;
+  if (auto* points = std::get_if<WaypointPath>(&s.guidance)) mirror_points(points->points_m);
+  if (auto* line = std::get_if<LinePath>(&s.guidance)) mirror_points(line->points_m);
+  if (auto* timed = std::get_if<LissajousPath>(&s.guidance)) timed->path.amplitude_y_m *= -1.0;
   for (Obstacle<double>& obstacle : s.obstacles) obstacle.centre_m.y_m *= -1.0;
   negate(s.disturbance.sway);
   negate(s.disturbance.yaw);
@@ -67,8 +67,8 @@ struct Elsewhere {
     if (auto* heading = std::get_if<HeadingSteps>(&s.guidance)) {
       for (HeadingStep& step : heading->steps) step.psi_rad += angle_rad;
     }
-    if (auto* points = std::get_if<WaypointCourse>(&s.guidance)) move(points->points_m);
-    if (auto* line = std::get_if<LineCourse>(&s.guidance)) move(line->points_m);
+    if (auto* points = std::get_if<WaypointPath>(&s.guidance)) move(points->points_m);
+    if (auto* line = std::get_if<LinePath>(&s.guidance)) move(line->points_m);
     for (Obstacle<double>& obstacle : s.obstacles) obstacle.centre_m = of(obstacle.centre_m);
     if (s.disturbance.slope) s.disturbance.slope->downhill_rad += angle_rad;
     for (SlipperyPatch& patch : s.patches) patch.centre_m = of(patch.centre_m);

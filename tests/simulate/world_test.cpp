@@ -57,7 +57,7 @@ TEST(Disturbances, AStepActsFromItsTimeOn) {
   EXPECT_GT(run.rows[600].state.u_mps, 1.01);
 }
 
-TEST(Disturbances, ASlopePullsDownhillWhicheverWayTheVehicleFaces) {
+TEST(Disturbances, ASlopePullsDownhillForEveryHeading) {
   Scenario s = straight();
   s.disturbance.slope = Slope{radians(5.0), radians(-90.0)};
   EXPECT_LT(run_of(s).rows.back().state.y_m, -0.1);  // sideways
@@ -140,7 +140,7 @@ TEST(Wheels, OnASlipperyPatchBackEmfBrakesNoMoreThanTheGroundHolds) {
   }
 }
 
-TEST(Wheels, EachIsWhereTheVehiclesHeadingPutsIt) {
+TEST(Wheels, PositionsFollowTheHeading) {
   const Plant<double> plant = paper_plant();
   Scenario s;
   State<double> state{};
@@ -170,7 +170,7 @@ TEST(Wheels, ASlipperyPatchLimitsTheForceOfAMotorWithADeadZoneAndNotItsCommand) 
   EXPECT_NEAR(beyond_dead_zone(wheels.rear_right, 0.1), -0.2, 1e-15);
 }
 
-TEST(Battery, TheSpeedFallsToWhatTheForceLeft) {
+TEST(Battery, SpeedFallsToThatOfTheReducedForce) {
   Scenario s = straight(60.0);
   s.battery = Battery{.from_s = 5.0, .to_s = 20.0, .share_end = 0.2};
   const awmr::Run run = run_of(s, YawMode::kDifferential);
@@ -322,9 +322,9 @@ TEST(SensorChannels, HaveNoiseWithACorrelationTime) {
 
 TEST(SensorChannels, ReturnTheValueFromOneLatencyAgo) {
   Sensors sensors;
-  sensors.heading.late_s = 0.03;
-  sensors.yaw_rate.late_s = 0.014;
-  sensors.speed.late_s = 0.001;
+  sensors.heading.latency_s = 0.03;
+  sensors.yaw_rate.latency_s = 0.014;
+  sensors.speed.latency_s = 0.001;
   Sensing sensing(sensors, 0.01, run_seed(0, 0, 0));
   for (int k = 0; k < 10; ++k) {
     State<double> truth{};
@@ -372,7 +372,7 @@ TEST(Motors, TheForceFollowsItsCommandWithTheirTimeConstant) {
                                          .state.u_mps);
 }
 
-TEST(Observer, TakesOffTheSteadyErrorOfAConstantDisturbance) {
+TEST(Observer, RemovesTheSteadyErrorOfAConstantDisturbance) {
   Scenario s = straight();
   s.disturbance.yaw = {constant(0.01)};
   s.disturbance.surge = {constant(-0.1)};
@@ -413,7 +413,7 @@ TEST(Observer, OfTheGainsWorksAsThatOfTheScenarioWhichComesFirst) {
   EXPECT_EQ(rows(lqi, tuned), rows(lqi, kPaperGains));
 }
 
-TEST(Observer, OneTooFastForTheSampleTimeIsRefused) {
+TEST(Observer, RefusesABandwidthTooHighForTheSampleTime) {
   Scenario s = straight();
   s.control.observer = observer(true);
   s.control.observer->bandwidth_radps = 100.0;

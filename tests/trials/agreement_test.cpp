@@ -29,7 +29,7 @@ TEST(Agreement, TakesTheFinestPlaceOfAColumn) {
   EXPECT_DOUBLE_EQ(last_place_of("1.25e2\n"), 1.0);
 }
 
-TEST(Agreement, SeesTheFilesDigitsThroughAMapping) {
+TEST(Agreement, UsesTheFilesDigitsThroughAMapping) {
   const ColumnMapping kmh[] = {{"speed_mps", "v", 1.0 / 3.6, 0.0}};
   EXPECT_DOUBLE_EQ(last_place_of("3.7\n4.1\n", kmh), 0.1 / 3.6);
   const ColumnMapping shifted[] = {{"speed_mps", "v", 0.01, 0.3}};

@@ -54,7 +54,7 @@ TEST(Awl, ReadsEveryRowAsItWas) {
   EXPECT_EQ(log->columns[1][3], static_cast<double>(0.25F + 0.03F));
 }
 
-TEST(Awl, AHeaderThatIsDamagedIsMadeUpForByItsCopy) {
+TEST(Awl, ADamagedHeaderIsReplacedByItsCopy) {
   std::string bytes = awl_header(awl_json()) + awl_log(20);
   bytes[100] ^= 1;
   const auto log = read_awl(bytes, "a.awl");
@@ -89,7 +89,7 @@ TEST(Awl, EveryDamagedByteCostsItsRowAndNoOther) {
   }
 }
 
-TEST(Awl, FindsRowsAgainAfterBytesThatAreGoneOrTooMany) {
+TEST(Awl, FindsRowsAfterMissingOrAdditionalBytes) {
   const std::string good = awl_log(40);
   for (std::size_t gone = 1; gone < 130; gone += 3) {
     std::string bytes = good;
@@ -122,7 +122,7 @@ TEST(Awl, ATruncatedTailIsKeptUpToItsLastWholeRow) {
   }
 }
 
-TEST(Awl, AChipThatBeganAnewIsARunOfItsOwn) {
+TEST(Awl, ARestartedChipBeginsANewRun) {
   LogRow row = awl_row(0);
   row.reset_cause = 8;
   std::string second;
@@ -171,7 +171,7 @@ TEST(Awl, ARunThatIsTooShortIsSetAsideAndAFileWithoutAnyRefused) {
   EXPECT_EQ(exit_code(read_awl(awl_log(0), "a.awl").error()), 1);
 }
 
-TEST(Awl, RefusesHeadersThatLie) {
+TEST(Awl, RefusesMalformedHeaders) {
   const auto replaced = [](const std::string& what, const std::string& by) {
     std::string json = awl_json();
     json.replace(json.find(what), what.size(), by);

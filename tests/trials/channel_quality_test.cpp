@@ -157,7 +157,7 @@ TEST(ChannelQuality, RestIsNotStuck) {
   EXPECT_TRUE(evaluate(d).stuck.empty());
 }
 
-TEST(ChannelQuality, RestIsNotStuckWhateverTinyNumberStandsForIt) {
+TEST(ChannelQuality, RestIsNotStuckForTinyNumbers) {
   for (const double rest : {3.9e-312, -1e-15, 1e-9}) {
     Drive d = drive(9, 0.02);
     for (std::size_t i = 700; i < 1000; ++i) d.speed[i] = rest;

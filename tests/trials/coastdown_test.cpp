@@ -82,7 +82,7 @@ TEST(CoastdownTrial, RefusesBothFormsInOneFile) {
               ElementsAre(HasSubstr("speed_mps")));
 }
 
-TEST(CoastdownTrial, KnowsHowWellATimeIsKnownFromHowItIsWritten) {
+TEST(CoastdownTrial, DerivesTheErrorOfATimeFromItsDigits) {
   // A stop watch: 0.1 s. An automatic time to the millisecond: its rounding, 1 ms / sqrt 12.
   const auto timing_std_s = [](const std::string& row) {
     const auto read = accepted(read_coastdown, "initial_speed_mps,stop_time_s\n" + row + "\n");

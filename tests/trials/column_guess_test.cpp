@@ -77,7 +77,7 @@ TEST(GuessColumns, ReadsTheTablesAsWell) {
                           "likely stop_time_s=stop_ms*0.001"));
 }
 
-TEST(GuessColumns, LeavesOpenWhatTheNameDoesNotSay) {
+TEST(GuessColumns, GuessesNothingFromAnAmbiguousName) {
   EXPECT_THAT(guesses_of("v,yaw_rate,steering\n1,0.1,0.2\n"),
               ElementsAre("unsure speed_mps=v", "unsure yaw_rate_radps=yaw_rate",
                           "unsure steering_deg=steering"));
@@ -90,7 +90,7 @@ TEST(GuessColumns, ReadsBodyVelocitiesByTheirLetters) {
   EXPECT_THAT(guesses_of("v_mps\n1\n"), ElementsAre("likely speed_mps=v_mps"));
 }
 
-TEST(GuessColumns, ReadsUnitsInWhatTheValuesCanBe) {
+TEST(GuessColumns, GuessesUnitsFromTheValues) {
   EXPECT_THAT(guesses_of("heading\n170\n-20\n"), ElementsAre("likely heading_deg=heading"));
   EXPECT_THAT(guesses_of("duty_left,duty_right\n0.5,-0.2\n"),
               ElementsAre("likely force_left=duty_left", "likely force_right=duty_right"));
@@ -117,11 +117,11 @@ TEST(GuessColumns, TakesTheHeadingFromAQuaternion) {
   EXPECT_EQ(guesses[2], "likely yaw_rate_radps=odom.twist.twist.angular.z");
 }
 
-TEST(GuessColumns, NothingIsGuessedFromNothing) {
+TEST(GuessColumns, GuessesNothingWithoutColumns) {
   EXPECT_THAT(guesses_of("a,b,accel_x,voltage\n1,2,3,4\n"), IsEmpty());
 }
 
-TEST(GuessColumns, TwoTimesStayOpen) {
+TEST(GuessColumns, TwoTimesAreAmbiguous) {
   EXPECT_THAT(guesses_of("time_ms,gps_timestamp_us\n1,2\n"), ElementsAre("unsure t_s="));
 }
 

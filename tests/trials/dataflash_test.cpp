@@ -62,7 +62,7 @@ TEST(Dataflash, FlattensRecordsAndTheirInstances) {
   EXPECT_THAT(signals->notes, IsEmpty());
 }
 
-TEST(Dataflash, KeepsOnlyWhatIsWanted) {
+TEST(Dataflash, KeepsOnlyRequestedSignals) {
   const auto signals =
       read(small_log(), [](const std::string& name) { return name == "IMU.GyrZ"; });
   ASSERT_TRUE(signals);
@@ -70,7 +70,7 @@ TEST(Dataflash, KeepsOnlyWhatIsWanted) {
   EXPECT_THAT(signals->topics[1].values, ElementsAre(ElementsAre(0.5, 1.0)));
 }
 
-TEST(Dataflash, LostBytesAndABrokenEndArePassedOverAndNoted) {
+TEST(Dataflash, LostBytesAndABrokenEndAreSkippedAndNoted) {
   const std::string whole = small_log();
   const auto cut = read(whole.substr(0, whole.size() - 5));
   ASSERT_TRUE(cut);
@@ -85,7 +85,7 @@ TEST(Dataflash, LostBytesAndABrokenEndArePassedOverAndNoted) {
   }
 }
 
-TEST(Dataflash, RefusesWhatLies) {
+TEST(Dataflash, RefusesMalformedContent) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {dataflash_format(10, 15, "RCOU", "QHHH", "TimeUS,C1,C3"), "4 fields and 3 names"},
       {dataflash_format(10, 16, "RCOU", "QHH", "TimeUS,C1,C3"),

@@ -92,7 +92,7 @@ TEST(DataflashText, HasTheSignalsOfTheSameDriveInTheBinaryForm) {
   EXPECT_THAT(of_text->notes, IsEmpty());
 }
 
-TEST(DataflashText, IsKnownByItsFirstLine) {
+TEST(DataflashText, IsRecognisedByItsFirstLine) {
   EXPECT_TRUE(is_dataflash_text(kFormats));
   EXPECT_TRUE(is_dataflash_text("FMT,128,89,FMT,BBnNZ,Type\n"));
   EXPECT_FALSE(is_dataflash_text("FMT\n"));
@@ -101,7 +101,7 @@ TEST(DataflashText, IsKnownByItsFirstLine) {
   EXPECT_FALSE(is_dataflash_text(""));
 }
 
-TEST(DataflashText, LinesThatAreNotAllThereArePassedOverAndNoted) {
+TEST(DataflashText, IncompleteLinesAreSkippedAndNoted) {
   const auto signals = read(kFormats +
                             "RCOU, 1000, 1500, 1600\nRCOU, 2000, 1500\nWHAT, 1, 2\n"
                             "MSG, hello, world\nIMU, 1, x, 2, 3\nRCOU, 3000, 1501, 16");
@@ -116,7 +116,7 @@ TEST(DataflashText, LinesThatAreNotAllThereArePassedOverAndNoted) {
   }
 }
 
-TEST(DataflashText, RefusesWhatLiesWithItsLine) {
+TEST(DataflashText, RefusesMalformedContentWithItsLine) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"FMT, 10, 15, RCOU, QHHH, TimeUS,C1,C3\n", "a.log:1: RCOU has 4 fields and 3 names"},
       {"FMT, 10, 16, RCOU, QHH, TimeUS,C1,C3\n", "declares 16 bytes, but its fields have 15"},

@@ -79,7 +79,7 @@ TEST(ForceUnits, MicrosecondsOfAServoPulseHaveAnOffset) {
               Not(HasSubstr("microseconds")));
 }
 
-TEST(ForceUnits, WhereNoUnitIsClearAllAreNamed) {
+TEST(ForceUnits, NamesAllUnitsIfNoneIsClear) {
   // 89 is 89 % or 35 % of 255, and four times 89 N accelerate 37 kg by 9.6 m/s^2.
   EXPECT_THAT(refusal_of("wheel_force,speed_mps\n40,0.55\n89,1.66\n", ""),
               AllOf(HasSubstr("percent, 8-bit PWM counts or newtons"),
@@ -109,7 +109,7 @@ TEST(ForceUnits, ForcesUpToOneBeyondANarrowWheelForceAreNoUnit) {
                     HasSubstr("tau_speed=\"tau_speed\"*0.5'")));
 }
 
-TEST(ForceUnits, PercentBesideForcesThatAreRightMendsOnlyThePercent) {
+TEST(ForceUnits, ConvertsOnlyThePercentNextToRightForces) {
   const std::string refused = refusal_of("wheel_force,speed_mps\n0.3,0.55\n0.9,1.66\n",
                                          kTurns + "10,50,0.088,,\n20,100,0.22,,\n");
   EXPECT_THAT(refused, AllOf(Not(HasSubstr("surge.csv")), HasSubstr("percent")));

@@ -145,7 +145,7 @@ std::string two_runs(int rows, bool numbered) {
   return text;
 }
 
-TEST(RunsOfALog, AreToldApartByTheirColumn) {
+TEST(RunsOfALog, AreSeparatedByTheirColumn) {
   const auto read = accepted(read_logs, two_runs(12, true));
   ASSERT_THAT(read.set, SizeIs(2));
   EXPECT_EQ(read.set[0].rows(), 12U);

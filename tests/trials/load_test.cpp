@@ -59,7 +59,7 @@ TEST(LoadTrials, SteeringInRadiansIsRefused) {
               AllOf(HasSubstr("radians"), HasSubstr("steering_deg=\"steering_deg\"*57.29")));
 }
 
-TEST(LoadTrials, SpeedsAndTimesInOtherUnitsAreRefusedWithTheMappingThatMends) {
+TEST(LoadTrials, SpeedsAndTimesInOtherUnitsAreRefusedWithTheUnitFix) {
   // The same three runs, 0.5, 1 and 2 m/s over 10 m, in common notations.
   const std::pair<const char*, const char*> cases[] = {
       {"tau_speed,speed_mps,distance_m,elapsed_s\n1,1.8,10,20\n2,3.6,10,10\n4,7.2,10,5\n",
@@ -85,7 +85,7 @@ TEST(LoadTrials, SpeedsAndTimesInOtherUnitsAreRefusedWithTheMappingThatMends) {
       "");
 }
 
-TEST(LoadTrials, TurnsInOtherUnitsAreRefusedWithTheMappingThatMends) {
+TEST(LoadTrials, TurnsInOtherUnitsAreRefusedWithTheUnitFix) {
   const std::string columns = "steering_deg,wheel_force,yaw_rate_radps,turns,elapsed_s\n";
   EXPECT_EQ(refusal_of("turning.csv", columns + "10,0.3,0.1,1,62.83\n20,0.3,0.2,1,31.42\n"), "");
   EXPECT_THAT(refusal_of("turning.csv", columns + "10,0.3,5.73,1,62.83\n20,0.3,11.46,1,31.42\n"),
@@ -171,14 +171,14 @@ TEST(LoadTrials, ACoastDownThatBeginsFasterThanTheSurgeRunsAllowIsRefusedWithThe
   EXPECT_TRUE(load_trials(files));
 }
 
-TEST(LoadTrials, AVehicleWhoseSizesCannotBeSaysNothingOfSpeeds) {
+TEST(LoadTrials, AVehicleWithImpossibleSizesDoesNotBoundSpeeds) {
   const ScratchFile file("surge.csv", "tau_speed,distance_m,elapsed_s\n1,10,20\n4,10,5\n");
   TrialFiles files{.vehicle = paper_vehicle(), .surge = file.path()};
   files.vehicle.length_m = 780.0;
   EXPECT_TRUE(load_trials(files));
 }
 
-TEST(LoadTrials, ReadsWhatThereIsAndKeepsFindingsInOrder) {
+TEST(LoadTrials, ReadsTheGivenFilesAndKeepsFindingsInOrder) {
   const auto trials = load_trials(paper_files());
   ASSERT_TRUE(trials) << to_text(trials.error());
   EXPECT_EQ(trials->vehicle.front_axle_m, 0.35);

@@ -136,7 +136,7 @@ TEST(LogConsistency, ASpeedWithoutASignIsNamedAndOneWithASignIsNot) {
   }
 }
 
-TEST(LogConsistency, AVehicleThatNeverMovesIsRefusedBySayingSo) {
+TEST(LogConsistency, RefusesAVehicleThatNeverMoves) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     DrivingLog log = sound_log(seed);
     Random random(seed, 12);
@@ -247,7 +247,7 @@ DrivingLog thinned(const DrivingLog& log, std::size_t n) {
   return thin;
 }
 
-TEST(LogConsistency, ALogOfARowASecondIsReadWithoutEvidence) {
+TEST(LogConsistency, ALogWithOneRowPerSecondIsReadWithoutChecks) {
   for (const std::size_t n : {20, 27, 50, 100, 500}) {
     Vehicle slow = vehicle();
     slow.sample_time_s = kStep_s * static_cast<double>(n);

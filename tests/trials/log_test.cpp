@@ -131,7 +131,7 @@ TEST(Log, TurnsLatitudeAndLongitudeIntoMetres) {
   EXPECT_NEAR(read.set[LogChannel::kY]->value[5], 5 * 1e-4 * 110574.2727, 1e-3);
 }
 
-TEST(Log, RefusesWhatItCannotUse) {
+TEST(Log, RefusesUnusableLogs) {
   EXPECT_THAT(faults_of(read_log, "t_s,force_left,force_right\n0,0,0\n"), SizeIs(3));
   EXPECT_THAT(
       faults_of(read_log,
@@ -247,7 +247,7 @@ TEST(SteadyRuns, AreFoundWithTheirSpansAndNotWhereTheSpeedStillRises) {
   EXPECT_NEAR(runs.segments[0].end_s, 7.9, 1e-9);
 }
 
-TEST(SteadyRunsOfALog, TurnByTheSidesWhereThereIsNoSteering) {
+TEST(SteadyRunsOfALog, AreDifferentialTurnsWithoutSteering) {
   Vehicle vehicle = paper_vehicle();
   vehicle.drive = Drive::kDifferential;
   std::string text = "t_s,force_left,force_right,speed_mps,yaw_rate_radps\n";

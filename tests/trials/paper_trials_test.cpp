@@ -30,7 +30,7 @@ TEST(PaperSurgeTrial, HasTenUsableRowsAndOneAtRest) {
   EXPECT_EQ(set->rows[6].elapsed_s, 9.26);
 }
 
-TEST(PaperSurgeTrial, SaysWhichRowsContradictThemselves) {
+TEST(PaperSurgeTrial, ReportsContradictoryRows) {
   std::vector<Finding> findings;
   ASSERT_TRUE(read_surge(kPaper / "surge.csv", {}, findings));
   // Lines: 4 is trial 2 (0.12 for 0.1263), 10 is trial 8 (1.03 for 1.080), 3 is trial 1 (at rest).
@@ -72,7 +72,7 @@ TEST(PaperTurningTrial, HasFiveRowsAsPrinted) {
   }
 }
 
-TEST(PaperTurningTrial, SaysWhichRowsContradictThemselvesOrTheVehicle) {
+TEST(PaperTurningTrial, ReportsRowsThatContradictThemselvesOrTheVehicle) {
   std::vector<Finding> findings;
   ASSERT_TRUE(read_turning(kPaper / "turning.csv", paper_vehicle(), {}, findings));
   // Lines 3 to 7 are 5, 10, 15, 20, 25 degrees.

@@ -88,7 +88,7 @@ TEST(Recording, SetsAsideALineThatWasCut) {
   EXPECT_THAT(recording.findings("a").front().message, HasSubstr("ended within this line"));
 }
 
-TEST(Recording, FindsTheHeaderBehindWhatABoardSaysFirst) {
+TEST(Recording, FindsTheHeaderAfterTextOfTheBoard) {
   const Recording recording = recorded("3,0.1,go,0.02\nHello, I am ready\n" + kHeader + kRows);
   EXPECT_TRUE(recording.has_header());
   EXPECT_EQ(recording.text(), "# 3,0.1,go,0.02\n# Hello, I am ready\n" + kHeader + kRows);
@@ -96,7 +96,7 @@ TEST(Recording, FindsTheHeaderBehindWhatABoardSaysFirst) {
   EXPECT_THAT(recording.findings("a").front().message, HasSubstr("before the header"));
 }
 
-TEST(Recording, FindsAHeaderInOtherWordsAndBehindAMark) {
+TEST(Recording, FindsAHeaderWithOtherNamesAndInAComment) {
   Recording mapped({{"speed_mps", "V", 1.0, 0.0}});
   mapped.add("time;V\n0,5;1\n1,5;2,5\n2x5;3\n");
   EXPECT_EQ(mapped.rows(), 2U);

@@ -36,26 +36,26 @@ std::string surge_text(std::uint64_t seed, int runs, const Timing& timing) {
 
 /// Messages of `repeated-rows`; there is at most one.
 template <class Reader>
-std::string told_of(Reader read, const std::string& text) {
-  std::string told;
+std::string findings_of(Reader read, const std::string& text) {
+  std::string messages;
   for (const Finding& one : accepted(read, text).findings) {
     if (one.code != "repeated-rows") continue;
-    EXPECT_EQ(told, "");
+    EXPECT_EQ(messages, "");
     EXPECT_EQ(one.severity, Severity::kWarning);
-    told = fmt::format("{}: {}", one.line, one.message);
+    messages = fmt::format("{}: {}", one.line, one.message);
   }
-  return told;
+  return messages;
 }
 
 /// The table with its rows duplicated.
 std::string copied(const std::string& text) { return text + text.substr(text.find('\n') + 1); }
 
-TEST(RepeatedRows, ATableThatStandsTwiceIsNamedWithItsLines) {
+TEST(RepeatedRows, ADuplicatedTableIsNamedWithItsLines) {
   // Times to 0.01 s: five pairs of runs with s = 0.3 % of 5 to 18 s contain 0.7 equal ones by
   // chance.
   const std::string table = surge_text(1, 1, {0.005, 0.0, 2});
-  EXPECT_EQ(told_of(read_surge, table), "");
-  EXPECT_THAT(told_of(read_surge, copied(table)),
+  EXPECT_EQ(findings_of(read_surge, table), "");
+  EXPECT_THAT(findings_of(read_surge, copied(table)),
               AllOf(HasSubstr("7: 5 of 10 rows repeat an earlier row"),
                     HasSubstr("(lines 7, 8, 9, 10, 11)"), HasSubstr("elapsed_s")));
 }
@@ -63,32 +63,33 @@ TEST(RepeatedRows, ATableThatStandsTwiceIsNamedWithItsLines) {
 TEST(RepeatedRows, ACopyToTheMillisecondIsNamed) {
   // s = 0.3 % of 100 s: two runs are equal to 1 ms with probability 0.28 0.001/0.3 = 0.0009.
   const std::string text = "tau_speed,distance_m,elapsed_s\n0.2,10,100.123\n0.4,10,50.456\n";
-  EXPECT_THAT(told_of(read_surge, text + "0.2,10,100.123\n"), HasSubstr("1 of 3 rows"));
-  EXPECT_EQ(told_of(read_surge, text + "0.2,10,100.124\n"), "");
+  EXPECT_THAT(findings_of(read_surge, text + "0.2,10,100.123\n"), HasSubstr("1 of 3 rows"));
+  EXPECT_EQ(findings_of(read_surge, text + "0.2,10,100.124\n"), "");
   // An equal time at another force is another run.
-  EXPECT_EQ(told_of(read_surge, text + "0.3,10,100.123\n"), "");
+  EXPECT_EQ(findings_of(read_surge, text + "0.3,10,100.123\n"), "");
   // So is one with a different speed.
-  EXPECT_EQ(told_of(read_surge,
-                    "tau_speed,distance_m,elapsed_s,speed_mps\n0.2,10,100.123,0.1\n"
-                    "0.2,10,100.123,0.11\n"),
+  EXPECT_EQ(findings_of(read_surge,
+                        "tau_speed,distance_m,elapsed_s,speed_mps\n0.2,10,100.123,0.1\n"
+                        "0.2,10,100.123,0.11\n"),
             "");
 }
 
 TEST(RepeatedRows, ASingleCopyIsNamedWhereItIsLessLikelyThanOneInAHundred) {
   // Two readings with s = 0.003 t, rounded to q = 1 ms, are equal with probability q/(2 s sqrt(pi))
   // = 0.094 s/t: 1 in 100 at 9.4 s.
-  EXPECT_THAT(told_of(read_surge, "tau_speed,distance_m,elapsed_s\n1,10,9.913\n1,10,9.913\n"),
+  EXPECT_THAT(findings_of(read_surge, "tau_speed,distance_m,elapsed_s\n1,10,9.913\n1,10,9.913\n"),
               HasSubstr("1 of 2 rows"));
-  EXPECT_EQ(told_of(read_surge, "tau_speed,distance_m,elapsed_s\n1,10,8.913\n1,10,8.913\n"), "");
+  EXPECT_EQ(findings_of(read_surge, "tau_speed,distance_m,elapsed_s\n1,10,8.913\n1,10,8.913\n"),
+            "");
   // Three pairs to 0.1 s at 10 s: a = 0.1/(2 0.03) = 5/3, p = erf(a) - (1 - exp(-a^2))/(a sqrt(pi)) = 0.664,
   // L = 1.99 and P(3 or more) = 0.32; at 400 s p = 0.0235, L = 0.071, P(3 or more) = 6e-5.
-  EXPECT_EQ(told_of(read_surge,
-                    "tau_speed,distance_m,elapsed_s\n1,10,10.1\n1,10,10.1\n1.1,10,9.9\n"
-                    "1.1,10,9.9\n1.2,10,9.8\n1.2,10,9.8\n"),
+  EXPECT_EQ(findings_of(read_surge,
+                        "tau_speed,distance_m,elapsed_s\n1,10,10.1\n1,10,10.1\n1.1,10,9.9\n"
+                        "1.1,10,9.9\n1.2,10,9.8\n1.2,10,9.8\n"),
             "");
-  EXPECT_THAT(told_of(read_surge,
-                      "tau_speed,distance_m,elapsed_s\n1,10,400.1\n1,10,400.1\n"
-                      "1.1,10,399.9\n1.1,10,399.9\n1.2,10,399.8\n1.2,10,399.8\n"),
+  EXPECT_THAT(findings_of(read_surge,
+                          "tau_speed,distance_m,elapsed_s\n1,10,400.1\n1,10,400.1\n"
+                          "1.1,10,399.9\n1.1,10,399.9\n1.2,10,399.8\n1.2,10,399.8\n"),
               HasSubstr("3 of 6 rows"));
 }
 
@@ -96,10 +97,10 @@ TEST(RepeatedRows, TurnsAndStopsAreEvaluatedAsWell) {
   const std::string turns =
       "steering_deg,wheel_force,turns,elapsed_s\n10,0.35,2,142.613\n"
       "15,0.35,2,83.081\n20,0.35,2,58.741\n";
-  EXPECT_EQ(told_of(kReadTurning, turns), "");
-  EXPECT_THAT(told_of(kReadTurning, copied(turns)), HasSubstr("3 of 6 rows"));
+  EXPECT_EQ(findings_of(kReadTurning, turns), "");
+  EXPECT_THAT(findings_of(kReadTurning, copied(turns)), HasSubstr("3 of 6 rows"));
   // A turn to the other side in the same time is another run.
-  EXPECT_EQ(told_of(kReadTurning, turns + "-10,0.35,2,142.613\n"), "");
+  EXPECT_EQ(findings_of(kReadTurning, turns + "-10,0.35,2,142.613\n"), "");
   const std::string stops =
       "initial_speed_mps,stop_time_s\n1.66,0.573\n1.2,0.512\n0.9,0.468\n0.5,0.391\n";
   const auto stop_times = [](const std::string& text) {
@@ -114,37 +115,38 @@ TEST(RepeatedRows, TurnsAndStopsAreEvaluatedAsWell) {
 
 TEST(RepeatedRows, CoarseReadingsAgreeByChance) {
   // Times to 0.1 s, and speeds of two decimals that repeat to 0.3 %: half of all pairs are equal.
-  EXPECT_EQ(told_of(read_surge,
-                    "tau_speed,distance_m,elapsed_s\n1,10,13.9\n1,10,13.9\n1.4,10,9.3\n"
-                    "1.4,10,9.3\n2,10,6\n2,10,6\n"),
+  EXPECT_EQ(findings_of(read_surge,
+                        "tau_speed,distance_m,elapsed_s\n1,10,13.9\n1,10,13.9\n1.4,10,9.3\n"
+                        "1.4,10,9.3\n2,10,6\n2,10,6\n"),
             "");
-  EXPECT_EQ(told_of(read_surge, "tau_speed,speed_mps\n1,0.72\n1,0.72\n1.4,1.03\n1.4,1.03\n"), "");
+  EXPECT_EQ(findings_of(read_surge, "tau_speed,speed_mps\n1,0.72\n1,0.72\n1.4,1.03\n1.4,1.03\n"),
+            "");
   // A speed computed from such times has more digits but no more resolution.
-  EXPECT_EQ(told_of(read_surge,
-                    "tau_speed,speed_mps\n1,0.719424460431655\n1,0.719424460431655\n"
-                    "1.4,1.07526881720430\n1.4,1.06382978723404\n"),
+  EXPECT_EQ(findings_of(read_surge,
+                        "tau_speed,speed_mps\n1,0.719424460431655\n1,0.719424460431655\n"
+                        "1.4,1.07526881720430\n1.4,1.06382978723404\n"),
             "");
 }
 
 TEST(RepeatedRows, GoodTablesAreNamedInOneOfAHundredAtTheMost) {
   const Timing timings[] = {{0.005, 0.0, 3}, {0.003, 0.0, 3}, {0.01, 0.0, 3}, {0.003, 0.0, 2},
                             {0.005, 0.1, 2}, {0.005, 0.1, 1}, {0.005, 0.0, 1}};
-  int told = 0;
+  int messages = 0;
   int tables = 0;
   for (const Timing& timing : timings) {
     for (const int runs : {1, 2, 4, 8}) {
       for (std::uint64_t seed = 1; seed <= 50; ++seed, ++tables) {
-        told += told_of(read_surge, surge_text(seed, runs, timing)).empty() ? 0 : 1;
+        messages += findings_of(read_surge, surge_text(seed, runs, timing)).empty() ? 0 : 1;
       }
     }
   }
-  EXPECT_LE(told, tables / 100);
+  EXPECT_LE(messages, tables / 100);
 }
 
 TEST(RepeatedRows, AHalfOfCopiesIsNamedWhereTimesAreFine) {
   for (const Timing& timing : {Timing{0.005, 0.0, 3}, Timing{0.005, 0.1, 2}}) {
     for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-      EXPECT_NE(told_of(read_surge, copied(surge_text(seed, 2, timing))), "") << seed;
+      EXPECT_NE(findings_of(read_surge, copied(surge_text(seed, 2, timing))), "") << seed;
     }
   }
 }

@@ -170,7 +170,7 @@ TEST_F(Bag, InPartsIsOneLog) {
   EXPECT_EQ((*log)[LogChannel::kSpeed]->fresh_count, 79);
 }
 
-TEST_F(Bag, ThatLiesIsRefused) {
+TEST_F(Bag, RefusesMalformedContent) {
   const auto path = directory_.path() / "a.db3";
   write_bag(path, topics_, {{2, 1, "short"}});
   EXPECT_THAT(

@@ -119,7 +119,7 @@ TEST(SysId, ReadsASimpleMechanismAndTheRowsOfFrcCharacterization) {
   EXPECT_THAT(column(*log, "right_mps"), ElementsAre(12.0));
 }
 
-TEST(SysId, IsKnownByItsFirstBytes) {
+TEST(SysId, IsRecognisedByItsFirstBytes) {
   EXPECT_TRUE(is_sysid(record().dump()));
   EXPECT_TRUE(is_sysid(record().dump(2)));
   EXPECT_FALSE(is_sysid(R"({"t_s": [0, 1]})"));

@@ -38,7 +38,7 @@ TEST(TrialColumns, AMappingThatNoFileUsedIsRefused) {
   EXPECT_THAT(refusal_of({"tau_speed=tau", "other.csv:speed_mps=V/3.6"}), HasSubstr("no speed"));
 }
 
-TEST(TrialColumns, AMappingThatNoFileCanUseIsNamedBesideWhatItsAbsenceMakes) {
+TEST(TrialColumns, AnUnusableMappingIsNamedWithTheMissingColumn) {
   EXPECT_THAT(refusal_of({"tau_speed=tau", "speed_mps=v"}),
               AllOf(HasSubstr("no speed"), HasSubstr("no file that was read has a column \"v\""),
                     HasSubstr("did you mean \"V\"?")));

@@ -59,7 +59,7 @@ std::string paper_turns(double factor) {
 }
 const std::string kPaperSurge = "tau_speed,speed_mps\n0.6,0.39\n1,0.72\n1.4,1.03\n2,1.66\n";
 
-TEST(TurnUnits, AWholeTableInDegreesPerSecondIsNamedWithTheMappingThatMends) {
+TEST(TurnUnits, AWholeTableInDegreesPerSecondIsNamedWithTheUnitFix) {
   for (const std::string& surge : {kPaperSurge, std::string()}) {
     EXPECT_EQ(refusal_of(paper_vehicle(), surge, paper_turns(1.0)), "");
     EXPECT_THAT(refusal_of(paper_vehicle(), surge, paper_turns(kDegree)),
@@ -90,7 +90,7 @@ TEST(TurnUnits, TheRowsBeyondGripAreNamedWhereTheColumnIsRight) {
       AllOf(HasSubstr("turning.csv:6"), HasSubstr("correct line 6"), Not(HasSubstr("map it"))));
 }
 
-TEST(TurnUnits, ForcesInPwmCountsOfBothTablesTellSpeedsAsWell) {
+TEST(TurnUnits, ForcesInPwmCountsOfBothTablesGiveSpeeds) {
   const std::string surge = "wheel_force,speed_mps\n51,0.55\n102,1.26\n153,2\n255,3.2\n";
   std::string turning = "steering_deg,wheel_force,yaw_rate_radps\n10,89,5.04\n20,89,12.6\n";
   EXPECT_THAT(refusal_of(paper_vehicle(), surge, turning),
@@ -104,7 +104,7 @@ TEST(TurnUnits, AnAngleInRadiansIsNotTakenForARateInDegrees) {
   EXPECT_THAT(refused, AllOf(HasSubstr("radians"), Not(HasSubstr("yaw rates"))));
 }
 
-TEST(TurnUnits, AMomentThatIsPrintedWithoutAnAngleSaysNothingOfTheRate) {
+TEST(TurnUnits, APrintedMomentWithoutAnAngleDoesNotBoundTheRate) {
   EXPECT_EQ(refusal_of(paper_vehicle(), kPaperSurge,
                        "steering_deg,wheel_force,yaw_rate_radps,tau_turn\n10,0.35,0.088,0.042\n"
                        "20,0.35,0.22,0.086\n0,0.35,0.05,0.02\n"),
@@ -112,7 +112,7 @@ TEST(TurnUnits, AMomentThatIsPrintedWithoutAnAngleSaysNothingOfTheRate) {
 }
 
 /// The bounds, computed independently from the formulas of turn_evidence.h.
-TEST(TurnUnits, TheBoundsAreWhereTheyAreSaidToBe) {
+TEST(TurnUnits, TheBoundsAreTheDocumentedOnes) {
   const std::string surge = "wheel_force,speed_mps\n0.2,0.5\n0.4,1.0\n0.8,3.0\n";
   const double tan20 = std::tan(std::acos(-1.0) / 9.0);
   const auto steered = [&](double rate) {

@@ -119,7 +119,7 @@ const auto kReadSides = [](const std::filesystem::path& path, const TrialOptions
   return read_turning(path, vehicle, options, findings);
 };
 
-TEST(TurningTrial, KeepsTurnsByTheSidesApartFromSteeredOnes) {
+TEST(TurningTrial, KeepsDifferentialTurnsApartFromSteeredOnes) {
   const auto read =
       accepted(kReadTurning,
                "steering_deg,wheel_force,yaw_rate_radps,force_left,force_right\n"
@@ -136,7 +136,7 @@ TEST(TurningTrial, KeepsTurnsByTheSidesApartFromSteeredOnes) {
   EXPECT_THAT(read.findings, IsEmpty());
 }
 
-TEST(TurningTrial, TakesTurnsByTheSidesForYawResistanceWhereThereAreNoOthers) {
+TEST(TurningTrial, UsesDifferentialTurnsForYawResistanceIfThereAreNoOthers) {
   const auto read = accepted(kReadTurning,
                              "steering_deg,force_left,force_right,yaw_rate_radps\n"
                              "0,0.1,0.3,0.2\n0,0.1,0.4,0.3\n");
@@ -168,7 +168,7 @@ TEST(TurningTrial, RefusesRunsThatTurnBothWaysOrContradictThemselves) {
               ElementsAre(HasSubstr("no force")));
 }
 
-TEST(TurningTrial, KeepsTurnsByTheSidesThatStoodStill) {
+TEST(TurningTrial, KeepsDifferentialRunsWithoutATurn) {
   const std::string header = "steering_deg,wheel_force,force_left,force_right,turns,elapsed_s\n";
   const auto read = accepted(kReadTurning, header +
                                                "10,0.35,,,2,142\n0,,0.1,0.3,0,20\n"
@@ -254,7 +254,7 @@ TEST(TurningTrialOfSides, ComputesTheYawMomentAndMirrorsATurnToTheRight) {
   EXPECT_EQ(read.set.set_aside, 1);
 }
 
-TEST(TurningTrialOfSides, TellsAPrintedMomentThatTheTrackContradicts) {
+TEST(TurningTrialOfSides, ReportsAPrintedMomentThatTheTrackContradicts) {
   const auto read = accepted(kReadSides,
                              "force_left,force_right,turns,elapsed_s,tau_turn\n"
                              "-0.1,0.1,1,10,0.288\n");

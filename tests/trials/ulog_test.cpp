@@ -59,7 +59,7 @@ TEST(Ulog, FlattensTopicsInstancesArraysAndNestedTypes) {
   EXPECT_THAT(signals->notes, IsEmpty());
 }
 
-TEST(Ulog, KeepsOnlyWhatIsWanted) {
+TEST(Ulog, KeepsOnlyRequestedSignals) {
   const auto signals =
       read(small_log(), [](const std::string& name) { return name == "odom.v.y"; });
   ASSERT_TRUE(signals);
@@ -92,7 +92,7 @@ TEST(Ulog, WhatWasAppendedAfterACrashIsRead) {
   EXPECT_THAT(signals->notes, SizeIs(1));
 }
 
-TEST(Ulog, RefusesWhatLies) {
+TEST(Ulog, RefusesMalformedContent) {
   const std::string h = ulog_header();
   const std::string v = ulog_format("v:uint64_t timestamp;double x;");
   const std::vector<std::pair<std::string, std::string>> cases = {

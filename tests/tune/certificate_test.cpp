@@ -29,7 +29,7 @@ ConstraintContext context_of(const Model& model) {
           .speed_mps = 0.3,
           .fastest_radps = radians(30.0),
           .wheel_force = model.vehicle.wheel_force,
-          .latency_s = std::max(c.heading_late_s, c.yaw_rate_late_s),
+          .latency_s = std::max(c.heading_latency_s, c.yaw_rate_latency_s),
           .motor_time_constant_s = c.motor_time_constant_s};
 }
 
@@ -98,7 +98,7 @@ TEST_P(CertificateOf, IsAttainedAtThePlaceThatItNames) {
 double growth(const SampledHeadingLoop& loop, double delay_s, double time_s) {
   constexpr int kSteps = 200;
   const double h = loop.sample_time_s / kSteps;
-  const double all_s = delay_s + loop.command_delay_s + loop.late_samples * loop.sample_time_s;
+  const double all_s = delay_s + loop.command_delay_s + loop.latency_samples * loop.sample_time_s;
   const auto late = static_cast<std::size_t>(std::lround(all_s / h));
   const auto samples = static_cast<std::size_t>(time_s / loop.sample_time_s);
   std::vector<double> commands;  // by step
@@ -161,7 +161,7 @@ SampledHeadingLoop plain_loop() {
 
 TEST(DampingRatio, TakesADelayOfWholeSamplesAsOneOfTheReadings) {
   SampledHeadingLoop readings = plain_loop();
-  readings.late_samples = 3;
+  readings.latency_samples = 3;
   SampledHeadingLoop commands = plain_loop();
   commands.command_delay_s = 3 * 0.02;
   EXPECT_DOUBLE_EQ(damping_ratio(readings), damping_ratio(commands));

@@ -70,7 +70,7 @@ TEST(Constraints, BoundTheSpeedLoopByHandFormulas) {
   EXPECT_NEAR(named(all, "speed lag").limit, 1.0 / 1.96, kRounding);
 }
 
-TEST(Constraints, AskTheCorrectiveTermsToDominate) {
+TEST(Constraints, RequireCorrectiveTermsThatDominate) {
   // 0.2 0.3028 (pi/3)^0.825/0.0128 and 0.2 1.3268/0.0768 at 1 m/s
   const auto all = constraints_of(kPaperGains, paper_context(ReachingForm::kStrict, 0.8));
   EXPECT_NEAR(named(all, "mu dominates").limit,
@@ -102,7 +102,7 @@ TEST(Constraints, KnowTheAuthorityOfFrontWheelDriveAndOfMotorsWithBackEmf) {
               2.0 * 0.36 * (1.0 - 1.3268 / 2.0 - 0.2), kRounding);
 }
 
-TEST(Constraints, PassOverTheModeThatHasNoAuthority) {
+TEST(Constraints, IgnoreAModeWithoutAuthority) {
   // At rest steering has none; with F' at its upper limit the differential mode has none.
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   context.speed_mps = 0.0;
@@ -504,7 +504,7 @@ double growth(const SampledHeadingLoop& loop) {
     double psi, r, servo, motor;
   };
   Motion x{1.0, 0.5, -0.3, 0.2};
-  std::vector<Motion> readings(static_cast<std::size_t>(loop.late_samples) + 1, x);
+  std::vector<Motion> readings(static_cast<std::size_t>(loop.latency_samples) + 1, x);
   constexpr int kSamples = 4000;
   constexpr int kSteps = 200;
   const double h = loop.sample_time_s / kSteps;
@@ -561,7 +561,7 @@ TEST(SampledLoop, IsStableExactlyWhereItsLateMotionDecays) {
                                         .sample_time_s = 0.01,
                                         .direct_share = share,
                                         .motor_time_constant_s = late == 2 ? 0.05 : 0.01,
-                                        .late_samples = late};
+                                        .latency_samples = late};
           EXPECT_EQ(damping_ratio(loop) > 0.0, growth(loop) < 1.0)
               << known.input_gain << " " << late << " " << share << " " << k;
         }
@@ -585,7 +585,7 @@ TEST(SampledLoop, IsStableExactlyWhereItsMotionUnderAnObserverDecays) {
                                         .direct_share = share,
                                         .motor_time_constant_s = 0.01,
                                         .observer_radps = observer_radps,
-                                        .late_samples = late};
+                                        .latency_samples = late};
           EXPECT_EQ(damping_ratio(loop) > 0.0, growth(loop) < 1.0)
               << late << " " << share << " " << k << " " << observer_radps;
           unstable += damping_ratio(loop) > 0.0 ? 0 : 1;
@@ -619,7 +619,7 @@ TEST(Constraints, CountAnObserverInTheSpeedLoop) {
   EXPECT_THAT(named(all, "speed lag").meaning, ::testing::HasSubstr("+ L"));
 }
 
-TEST(Constraints, StandForThePlantThatLeavesThemTheLeast) {
+TEST(Constraints, AreThoseOfThePlantWithTheSmallestMargin) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   const std::vector<ConstraintReport> own = constraints_of(kPaperGains, context);
   Plant<double> heavy = context.plant;
@@ -635,7 +635,7 @@ TEST(Constraints, StandForThePlantThatLeavesThemTheLeast) {
   EXPECT_NEAR(mu->limit, 1.5 * mu_alone->limit, 1e-9);
 }
 
-TEST(Constraints, CountWhatTheLawDoesNotKnowOfADraw) {
+TEST(Constraints, IncludeTheDifferenceOfADrawToTheModel) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   Plant<double> loaded = context.plant;  // by 150 % of its own mass
   loaded.mass_norm *= 2.5;
@@ -669,7 +669,7 @@ TEST(Constraints, CountWhatTheLawDoesNotKnowOfADraw) {
       kRounding);
 }
 
-TEST(Constraints, AskForDampingWithLatencyWhereThereIsAny) {
+TEST(Constraints, RequireDampingWithLatency) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   const std::size_t without = constraints_of(kPaperGains, context).size();
   context.latency_s = 0.02;
@@ -690,7 +690,7 @@ TEST(Constraints, AskForDampingWithLatencyWhereThereIsAny) {
                          .servo_time_constant_s = 0.02,
                          .sample_time_s = 0.01,
                          .direct_share = share,
-                         .late_samples = 5}));
+                         .latency_samples = 5}));
     }
   }
   EXPECT_NEAR(named(late, "delay margin").value, worst, 1e-9);

@@ -170,10 +170,10 @@ TEST(Goal, ThatNoGainsReachIsRefusedByItsName) {
   EXPECT_THAT(to_text(tuning.error()), HasSubstr("reach the goal \"settling_time_s <= 0.05"));
   // A soft goal is approached.
   goal.is_soft = true;
-  const Result<Tuning> striven = tune(uncertain_model(), options_with(goal));
-  ASSERT_TRUE(striven) << to_text(striven.error());
-  EXPECT_GT(settled_s(*striven), 0.05);
-  EXPECT_EQ(striven->robust->goals.front().verdict, GoalVerdict::kMissed);
+  const Result<Tuning> tuned = tune(uncertain_model(), options_with(goal));
+  ASSERT_TRUE(tuned) << to_text(tuned.error());
+  EXPECT_GT(settled_s(*tuned), 0.05);
+  EXPECT_EQ(tuned->robust->goals.front().verdict, GoalVerdict::kMissed);
 }
 
 TEST(Goal, RefusesGoalsWithoutMeaning) {

@@ -56,7 +56,7 @@ TEST(TuneProperty, InTheBoxGainsAreSoundOrRefused) {
   EXPECT_TRUE(rc::check([] { is_sound_or_refused(1.0); }));
 }
 
-TEST(TuneProperty, AndTenTimesBeyondIt) {
+TEST(TuneProperty, TenTimesOutsideTheBoxTheSameHolds) {
   EXPECT_TRUE(rc::check([] { is_sound_or_refused(10.0); }));
 }
 

@@ -415,7 +415,7 @@ TEST(Tune, RefusesAScenarioWithConstantThrust) {
   EXPECT_EQ(tuning.error().faults.size(), 1U) << to_text(tuning.error());
 }
 
-TEST(Tune, AMillionEvaluationsOfLongScenariosHadNoEnd) {
+TEST(Tune, RefusesAMillionEvaluationsOfLongScenarios) {
   TuneOptions options = short_options();
   options.global_evaluations = 1'000'000;
   options.scenarios.front().duration_s = 2000.0;
@@ -425,7 +425,7 @@ TEST(Tune, AMillionEvaluationsOfLongScenariosHadNoEnd) {
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("give at most"));
 }
 
-TEST(Tune, PassesOnThatTheModelLacksAParameter) {
+TEST(Tune, ReportsAMissingParameterOfTheModel) {
   Model model = paper_model();
   model[ParameterId::kMassNorm].value.reset();
   const Result<Tuning> tuning = tune(model, short_options());
@@ -441,19 +441,19 @@ TEST(MeanAndTail, IsTheMeanOfAllAndOfTheWorst) {
   EXPECT_EQ(mean_and_tail({1.0, 3.0}, 1.0), 2.0);
 }
 
-TEST(Conditions, AreTheVehiclesWhereItSaysAndTheDefaultsElse) {
+TEST(Conditions, AreThoseOfTheVehicleOrTheDefaults) {
   Vehicle vehicle = paper_vehicle();
   EXPECT_EQ(conditions_of(vehicle).heading_noise_deg, 1.0);
-  vehicle.sensors = {.heading_deg = 0.3, .speed_late_s = 0.05};
+  vehicle.sensors = {.heading_deg = 0.3, .speed_latency_s = 0.05};
   vehicle.motor_time_constant_s = 0.0;
   const LoopConditions c = conditions_of(vehicle);
   EXPECT_EQ(c.heading_noise_deg, 0.3);
-  EXPECT_EQ(c.speed_late_s, 0.05);
-  EXPECT_EQ(c.heading_late_s, LoopConditions{}.heading_late_s);
+  EXPECT_EQ(c.speed_latency_s, 0.05);
+  EXPECT_EQ(c.heading_latency_s, LoopConditions{}.heading_latency_s);
   EXPECT_EQ(c.motor_time_constant_s, 0.0);
   const Scenario under_them = under(c, default_tuning_scenario(paper_model()).value());
   EXPECT_DOUBLE_EQ(under_them.sensors->heading.noise, radians(0.3));
-  EXPECT_EQ(under_them.sensors->speed.late_s, 0.05);
+  EXPECT_EQ(under_them.sensors->speed.latency_s, 0.05);
   // A scenario's own sensors have precedence.
   Scenario own = default_tuning_scenario(paper_model()).value();
   own.sensors = Sensors{};
@@ -538,7 +538,7 @@ TEST(Observed, AnObserverCompensatesAConstantDisturbance) {
   EXPECT_EQ(held->gains.observer.yaw_max_m, 0.02);
 }
 
-TEST(Observed, IsEvaluatedNextToTheSameGainsWithoutObserver) {
+TEST(Observed, IsComparedWithTheSameGainsWithoutObserver) {
   TuneOptions options;
   options.draws = 1;
   options.evaluation_draws = 10;
@@ -572,12 +572,12 @@ TEST(Observed, NamesOptionsThatContradictAnObserver) {
   }
 }
 
-TEST(Robust, ALatencyOfManySamplesIsRefusedBeforeItTakesForEver) {
+TEST(Robust, RefusesALatencyOfManySamples) {
   TuneOptions options = short_options();
   options.nominal = false;
   options.evaluation_draws = 0;
   Model model = paper_model();
-  model.vehicle.sensors.heading_late_s = 1.0;
+  model.vehicle.sensors.heading_latency_s = 1.0;
   const Result<Tuning> tuning = tune(model, options);
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kInput);
@@ -596,7 +596,7 @@ TEST(Search, RefusesGainsWithWhichNoRunSettles) {
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("no run settles"));
 }
 
-TEST(Robust, WithoutDrawsAndWithoutACovarianceNoiseAloneIsDrawn) {
+TEST(Robust, DrawsOnlyNoiseWithoutACovariance) {
   TuneOptions options = short_options();
   options.nominal = false;
   options.draws = 2;

@@ -124,7 +124,7 @@ TEST_F(TuneShard, NamesTheFirstWrongLineOfATable) {
   EXPECT_THAT(fault_of("a" + table), HasSubstr("judged.csv:1:1"));
 }
 
-TEST_F(TuneShard, APartNeedsADrawOfItsOwnAndSomethingToJudge) {
+TEST_F(TuneShard, RefusesNominalGainsAndEmptyParts) {
   TuneOptions options = options_of(Shard{1, 8});
   EXPECT_THAT(to_text(tune(uncertain_model(), options).error()), HasSubstr("at most the 7"));
   options.shard = Shard{1, 2};

@@ -143,7 +143,7 @@ TEST(Acceptance, NamesABiasOfTheGyro) {
   EXPECT_NEAR(bias->value, 6.0, 0.6);
 }
 
-TEST(Acceptance, TellsSinceWhenADriveIsOutside) {
+TEST(Acceptance, ReportsSinceWhenADriveIsOutside) {
   Scenario world = drive_scenario();
   world.faults.push_back({{Wheel::kFrontLeft, Wheel::kRearLeft}, {.from_s = 4.5}, 0.5});
   const Acceptance acceptance = evaluate(recorded(paper_plant(), world, 3));
@@ -174,10 +174,10 @@ TEST(Acceptance, ABandWithoutGivenNoiseTakesTheLogsOwn) {
   // The standard deviation of 400 readings is known to 1/sqrt(2 * 400) = 3.5 %, by medians to some
   // 5 %.
   EXPECT_NEAR(x->noise, 0.05, 0.01);
-  EXPECT_FALSE(x->inside) << "the vehicle drove 8 m, and the position says none";
+  EXPECT_FALSE(x->inside) << "the vehicle drove 8 m, and the position does not change";
 }
 
-TEST(Acceptance, RefusesWhatCannotBeHeldAgainstTheScenario) {
+TEST(Acceptance, RefusesALogThatDoesNotMatchTheScenario) {
   const auto why = [](const DrivingLog& log, const AcceptanceOptions& options) {
     const auto refused =
         accept_drive(log, uncertain_model(), kPaperGains, drive_scenario(), options);

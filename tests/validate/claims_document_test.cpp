@@ -7,7 +7,7 @@
 namespace awmr::testing {
 namespace {
 
-TEST(ClaimsDocument, IsWhatTheProgramMakes) {
+TEST(ClaimsDocument, EqualsTheOutputOfTheProgram) {
   const TemporaryDirectory directory;
   const std::string out = directory.path().string();
   const std::string program = AWMR_PROGRAM;

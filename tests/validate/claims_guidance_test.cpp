@@ -8,7 +8,7 @@
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/validate/claims.h"
-#include "awmr/validate/paper_courses.h"
+#include "awmr/validate/paper_scenarios.h"
 #include "validate/paper_model.h"
 
 namespace awmr::testing {
@@ -40,7 +40,7 @@ TEST(GuidanceClaims, TheTimedPathIsTooTightForSteering) {
   EXPECT_THAT(claim_of("C11").why, HasSubstr("too tight for steering"));
 }
 
-TEST(GuidanceClaims, CombinedIsNotAloneAtTheTop) {
+TEST(GuidanceClaims, CombinedIsNotTheOnlyBestMode) {
   EXPECT_FALSE(claim_of("C12").reproduced);
   EXPECT_THAT(claim_of("C12").why, HasSubstr("differential keeps closer"));
 }

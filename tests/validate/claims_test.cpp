@@ -59,7 +59,7 @@ TEST(Claims, TheStraightRunGivesTheModelsAndTheMeasuredSpeed) {
   EXPECT_THAT(check_straight_run(model, plant_of(model)).figure, HasSubstr("simulated 1.583"));
 }
 
-TEST(Claims, TheStraightRunFailsWhereTheForceIsNotToBeHad) {
+TEST(Claims, TheStraightRunFailsBeyondTheForceLimit) {
   Model model = fitted_paper_model();
   model.vehicle.wheel_force = {0.0, 0.3};
   const Claim claim = check_straight_run(model, plant_of(model));
@@ -256,7 +256,7 @@ TEST(OpenCases, ClaimsAreEvaluatedInEachAsTheModelThereWouldBe) {
   }
 }
 
-TEST(OpenCases, ASettingDecidesWhereItAloneTurnsTheVerdict) {
+TEST(OpenCases, ASettingDecidesIfOnlyItChangesTheVerdict) {
   std::vector<ClaimCase> cases = open_cases(fitted_paper_model());
   EXPECT_EQ(decisive_settings(cases), "");
   for (ClaimCase& open : cases) open.reproduced = open.wheel_force.lo < 0.0;

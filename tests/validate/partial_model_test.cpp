@@ -45,7 +45,7 @@ TEST(PartialModel, PredictsItsTrialsAsTheWholeModelDoes) {
   EXPECT_THAT(v->verdict, HasSubstr("left out (C2)"));
 }
 
-TEST(PartialModel, OfSurgeRunsAloneIsHeldAgainstThem) {
+TEST(PartialModel, OfSurgeRunsIsValidatedOnThem) {
   Model model = straight_model();
   model[ParameterId::kMassNorm] = model[ParameterId::kInertiaNorm] = {};
   model.record.trials.resize(2);

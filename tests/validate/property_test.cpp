@@ -62,7 +62,7 @@ TEST(ValidateProperty, InTheBoxEveryFigureIsFinite) {
   EXPECT_TRUE(rc::check([] { has_finite_figures(1.0); }));
 }
 
-TEST(ValidateProperty, AndTenTimesBeyondIt) {
+TEST(ValidateProperty, TenTimesOutsideTheBoxTheSameHolds) {
   EXPECT_TRUE(rc::check([] { has_finite_figures(10.0); }));
 }
 

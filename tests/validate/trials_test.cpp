@@ -91,7 +91,7 @@ TEST(Validate, NamesTheMissingParameterAndItsTrial) {
   EXPECT_THAT(to_text(v.error()), HasSubstr("model.json:/mass_norm"));
 }
 
-TEST(Validate, RefusesTrialsThatNoModelCouldMeet) {
+TEST(Validate, RefusesImpossibleTrials) {
   Model model = model_with_trials();
   model.record.trials[1].measured = 0.0;
   const auto v = validate(model, std::nullopt, {});

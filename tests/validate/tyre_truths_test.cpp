@@ -46,7 +46,7 @@ TEST(TyreTruths, AreFoundWithinTheirIntervals) {
   EXPECT_GE(four_wheel, 16);
 }
 
-TEST(TyreTruths, AFrictionThatNothingShowsIsHeld) {
+TEST(TyreTruths, AFrictionThatIsNotIdentifiedIsFixed) {
   std::vector<Finding> findings;
   const auto fit = fit_tyres({driven({.friction = 3.0,
                                       .stiffness = 8.0,

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
-#include <map>
 #include <utility>
 
 #include "awmr/compare/ranking.h"
@@ -22,12 +20,12 @@
 namespace awmr {
 namespace {
 
-/// Moments are tried from this share of the largest one up, a decade at a time: the larger a moment, the
-/// shorter the steps that a run takes.
+/// Smallest moment tried, as a share of the largest. The search goes up by decades, because runs
+/// with a larger moment need shorter steps.
 constexpr double kLeast = 1e-4;
 
-/// A scenario with the mode that scrubs, on the model's own values.
-struct Course {
+/// A scenario with the mode under test, on the nominal model.
+struct ModeSetting {
   const Scenario* scenario;
   YawMode mode;
   Plant<double> plant;
@@ -36,25 +34,25 @@ struct Course {
   BatchArithmetic arithmetic;
 };
 
-/// Metrics of the course in this mode by scrub moment. A run that fails has none.
-std::vector<std::optional<Metrics>> driven_with(const Course& course, YawMode mode,
+/// Metrics of the scenario in this mode, by scrub moment. Empty for a failed run.
+std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawMode mode,
                                                 const std::vector<double>& moments_m) {
   std::vector<BatchRun> runs;
   for (const double moment_m : moments_m) {
-    Plant<double> plant = course.plant;
+    Plant<double> plant = setting.plant;
     plant.yaw_scrub_m = moment_m;
-    runs.push_back({plant, course.controller, mode, 0, 0});
+    runs.push_back({plant, setting.controller, mode, 0, 0});
   }
   std::vector<std::optional<Metrics>> driven;
   for (const Result<Metrics>& metrics :
-       simulate_batch(runs, *course.scenario, course.sample_time_s, course.arithmetic)) {
+       simulate_batch(runs, *setting.scenario, setting.sample_time_s, setting.arithmetic)) {
     driven.push_back(metrics ? std::optional(*metrics) : std::nullopt);
   }
   return driven;
 }
 
 /// True if the run with scrub completes and scores no worse than the other mode with the same
-/// scrub. False if it lost a metric that it had without scrub (it no longer settles, or does not
+/// scrub. False if it lacks a metric that it has without scrub (it no longer settles, or does not
 /// arrive). True if the run of the other mode failed.
 bool is_ahead(const std::optional<Metrics>& run, const Metrics& without,
               const std::optional<Metrics>& other, const std::vector<ScoredMetric>& scoring) {
@@ -66,7 +64,7 @@ bool is_ahead(const std::optional<Metrics>& run, const Metrics& without,
   return !lost && log_score(*run, scoring) <= log_score(*other, scoring);
 }
 
-/// From `lo` to `hi`, both with, as many as fill a batch.
+/// Equidistant values from `lo` to `hi`, both included, as many as fill a batch.
 std::vector<double> evenly_between(double lo, double hi) {
   std::vector<double> values;
   for (std::size_t i = 0; i < kBatchRuns; ++i) {
@@ -74,7 +72,7 @@ std::vector<double> evenly_between(double lo, double hi) {
   }
   return values;
 }
-/// The same in equal ratios.
+/// The same with equal ratios.
 std::vector<double> in_ratios_between(double lo, double hi) {
   std::vector<double> values = evenly_between(std::log(lo), std::log(hi));
   std::transform(values.begin(), values.end(), values.begin(),
@@ -88,8 +86,8 @@ std::optional<std::size_t> first_false(const std::vector<bool>& all) {
   return at(found - all.begin());
 }
 
-/// The least moment that ends a lead, to 1 % of itself; absent where none does up to `most_m`. `ahead`
-/// says of each moment of a batch whether the mode still leads.
+/// Smallest moment that ends a lead, with an error of 1 %; absent if none up to `most_m` does.
+/// `ahead`: for each moment of a batch, whether the mode still leads.
 template <class Ahead>
 std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   constexpr double kFine = 0.01;
@@ -111,7 +109,7 @@ std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   return std::nullopt;
 }
 
-/// The runs of sample 0, of a model with scrub run again without.
+/// The runs of sample 0; if the model has scrub, they are repeated without it.
 Result<std::vector<ComparisonRow>> rows_without_scrub(const Model& model,
                                                       const Gains<double>& gains,
                                                       const std::vector<Scenario>& scenarios,
@@ -128,7 +126,7 @@ Result<std::vector<ComparisonRow>> rows_without_scrub(const Model& model,
   return rows;
 }
 
-/// The rows of one scenario, in the form that scoring_of() reads.
+/// The rows of one scenario, as input of scoring_of().
 ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::string& scenario) {
   ScenarioRows rows{scenario, {}};
   for (const ComparisonRow& row : all) {
@@ -137,33 +135,33 @@ ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::stri
   return rows;
 }
 
-/// A pair of modes without its result, and the inputs of the result.
+/// A pair of modes with an incomplete result, and the inputs for it.
 struct Question {
-  Course course;
+  ModeSetting setting;
   std::vector<ScoredMetric> scoring;
   Metrics own;  ///< without scrub
   BreakEven entry;
 };
 
-/// One question for each mode that the given mode is ahead of and that has smaller wheel-force
-/// differences; `rows` are those of sample 0.
-std::vector<Question> questions_of(const Course& course, const ScenarioRows& rows,
+/// One question for each mode with smaller wheel-force differences that the given mode is ahead of.
+/// `rows`: those of sample 0.
+std::vector<Question> questions_of(const ModeSetting& setting, const ScenarioRows& rows,
                                    const std::vector<ScoredMetric>& scoring, BreakEven entry) {
   std::vector<Question> questions;
   const auto row_of = [&](YawMode mode) {
     return std::find_if(rows.modes.begin(), rows.modes.end(),
                         [&](const ModeRows& one) { return one.contender.mode == mode; });
   };
-  const Metrics& own = row_of(course.mode)->nominal();
+  const Metrics& own = row_of(setting.mode)->nominal();
   for (const YawMode less : {YawMode::kCombined, YawMode::kSteering}) {
     const auto other = row_of(less);
-    if (less == course.mode || other == rows.modes.end()) continue;
+    if (less == setting.mode || other == rows.modes.end()) continue;
     if (other->nominal().completed > own.completed) continue;
     if (!(log_score(own, scoring) < log_score(other->nominal(), scoring))) continue;
     entry.scenario = rows.scenario;
-    entry.mode = course.mode;
+    entry.mode = setting.mode;
     entry.against = less;
-    questions.push_back({course, scoring, own, entry});
+    questions.push_back({setting, scoring, own, entry});
   }
   return questions;
 }
@@ -171,20 +169,14 @@ std::vector<Question> questions_of(const Course& course, const ScenarioRows& row
 void answer(Question& question) {
   question.entry.yaw_coulomb_m =
       least_that_ends(question.entry.most_m, [&](const std::vector<double>& moments_m) {
-        const auto own = driven_with(question.course, question.entry.mode, moments_m);
-        const auto other = driven_with(question.course, question.entry.against, moments_m);
+        const auto own = driven_with(question.setting, question.entry.mode, moments_m);
+        const auto other = driven_with(question.setting, question.entry.against, moments_m);
         std::vector<bool> ahead;
         for (std::size_t i = 0; i < own.size(); ++i) {
           ahead.push_back(is_ahead(own[i], question.own, other[i], question.scoring));
         }
         return ahead;
       });
-}
-
-/// Turns at other rates than scrub was measured at, by more than a law holds further.
-bool turns_at_other_rates(const BreakEven& entry) {
-  return entry.measured_degps && (entry.fastest_degps > kLittleFurther * entry.measured_degps->hi ||
-                                  kLittleFurther * entry.fastest_degps < entry.measured_degps->lo);
 }
 
 /// Adds the measured scrub of the model's differential turns to an otherwise complete entry.
@@ -207,7 +199,8 @@ void add_measured(const Model& model, BreakEven& entry) {
       lead_of(entry) != Lead::kOpen || !scrub->ci95_m.contains(*entry.yaw_coulomb_m)) {
     return;
   }
-  // The interval's half shrinks as 1/sqrt(n), until it no longer holds the moment that ends the lead.
+  // The half width of the interval decreases as 1/sqrt(n), until the interval no longer contains
+  // the moment that ends the lead.
   constexpr double kMostTurns = 1000.0;
   const double half = 0.5 * (scrub->ci95_m.hi - scrub->ci95_m.lo);
   const double shrunk = half / std::abs(*entry.yaw_coulomb_m - scrub->moment_m);
@@ -215,41 +208,30 @@ void add_measured(const Model& model, BreakEven& entry) {
   if (turns <= kMostTurns) entry.turns_to_decide = static_cast<int>(turns);
 }
 
-/// Lines of the table: how many leads the measured scrub ends. `all` belong to one pair of modes.
-std::string decided(const std::vector<const BreakEven*>& all) {
-  std::map<Lead, int> count;
-  int at_other_rates = 0;
-  double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;
-  std::optional<int> turns;
-  for (const BreakEven* entry : all) {
-    ++count[*lead_of(*entry)];
-    if (entry->yaw_coulomb_m && turns_at_other_rates(*entry)) {
-      ++at_other_rates;
-      slowest = std::min(slowest, entry->fastest_degps);
-      fastest = std::max(fastest, entry->fastest_degps);
+/// The questions of all scenarios and modes. `without`: rows of sample 0 without scrub. `entry`: the
+/// values that are common to all.
+Result<std::vector<Question>> all_questions(const Model& model, const Gains<double>& gains,
+                                            const std::vector<Scenario>& scenarios,
+                                            const std::vector<ComparisonRow>& without,
+                                            const Preferences& preferences,
+                                            const BreakEven& entry) {
+  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant());
+  const Controller<double> controller = make_controller(nominal, model.vehicle, gains);
+  std::vector<Question> questions;
+  for (const Scenario& scenario : scenarios) {
+    AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model));
+    const ScenarioRows rows = nominal_rows(without, scenario.name);
+    const std::vector<ScoredMetric> scoring = scoring_of(rows, preferences);
+    if (!has_a_goal(rows) || scoring.empty()) continue;
+    for (const ModeRows& one : rows.modes) {
+      if (one.contender.mode == YawMode::kSteering) continue;
+      const ModeSetting setting{&scenario,  one.contender.mode,          plant,
+                                controller, model.vehicle.sample_time_s, arithmetic};
+      std::ranges::move(questions_of(setting, rows, scoring, entry), std::back_inserter(questions));
     }
-    if (entry->turns_to_decide) {
-      turns = std::min(turns.value_or(*entry->turns_to_decide), *entry->turns_to_decide);
-    }
   }
-  std::string text = fmt::format(
-      "    with the measured scrub: still ahead in {}, no longer in {}, undecided in "
-      "{}\n",
-      count[Lead::kKept], count[Lead::kLost], count[Lead::kOpen]);
-  if (at_other_rates > 0) {
-    const Interval rates = *all.front()->measured_degps;
-    text += fmt::format(
-        "    {} of the undecided results reach {:.3g} to {:.3g} deg/s; scrub was measured at "
-        "{:.3g} to "
-        "{:.3g}\n",
-        at_other_rates, slowest, fastest, rates.lo, rates.hi);
-  }
-  if (turns) {
-    text += fmt::format(
-        "    about {} differential turns in total would decide the first undecided result\n",
-        *turns);
-  }
-  return text;
+  return questions;
 }
 
 }  // namespace
@@ -264,7 +246,6 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
         "yaw resistance was identified from differential turns and already includes their scrub; "
         "add steered turns (steering_deg, wheel_force) to the turning table and identify again");
   }
-  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
   AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant());
   const Interval force = model.vehicle.wheel_force;
   BreakEven entry;
@@ -273,25 +254,9 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
   entry.sliding_m = sliding_moment_m(nominal);
   AWMR_ASSIGN_OR_RETURN(const std::vector<ComparisonRow> without,
                         rows_without_scrub(model, gains, scenarios, comparison, options.threads));
-  std::vector<Question> questions;
-  for (const Scenario& scenario : scenarios) {
-    AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model));
-    const ScenarioRows rows = nominal_rows(without, scenario.name);
-    const std::vector<ScoredMetric> scoring = scoring_of(rows, options.preferences);
-    if (!has_a_goal(rows) || scoring.empty()) continue;
-    for (const ModeRows& one : rows.modes) {
-      if (one.contender.mode == YawMode::kSteering) continue;
-      const Course course{&scenario,
-                          one.contender.mode,
-                          plant,
-                          make_controller(nominal, model.vehicle, gains),
-                          model.vehicle.sample_time_s,
-                          arithmetic};
-      for (Question& question : questions_of(course, rows, scoring, entry)) {
-        questions.push_back(std::move(question));
-      }
-    }
-  }
+  AWMR_ASSIGN_OR_RETURN(
+      std::vector<Question> questions,
+      all_questions(model, gains, scenarios, without, options.preferences, entry));
   parallel_for(questions.size(), options.threads, [&](std::size_t i) { answer(questions[i]); });
   std::vector<BreakEven> answers;
   for (Question& question : questions) {
@@ -302,60 +267,17 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
   return answers;
 }
 
+bool turns_at_other_rates(const BreakEven& entry) {
+  return entry.measured_degps && (entry.fastest_degps > kLittleFurther * entry.measured_degps->hi ||
+                                  kLittleFurther * entry.fastest_degps < entry.measured_degps->lo);
+}
+
 std::optional<Lead> lead_of(const BreakEven& entry) {
   if (!entry.measured_m) return std::nullopt;
   if (!entry.yaw_coulomb_m) return Lead::kKept;
   if (turns_at_other_rates(entry)) return Lead::kOpen;
   if (entry.measured_m->hi < *entry.yaw_coulomb_m) return Lead::kKept;
   return entry.measured_m->lo > *entry.yaw_coulomb_m ? Lead::kLost : Lead::kOpen;
-}
-
-std::string break_even_table(const std::vector<BreakEven>& entries) {
-  std::string text =
-      "break-even: tyre scrub (Coulomb yaw moment of a differential turn) at which a mode is no "
-      "longer ahead\n";
-  if (entries.empty())
-    return text +
-           "  neither differential nor combined is ahead of another "
-           "mode\n";
-  std::map<std::pair<YawMode, YawMode>, std::vector<const BreakEven*>> pairs;
-  for (const BreakEven& entry : entries) pairs[{entry.mode, entry.against}].push_back(&entry);
-  for (const auto& [modes, all] : pairs) {
-    const auto least = std::min_element(all.begin(), all.end(), [](const auto* a, const auto* b) {
-      return a->yaw_coulomb_m.value_or(a->most_m) < b->yaw_coulomb_m.value_or(b->most_m);
-    });
-    const auto lasting = std::count_if(all.begin(), all.end(), [](const BreakEven* entry) {
-      return !entry->yaw_coulomb_m.has_value();
-    });
-    text += fmt::format("  {} ahead of {} in {} scenario{}: ", name_of(modes.first),
-                        name_of(modes.second), all.size(), all.size() == 1 ? "" : "s");
-    if ((*least)->yaw_coulomb_m) {
-      text += fmt::format("until {:.3g} m ({})", *(*least)->yaw_coulomb_m, (*least)->scenario);
-    }
-    if (lasting > 0) {
-      text += fmt::format("{}in {} for any scrub up to {:.3g} m",
-                          (*least)->yaw_coulomb_m ? "; " : "", lasting, (*least)->most_m);
-    }
-    text += '\n';
-    if (all.front()->measured_m) text += decided(all);
-  }
-  text += fmt::format("  largest possible scrub at tyre friction 0.8: {:.3g} m; ",
-                      entries.front().sliding_m);
-  const BreakEven& first = entries.front();
-  if (first.measured_m && !first.measured_degps) {
-    return text + fmt::format(
-                      "yours: at least {:.3g} m, at which\n"
-                      "  the vehicle did not turn (awmr suggest lists forces to turn with)\n",
-                      first.measured_m->lo);
-  }
-  if (const auto& measured_m = first.measured_m) {
-    return text +
-           fmt::format("yours, measured: {:.3g} to {:.3g} m\n", measured_m->lo, measured_m->hi);
-  }
-  return text +
-         "yours: unknown.\n"
-         "  Record differential turns with straight wheels (awmr suggest lists them) in the "
-         "turning table\n";
 }
 
 }  // namespace awmr

@@ -1,4 +1,5 @@
-/// The scrub that ends a mode's lead over another. Private to this folder.
+/// Break-even analysis: tyre scrub at which a mode is no longer better than another. Private to
+/// this folder.
 #pragma once
 
 #include <string>
@@ -8,16 +9,20 @@
 
 namespace awmr {
 
-/// For each scenario, and each pair of a mode with differential turns and one with less of them
-/// (differential, combined, steering) of which the first has the better score without scrub: the scrub with
-/// which its lead is gone. The controller knows nothing of it.
-/// `comparison` holds the rows of sample 0 with one set of gains. Errors (input): as sample_plants().
+/// For each scenario, and each pair of modes of which the first has larger wheel-force differences
+/// (differential > combined > steering) and the better score without scrub: the scrub at which it
+/// is no longer better. The controller does not compensate the scrub. `comparison` holds the rows
+/// of sample 0 with one set of gains. Errors (input): as sample_plants().
 Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<double>& gains,
                                              const std::vector<Scenario>& scenarios,
                                              const Comparison& comparison,
                                              const CompareOptions& options);
 
-/// A line for each pair of modes over all scenarios, and how to measure what decides it.
+/// True if the run turns at rates outside those of the scrub measurement by more than the allowed
+/// extrapolation.
+bool turns_at_other_rates(const BreakEven& entry);
+
+/// One line for each pair of modes over all scenarios, and the trials that decide it.
 std::string break_even_table(const std::vector<BreakEven>& entries);
 
 }  // namespace awmr

@@ -79,7 +79,7 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
   return faults;
 }
 
-/// Checked before anything is sized by the number of samples.
+/// Checked before memory is allocated for the samples.
 Status check_runs(std::size_t per_sample, int samples) {
   const std::size_t most = kMaxRuns / per_sample;
   if (at(samples) + 1 <= most) return {};
@@ -100,13 +100,13 @@ struct Layout {
   std::size_t scenarios, gains, modes, samples;
 
   std::size_t count() const { return scenarios * gains * modes * samples; }
-  /// The place of a row in the output, which is sorted by scenario, gains, mode and sample.
+  /// Index of a row in the output, which is sorted by scenario, gains, mode and sample.
   std::size_t row(const Place& p) const {
     return ((p.scenario * gains + p.gains) * modes + p.mode) * samples + p.sample;
   }
 };
 
-/// A place for each row of the output, empty until its run is finished.
+/// One entry per row of the output, empty until its run is finished.
 using Slots = std::vector<std::optional<ComparisonRow>>;
 
 template <class Items, class Same>
@@ -136,7 +136,7 @@ Status take_finished(const std::vector<Scenario>& scenarios, const std::vector<N
   return {};
 }
 
-/// A scenario, gains and a mode, in those samples that are to be run and are driven together.
+/// A batch: a scenario, gains, a mode and the samples to run.
 struct Block {
   std::size_t scenario, gains, mode;
   std::vector<std::size_t> samples;
@@ -144,8 +144,8 @@ struct Block {
   Place place(std::size_t i) const { return {scenario, gains, mode, samples[i]}; }
 };
 
-/// The samples of this part, as many at a time as fill the registers: block by block, each in all
-/// scenarios, gains and modes, so that a comparison that is stopped has whole samples.
+/// The samples of this part in blocks that fill the registers. Each block is run in all scenarios,
+/// gains and modes before the next one, so that a stopped comparison has complete samples.
 std::vector<Block> blocks_of(const Layout& layout, const Shard& shard, const Slots& slots) {
   std::vector<std::size_t> samples;
   for (std::size_t sample = 0; sample < layout.samples; ++sample) {
@@ -175,11 +175,39 @@ std::vector<BatchRun> runs_of(const SampledPlants& plants, const Controller<doub
                               const Block& block, YawMode mode, std::uint64_t seed) {
   std::vector<BatchRun> runs;
   for (const std::size_t sample : block.samples) {
-    // Sample 0 is the run of `awmr simulate`: the scenario's seed alone.
+    // Sample 0 is the run of `awmr simulate`, with only the scenario's seed.
     runs.push_back({plants.vehicle(block.scenario, sample), controller, mode,
                     sample == 0 ? 0 : seed, static_cast<std::uint64_t>(sample)});
   }
   return runs;
+}
+
+/// Runs a block and stores its rows in `slots`, or the errors in `failures`; both are by row.
+void run_block(const Model& model, const std::vector<NamedGains>& gains,
+               const std::vector<Scenario>& scenarios, std::uint64_t seed,
+               const SampledPlants& plants, const BatchArithmetic& arithmetic, const Layout& layout,
+               const Block& block, Slots& slots, std::vector<Status>& failures) {
+  const Scenario& scenario = scenarios[block.scenario];
+  const NamedGains& set = gains[block.gains];
+  // The controller has the nominal values, not the drawn ones.
+  const auto controller = make_controller(plants.nominal, model.vehicle, set.gains);
+  const YawMode mode = kYawModes[block.mode];
+  const std::vector<BatchRun> runs = runs_of(plants, controller, block, mode, seed);
+  auto metrics = simulate_batch(runs, scenario, model.vehicle.sample_time_s, arithmetic);
+  for (std::size_t i = 0; i < metrics.size(); ++i) {
+    const std::size_t index = layout.row(block.place(i));
+    if (!metrics[i]) {
+      failures[index] = tl::unexpected(metrics[i].error());
+      continue;
+    }
+    metrics[i]->electric_work_j =
+        electric_work_j(*metrics[i], model.vehicle, runs[i].plant.mass_norm);
+    slots[index] = ComparisonRow{.scenario = scenario.name,
+                                 .mode = mode,
+                                 .sample = static_cast<int>(block.samples[i]),
+                                 .metrics = *metrics[i],
+                                 .gains = set.name};
+  }
 }
 
 std::size_t finished_count(const Slots& slots) {
@@ -226,33 +254,13 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   LoopControl control;
   if (options.stop != nullptr) control.stop = [&] { return options.stop->load(); };
   if (options.progress) control.progress = [&] { options.progress(done, layout.count()); };
-  // Each run owns one slot, so the order in which threads take them leaves no trace.
+  // Each run has its own entry, so the result does not depend on the order of the threads.
   parallel_for(
       blocks.size(), options.threads,
       [&](std::size_t b) {
-        const Block& block = blocks[b];
-        const Scenario& scenario = scenarios[block.scenario];
-        const NamedGains& set = gains[block.gains];
-        // The controller knows the model's own values, not the drawn ones.
-        const auto controller = make_controller(plants.nominal, model.vehicle, set.gains);
-        const YawMode mode = kYawModes[block.mode];
-        const std::vector<BatchRun> runs = runs_of(plants, controller, block, mode, options.seed);
-        auto metrics = simulate_batch(runs, scenario, model.vehicle.sample_time_s, arithmetic);
-        for (std::size_t i = 0; i < metrics.size(); ++i) {
-          const std::size_t index = layout.row(block.place(i));
-          if (metrics[i]) {
-            metrics[i]->electric_work_j =
-                electric_work_j(*metrics[i], model.vehicle, runs[i].plant.mass_norm);
-            slots[index] = ComparisonRow{.scenario = scenario.name,
-                                         .mode = mode,
-                                         .sample = static_cast<int>(block.samples[i]),
-                                         .metrics = *metrics[i],
-                                         .gains = set.name};
-          } else {
-            failures[index] = tl::unexpected(metrics[i].error());
-          }
-        }
-        done += metrics.size();
+        run_block(model, gains, scenarios, options.seed, plants, arithmetic, layout, blocks[b],
+                  slots, failures);
+        done += blocks[b].samples.size();
       },
       control);
   for (const Status& failure : failures) AWMR_RETURN_IF_ERROR(failure);
@@ -266,7 +274,7 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   if (options.other_settings && options.shard.index == 1 && !comparison.stopped) {
     comparison.changes = changes_of_runs(model, gains, scenarios, options);
     comparison.stopped = options.stop != nullptr && options.stop->load();
-    if (comparison.stopped) comparison.changes.clear();  // to be run as a whole
+    if (comparison.stopped) comparison.changes.clear();  // incomplete
   }
   return comparison;
 }

@@ -1,4 +1,4 @@
-/// The three yaw-control modes, and several sets of gains, on the same scenarios: metrics, paired
+/// Comparison of the yaw-control modes and of sets of gains in the same scenarios: metrics, paired
 /// differences, ranking.
 #pragma once
 
@@ -25,9 +25,9 @@
 
 namespace awmr {
 
-/// One set of gains, by the name that its rows carry.
+/// One set of gains, with the name in its rows.
 struct NamedGains {
-  std::string name;  ///< empty where there is only one set
+  std::string name;  ///< empty with a single set
   Gains<double> gains;
 };
 
@@ -42,14 +42,14 @@ struct ComparisonRow {
 /// A yaw mode with a set of gains, as ranked in a scenario.
 struct Contender {
   YawMode mode{};
-  std::string gains;  ///< NamedGains::name; empty where there is one set only
+  std::string gains;  ///< NamedGains::name; empty with a single set
 
   /// "combined", or "combined with tuned.json".
   std::string label() const;
   friend bool operator==(const Contender&, const Contender&) = default;
 };
 
-/// Below so many samples no interval is wide enough for its 95 %.
+/// With fewer samples, the coverage of 95 % intervals is lower.
 inline constexpr int kFewSamples = 6;
 
 /// Maximum number of runs of a comparison: scenarios times sets of gains times modes times samples,
@@ -57,42 +57,41 @@ inline constexpr int kFewSamples = 6;
 inline constexpr std::size_t kMaxRuns = 1'000'000;
 
 struct CompareOptions {
-  /// Monte-Carlo samples in addition to the nominal model (sample 0), >= 0. More show smaller differences
-  /// apart; 0 compares the model's own values alone, without intervals or tests.
+  /// Monte-Carlo samples in addition to the nominal model (sample 0), >= 0. More samples resolve
+  /// smaller differences. 0: only the nominal model, without intervals or tests.
   int samples = 0;
   /// Seed of the draws, the noise and the bootstrap. Other seeds show the effect of chance on a
   /// verdict.
   std::uint64_t seed = 1;
   /// Weights of the ranking. The rows do not depend on them.
   Preferences preferences = {};
-  /// Also Comparison::break_even; with one set of gains only.
+  /// Computes Comparison::break_even; needs a single set of gains.
   bool break_even = false;
-  /// Also Comparison::changes: who is first on the other plant and with slower and faster gains. Of a
-  /// comparison in parts, the first part has them.
+  /// Computes Comparison::changes: the ranking on the other plant and with slower and faster gains.
+  /// In a comparison in parts, only the first part has them.
   bool other_settings = false;
   /// Tyres of the four-wheel plant, if that is the other plant.
   Tyres<double> tyres = {};
   /// Samples to run: all, or a part for merge_shards() (shard.h). At most as many parts as samples,
   /// including the nominal one.
   Shard shard = {};
-  /// >= 0; 0: one per core. Fewer leave cores to other work; results do not depend on it.
+  /// >= 0; 0: one per core. Results do not depend on it.
   int threads = 0;
-  /// Rows that are there already, from a comparison of the same inputs and seed: to go on with one
-  /// that was stopped.
+  /// Finished rows of a comparison with the same inputs and seed, to resume one that was stopped.
   std::vector<ComparisonRow> finished = {};
   /// Called with the numbers of finished and of all runs, on the thread that called compare().
   std::function<void(std::size_t done, std::size_t total)> progress = {};
-  /// Once true, no further run is begun: for an interrupt. Null: never.
+  /// Stops the comparison once true, before the next run. Null: never.
   const std::atomic<bool>* stop = nullptr;
 };
 
 /// Scrub (Plant::yaw_scrub_m) at which a mode is no longer ahead of another, for the nominal model.
-/// The scrub applies to every mode and is unknown to the controller.
+/// The scrub acts in every mode; the controller does not compensate it.
 struct BreakEven {
   std::string scenario;
   YawMode mode{};     ///< differential or combined: it has the better score without scrub
   YawMode against{};  ///< a mode with smaller wheel-force differences
-  /// c, m, > 0, to within 1.2 % of itself or 7e-6 of most_m, at which the lead ends; absent if it
+  /// c, m, > 0, at which the lead ends, with an error of 1.2 % or 7e-6 of most_m; absent if it
   /// lasts up to most_m.
   std::optional<double> yaw_coulomb_m;
   double most_m = 0.0;  ///< the largest yaw moment of left and right wheel forces, m
@@ -114,13 +113,14 @@ struct BreakEven {
 
 /// Effect of the measured scrub on a lead.
 enum class Lead {
-  kKept,  ///< no measured scrub ends it
-  kLost,  ///< every one does
-  kOpen,  ///< some do, or the run turns at other rates than scrub was measured at
+  kKept,  ///< the lead holds over the whole measured range
+  kLost,  ///< the lead holds nowhere in the measured range
+  kOpen,  ///< undecided: it holds in part of the range, or the run turns at rates at which scrub
+          ///< was not measured
 };
 inline constexpr NameTable<Lead, 3> kLeadNames{
     {{"kept", Lead::kKept}, {"lost", Lead::kLost}, {"open", Lead::kOpen}}};
-/// Absent where no scrub was measured.
+/// Absent without measured scrub.
 std::optional<Lead> lead_of(const BreakEven& entry);
 
 /// An assumption that is changed to test whether the ranking depends on it.
@@ -136,25 +136,27 @@ struct Completion {
   std::size_t of = 0;  ///< > 0
 };
 
-/// The first modes of a scenario in a setting other than the comparison's own.
+/// The best modes of a scenario in a changed setting.
 struct Change {
   std::string scenario;
   ChangeKind kind{};
   std::string setting;           ///< "four-wheel", "model"; "slower", "faster"; "within a factor 2"
   std::vector<Contender> first;  ///< of rank 1; for weights: of rank 1 for all of them
-  std::string not_run = {};      ///< why there is no ranking in this setting; empty: there is
+  std::string not_run = {};      ///< why there is no ranking in this setting; empty if there is one
   std::vector<Completion> completed = {};  ///< by contender; empty for weights, which need no runs
 };
 
 struct Comparison {
-  std::vector<ComparisonRow> rows;  ///< the finished ones, by scenario, gains, mode, sample
-  /// Evaluated samples: those, the nominal one included, that every scenario, mode and set of gains
-  /// has from 0 on. Fewer than requested if the comparison was stopped, or is a part.
+  std::vector<ComparisonRow> rows;  ///< finished rows, by scenario, gains, mode, sample
+  /// Number of evaluated samples, including the nominal one: 0, 1, ... as far as every scenario,
+  /// mode and set of gains has them. Fewer than requested if the comparison was stopped, or is a
+  /// part.
   int whole_samples = 0;
-  bool stopped = false;  ///< before all of its runs were done
-  /// How the runs were rounded (BatchArithmetic::rounding): rows of different ones are not mixed.
+  bool stopped = false;  ///< true: not all runs were done
+  /// Rounding of the runs (BatchArithmetic::rounding). Rows with different rounding cannot be
+  /// combined.
   std::string arithmetic = {};
-  /// Fastest yaw rate that yaw resistance was measured at, deg/s, > 0; absent where the model has none.
+  /// Highest yaw rate at which yaw resistance was measured, deg/s, > 0; absent if unknown.
   std::optional<double> measured_yaw_rate_degps = {};
   /// By break_even_of() (break_even.h); absent if not requested.
   std::optional<std::vector<BreakEven>> break_even = {};
@@ -166,10 +168,10 @@ struct Comparison {
 /// the scenarios' noise and disturbances from the seeds: the same draws for all modes and gains.
 /// The controller keeps the model's own values. Samples are run kBatchRuns at a time
 /// (simulate/batch.h), each of these blocks in every scenario and mode, so that a stopped
-/// comparison is a smaller one. Errors (input): the model lacks a parameter, or, with samples, a
-/// covariance to draw from, or an interval that a scenario's corner needs; no scenario, or two of
-/// the same name; a negative number of samples or threads; more than kMaxRuns runs; a finished row
-/// of another comparison.
+/// comparison is a valid one with fewer samples. Errors (input): the model lacks a parameter, or,
+/// with samples, a covariance to draw from, or an interval that a scenario's corner needs; no
+/// scenario, or two of the same name; a negative number of samples or threads; more than kMaxRuns
+/// runs; a finished row of another comparison.
 Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
 Result<Comparison> compare(const Model& model, const Gains<double>& gains,
@@ -179,14 +181,14 @@ Result<Comparison> compare(const Model& model, const Gains<double>& gains,
 std::vector<std::pair<std::string_view, std::optional<double>>> named_metrics(
     const Metrics& metrics);
 
-/// The bytes of comparison.csv: the contract's columns, `completed` as 1 or 0, empty cells where a
-/// metric has no meaning; with several sets of gains also `gains`.
+/// Content of comparison.csv: the fixed columns, `completed` as 1 or 0, empty cells for metrics
+/// that do not apply; with several sets of gains also `gains`.
 std::string comparison_csv(const Comparison& comparison);
-/// The bytes of comparison.json.
+/// Content of comparison.json.
 std::string comparison_text(const Comparison& comparison, const CompareOptions& options,
                             const Provenance& provenance);
 
-/// Figures by scenario and mode, the ranking and a verdict in a sentence, for a terminal.
+/// Text for a terminal: metrics by scenario and mode, the ranking, and a verdict in one sentence.
 std::string comparison_table(const Comparison& comparison, const CompareOptions& options = {});
 
 /// The JSON Schema of comparison.json.

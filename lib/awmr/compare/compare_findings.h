@@ -1,4 +1,4 @@
-/// Findings of a comparison: what limits its verdicts.
+/// Findings on the limits of a comparison.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,8 @@ namespace awmr {
 
 /// Findings that are the same for a part and for the whole comparison: requests that the vehicle
 /// cannot meet, tyres that differ from those of the trials, too few samples (`few-samples`),
-/// heading commands that are not rate-limited, and the scrub that the modes are compared with
-/// (`scrub-simulated`, `turned-by-sides`). `rate` is the requested limit of the heading rate.
+/// heading commands that are not rate-limited, and the treatment of scrub (`scrub-simulated`,
+/// `turned-by-sides`). `rate` is the requested limit of the heading rate.
 std::vector<Finding> compare_findings(const Model& model, const std::vector<Scenario>& scenarios,
                                       const CompareOptions& options, const Comparison& comparison,
                                       const HeadingRateChoice& rate);

@@ -93,7 +93,7 @@ Json labels_json(const std::vector<Contender>& contenders) {
   return labels;
 }
 
-/// `all` has the changes that could not be run as well.
+/// `all`: includes the changes that could not be run.
 Json decision_json(const std::string& scenario, const Decision& decision,
                    const std::vector<Change>& all) {
   Json json = {{"kind", name_in(kDecisionKindNames, decision.kind())},
@@ -127,7 +127,7 @@ Json scenario_json(const EvaluatedScenario& scenario, const std::vector<Change>&
   for (const ModeRows& rows : scenario.rows.modes) json["modes"][rows.label()] = mode_json(rows);
   json["paired_differences"] = Json::array();
   for (const PairedDifference& d : scenario.differences) {
-    // A metric without meaning for the scenario has no difference either.
+    // A metric that does not apply to the scenario has no difference.
     if (d.nominal || d.mean) json["paired_differences"].push_back(difference_json(d));
   }
   json["ranking"] = Json::array();
@@ -142,7 +142,7 @@ Json scenario_json(const EvaluatedScenario& scenario, const std::vector<Change>&
   return json;
 }
 
-/// The scenarios represented by another one with the same runs.
+/// The scenarios that are represented by another one with identical runs.
 Json counted_once_json(const std::vector<EvaluatedScenario>& ranked) {
   const std::vector<std::size_t> first = first_with_same_runs(ranked);
   Json json = Json::array();
@@ -154,7 +154,7 @@ Json counted_once_json(const std::vector<EvaluatedScenario>& ranked) {
   return json;
 }
 
-/// By metric and contender: in how many of the ranked scenarios it was best, or tied with the best.
+/// By metric and contender: number of ranked scenarios in which it was best, or tied with the best.
 Json overall_json(const std::vector<EvaluatedScenario>& ranked) {
   Json json = Json::array();
   for (const MetricTally& one : tally(ranked)) {
@@ -293,7 +293,8 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
                             const Provenance& provenance) {
   Json json = output_document("awmr.comparison/1", provenance);
   json["arithmetic"] = comparison.arithmetic;
-  json["csv_sha256"] = sha256_hex(comparison_csv(comparison));  // says which rows belong to it
+  json["csv_sha256"] = sha256_hex(comparison_csv(comparison));  // identifies the rows that belong
+                                                                // to it
   const Comparison evaluated = evaluated_part(comparison);
   const int samples =
       comparison.stopped ? std::max(0, evaluated.whole_samples - 1) : options.samples;
@@ -305,7 +306,7 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
   json["statistics"] = statistics_json(samples);
   json["ranking"] = ranking_json(options.preferences);
   const std::vector<EvaluatedScenario> scenarios =
-      judge(evaluated, options.preferences, options.seed);
+      evaluate_scenarios(evaluated, options.preferences, options.seed);
   const std::vector<EvaluatedScenario> ranked = ranked_of(scenarios);
   json["overall"] = overall_json(ranked);
   json["counted_once"] = counted_once_json(ranked);

@@ -1,4 +1,4 @@
-// comparison.json as comparison_text() writes it.
+// Schema of comparison.json.
 #include <limits>
 
 #include "awmr/compare/decision.h"
@@ -70,7 +70,7 @@ void describe_decision(JsonObject& scenario) {
   for (JsonObject& change : decision->objects("changes")) {
     change.choice("kind", kChangeKindNames);
     change.string("setting");
-    // A ranking in this setting, or why there is none.
+    // The ranking in this setting, or the reason why there is none.
     if (change.has("first")) change.strings("first");
     change.optional_boolean("survives");
     change.optional_string("not_run");
@@ -174,7 +174,7 @@ void describe_how(JsonObject& json) {
 void describe_comparison(JsonObject& json) {
   json.schema("awmr.comparison/1");
   read_provenance(json);
-  json.optional_string("arithmetic");  // how the runs were rounded: "fused" or "scalar"
+  json.optional_string("arithmetic");  // rounding of the runs: "fused" or "scalar"
   json.string("csv_sha256");
   json.integer("samples", 0, kMost);
   if (auto stopped = json.optional_object("stopped")) {

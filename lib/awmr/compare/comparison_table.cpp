@@ -16,7 +16,7 @@ std::string figure(double value) {
   return fmt::format("{:.{}f}", value, std::abs(value) < 100.0 ? 3 : std::abs(value) < 1e4 ? 1 : 0);
 }
 
-/// "1", "2=" for a tie, "-" where nothing was ranked.
+/// "1", "2=" for a tie, "-" without a ranking.
 std::string place_of(const Contender& contender, const std::vector<RankedMode>& ranking) {
   for (const RankedMode& ranked : ranking) {
     if (ranked.contender == contender) {
@@ -26,7 +26,7 @@ std::string place_of(const Contender& contender, const std::vector<RankedMode>& 
   return "-";
 }
 
-/// Words filled into lines of 100 characters, two spaces before each.
+/// Wraps text to lines of 100 characters, indented by two spaces.
 std::string wrapped(const std::string& text) {
   constexpr std::size_t kWidth = 100;
   std::string out;
@@ -48,7 +48,7 @@ std::string wrapped(const std::string& text) {
   return out;
 }
 
-/// A line per mode, a column per metric that some mode has.
+/// One line per mode, one column per metric that any mode has.
 std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking) {
   std::size_t width = 12;
   for (const ModeRows& rows : scenario.modes) width = std::max(width, rows.label().size());
@@ -94,7 +94,7 @@ std::string decisions_of(const std::vector<EvaluatedScenario>& scenarios) {
   return text + survived + '\n';
 }
 
-/// "best or tied, of 12 scenarios" by metric, where there are several to count.
+/// "best or tied, of 12 scenarios" by metric, if there are several scenarios.
 std::string overall_of(const std::vector<EvaluatedScenario>& scenarios) {
   if (scenarios.size() < 2) return "";
   std::string text =
@@ -128,7 +128,8 @@ std::string overall_of(const std::vector<EvaluatedScenario>& scenarios) {
 std::string comparison_table(const Comparison& comparison, const CompareOptions& options) {
   std::string text;
   const Comparison part = evaluated_part(comparison);
-  const std::vector<EvaluatedScenario> scenarios = judge(part, options.preferences, options.seed);
+  const std::vector<EvaluatedScenario> scenarios =
+      evaluate_scenarios(part, options.preferences, options.seed);
   for (const EvaluatedScenario& scenario : scenarios) {
     const std::size_t samples = scenario.rows.modes.front().rows.size() - 1;
     text += fmt::format(

@@ -35,10 +35,10 @@ double mean_log_loss(const ModeRows& rows, const ScoredMetric& scored) {
   return sum / static_cast<double>(rows.counted().size());
 }
 
-/// The weights w_k within the factor that are worst for `own` against `other`. With d_k how far own is
-/// behind in metric k, own is behind by more than the margin m where
+/// The weights w_k within the factor that are worst for `own` compared with `other`. With d_k the
+/// loss of own minus that of other in metric k, own is behind by more than the margin m if
 ///   sum w_k (d_k - m) > 0,
-/// a sum in which each term is largest by itself: w_k is doubled where d_k > m, else halved.
+/// which is maximised term by term: w_k is doubled if d_k > m, else halved.
 Preferences worst_weights(const ModeRows& own, const ModeRows& other,
                           const std::vector<ScoredMetric>& scoring,
                           const Preferences& preferences) {
@@ -74,7 +74,7 @@ Change change_of_weights(const ScenarioRows& scenario,
   return change;
 }
 
-/// Finds the modes of the first rank, and counts the completed runs, in the rows of one scenario.
+/// Finds the modes of rank 1 and counts the completed runs in the rows of one scenario.
 void evaluate(const std::vector<ComparisonRow>& rows, const CompareOptions& options,
               Change& change) {
   const Comparison comparison{.rows = rows};
@@ -95,18 +95,18 @@ NamedGains with_rates_times(double factor, NamedGains set) {
   return set;
 }
 
-/// The first fault in a line.
+/// The first fault as one line of text.
 std::string message_of(const Error& error) {
   const Fault& fault = error.faults.front();
   return fault.place.empty() ? fault.message : fmt::format("{}: {}", fault.place, fault.message);
 }
 
-/// The plant that the scenario is not on.
+/// The plant that the scenario does not use.
 PlantKind other_plant(const Scenario& scenario) {
   return scenario.tyres ? PlantKind::kModel : PlantKind::kFourWheel;
 }
 
-/// The scenario on that plant. Errors (input): it has no meaning there.
+/// The scenario on that plant. Errors (input): it does not apply there.
 Result<Scenario> on_other_plant(Scenario scenario, const Tyres<double>& tyres) {
   if (scenario.tyres) {
     scenario.tyres.reset();
@@ -120,19 +120,19 @@ Result<Scenario> on_other_plant(Scenario scenario, const Tyres<double>& tyres) {
 }
 
 /// A scenario in another setting.
-struct ChangedCourse {
+struct ChangedScenario {
   Change change;
   Scenario scenario;
   std::vector<NamedGains> gains;
 };
 
-/// Returns the runs to make, in the order of the scenarios. Changes that cannot be run are added to
-/// `changes` with their reason.
-std::vector<ChangedCourse> changed_courses(const std::vector<NamedGains>& gains,
-                                           const std::vector<Scenario>& scenarios,
-                                           const Tyres<double>& tyres,
-                                           std::vector<Change>& changes) {
-  std::vector<ChangedCourse> courses;
+/// Returns the required runs, in the order of the scenarios. Changes that cannot be run are added
+/// to `changes` with their reason.
+std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& gains,
+                                               const std::vector<Scenario>& scenarios,
+                                               const Tyres<double>& tyres,
+                                               std::vector<Change>& changes) {
+  std::vector<ChangedScenario> changed;
   for (const Scenario& scenario : scenarios) {
     if (std::holds_alternative<OpenLoop>(scenario.guidance)) continue;  // nothing is ranked
     Change change{.scenario = scenario.name,
@@ -140,21 +140,21 @@ std::vector<ChangedCourse> changed_courses(const std::vector<NamedGains>& gains,
                   .setting = std::string(name_in(kPlantKindNames, other_plant(scenario))),
                   .first = {}};
     if (auto other = on_other_plant(scenario, tyres)) {
-      courses.push_back({std::move(change), *std::move(other), gains});
+      changed.push_back({std::move(change), *std::move(other), gains});
     } else {
       change.not_run = message_of(other.error());
       changes.push_back(std::move(change));
     }
-    if (gains.size() > 1) continue;  // these sets are the change of gains
+    if (gains.size() > 1) continue;  // several sets of gains are not varied further
     for (const auto& [setting, factor] :
          {std::pair("slower", 1.0 / kGainsFactor), std::pair("faster", kGainsFactor)}) {
-      courses.push_back(
+      changed.push_back(
           {{.scenario = scenario.name, .kind = ChangeKind::kGains, .setting = setting, .first = {}},
            scenario,
            {with_rates_times(factor, gains.front())}});
     }
   }
-  return courses;
+  return changed;
 }
 
 /// "differential and combined"
@@ -176,7 +176,8 @@ std::string in_words(const Change& change) {
   return {};
 }
 
-/// "; differential completes 0 of 1 on the four-wheel plant": who completes no run of a change.
+/// "; differential completes 0 of 1 on the four-wheel plant": modes that complete no run under a
+/// change.
 std::string incomplete_in_words(const std::vector<Change>& changes) {
   std::string text;
   for (const Change& change : changes) {
@@ -222,8 +223,8 @@ bool Decision::survives(const Change& change) const {
                      [&](const Contender& one) { return has(change.first, one); });
 }
 
-/// A differential turn is another one on tyres because they scrub, a steered one because they steer
-/// whether or not the motors push.
+/// The plants differ in differential turns by tyre scrub, and in steered turns because rolling
+/// tyres steer even without thrust.
 std::vector<std::string_view> Decision::deciding_trials() const {
   bool differential = false;
   bool steered = false;
@@ -248,25 +249,26 @@ std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedG
                                     const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options) {
   std::vector<Change> changes;
-  if (gains.size() * yaw_modes(model.vehicle).size() < 2) return changes;  // nothing to choose
-  std::vector<ChangedCourse> courses = changed_courses(gains, scenarios, options.tyres, changes);
-  // A course to a thread; each has no more samples than a thread runs at a time.
+  if (gains.size() * yaw_modes(model.vehicle).size() < 2) return changes;  // nothing to rank
+  std::vector<ChangedScenario> changed =
+      changed_scenarios(gains, scenarios, options.tyres, changes);
+  // One task per thread; each has at most as many samples as a batch.
   CompareOptions few;
   few.samples = std::min(options.samples, static_cast<int>(kBatchRuns) - 1);
   few.seed = options.seed;
   few.preferences = options.preferences;
   few.threads = 1;
   few.stop = options.stop;
-  parallel_for(courses.size(), options.threads, [&](std::size_t i) {
-    ChangedCourse& course = courses[i];
-    const auto comparison = compare(model, course.gains, {course.scenario}, few);
+  parallel_for(changed.size(), options.threads, [&](std::size_t i) {
+    ChangedScenario& one = changed[i];
+    const auto comparison = compare(model, one.gains, {one.scenario}, few);
     if (!comparison) {
-      course.change.not_run = message_of(comparison.error());
+      one.change.not_run = message_of(comparison.error());
     } else if (!comparison->stopped) {
-      evaluate(comparison->rows, few, course.change);
+      evaluate(comparison->rows, few, one.change);
     }
   });
-  for (ChangedCourse& course : courses) changes.push_back(std::move(course.change));
+  for (ChangedScenario& one : changed) changes.push_back(std::move(one.change));
   return changes;
 }
 

@@ -16,32 +16,33 @@
 
 namespace awmr {
 
-/// Weights are doubled and halved, each by itself.
+/// Factor by which weights are multiplied or divided, independently of each other.
 inline constexpr double kWeightFactor = 2.0;
-/// Rates of both closed loops are multiplied and divided by this, > 1: sqrt(2).
+/// Factor by which the rates of both closed loops are multiplied or divided: sqrt(2).
 inline constexpr double kGainsFactor = 1.4142135623730951;
 
 enum class DecisionKind {
-  kDecided,    ///< one mode is never behind
-  kLevel,      ///< several are never behind
-  kUndecided,  ///< every mode is behind in some setting
+  kDecided,    ///< one mode is of rank 1 in all settings
+  kLevel,      ///< several modes are
+  kUndecided,  ///< no mode is
 };
 inline constexpr NameTable<DecisionKind, 3> kDecisionKindNames{
     {{"decided", DecisionKind::kDecided},
      {"level", DecisionKind::kLevel},
      {"undecided", DecisionKind::kUndecided}}};
 
-/// Result of a scenario: its first ranks, and whether they hold under every change.
+/// Result of a scenario: the modes of rank 1, and whether they remain so under every change.
 struct Decision {
-  std::vector<Contender> first;  ///< of rank 1 in the ranking itself
-  std::vector<Change> changes;   ///< those that have a ranking; never empty: weights need no runs
+  std::vector<Contender> first;  ///< of rank 1 in the ranking
+  std::vector<Change> changes;   ///< changes with a ranking; never empty, because that of weights
+                                 ///< needs no runs
 
   /// Contenders of rank 1 in the ranking and under every change.
   std::vector<Contender> never_behind() const;
   DecisionKind kind() const;
-  /// Whether the change leaves one of `first` in the first place.
+  /// True if one of `first` is of rank 1 under the change.
   bool survives(const Change& change) const;
-  /// Trials that show which of the two plants is right, if their best modes differ.
+  /// Trials that discriminate between the two plants, if their best modes differ.
   std::vector<std::string_view> deciding_trials() const;
 };
 
@@ -49,24 +50,24 @@ struct Decision {
 inline constexpr std::string_view kDifferentialTurns = "differential-turns";
 inline constexpr std::string_view kSteerWhileCoasting = "steer-while-coasting";
 
-/// The first modes on the other plant and, for one set of gains, with slower and faster gains: at
-/// most as many samples as are run at a time, the same draws as the comparison's. A setting in
-/// which a scenario cannot be run has the reason.
+/// The best modes on the other plant and, for a single set of gains, with slower and faster gains.
+/// Uses the draws of the comparison, at most one batch of samples. A setting in which a scenario
+/// cannot be run has the reason.
 std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedGains>& gains,
                                     const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options);
 
-/// `ranking` is rank() of the same scenario, and not empty; of `changes` those of the scenario count.
+/// `ranking`: rank() of the same scenario, not empty. Only `changes` of the scenario are used.
 Decision decide(const ScenarioRows& scenario, const std::vector<PairedDifference>& differences,
                 const std::vector<RankedMode>& ranking, const std::vector<Change>& changes,
                 const Preferences& preferences, std::uint64_t seed);
 
-/// "; undecided: ...", "; combined keeps a first place ...", and who completes no run of a change:
-/// the end of a verdict.
+/// End of a verdict: "; undecided: ...", "; combined keeps a first place ...", and modes that
+/// complete no run under a change.
 std::string decision_text(const Decision& decision);
 
-/// One sentence (or two) on who is best, by what, and how sure that is. A mode that is first and does
-/// not survive a change is not called best.
+/// One or two sentences: the best mode, by how much, and with what confidence. A mode that loses
+/// rank 1 under a change is not called best.
 std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking,
                        const std::optional<Decision>& decision,
                        const std::vector<PairedDifference>& differences,

@@ -37,16 +37,17 @@ enum class MetricId {
 struct MetricColumn {
   MetricId id;
   std::string_view name;  ///< in comparison.csv and comparison.json
-  std::string_view head;  ///< of the table on a terminal: at most 7 characters; empty: not there
+  std::string_view head;  ///< heading in the table for a terminal, at most 7 characters; empty: not
+                          ///< in the table
   std::string_view unit;
   std::variant<double Metrics::*, std::optional<double> Metrics::*> figure;
-  /// In the metric's unit, >= 0: a difference that is too small to matter (scoring.h). Lower is
-  /// better for a metric that has one, and it can rank modes; 0: it cannot.
+  /// Irrelevant difference in the metric's unit, >= 0 (scoring.h). A metric with a floor > 0 can
+  /// rank modes, and lower is better. 0: the metric cannot rank.
   double ranking_floor = 0.0;
-  double default_weight = 0.0;  ///< in the ranking, where the user gives none
+  double default_weight = 0.0;  ///< in the ranking
 
   bool can_rank() const { return ranking_floor > 0.0; }
-  /// Absent where the metric has no meaning for the run.
+  /// Absent if the metric does not apply to the run.
   std::optional<double> value(const Metrics& metrics) const {
     return std::visit([&](auto member) { return std::optional<double>(metrics.*member); }, figure);
   }
@@ -55,9 +56,9 @@ struct MetricColumn {
   }
 };
 
-/// Weights by default: how well a course is followed (heading error or cross-track), how soon (settled or
-/// finished), and what it costs in speed, in work and at the tyres' contact patches. Sideslip of the body is
-/// the geometry of the turn, and the variation of commands is next to nothing in some modes: both are shown.
+/// Default weights: accuracy (heading or cross-track error), time (settled or finished), and cost
+/// in speed, energy and tyre wear. Weight 0: sideslip, which is the geometry of the turn, and the
+/// variation of commands, which is nearly 0 in some modes.
 inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1,
      1.0},
@@ -83,7 +84,7 @@ inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {MetricId::kElectricWork, "electric_work_j", "", "J", &Metrics::electric_work_j, 1.0, 0.0},
 }};
 
-/// The columns of comparison.csv; with several sets of gains their name is the last.
+/// The columns of comparison.csv; with several sets of gains, `gains` is the last.
 std::vector<std::string> comparison_columns(bool with_gains);
 
 inline const MetricColumn& column_of(MetricId id) { return kMetricColumns[at(id)]; }

@@ -8,8 +8,8 @@
 namespace awmr {
 namespace {
 
-/// Whether `other` is significantly better than `own` in the metric by more than its margin, or has
-/// a value where `own` has none.
+/// True if `other` is significantly better than `own` in the metric by more than its margin, or if
+/// only `other` has a value.
 bool beats(const EvaluatedScenario& scenario, const MetricColumn& metric, const ModeRows& other,
            const ModeRows& own) {
   const auto theirs = summarise(other, metric).mean;
@@ -38,8 +38,9 @@ bool same_runs(const ModeRows& a, const ModeRows& b) {
 
 }  // namespace
 
-std::vector<EvaluatedScenario> judge(const Comparison& comparison, const Preferences& preferences,
-                                     std::uint64_t seed) {
+std::vector<EvaluatedScenario> evaluate_scenarios(const Comparison& comparison,
+                                                  const Preferences& preferences,
+                                                  std::uint64_t seed) {
   std::vector<EvaluatedScenario> all;
   for (ScenarioRows& scenario : group(comparison)) {
     auto differences = paired_differences(scenario, preferences, seed);

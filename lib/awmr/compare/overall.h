@@ -1,4 +1,4 @@
-/// Which mode is best for what, over all scenarios. Private to this folder.
+/// Best mode by metric over all scenarios. Private to this folder.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@
 
 namespace awmr {
 
-/// In how many scenarios each contender was the best in one metric, or not distinguishable from it.
+/// Number of scenarios in which each contender was best in one metric, or tied with the best.
 struct MetricTally {
   MetricId metric{};
-  int scenarios = 0;              ///< that were ranked and have the metric in some mode
+  int scenarios = 0;              ///< number of ranked scenarios with the metric in any mode
   std::vector<int> best_or_tied;  ///< by contender, as ScenarioRows::modes
 };
 
@@ -26,32 +26,33 @@ struct EvaluatedScenario {
   ScenarioRows rows;
   std::vector<PairedDifference> differences;
   std::vector<RankedMode> ranking;
-  std::optional<Decision> decision;  ///< absent where nothing is ranked, or there is one mode only
+  std::optional<Decision> decision;  ///< absent without a ranking, or with a single mode
   std::string verdict;
 };
 
-/// `comparison` is an evaluated_part(), and outlives the result, which looks at its rows.
-std::vector<EvaluatedScenario> judge(const Comparison& comparison, const Preferences& preferences,
-                                     std::uint64_t seed);
+/// `comparison`: an evaluated_part(), which must outlive the result.
+std::vector<EvaluatedScenario> evaluate_scenarios(const Comparison& comparison,
+                                                  const Preferences& preferences,
+                                                  std::uint64_t seed);
 /// Ranked scenarios.
 std::vector<EvaluatedScenario> ranked_of(const std::vector<EvaluatedScenario>& scenarios);
 
-/// By position: the first scenario of the list with the same runs, every figure of every mode and
-/// sample equal; itself where there is none before it. Two files of one course are one course.
+/// By position: index of the first scenario with identical runs (all metrics of all modes and
+/// samples are equal), which can be itself. Duplicate scenarios count once.
 std::vector<std::size_t> first_with_same_runs(const std::vector<EvaluatedScenario>& scenarios);
 
-/// By metric that can rank, over the scenarios given: those that are ranked, of several with the
-/// same runs the first. A contender is beaten in a metric by one whose mean is lower where the
-/// difference is a relevant one. A contender without a value is beaten by any that has one.
+/// By ranking metric, over the ranked scenarios; of scenarios with identical runs only the first. A
+/// contender is worse than another in a metric if the mean is higher by a relevant difference, or
+/// if only the other has a value.
 std::vector<MetricTally> tally(const std::vector<EvaluatedScenario>& scenarios);
 
-/// Number of scenarios with each kind of decision, and of those whose first place survives each
-/// kind of change in all of its settings. Scenarios with the same runs count once.
+/// Number of scenarios with each kind of decision, and number of those whose rank 1 holds under all
+/// changes of a kind. Scenarios with identical runs count once.
 struct DecisionTally {
   std::map<DecisionKind, int> scenarios;
   struct Share {
-    int count = 0;  ///< that survive
-    int of = 0;     ///< that have such a change
+    int count = 0;  ///< number in which rank 1 holds
+    int of = 0;     ///< number with such a change
   };
   std::map<ChangeKind, Share> survived;
 };

@@ -14,11 +14,10 @@ namespace awmr {
 inline constexpr double kMaximumWeight = 1000.0;
 
 struct Preferences {
-  /// By metric's name, in [0, kMaximumWeight]; those that are not here have their default
-  /// (metric_columns.h).
+  /// By metric's name, in [0, kMaximumWeight]; missing ones have their default (metric_columns.h).
   std::map<std::string, double, std::less<>> weights;
-  /// In [0, 1], 1: a metric that differs by less than this share, or by less than the metric's floor,
-  /// is the same for all practical purposes.
+  /// In [0, 1], dimensionless: relative differences below this, and differences below the metric's
+  /// floor, are irrelevant.
   double relevance = 0.05;
   friend bool operator==(const Preferences&, const Preferences&) = default;
 };
@@ -28,7 +27,7 @@ struct Preferences {
 /// weight above 0.
 Result<Preferences> preferences_of(const std::vector<std::string>& weights, double relevance);
 
-/// The names that weights may have, in the order of comparison.csv.
+/// The allowed names of weights, in the order of comparison.csv.
 std::vector<std::string_view> weighable_metrics();
 
 }  // namespace awmr

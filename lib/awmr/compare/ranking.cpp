@@ -13,18 +13,18 @@
 namespace awmr {
 namespace {
 
-/// The bootstrap of scores and the draws of weights are apart from the bootstrap of differences
-/// (statistics.cpp) and from the draws of the samples.
+/// Random streams of the bootstrap of scores and of the weights, separate from those of the
+/// bootstrap of differences (statistics.cpp) and of the samples.
 constexpr std::uint64_t kScoreStream = std::uint64_t{3} << 62U;
 constexpr std::uint64_t kWeightStream = std::uint64_t{5} << 61U;
 constexpr int kWeightings = 1000;
 
-/// A mode with the logarithms that its score is made of.
+/// A mode with the logarithms of which its score consists.
 struct Entry {
   const ModeRows* rows = nullptr;
   std::vector<double> log_scores;   ///< by counted run
   std::vector<double> mean_losses;  ///< by scored metric, over the counted runs
-  bool completes = true;            ///< as often as the best, or not distinguishable from it
+  bool completes = true;            ///< as often as the best, or not significantly less
 
   double log_score() const { return mean(log_scores); }
 
@@ -43,8 +43,8 @@ Entry entry_of(const ModeRows& rows, const std::vector<ScoredMetric>& scoring) {
   return entry;
 }
 
-/// True if the two shares of completed runs are not distinguishable: by the exact McNemar test, or
-/// by being equal where there is a single run, or where one completes each and the other none.
+/// True if the two shares of completed runs do not differ significantly by the exact McNemar test.
+/// For a single run, or if one completes all runs and the other none: true if they are equal.
 bool complete_alike(const ModeRows& a, const ModeRows& b) {
   const auto first = a.counted();
   const auto second = b.counted();
@@ -61,7 +61,7 @@ bool complete_alike(const ModeRows& a, const ModeRows& b) {
   return mcnemar_p(only_first, only_second) >= kSignificance;
 }
 
-/// Among equals the order is by mode and name, not that in which the gains were given.
+/// Ties are ordered by mode and name, not by the order of the given gains.
 bool is_before(const ModeRows& a, const ModeRows& b) {
   return std::tie(a.contender.mode, a.contender.gains) <
          std::tie(b.contender.mode, b.contender.gains);
@@ -130,13 +130,13 @@ Behind behind(const Entry& own, const Entry& leader, double relevance, Random ra
   return {ratio, within ? Conclusion::kEquivalent : Conclusion::kUndecided};
 }
 
-/// Counts, among the entries that complete as often as the best, the one of the least value; those
-/// within `margin` of it share the count, as a difference of less does not matter.
+/// Counts the entry with the smallest value among those that complete as often as the best. Entries
+/// within `margin` of it share the count, because smaller differences are irrelevant.
 template <class Value>
 void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
                 std::vector<double>& counts) {
   constexpr double kRounding = 1e-12;
-  double least = value(entries.front());  // the first of the list is one of them
+  double least = value(entries.front());  // the first of the list completes
   for (const Entry& entry : entries) {
     if (entry.completes) least = std::min(least, value(entry));
   }
@@ -175,8 +175,8 @@ std::vector<double> shares_by_samples(const std::vector<Entry>& entries, double 
   return shares;
 }
 
-/// Whether two modes are equivalent in every scored metric that both have: what their scores differ
-/// by is then below what matters, however sure it is.
+/// True if two modes are equivalent in every scored metric that both have. The difference of their
+/// scores is then irrelevant, even if it is significant.
 bool equivalent_in_all(const Contender& a, const Contender& b,
                        const std::vector<ScoredMetric>& scoring,
                        const std::vector<PairedDifference>& differences) {
@@ -209,8 +209,8 @@ bool dominates(const Contender& other, const Contender& own,
   return better;
 }
 
-/// Modes that tie for the first place share the weights, and, where they are equivalent, the samples: none
-/// of them is first alone where the ranking puts none of them first.
+/// Modes that are tied for rank 1 share the count of weights and, if they are equivalent, of
+/// samples, because the ranking puts none of them alone in rank 1.
 void share_firsts_of_ties(std::vector<RankedMode>& ranking) {
   const auto end = std::find_if(ranking.begin(), ranking.end(),
                                 [](const RankedMode& mode) { return mode.rank > 1; });

@@ -1,4 +1,4 @@
-/// Which mode did best in a scenario, and how sure that is. Private to this folder.
+/// Ranking of the modes in a scenario, with its uncertainty. Private to this folder.
 #pragma once
 
 #include <optional>
@@ -14,21 +14,21 @@ namespace awmr {
 struct RankedMode {
   int rank = 0;  ///< >= 1, 1 is best; tied modes share a rank
   Contender contender;
-  /// Weighted geometric mean of the ranked metrics, each with its offset (scoring.h), over those of the
-  /// first of the list. Below 1 where a mode has the better score and fails more often.
+  /// Weighted geometric mean of the ranked metrics, each with its offset (scoring.h), relative to
+  /// the first mode of the list. Below 1 for a mode with a better score that fails more often.
   double score = 1.0;
   double completed_share = 0.0;         ///< in [0, 1]
   std::optional<Interval> behind_ci95;  ///< of the score; absent for the first and below 2 samples
-  /// Towards the best of the rank above, or of its own rank where it is tied (relevant: behind it);
+  /// Compared with the best of the rank above, or of its own rank if tied (relevant: it is worse);
   /// absent for the first.
   std::optional<Conclusion> towards_leader;
   std::vector<std::string> tied_with;  ///< labels of the others of its rank
-  /// Shares in [0, 1] in which the mode has the best score of all that complete as often as the
-  /// best does: of weights drawn at random, and of the samples (absent below 2). Modes within
-  /// `relevance` of the best share it, and so do modes that tie for the first place.
+  /// Shares in [0, 1] of random weights, and of the samples (absent below 2), for which the mode
+  /// has the best score among those that complete as often as the best. Modes within `relevance` of
+  /// the best, and modes tied for rank 1, share the count.
   double first_by_weights = 0.0;
   std::optional<double> first_by_samples;
-  /// Labels of modes that are relevantly better in a ranked metric and in none relevantly worse.
+  /// Labels of modes that are relevantly better in a ranked metric and relevantly worse in none.
   std::vector<std::string> dominated_by;
 };
 
@@ -50,12 +50,12 @@ inline constexpr std::string_view kNotRanked =
     "not ranked: the scenario gives the vehicle nothing to follow, or none of the metrics that "
     "have a weight";
 
-/// Whether any mode has a heading error, a cross-track error or a finish time.
+/// True if any mode has a heading error, a cross-track error or a finish time.
 bool has_a_goal(const ScenarioRows& scenario);
 
-/// Best first. Empty for a scenario that has nothing to follow (open loop), where lower metrics are
-/// no better, and where no ranked metric has a weight. `differences` are paired_differences() of the
-/// same scenario; `seed` is that of the bootstrap, which is the same in every scenario.
+/// Ranks the modes, best first. Empty for a scenario without a target (open loop), in which lower
+/// metrics are not better, and if no ranked metric has a weight. `differences`:
+/// paired_differences() of the same scenario. `seed`: of the bootstrap, the same in every scenario.
 std::vector<RankedMode> rank(const ScenarioRows& scenario,
                              const std::vector<PairedDifference>& differences,
                              const Preferences& preferences = {}, std::uint64_t seed = 1);

@@ -23,7 +23,7 @@ namespace {
 const std::set<std::string, std::less<>> kFreeOptions{"samples", "weight", "relevance",
                                                       "break_even"};
 
-/// No metric of a run is larger; sums over samples and their squares stay finite.
+/// Upper bound of a metric, with which sums over samples of squares are finite.
 constexpr double kLargest = 1e100;
 
 template <class Number>
@@ -32,7 +32,7 @@ bool read_number(const std::string& text, Number& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// Returns nothing if the cells are not a row as written by comparison_csv().
+/// Empty if the cells are not a row as written by comparison_csv().
 std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool with_gains) {
   constexpr std::size_t kFirst = 4;
   if (cells.size() != kFirst + kMetricColumns.size() + (with_gains ? 1 : 0)) return std::nullopt;
@@ -80,14 +80,14 @@ Result<Origin> read_origin(const std::filesystem::path& path) {
   return origin;
 }
 
-/// The provenance that determines the rows: everything but the free options.
+/// The part of the provenance that determines the rows: all except the free options.
 Provenance fixed(Provenance provenance) {
   std::erase_if(provenance.options,
                 [](const auto& option) { return kFreeOptions.contains(option.first); });
   return provenance;
 }
 
-/// Reason why the rows of a comparison are not those of `now`, and the remedy; empty if they are.
+/// Reason why the rows of a comparison do not match `now`, with the remedy; empty if they match.
 std::string difference(const Origin& before, const Provenance& now, std::string_view arithmetic) {
   const std::string other =
       origin_difference(fixed(before.provenance), before.version, fixed(now), "this comparison");

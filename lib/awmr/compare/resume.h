@@ -1,4 +1,4 @@
-/// Files of a comparison: written, and read back to continue one that was stopped.
+/// Writes the files of a comparison, and reads them to resume one that was stopped.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,14 @@
 
 namespace awmr {
 
-/// The rows of a comparison.csv written before, and a check that its comparison.json is of the same
-/// inputs and options; the numbers of samples and threads may differ. Errors (input): the files
-/// are missing, malformed, of another comparison, of another version of the program or of other
-/// arithmetic.
+/// Reads the rows of an existing comparison.csv. The inputs and options in its comparison.json must
+/// be the same, except for the numbers of samples and threads. Errors (input): the files are
+/// missing or malformed, or from another comparison, program version or arithmetic.
 Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
                                                  const Provenance& provenance);
 
-/// The rows of the text of a comparison.csv; `file` names it in errors. Errors (input): it has other
-/// columns, or a row is not one of a comparison.
+/// Reads the text of a comparison.csv. `file`: its name in errors. Errors (input): other columns,
+/// or an invalid row.
 Result<std::vector<ComparisonRow>> comparison_rows(std::string_view text, const std::string& file);
 
 /// Read-back (core/file.h) of comparison.csv.
@@ -30,7 +29,7 @@ Status check_comparison_csv(std::string_view text, const std::string& file);
 inline constexpr const char* kComparisonTable = "comparison.csv";
 inline constexpr const char* kComparisonJson = "comparison.json";
 
-/// Writes both files into the directory, which is made if necessary. `document` is the text of
+/// Writes both files into the directory, which is created if necessary. `document` is the text of
 /// comparison.json. Errors: as write_files().
 Status write_comparison(const std::filesystem::path& directory, const Comparison& comparison,
                         const std::string& document);

@@ -9,8 +9,8 @@
 namespace awmr {
 namespace {
 
-/// The scenarios that have vehicles of their own, and in `first` where those of each scenario begin:
-/// all without a corner share theirs.
+/// The scenarios with their own vehicles. `first`: by scenario, the index of its first vehicle. All
+/// scenarios without a corner share theirs.
 std::vector<const Scenario*> apart(const std::vector<Scenario>& scenarios, std::size_t samples,
                                    std::vector<std::size_t>& first) {
   std::vector<const Scenario*> own;
@@ -32,7 +32,7 @@ std::vector<const Scenario*> apart(const std::vector<Scenario>& scenarios, std::
 Result<SampledPlants> sample_plants(const Model& model, const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options) {
   const std::size_t samples = at(options.samples) + 1;
-  // The controller has the model's own values in every sample.
+  // The controller has the nominal values in every sample.
   for (const Scenario& scenario : scenarios) AWMR_RETURN_IF_ERROR(check_scenario(scenario, model));
   SampledPlants plants;
   AWMR_ASSIGN_OR_RETURN(plants.nominal, model.plant());

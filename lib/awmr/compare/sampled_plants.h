@@ -1,4 +1,4 @@
-/// The vehicles that a comparison runs. Private to this folder.
+/// The vehicles of a comparison. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +10,18 @@ namespace awmr {
 
 struct SampledPlants {
   Plant<double> nominal{};              ///< the model's own values, which the controller uses
-  std::vector<Plant<double>> vehicles;  ///< samples 0, 1, ... of one scenario, then of another
-  std::vector<std::size_t> first;       ///< by scenario: where its sample 0 is in `vehicles`
+  std::vector<Plant<double>> vehicles;  ///< samples 0, 1, ... of one scenario, then of the next
+  std::vector<std::size_t> first;       ///< by scenario: index of its sample 0 in `vehicles`
 
   const Plant<double>& vehicle(std::size_t scenario, std::size_t sample) const {
     return vehicles[first[scenario] + sample];
   }
 };
 
-/// Sample 0 is the model itself, samples 1 ... options.samples are drawn from it (simulate/plant_sampler.h), and each
-/// scenario moves them to its corner, where it has one. Errors (input): the model lacks a
-/// parameter, a covariance to draw from, or an interval that a corner needs.
+/// Sample 0 is the model itself, samples 1 ... options.samples are drawn from it
+/// (simulate/plant_sampler.h), and each scenario applies its corner to them, if it has one. Errors
+/// (input): the model lacks a parameter, a covariance to draw from, or an interval that a corner
+/// needs.
 Result<SampledPlants> sample_plants(const Model& model, const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options);
 

@@ -1,4 +1,4 @@
-/// One number for how well a run was driven, from the metrics that rank. Private to this folder.
+/// Score of a run from the ranked metrics. Private to this folder.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace awmr {
 
-/// >= 0, the user's or the metric's own; 0 for a metric that cannot rank.
+/// >= 0: the user's weight or the metric's default; 0 for a metric that cannot rank.
 double weight_of(const MetricColumn& metric, const Preferences& preferences);
 
-/// A metric as it counts in one scenario.
+/// A metric in the score of one scenario.
 struct ScoredMetric {
   const MetricColumn* metric = nullptr;
   double weight = 0.0;   ///< in (0, 1], the weights of a scenario sum to 1
@@ -19,15 +19,16 @@ struct ScoredMetric {
   double missing = 0.0;  ///< value for a run without the metric: the worst of all runs
 };
 
-/// The metrics with a weight that some run of the scenario has. Empty where there is none.
+/// The metrics with a weight that any run of the scenario has.
 std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Preferences& preferences);
 
-/// ln(x + f), f the metric's floor over the relevance: steps of x that matter, floor + relevance x, count
-/// alike at every x, each as much as the relevance. A ratio of two small numbers is no large step.
+/// ln(x + f) with f the metric's floor divided by the relevance. A relevant difference, floor +
+/// relevance x, then changes the score by the relevance at every x, and ratios of small numbers do
+/// not dominate.
 double log_loss(const Metrics& metrics, const ScoredMetric& scored);
 
-/// Sum of w ln(x + f): of two runs, exp of the difference is the weighted geometric mean of the
-/// metrics' ratios, which no third run has a say in.
+/// Sum of w ln(x + f). For two runs, exp of the difference is the weighted geometric mean of the
+/// metrics' ratios, independent of other runs.
 double log_score(const Metrics& metrics, const std::vector<ScoredMetric>& scoring);
 
 /// By counted run.

@@ -1,5 +1,5 @@
-/// A comparison in parts, for several machines: each runs some of the samples, and merge_shards()
-/// puts them together to the bytes of a single run.
+/// Comparison on several machines, each of which runs some of the samples. merge_shards() combines
+/// the parts to the output of a single comparison, byte for byte.
 #pragma once
 
 #include <filesystem>
@@ -28,8 +28,8 @@ struct Merged {
   std::vector<Finding> findings;  ///< of the fastest turn of all runs, then of the first part
 };
 
-/// Puts the parts in the directories together, in any order. Errors (input): as read_parts(); a row
-/// of another part, or missing.
+/// Combines the parts in these directories, in any order. Errors (input): as read_parts(); a row of
+/// another part, or a missing row.
 Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directories);
 
 }  // namespace awmr

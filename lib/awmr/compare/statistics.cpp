@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-/// Streams of the bootstrap are apart from those of the draws, which are sample numbers.
+/// Streams of the bootstrap, separate from those of the draws, which are sample numbers.
 constexpr std::uint64_t kBootstrapStream = std::uint64_t{1} << 63U;
 
 double mean_of(std::span<const double> values) {
@@ -28,10 +28,10 @@ std::optional<double> difference(const MetricColumn& metric, const Metrics& a, c
   return *x - *y;
 }
 
-/// Metrics of pairs, a row each, by sample, a column each: a resample then adds up whole columns.
+/// Differences of pairs (rows) by sample (columns), so that a resample is a sum of columns.
 struct Differences {
   std::vector<PairedDifference> results;
-  Eigen::ArrayXXd values;  ///< 0 where one of the pair has no value
+  Eigen::ArrayXXd values;  ///< 0 if one of the pair has no value
   Eigen::ArrayXXd counts;  ///< 0 there, else 1
 };
 
@@ -42,7 +42,7 @@ double margin_between(const ModeRows& a, const ModeRows& b, const MetricColumn& 
   return std::max(metric.ranking_floor, relevance * std::min(std::abs(first), std::abs(second)));
 }
 
-/// Once the interval and Holm's p are there.
+/// Sets the conclusion, from the interval and Holm's p.
 std::optional<Conclusion> conclusion_of(const PairedDifference& d) {
   if (!d.mean) return std::nullopt;
   if (!d.ci95 || !d.p_holm || !d.p_equivalent) {
@@ -120,8 +120,8 @@ Differences all_differences(const ScenarioRows& scenario, double relevance) {
   return all;
 }
 
-/// The bootstrap: the mean of each row in each resample, a resample in each column. NaN where a
-/// resample met no value.
+/// The bootstrap: mean of each row (rows) in each resample (columns). NaN if a resample has no
+/// value.
 Eigen::ArrayXXd resampled_means(const Differences& all, Random random) {
   const Eigen::Index samples = all.values.cols();
   Eigen::ArrayXXd means(all.values.rows(), kResamples);
@@ -140,7 +140,8 @@ Eigen::ArrayXXd resampled_means(const Differences& all, Random random) {
   return means;
 }
 
-/// The 95 % interval of a mean of `values` values by its resamples; none where no resample met a value.
+/// The 95 % interval of the mean of `values` values by its resamples; empty if no resample has a
+/// value.
 std::optional<Interval> interval_of(Eigen::ArrayXXd::ConstRowXpr means, std::size_t values) {
   std::vector<double> sorted;
   for (const double mean : means) {
@@ -154,7 +155,7 @@ std::optional<Interval> interval_of(Eigen::ArrayXXd::ConstRowXpr means, std::siz
 
 Contender contender_of(const ComparisonRow& row) { return {row.mode, row.gains}; }
 
-/// Fills in p_holm from the p of all differences.
+/// Computes p_holm from the p of all differences.
 void correct(std::vector<PairedDifference>& differences) {
   std::vector<double> p;
   for (const PairedDifference& d : differences) {
@@ -202,7 +203,7 @@ std::vector<double> holm(std::span<const double> p) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return p[a] < p[b]; });
   std::vector<double> corrected(p.size());
-  double largest = 0.0;  // of the smaller ones: the correction keeps their order
+  double largest = 0.0;  // largest corrected p so far, because the correction is monotonic
   for (std::size_t i = 0; i < order.size(); ++i) {
     largest = std::max(largest, static_cast<double>(p.size() - i) * p[order[i]]);
     corrected[order[i]] = std::min(1.0, largest);

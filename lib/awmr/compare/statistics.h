@@ -36,9 +36,9 @@ struct ScenarioRows {
   std::vector<ModeRows> modes;
 };
 
-/// All finished rows, which are to be whole: see evaluated_part().
+/// All rows; precondition: complete samples, see evaluated_part().
 std::vector<ScenarioRows> group(const Comparison& comparison);
-/// The comparison without the samples that not all contenders have finished.
+/// The comparison without samples that some contenders have not finished.
 Comparison evaluated_part(const Comparison& comparison);
 
 struct Summary {
@@ -49,13 +49,13 @@ struct Summary {
 };
 Summary summarise(const ModeRows& rows, const MetricColumn& metric);
 
-/// Whether any mode has the metric in any of its counted runs.
+/// True if any mode has the metric in any counted run.
 bool any_has(const ScenarioRows& scenario, const MetricColumn& metric);
 
-/// The share of resampled means to leave out on either side for `tail` of the truths beyond it:
-/// Phi(-t sqrt(n/(n-1))), t of n - 1 degrees of freedom. Percentiles of a bootstrap by themselves
-/// are too narrow for few values (Hesterberg's expanded percentiles); below kFewSamples values
-/// nothing makes them wide enough.
+/// Share of resampled means to cut on each side for a coverage error of `tail`: Phi(-t
+/// sqrt(n/(n-1))), t of n - 1 degrees of freedom (Hesterberg's expanded percentiles). Plain
+/// bootstrap percentiles are too narrow for few values; below kFewSamples values the coverage is
+/// still too low.
 double bootstrap_tail(std::size_t count, double tail);
 
 /// Linear between order statistics (type 7 of Hyndman and Fan). `sorted` is not empty, p in [0, 1].
@@ -67,7 +67,7 @@ inline constexpr NameTable<Conclusion, 3> kConclusionNames{{{"relevant", Conclus
                                                             {"equivalent", Conclusion::kEquivalent},
                                                             {"undecided", Conclusion::kUndecided}}};
 
-/// first minus second, sample by sample: the same drawn vehicle and noise in both modes.
+/// Paired difference, first minus second: the same drawn vehicle and noise in both modes.
 struct PairedDifference {
   Contender first;
   Contender second;
@@ -80,8 +80,8 @@ struct PairedDifference {
   /// p corrected for all differences of the scenario (Holm): below 0.05 the difference is
   /// significant, with at most a 5 % risk of any false positive in the whole scenario.
   std::optional<double> p_holm;
-  /// In the metric's unit, >= 0: a smaller difference does not matter. The larger of the
-  /// metric's floor and the relevance times the smaller mean.
+  /// Irrelevance margin in the metric's unit, >= 0: the larger of the metric's floor and the
+  /// relevance times the smaller mean.
   double margin = 0.0;
   /// p-value of two one-sided t tests (TOST), in [0, 1]: below 0.05 the difference is within the
   /// margin. Absent below 2 samples.
@@ -103,7 +103,7 @@ std::vector<double> holm(std::span<const double> p);
 inline constexpr int kResamples = 1000;
 /// 95 % intervals of the mean by the percentile bootstrap: whole samples are resampled, the same
 /// ones for every metric, pair and scenario, so that no interval depends on the order of scenarios.
-/// Pairs are of the same gains or of the same mode.
+/// The two of a pair have the same gains or the same mode.
 std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario,
                                                  const Preferences& preferences,
                                                  std::uint64_t seed);

@@ -19,8 +19,8 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-/// The metric that counts in which `other` is furthest behind `best`, in margins, of those in which
-/// it is relevantly behind.
+/// The scored metric with the largest relevant difference of `other` to `best`, in units of its
+/// margin.
 const PairedDifference* widest_gap(const std::vector<PairedDifference>& differences,
                                    const Preferences& preferences, const Contender& best,
                                    const Contender& other) {
@@ -41,7 +41,7 @@ const PairedDifference* widest_gap(const std::vector<PairedDifference>& differen
 /// ", most of all in finish_time_s: 8.2 s more (95 %: 8 to 8.4)"
 std::string gap_text(const PairedDifference* gap, const Contender& other) {
   if (gap == nullptr) return "";
-  // Where `other` comes second, first minus second is below 0.
+  // If `other` is the second of the pair, first minus second is below 0.
   const double sign = gap->second == other ? -1.0 : 1.0;
   const MetricColumn& metric = column_of(gap->metric);
   std::string text = fmt::format(", most of all in {}: {:.3g} {} more", metric.name,

@@ -102,16 +102,24 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
       geometry, c, steering.q, a.steering_limited && !math::is_different(limit, c.q_max));
 }
 
-/// allocate() from the limits, where computing time does not matter. u, m/s, is the speed, on which
-/// the limits depend if the motors have back-EMF.
+/// allocate() at the speed u, m/s, on which the limits depend if the motors have back-EMF.
+/// `constants`: prepared(limits).
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
-                       const AllocationLimits<T>& limits, const T& u_mps = T(0.0)) {
+                       const AllocationLimits<T>& limits, const T& u_mps,
+                       const AllocationConstants<T>& constants) {
   const SteeringGeometry geometry = geometry_of(limits);
   Allocation<T> a;
   allocate(geometry, yaw_split<T>(mode, limits.split), tau_speed, tau_turn_m,
-           at_speed(prepared(limits), limits.back_emf_s_per_m, u_mps, geometry.driven_wheels()), a);
+           at_speed(constants, limits.back_emf_s_per_m, u_mps, geometry.driven_wheels()), a);
   return a;
+}
+
+/// As above from the limits, where computing time does not matter.
+template <class T>
+Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
+                       const AllocationLimits<T>& limits, const T& u_mps = T(0.0)) {
+  return allocate(mode, tau_speed, tau_turn_m, limits, u_mps, prepared(limits));
 }
 
 }  // namespace awmr

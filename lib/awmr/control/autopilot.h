@@ -24,10 +24,10 @@ constexpr float kPositionMax = 1e6F;
 /// predecessor.
 template <class G, class P>
 AWMR_INLINE uint8_t check_period(Autopilot<G, P>& a, uint32_t now_ms) {
-  const bool late = a.has_stepped && is_older(now_ms, a.last_step_ms, a.limits.step_timeout_ms);
+  const bool is_late = a.has_stepped && is_older(now_ms, a.last_step_ms, a.limits.step_timeout_ms);
   a.last_step_ms = now_ms;
   a.has_stepped = true;
-  return late ? kFaultStepLate : kFaultNone;
+  return is_late ? kFaultStepLate : kFaultNone;
 }
 
 /// Faults of one step's input.

@@ -49,8 +49,8 @@ GeneralisedForces<T> allocated_forces(const SteeringGeometry& geometry,
              : front_wheel_forces(c.front_axle_m, c.half_track_m, a.force, a.steering_rad);
 }
 
-/// Allocates the request minus the estimated disturbance, and gives the observers what the limits
-/// leave of it. `observers` null: there are none.
+/// Allocates the request minus the estimated disturbance, and passes the limited command to the
+/// observers. `observers` null: no observers.
 template <class T, class G>
 AWMR_INLINE void allocate_compensated(const Observers<T>* observers,
                                       const PreparedController<T, G>& c, const Measurement<T>& m,
@@ -81,7 +81,8 @@ Command<T> control_step(const Controller<T, G>& c, YawMode mode, const Measureme
   Command<T> command{};
   command.tau_speed = speed_law(laws, m, ref);
   command.tau_turn_m = heading_law(laws, m, ref);
-  command.allocation = allocate(mode, command.tau_speed, command.tau_turn_m, c.limits, m.u_mps);
+  command.allocation = allocate(mode, command.tau_speed, command.tau_turn_m, c.limits, m.u_mps,
+                                laws.constants.allocation);
   return command;
 }
 

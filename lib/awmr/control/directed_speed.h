@@ -1,8 +1,8 @@
 /// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
 ///
-/// The speed law takes its speed as signed. Fed with |u| it pushes a vehicle that rolls backward
-/// further back where m' mu_s/eps_s > g1(u)/u, without end. Here the sign is predicted from the
-/// commanded force through the identified model,
+/// The speed law needs a signed speed. With |u| it accelerates a vehicle that rolls backward
+/// without limit if m' mu_s/eps_s > g1(u)/u. Here the sign is predicted from the commanded force
+/// through the identified model,
 ///   m' u_dot = tau_speed - g1(u)
 /// corrected by the sensor's magnitude, and verified by the displacement along the heading. Rules:
 ///   - Force against the direction of travel (braking) needs a known direction.
@@ -128,9 +128,9 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
   m.u_mps = math::with_sign(speed, is_known ? d.predicted_mps : ref.speed_mps);
 }
 
-/// True where the speed law, fed with |u| of a vehicle that rolls backward at the speed u, pushes it
-/// further back. At u_ref = 0, in the layer of sat, it commands -m' mu_s/eps_s u, which is beyond the
-/// resistance where
+/// True if the speed law, with |u| as its input, accelerates a vehicle that rolls backward at the
+/// speed u. At u_ref = 0, in the layer of sat, its command -m' mu_s/eps_s u exceeds the resistance
+/// if
 ///   m' mu_s/eps_s > g1(u)/u
 template <class T, class G>
 bool runs_away_unsigned(const G& surge, const T& mass_norm, const SpeedGains<T>& gains,

@@ -9,8 +9,8 @@ namespace awmr {
 /// Bounds that a healthy vehicle and its GPS do not exceed.
 struct GpsLimits {
   float speed_max_mps;    ///< largest speed
-  float on_course_rad;    ///< largest difference of heading and wanted heading in steady motion
-  float off_course_mrad;  ///< distance driven with a larger one, times what is beyond it, m rad
+  float on_course_rad;    ///< largest difference of heading and commanded heading in steady motion
+  float off_course_mrad;  ///< integral over the distance of the difference beyond it, m rad
   uint32_t timeout_ms;    ///< longest time without a fix
   /// The work on a fix is spread over several steps (GpsReceiver).
   static constexpr bool spreads_work = true;
@@ -77,7 +77,7 @@ class GpsCheck {
     return true;
   }
 
-  /// As MotionCheck::check(), with the last fix that was believed.
+  /// As MotionCheck::check(), with the last accepted fix.
   bool check_motion() { return motion_.check(limits_); }
   void finish_motion() {
     while (check_motion()) {
@@ -102,7 +102,8 @@ class GpsCheck {
   static constexpr int32_t kGpsLag_ms = 500;
   /// Displacement between two fixes that counts as noise, m.
   static constexpr float kNoise_m = 3.0F;
-  /// Number of consecutive fixes elsewhere, or with an earlier time, before they are accepted.
+  /// Number of consecutive fixes at another place, or with an earlier time, before they are
+  /// accepted.
   static constexpr uint8_t kRelocations = 10;
 
   Limits limits_;

@@ -8,7 +8,7 @@
 ///   4. Compute the displacement along the heading.
 ///   5. Compare it with command and speed.
 ///   6. Compare it with the heading.
-///   7. Compare the heading with the one that is to be held.
+///   7. Compare the heading with the commanded one.
 /// If the next sentence ends earlier, a fix in step 1 or 2 is dropped and the rest is done at once.
 /// A long sample time has room for all of it in one step, and too few steps to spread it.
 #pragma once

@@ -122,10 +122,10 @@ class StepCheck {
   bool is_apart_ = false;
 };
 
-/// Compares the yaw rate with the commanded yaw moment: left and right motors that are swapped, a
-/// reversed servo, or a gyroscope of the wrong sign, turn the vehicle away from where it is to
-/// head. A vehicle that is braked in a turn gets slower: only a quarter turn at a rate that does
-/// not fall by a quarter is wrong.
+/// Compares the yaw rate with the commanded yaw moment: swapped left and right motors, a reversed
+/// servo, or a gyroscope with the wrong sign turn the vehicle away from the commanded heading. A
+/// yaw rate against the moment that decreases is a turn being braked: only a quarter turn at a rate
+/// that does not decrease by a quarter is a fault.
 class TurnCheck {
  public:
   /// rate_per_word: rad/s per count of the gyroscope. dt_s: time between two readings, s.
@@ -154,7 +154,7 @@ class TurnCheck {
   bool is_wrong() const { return is_wrong_; }
 
  private:
-  /// 5.7 deg/s of an MPU9250 at +-500 deg/s: noise does not turn so fast.
+  /// 5.7 deg/s of an MPU9250 at +-500 deg/s, above the noise.
   static constexpr int16_t kTurning = 375;
   int32_t quarter_turn_words_ = 0;  // sum of the words over a quarter of a turn
   int32_t against_words_ = 0;

@@ -117,7 +117,7 @@ constexpr T same_moment_share() {
 ///   z_dot = e
 ///   z_dot = 0 while a limit reduces the moment and e requires more of it
 /// The second line is conditional integration, without which z would wind up at a limit.
-/// `requested_m` is the moment requested from the allocation `a`, `made` the moment it makes.
+/// `requested_m`: the moment requested from the allocation `a`. `made`: the moment that it gives.
 template <class T>
 void integrate_error(const T& requested_m, const Allocation<T>& a, const GeneralisedForces<T>& made,
                      const T& sample_time_s, LqiState<T>& state) {

@@ -1,4 +1,5 @@
-/// Comparison of the displacement between two GPS fixes with the speed, the command and the heading.
+/// Comparison of the displacement between two GPS fixes with the speed, the command and the
+/// heading.
 /// Freestanding C++14.
 #pragma once
 
@@ -11,9 +12,9 @@ namespace awmr {
 /// The vehicle's command at the time of a fix.
 struct GpsContext {
   float psi_rad;      ///< heading
-  float psi_ref_rad;  ///< heading that is to be held
+  float psi_ref_rad;  ///< commanded heading
   int8_t direction;   ///< of the commanded speed: 1, 0 or -1
-  /// False: a position elsewhere is accepted after ten fixes, 2 s at 5 Hz.
+  /// False: a new position is accepted after ten fixes, 2 s at 5 Hz.
   bool is_armed;
 };
 
@@ -32,9 +33,9 @@ class MotionCheck {
     due_ = Due::kDirection;
   }
 
-  /// Compares the displacement of the last motion, at the first call with the command, at the second
-  /// with the speed, at the third with the heading; at the fourth the heading with that which is to be
-  /// held. False: that is done. `limits` as GpsLimits.
+  /// Compares the displacement of the last motion with the command (first call), with the speed
+  /// (second) and with the heading (third), and the heading with the commanded one (fourth). False:
+  /// done. `limits` as GpsLimits.
   template <class Limits>
   bool check(const Limits& limits) {
     switch (due_) {
@@ -86,18 +87,21 @@ class MotionCheck {
   /// Length of the windows in which displacement and speed are compared, m and s.
   static constexpr float kWindow_m = 12.0F;
   static constexpr float kWindow_s = 90.0F;
-  /// Displacement along the heading that is permitted beyond 1.25 times the distance travelled, m. A
+  /// Displacement along the heading that is permitted beyond 1.25 times the distance travelled, m.
+  /// A
   /// position that wanders by 1.5 m RMS, correlated over a minute, drifts by
   ///   1.5 sqrt(2 (1 - exp(-t/60 s))) m RMS
   /// to one side in the time t: 1.9 m in a window.
   static constexpr float kFurther_m = 6.0F;
-  /// Displacement along the heading that is required, as a share of the distance travelled. With a compass
+  /// Displacement along the heading that is required, as a share of the distance travelled. With a
+  /// compass
   /// 30 deg off and three times that drift, a healthy vehicle reaches 0.39.
   static constexpr float kNotFurther = 0.25F;
-  /// At u_ref = 0 a window counts only within this time, s: the noise of a speed without a sign adds up.
+  /// At u_ref = 0 a window is limited to this time, s, because the noise of an unsigned speed
+  /// accumulates.
   static constexpr float kMoving_s = kWindow_m / kStandstill_mps;
-  /// Maximum distance travelled without any change of position, m. A vehicle that is to move counts as at
-  /// least kStill_mps fast, 10 s: a receiver that froze at rest.
+  /// Maximum distance travelled without any change of position, m. With a commanded motion, the
+  /// speed counts as at least kStill_mps (10 s), which detects a receiver that froze at rest.
   static constexpr float kSame_m = 1.5F;
   static constexpr float kStill_mps = 0.15F;
   /// Maximum displacement against the commanded direction, m, in as many consecutive fixes. At most
@@ -106,19 +110,19 @@ class MotionCheck {
   static constexpr float kAgainst_m = 2.0F;
   static constexpr float kAhead_m = 1.0F;
   static constexpr uint8_t kAgainstFixes = 3;
-  /// Track and heading are compared over this displacement, |ahead| + |left|: 10 m and 0.1 m/s. kOffTrack of
-  /// it to the side is at least 3.5 times the drift (kFurther_m), also where a vehicle drives slowly.
+  /// Track and heading are compared over this displacement, |ahead| + |left|: 10 m and 0.1 m/s.
+  /// kOffTrack of it to the side is at least 3.5 times the drift (kFurther_m), also at low speed.
   static constexpr float kTrack_m = 10.0F;
   static constexpr float kTrack_mps = 0.1F;
-  /// tan 30 deg: beyond the sideslip of a vehicle, and a heading 0.5 s older than the position in a turn of
-  /// kStraight_rad a fix.
+  /// tan 30 deg: more than the sideslip of a vehicle plus the change of heading in 0.5 s of
+  /// latency, in a turn of kStraight_rad per fix.
   static constexpr float kOffTrack = 0.577F;
   /// Displacements over which the heading changes by more than this, rad, are left out.
   static constexpr float kStraight_rad = 0.1F;
-  /// A change of the wanted heading between two fixes by more than this, rad, is a new one.
+  /// A change of the commanded heading between two fixes by more than this, rad, is a new command.
   static constexpr float kNewCourse_rad = 0.35F;
-  /// After a change of the commanded direction the vehicle brakes for at most this long, s, and gets
-  /// faster by no more than this, m/s.
+  /// After a change of the commanded direction, longest time of braking, s, and largest increase of
+  /// the speed, m/s.
   static constexpr float kBraking_s = 10.0F;
   static constexpr float kFaster_mps = 0.5F;
 
@@ -134,14 +138,14 @@ class MotionCheck {
   float track_s_ = 0.0F;          // time of the motion since the track was compared
   float track_ahead_m_ = 0.0F;    // sum of ahead since then
   float track_left_m_ = 0.0F;     // sum of left
-  float track_psi_rad_ = 0.0F;    // heading at the fix before
-  float off_course_mrad_ = 0.0F;  // distance driven off the wanted heading
-  float course_rad_ = 0.0F;       // wanted heading at the fix before
+  float track_psi_rad_ = 0.0F;    // heading at the previous fix
+  float off_course_mrad_ = 0.0F;  // integral of the heading difference over the distance
+  float course_rad_ = 0.0F;       // commanded heading at the previous fix
   float braking_s_ = 0.0F;        // left of kBraking_s
   float braked_from_mps_ = 0.0F;  // speed when the commanded direction changed
   int8_t direction_ = 0;
   uint8_t against_fixes_ = 0;        // consecutive fixes beyond kAgainst_m
-  SensorFault fault_ = kSensorGood;  // the first that the motion showed
+  SensorFault fault_ = kSensorGood;  // the first detected fault
   bool is_straight_ = false;         // the last motion, valid from Due::kTrack on
   Due due_ = Due::kNothing;
 
@@ -153,10 +157,11 @@ class MotionCheck {
     window_s_ = window_m_ = window_left_m_ = travelled_m_ = 0.0F;
   }
 
-  /// |int ahead| <= 1.25 int u dt + the drift since the window began, and at the end of a window that
+  /// |int ahead| <= 1.25 int u dt + the drift since the window began, and at the end of a window
+  /// that
   /// was driven one way
   ///   |int ahead| + |int left| >= 0.25 int u dt
-  /// where left is for a compass that is off (kOffHeading).
+  /// where left allows for a compass error (kOffHeading).
   AWMR_CALLED_MEMBER void compare_with_speed() {
     const bool is_long = travelled_m_ > kWindow_m;
     if (is_long && (direction_ != 0 || window_s_ < kMoving_s) &&
@@ -218,8 +223,8 @@ class MotionCheck {
     is_straight_ = !(detail::size_of(turned_rad) > kStraight_rad);
   }
 
-  /// Compares the direction of the displacement with the heading: a compass that is turned on the
-  /// vehicle, or that iron turns, leads it off its course.
+  /// Compares the direction of the displacement with the heading: detects a compass that is mounted
+  /// at an angle or deflected by iron.
   AWMR_CALLED_MEMBER void compare_with_heading() {
     if (direction_ == 0) return restart_track();
     if (!is_straight_) return;
@@ -235,11 +240,11 @@ class MotionCheck {
     restart_track();
   }
 
-  /// Distance driven at a heading that is off the wanted one, m rad:
+  /// Integral over the distance of the heading difference beyond e0, m rad:
   ///   off = max(0, off + int (|psi_d - psi| - e0) |u| dt),  e0 = on_course_rad
-  /// It grows without end where the vehicle does not turn to where it is to head, whatever the reason: a
-  /// gyroscope of the wrong sign, a servo or motor that has failed or is reversed, a point inside of the
-  /// turning circle. A turn by 180 deg with the radius R takes
+  /// It grows without limit if the vehicle does not turn to the commanded heading, for any reason:
+  /// a gyroscope with the wrong sign, a failed or reversed servo or motor, a target inside the
+  /// turning circle. A turn by 180 deg with the radius R adds
   ///   R int_e0^pi (e - e0) de = R (pi - e0)^2/2
   template <class Limits>
   AWMR_CALLED_MEMBER void compare_with_reference(const Limits& limits) {

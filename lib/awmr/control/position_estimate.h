@@ -1,19 +1,21 @@
-/// Position of the vehicle from late and noisy fixes and the measured motion. Freestanding C++14.
+/// Position of the vehicle from noisy fixes with latency and from the measured motion. Freestanding
+/// C++14.
 ///
 /// Between fixes the position follows the travelled distance D (dead reckoning):
 ///   p  = D + c
 ///   D += T_s (u cos psi - v sin psi, u sin psi + v cos psi)
-/// A fix z that was taken `age_s` ago is compared with where the vehicle was then, from a ring of
-/// travelled positions. A Kalman filter estimates the offset o = p - D, with one variance for both axes:
-///   P += q t                        t: time since the fix before
+/// A fix z that was taken `age_s` ago is compared with the position at that time, from a ring of
+/// travelled positions. A Kalman filter estimates the offset o = p - D, with one variance for both
+/// axes:
+///   P += q t                        t: time since the previous fix
 ///   K  = P/(P + R),   nu = z - D(age_s ago) - o
 ///   o += K nu,   P -= K P
 /// The first fix starts it with P = R, so that the first fixes are averaged. c follows o linearly
-/// within kSpread_s: the direction to a near waypoint does not jump with each fix.
+/// within kSpread_s, so that the direction to a near waypoint does not jump with each fix.
 ///
-/// A fix is rejected if |nu| > kInnovationMax sqrt(P + R). After kRejections in a row, the fixes are
-/// right and the estimate is wrong: it is reset to the last one (`resets`). This rule is
-/// statistical; whether a vehicle can have moved that far is checked before, by gps_check.h.
+/// A fix is rejected if |nu| > kInnovationMax sqrt(P + R). After kRejections in a row, the estimate
+/// is assumed wrong and reset to the last fix (`resets`). This rule is statistical; whether a
+/// vehicle can have moved that far is checked before, by gps_check.h.
 #pragma once
 
 #include <stdint.h>
@@ -31,7 +33,7 @@ template <class T>
 struct PositionFix {
   Position<T> position_m;
   T age_s;      ///< time since it was taken, >= 0
-  bool is_new;  ///< no step has had it yet
+  bool is_new;  ///< not yet processed by a step
 };
 
 /// Estimate of the position. Filter: PositionFilter, or a type with the same names as constants.
@@ -42,11 +44,11 @@ class PositionEstimate {
 
   constexpr explicit PositionEstimate(const Filter& filter = Filter()) : filter_(filter) {}
 
-  /// The next step starts anew with its fix.
+  /// Restarts the estimate with the fix of the next step.
   void restart() { is_started_ = false; }
 
   /// The position now. Call it once per step, with the last fix and the measured motion. A fix that
-  /// arrives during the work on the one before is not used.
+  /// arrives while the previous one is being processed is not used.
   Position<T> step(const PositionFix<T>& fix, const Measurement<T>& m) {
     if (!is_started_) {
       start(fix.position_m);
@@ -63,7 +65,8 @@ class PositionEstimate {
   }
 
  private:
-  /// The work on a fix is in the last of these steps after it; gps_receiver.h works in those before.
+  /// A fix is processed in the last of these steps after its arrival; gps_receiver.h uses the steps
+  /// before.
   static constexpr uint8_t kWorkSteps = 4;
   static constexpr uint8_t kWait = 5;
 
@@ -98,7 +101,8 @@ class PositionEstimate {
     is_started_ = true;
   }
 
-  /// Spread over three steps, cos psi, sin psi and the product with the speed are as accurate.
+  /// cos psi, sin psi and the product with the speed are computed in three different steps, without
+  /// loss of accuracy.
   void travel(const Measurement<T>& m) {
     if (phase_ == 0 || !filter_.spreads_work) direction_.x_m = math::quick_cos(m.psi_rad);
     if (phase_ == 1 || !filter_.spreads_work) direction_.y_m = math::quick_sin(m.psi_rad);
@@ -131,7 +135,8 @@ class PositionEstimate {
     if (left == 1) correct();
   }
 
-  /// Place of the fix in the ring. A fix younger than the newest element is extrapolated. The oldest
+  /// Place of the fix in the ring. A fix younger than the newest element is extrapolated. The
+  /// oldest
   /// element can be replaced before the next step of work.
   void locate() {
     const T waited = filter_.spreads_work ? T(kWait) : T(0.0);

@@ -1,19 +1,19 @@
-/// Constants of the position's estimate (position_estimate.h). Freestanding C++14.
+/// Constants of the position estimate (position_estimate.h). Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
 
 namespace awmr {
 
-/// q, m^2/s: variance of the drift of dead reckoning by the errors of heading and speed, per time.
+/// q, m^2/s: growth of the variance of dead reckoning due to errors of heading and speed.
 constexpr double kDrift_m2ps = 0.05;
 /// Time over which a correction is spread, s.
 constexpr double kSpread_s = 0.08;
-/// Least standard deviation of a fix, m: that of a receiver without noise.
+/// Smallest standard deviation of a fix, m, for a receiver without noise.
 constexpr double kFixNoiseMin_m = 0.01;
-/// Largest innovation in standard deviations. Of 300,000 fixes with normal errors, one is beyond it.
+/// Largest innovation in standard deviations. One of 300,000 fixes with normal errors exceeds it.
 constexpr double kInnovationMax = 5.0;
-/// Rejected fixes in a row that reset the estimate.
+/// Number of consecutive rejected fixes that resets the estimate.
 constexpr uint8_t kRejections = 5;
 /// Travelled positions in the ring, a power of two.
 constexpr uint8_t kTravelled = 8;
@@ -49,8 +49,8 @@ constexpr uint8_t to_count(double x) {
 
 }  // namespace detail
 
-/// The filter for fixes with this standard deviation of an axis that are late by `latency_s`. The ring
-/// reaches back 0.1 s further, because the work on a fix waits.
+/// The filter for fixes with this standard deviation per axis and with the latency `latency_s`. The
+/// ring covers 0.1 s more, because the processing of a fix is delayed.
 template <class T>
 constexpr PositionFilter<T> position_filter(double noise_m, double latency_s,
                                             double sample_time_s) {

@@ -29,10 +29,10 @@ enum SensorFault : uint8_t {
   kGpsOld = 11,            ///< fixes lag behind by more than kGpsLag_ms, or their UTC runs back
   kGpsJump = 12,           ///< a displacement that the vehicle cannot achieve
   kGpsInconsistent = 13,   ///< speed and displacement contradict each other
-  kWrongWay = 14,          ///< driven one way, it moves the other
+  kWrongWay = 14,          ///< moves against the commanded direction
   kOffHeading = 15,        ///< the track of the positions is 30 deg and more off the heading
   kWrongTurn = 16,         ///< the vehicle turns against the commanded yaw moment
-  kOffCourse = 17          ///< it does not turn to the heading that is to be held
+  kOffCourse = 17          ///< does not turn to the commanded heading
 };
 constexpr uint8_t kSensorFaultCount = 18;
 

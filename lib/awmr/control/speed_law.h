@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// The end of [0, u_d + eps_s], or [u_d - eps_s, 0], that lies on the side of u. Rarely called.
+/// The end of [0, u_d + eps_s], or of [u_d - eps_s, 0], on the side of u. Rarely called.
 template <class T>
 AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& epsilon_mps) {
   using math::select;
@@ -18,11 +18,12 @@ AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& eps
 
 /// Speed whose resistance the speed law feeds forward, m/s:
 ///   w = 0                     at u_d = 0
-///   w = max(0, u_d + eps_s)   where the vehicle is faster than that, forward; backward likewise
+///   w = max(0, u_d + eps_s)   if the vehicle is faster than that, forward; backward likewise
 ///   w = u                     else
-/// With g1(u) everywhere, a vehicle that a slope pulls would be driven along the slope by g1(u) - m' mu_s: without
-/// end where it is faster than u_d, and at u_d = 0 wherever g1(u) is more than the correction. `wanted` and `limit`
-/// are the correction before and at its saturation, `epsilon` a function that gives eps_s.
+/// With g1(u) at every speed, the law would accelerate a vehicle that rolls down a slope by g1(u) -
+/// m' mu_s: without limit if it is faster than u_d, and at u_d = 0 if g1(u) exceeds the correction.
+/// `wanted` and `limit`: the correction before and at its saturation. `epsilon`: a function that
+/// returns eps_s.
 template <class T, class Epsilon>
 AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T& error_mps,
                                 const T& wanted, const T& limit, const Epsilon& epsilon) {

@@ -16,8 +16,8 @@ inline std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Parses a finite decimal number; a leading '+' is allowed. Errors say what was found and what to
-/// do: an empty cell, NaN, infinity, a hexadecimal number, a decimal comma, a unit behind the
+/// Parses a finite decimal number; a leading '+' is allowed. Errors state the found text and the
+/// remedy: an empty cell, NaN, infinity, a hexadecimal number, a decimal comma, a unit behind the
 /// number, a number out of range, any other text.
 tl::expected<double, std::string> number_from_text(std::string_view text);
 

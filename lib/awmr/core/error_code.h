@@ -1,4 +1,4 @@
-/// Codes of errors. A code stays the same while the words of its message may change.
+/// Codes of errors. Codes are stable; the words of a message can change.
 #pragma once
 
 #include "awmr/core/name_table.h"
@@ -36,7 +36,7 @@ enum class ErrorCode {
   kTooFewData,
   kNotIdentified,
   kDiverges,
-  // An answer that is no.
+  // Negative results.
   kNoGains,
   kSlowReaching,
   kNoTable,

@@ -1,5 +1,5 @@
-/// Errors as values. Every failure that a user can cause is returned as an `Error` that says where
-/// it is, what is wrong and what to do. A broken invariant of the program asserts.
+/// Errors as values. Every failure that a user can cause is returned as an `Error` with its place,
+/// the fault and the remedy. A broken invariant of the program asserts.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ inline constexpr std::size_t kMaxFaults = 100;
 /// Each kind has one exit code.
 enum class ErrorKind {
   kInput,    ///< the command line, a file or a value is wrong (exit code 2)
-  kRefused,  ///< the work ran and its answer is negative (exit code 1)
+  kRefused,  ///< the command ran, with a negative result (exit code 1)
   kFault,    ///< internal error of the program (exit code 3)
 };
 

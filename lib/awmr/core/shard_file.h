@@ -1,4 +1,4 @@
-/// Files of a part in both directions, and the parts of a job put together. Include from .cpp files
+/// Reads and writes the files of a part, and combines the parts of a job. Include from .cpp files
 /// only, because it includes nlohmann/json.
 #pragma once
 
@@ -57,14 +57,15 @@ auto payload_of(const Json& shard_json, const Read& read) {
 /// in shard.json.
 Result<std::string> read_part_file(const Part& part, const ShardFile& file);
 
-/// Checks that the rows of a table are of the part's items, of `items` in total: all in order, once or
-/// more. `item_of(i)` is the item of row i, `name` names it: "run". Errors (input): the part has no
-/// items; a row is of another item; rows are missing.
+/// Checks that the rows of a table are those of the part's items, of `items` in total: each item in
+/// order, with one or more consecutive rows. `item_of(i)`: the item of row i. `name`: kind of item,
+/// "run". Errors (input): the part has no items; a row is of another item; rows are missing.
 Status check_items(const Part& part, const ShardFile& file, std::string_view name, int items,
                    std::size_t rows, const std::function<int(std::size_t)>& item_of);
 
-/// The rows of all parts in the order of a single run. Each part has the rows of its items in order,
-/// `per_item` rows each, once or more. Errors (input): more often in one part than in another.
+/// Merges the rows of all parts in the order of a single run. Each part has blocks of the rows of
+/// its items in order, `per_item` rows per item. Errors (input): the parts have different numbers
+/// of blocks.
 template <class Row>
 Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& parts, int items,
                                            std::size_t per_item = 1) {
@@ -90,8 +91,8 @@ Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& 
   return all;
 }
 
-/// Difference between the origins of two results that are to be put together, `found` being other
-/// than `expected`, which `name` names; empty if there is none.
+/// Difference between the origins of two results that are to be combined, as text: `found` compared
+/// with `expected`, whose name is `name`. Empty if there is none.
 std::string origin_difference(const Provenance& found, const std::string& found_version,
                               const Provenance& expected, const std::string& name);
 

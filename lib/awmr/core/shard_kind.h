@@ -1,5 +1,5 @@
-/// Parts of a job on disk. A part is a directory: shard.json identifies the shard and its origin, the
-/// files next to it have its results.
+/// Parts of a job on disk. A part is a directory: shard.json identifies the shard and its origin,
+/// the files next to it have its results.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +26,7 @@ struct ShardFile {
   Status (*check)(std::string_view text, const std::string& file, const std::string& shard_json);
 };
 
-/// A kind of job that can be divided: what its parts consist of.
+/// A kind of job that can be divided into parts.
 struct ShardKind {
   const char* schema;            ///< of shard.json
   const char* title;             ///< of its JSON Schema
@@ -47,12 +47,12 @@ struct PartText {
 /// Names of the files of a part, shard.json first.
 std::vector<std::string> part_files(const ShardKind& kind);
 
-/// Writes a part into the directory, which is made if necessary. Errors: as write_files().
+/// Writes a part into the directory, which is created if necessary. Errors: as write_files().
 Status write_part(const ShardKind& kind, const std::filesystem::path& directory,
                   const PartText& part);
 
-/// True if the directory holds this part, finished: shard.json has the origin that it would have
-/// now, and the files next to it have the hashes in it.
+/// True if the directory has this part and it is complete: the origin in shard.json is the current
+/// one, and the files have the hashes in it.
 bool is_finished_part(const ShardKind& kind, const std::filesystem::path& directory,
                       const Shard& shard, const Provenance& provenance);
 

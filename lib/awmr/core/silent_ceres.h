@@ -1,4 +1,4 @@
-/// For the folders that search with Ceres. Private: not installed.
+/// Disables the log output of Ceres. Private: not installed.
 #pragma once
 
 #include <glog/logging.h>
@@ -8,7 +8,7 @@ namespace awmr {
 /// Stops Ceres from logging to stderr why a search ended: the result contains the reason.
 inline void silence_ceres() {
   static const int level = FLAGS_minloglevel =
-      google::GLOG_FATAL;  // once, whichever thread is first
+      google::GLOG_FATAL;  // once, in the first thread that gets here
   static_cast<void>(level);
 }
 

@@ -1,5 +1,5 @@
-/// Detects time columns with names other than `t_s` where the name or the cells are unambiguous:
-/// with a unit (`time_ms`); whole seconds and nanoseconds (`stamp.sec`, `stamp.nanosec`); ISO 8601
+/// Detects time columns with names other than `t_s` if the name or the cells are unambiguous: with
+/// a unit (`time_ms`); whole seconds and nanoseconds (`stamp.sec`, `stamp.nanosec`); ISO 8601
 /// dates; if nothing else is found, seconds since 1970 with a fraction. Private to the library.
 #pragma once
 

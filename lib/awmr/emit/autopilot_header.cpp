@@ -106,7 +106,7 @@ std::string parts_text(const AutopilotParameters& parameters) {
   for (const auto& [name, part] : kFirmwarePartNames) {
     lines += fmt::format("#define {} {}\n", macro_of(name), parameters.parts.count(part));
   }
-  return fmt::format(kParts, lines, name_of(line_laws()[parameters.line_law]), parameters.line_law,
+  return fmt::format(kParts, lines, line_law_names()[parameters.line_law], parameters.line_law,
                      parameters.split == CombinedSplit::kFixedHalf ? 1 : 0);
 }
 

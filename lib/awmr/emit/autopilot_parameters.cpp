@@ -102,7 +102,7 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Ga
   return block;
 }
 
-/// The speed of a route, m/s: at full force nothing is left to steer with.
+/// The speed of a route, m/s. Less than at full force, which leaves none for turning.
 double route_speed_mps(const Plant<double>& plant, double full_force) {
   constexpr double kUsual_mps = 1.0;
   constexpr double kShare = 0.6;
@@ -111,8 +111,8 @@ double route_speed_mps(const Plant<double>& plant, double full_force) {
   return std::min(kUsual_mps, kShare * top_mps);
 }
 
-/// The fastest steady turn at a speed, rad/s, of a vehicle with steering by that alone; none if the
-/// moment does not overcome the resistance at rest.
+/// Fastest steady turn at a speed, rad/s; with steering, by steering only. Absent if the moment
+/// does not exceed the resistance at rest.
 ///   tau_turn = l_f tau_speed tan(d_max/2)                                      [paper (41)]
 ///   tau_turn = d (4 F'max - tau_speed)                              by the wheel forces
 std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle& vehicle,
@@ -124,13 +124,13 @@ std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle&
   return steady_rate(plant.yaw, moment_m);
 }
 
-/// The yaw moment of motors that differ by 16 %, m: 0.08 d tau_speed.
+/// Yaw moment of left and right motors that differ by 16 %, m: 0.08 d tau_speed.
 double unequal_moment_m(const Plant<double>& plant, double speed_mps) {
   return 0.08 * plant.half_track_m * plant.surge.at(speed_mps);
 }
 
-/// The fastest steady turn that the heading law commands at a speed, rad/s, with 40 % more resistance
-/// than the model's and motors that differ by 16 %. Outside of the boundary layer, sat = 1:
+/// Fastest steady turn that the heading law commands at a speed, rad/s, with 1.4 times the model's
+/// resistance and motors that differ by 16 %. Outside of the boundary layer, sat = 1:
 ///   1.4 g3(r) + 0.08 d tau_speed = g3(r) + I'z (mu - lambda r)                 [paper (89)]
 std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains<double>& gains,
                                   double speed_mps) {
@@ -157,8 +157,8 @@ double on_course_rad(const Plant<double>& plant, const HeadingGains<double>& gai
 }
 
 /// AWMR_OFF_COURSE_MRAD: a turn by 180 deg with the radius R takes R (pi - e0)^2/2 of it
-/// (control/motion_check.h), the way until a turn begins the rest. R is the largest at speeds from a
-/// quarter of the route's on: friction at rest makes slow turns wide.
+/// (control/motion_check.h), the rest is for the distance until the turn begins. R is the largest
+/// at speeds from a quarter of the route's on, because friction at rest makes slow turns wide.
 double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
                        const HeadingGains<double>& gains, double full_force, double route_mps) {
   constexpr double kLeast_mrad = 10.0;
@@ -176,7 +176,7 @@ double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
   return std::min(most, kMost_mrad);
 }
 
-/// Refuses the form of the allocation that only the simulated controller supports.
+/// Errors (input): allocations that only the simulated controller supports.
 Status check_allocation(const Model& model) {
   if (model.vehicle.allocation == AllocationForm::kExact) return {};
   return input_error(ErrorCode::kUnsupported, file_name(model) + ":/vehicle/allocation",
@@ -238,6 +238,25 @@ Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, std::optional<double
   return {};
 }
 
+/// Speed of routes and limits of the heading, for the sketches.
+void set_sketch_values(const Plant<double>& plant, const Vehicle& vehicle,
+                       const HeadingGains<double>& gains, double full_force,
+                       AutopilotParameters& parameters) {
+  const double route_mps = route_speed_mps(plant, full_force);
+  parameters.route_speed_mps = single(route_mps);
+  parameters.steady_error_rad = steady_error_rad(plant, gains, route_mps);
+  parameters.on_course_rad = single(on_course_rad(plant, gains, route_mps));
+  parameters.off_course_mrad =
+      single(off_course_mrad(plant, vehicle, gains, full_force, route_mps));
+}
+
+void set_position_filter(const Vehicle& vehicle, AutopilotParameters& parameters) {
+  const double latency_s = vehicle.sensors.position_latency_s.value_or(kUsualFixLatency_s);
+  parameters.position = position_filter<float>(
+      vehicle.sensors.position_m.value_or(kUsualFixNoise_m), latency_s, vehicle.sample_time_s);
+  parameters.position_latency_ms = static_cast<std::uint32_t>(std::lround(1000.0 * latency_s));
+}
+
 }  // namespace
 
 Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains<double>& gains,
@@ -257,17 +276,8 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   AutopilotParameters parameters;
   parameters.resistance = options.resistance;
   parameters.sample_time_s = single(model.vehicle.sample_time_s);
-  const double route_mps = route_speed_mps(plant, full_force);
-  parameters.route_speed_mps = single(route_mps);
-  parameters.steady_error_rad = steady_error_rad(plant, gains.heading, route_mps);
-  parameters.on_course_rad = single(on_course_rad(plant, gains.heading, route_mps));
-  parameters.off_course_mrad =
-      single(off_course_mrad(plant, model.vehicle, gains.heading, full_force, route_mps));
-  const SensorQuality& sensors = model.vehicle.sensors;
-  const double latency_s = sensors.position_late_s.value_or(kUsualFixLatency_s);
-  parameters.position = position_filter<float>(sensors.position_m.value_or(kUsualFixNoise_m),
-                                               latency_s, model.vehicle.sample_time_s);
-  parameters.position_latency_ms = static_cast<std::uint32_t>(std::lround(1000.0 * latency_s));
+  set_sketch_values(plant, model.vehicle, gains.heading, full_force, parameters);
+  set_position_filter(model.vehicle, parameters);
   parameters.parts = options.parts;
   if (gains.observer.is_on()) {
     parameters.parts.insert(FirmwarePart::kObserver);

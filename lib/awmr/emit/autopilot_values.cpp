@@ -104,7 +104,7 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
   const double closed_s = gains.epsilon / gains.mu;
   pilot.add(
       p, "1/(m/s)",
-      fmt::format("m'/(4 T), T = eps_s/mu_s = {:.4g} s, the time in which the loop closes",
+      fmt::format("m'/(4 T), T = eps_s/mu_s = {:.4g} s, the time constant of the closed loop",
                   closed_s),
       [closed_s](const Plant<double>& plant) { return plant.mass_norm / (4.0 * closed_s); }, usual);
   pilot.add(
@@ -156,7 +156,8 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
         kUsual);
     return;
   }
-  // s/r with l_f g1(u) tan(s d_max/2) = g3(r); above MOT_SPD_SCA_BASE = 1 m/s ArduPilot divides s by u
+  // s/r with l_f g1(u) tan(s d_max/2) = g3(r); above MOT_SPD_SCA_BASE = 1 m/s ArduPilot divides s
+  // by u
   pilot.add(
       kName, "1/(rad/s)",
       "s/r with l_f g1(u) tan(s d_max/2) = g3(r) at s = 0.5 and CRUISE_SPEED, times u above "
@@ -227,7 +228,7 @@ void add_steered(Autopilot& pilot) {
             [](const Plant<double>& plant) { return plant.steering_max_rad; });
   pilot.add("RA_STR_RATE_LIM", "deg/s", "the steering's fastest turn",
             [](const Plant<double>& plant) { return degrees(plant.steering_max_rate_radps); });
-  pilot.leave_out("RA_WHEEL_BASE", "the model knows the front axle alone; measure it");
+  pilot.leave_out("RA_WHEEL_BASE", "the model has only the front axle; measure it");
   for (const char* name : {"RO_YAW_RATE_CORR", "RO_YAW_RATE_P", "RO_YAW_RATE_I"}) {
     pilot.leave_out(name,
                     "it corrects an angle that PX4 takes from the wheelbase; tune it in Acro");

@@ -65,7 +65,7 @@ inline constexpr NameTable<FirmwarePart, 6> kFirmwarePartNames{
      {"shaping", FirmwarePart::kShaping},
      {"observer", FirmwarePart::kObserver}}};
 
-/// Table error that is negligible compared with a model's uncertainty.
+/// Default table error, negligible compared with a model's uncertainty.
 inline constexpr double kTableError = 5e-4;
 
 /// Options of the firmware.
@@ -112,7 +112,7 @@ struct EmittedTable {
   ResistanceTable view() const;
 };
 
-/// Noise of a fix, m, and its latency, s, of vehicles that do not give them.
+/// Default noise of a fix, m, and its latency, s.
 inline constexpr double kUsualFixNoise_m = 1.5;
 inline constexpr double kUsualFixLatency_s = 0.2;
 
@@ -132,11 +132,11 @@ struct AutopilotParameters {
   ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
   double table_error = 0.0;                            ///< bound for both tables
   float sample_time_s = 0.0F;                          ///< as in awmr_params.h
-  float route_speed_mps = 0.0F;   ///< of the sketches: 1 m/s, at most 60 % of what can be reached
-  double steady_error_rad = 0.0;  ///< of the heading, with motors that differ by 16 %
-  float on_course_rad = 0.0F;     ///< of the sketches: twice that, 15 deg to kMostOnCourse_rad
-  float off_course_mrad = 0.0F;   ///< of the sketches: driven with a larger one before a fault
-  PositionFilter<float> position{};       ///< of the receiver's fixes
+  float route_speed_mps = 0.0F;      ///< of the sketches: 1 m/s, at most 60 % of the largest speed
+  double steady_error_rad = 0.0;     ///< of the heading, with motors that differ by 16 %
+  float on_course_rad = 0.0F;        ///< of the sketches: twice that, 15 deg to kMostOnCourse_rad
+  float off_course_mrad = 0.0F;      ///< of the sketches: GpsLimits::off_course_mrad
+  PositionFilter<float> position{};  ///< of the receiver's fixes
   std::uint32_t position_latency_ms = 0;  ///< of the sketches' GPS
   std::set<FirmwarePart> parts;           ///< as in EmitOptions, and the observer of the gains
   std::size_t line_law = 0;               ///< as in EmitOptions

@@ -124,7 +124,7 @@ std::vector<EmittedFile> library_outline() {
 }
 
 std::string emit_schema() {
-  return json_schema_text(kEmitSchema, "What emit wrote into a directory",
+  return json_schema_text(kEmitSchema, "Manifest of the files that emit wrote into a directory",
                           [](JsonObject& json) { read_manifest(json); });
 }
 

@@ -59,7 +59,7 @@ std::string checks_text(const std::vector<Macro>& macros, bool has_observer) {
   return text + "#undef AWMR_PARAMS_CHECK\n";
 }
 
-/// Lines of the intro: worst cases by mode.
+/// Lines of the introduction: worst cases by mode.
 std::string certificate_text(const std::optional<CertifiedGains>& certificate) {
   if (!certificate) return {};
   std::string text = fmt::format(

@@ -1,5 +1,5 @@
-/// Converts a resistance law to the table that the chip interpolates (control/resistance_table.h),
-/// no larger than the error bound requires. Private to emit/.
+/// Converts a resistance law to the smallest table that meets the error bound, which the chip
+/// interpolates (control/resistance_table.h). Private to emit/.
 #pragma once
 
 #include <functional>

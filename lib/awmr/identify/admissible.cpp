@@ -31,15 +31,15 @@ void take_out(ParameterId id, std::string why, Model& model,
 
 /// Reason why a value is not allowed in a model; empty if it is.
 std::string why_not(double value, const NumberRule& rule) {
-  if (!std::isfinite(value)) return "the fit left the finite numbers";
+  if (!std::isfinite(value)) return "the fitted value is not finite";
   if (value >= rule.min && value <= rule.max) return {};
   return fmt::format("the fit gives {:.4g}, outside the allowed range [{:g}, {:g}]", value,
                      rule.min, rule.max);
 }
 
-/// The reason why the tables say nothing of m'; empty where they do. Vehicles drawn from such an interval
-/// could not be simulated: their time constants differ by as much. Intervals of logs are wide where two
-/// logs disagree, which says something.
+/// Reason why the tables do not determine m'; empty if they do. Vehicles drawn from such an
+/// interval could not be simulated: their time constants differ by as much. Intervals of logs are
+/// wide where two logs disagree, which says something.
 std::string why_open(ParameterId id, const Estimate& estimate) {
   constexpr double kMostOpen = 1e4;  // between the ends of the interval
   const auto& ci = estimate.ci95;
@@ -53,8 +53,8 @@ std::string why_open(ParameterId id, const Estimate& estimate) {
 void take_out_what_hangs_on_it(Model& model, std::map<ParameterId, std::string>& reasons) {
   const auto follow = [&](ParameterId first, ParameterId second) {
     if (!reasons.contains(first)) return;
-    take_out(second, fmt::format("{} is open: {}", info(first).name, reasons.at(first)), model,
-             reasons);
+    take_out(second, fmt::format("{} is not determined: {}", info(first).name, reasons.at(first)),
+             model, reasons);
   };
   follow(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta);
   follow(ParameterId::kSurgeBeta, ParameterId::kSurgeAlpha);

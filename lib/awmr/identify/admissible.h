@@ -8,14 +8,14 @@
 
 namespace awmr {
 
-/// Leaves the value without its standard error, interval and quantiles.
+/// Removes standard error, interval and quantiles; the value stays.
 void withdraw_uncertainty(Estimate& estimate);
 
-/// Takes every fitted or derived value out of the model that is not finite or outside of what a
-/// model file may hold, with the parameters that depend on it: an exponent without its factor says
-/// nothing, and m' nothing without the surge law. So does an m' of tables whose 95 % interval spans more than a
-/// factor of 10,000. Standard errors, intervals and covariances that are not finite go
-/// as well. Returns why, by parameter.
+/// Removes from the model every fitted or derived value that is not finite or outside the range of
+/// a model file, and the parameters that have no meaning without it: the exponent without its
+/// factor, m' without the surge law. Removes an m' from tables whose 95 % interval spans more than
+/// a factor of 10,000. Removes non-finite standard errors, intervals and covariances. Returns the
+/// reasons, by parameter.
 std::map<ParameterId, std::string> take_out_inadmissible(Model& model);
 
 }  // namespace awmr

@@ -14,7 +14,7 @@ namespace {
 
 /// c, 1/rad.
 constexpr Interval kTyreStiffness{0.5, 16.0};
-/// Half of a normal 95 % interval over the standard deviation.
+/// Ratio of half a normal 95 % interval to the standard deviation.
 constexpr double kNormal95 = 1.959964;
 /// 95 % quantile of a log's speed, which excludes spikes.
 constexpr double kFastestQuantile = 0.95;

@@ -15,7 +15,7 @@
 
 namespace awmr {
 
-/// Runs until nothing moves any more: the data are few, the digits cheap.
+/// Iterates until the coordinates no longer change, which is cheap for small data.
 inline ceres::Solver::Options exact_options() {
   silence_ceres();
   ceres::Solver::Options options;
@@ -39,8 +39,8 @@ inline std::string stop_reason(const ceres::Solver::Summary& summary) {
   }
 }
 
-/// The residuals at the problem's present point. Empty if one of them cannot be computed there or
-/// is not finite: Ceres then hands out nothing, or a part.
+/// The residuals at the problem's current point. Empty if one of them cannot be evaluated or is not
+/// finite; Ceres then returns none or only some of them.
 inline std::optional<Eigen::VectorXd> evaluated_residuals(
     ceres::Problem& problem, const ceres::Problem::EvaluateOptions& options) {
   std::vector<double> values;
@@ -51,7 +51,8 @@ inline std::optional<Eigen::VectorXd> evaluated_residuals(
   return residuals;
 }
 
-/// The Jacobian at the problem's present point, with its zeros. None as in evaluated_residuals().
+/// The Jacobian at the problem's current point, as a dense matrix. Empty as in
+/// evaluated_residuals().
 inline std::optional<Eigen::MatrixXd> evaluated_jacobian(
     ceres::Problem& problem, const ceres::Problem::EvaluateOptions& options) {
   ceres::CRSMatrix rows;
@@ -67,7 +68,7 @@ inline std::optional<Eigen::MatrixXd> evaluated_jacobian(
   return matrix;
 }
 
-/// Why a fit that ended is no fit: its curve or its derivatives overflow there.
+/// Reason why a converged search gives no fit: its curve or its derivatives overflow.
 inline constexpr const char* kNotFinite =
     "failed: the curve or its derivatives are not finite where the search ended";
 
@@ -79,7 +80,7 @@ inline bool converged(const ceres::Solver::Summary& summary) {
 
 namespace ceres {
 
-/// The value of a number that carries derivatives; found by its argument.
+/// The value of a Jet; found by argument-dependent lookup.
 template <class T, int N>
 T value_of(const Jet<T, N>& x) {
   return x.a;

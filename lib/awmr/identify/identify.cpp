@@ -24,7 +24,7 @@ bool asks_for_other_family(const IdentifyOptions& options) {
          options.yaw_family.family != Family::kPower;
 }
 
-/// Steady runs of motors with back-EMF hold its loss and the resistance in one.
+/// Steady runs with back-EMF only determine the sum of its loss and the resistance.
 Status check_back_emf(const Vehicle& vehicle, const TrialData& data,
                       const IdentifyOptions& options) {
   const bool is_requested =
@@ -76,7 +76,7 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
   return {};
 }
 
-/// The method of the tables, where log-linear least squares knows all requested parameters.
+/// The method of the tables: log-linear if it supports all requested parameters.
 Method method_of_tables(const IdentifyOptions& options) {
   const bool log_linear_does = !asks_for_other_family(options) && options.loss == Loss::kSquared;
   return log_linear_does ? Method::kLogLinear : Method::kNonlinear;
@@ -87,14 +87,14 @@ Method method_of(const TrialData& data, const IdentifyOptions& options) {
                                                    : Method::kTrajectory);
 }
 
-/// Another family or loss alone does not move the error: it stays a factor on the force, where
-/// log-linear least squares puts it. None: where it was measured.
+/// Noise model of the tables' fits. A request for another family or loss keeps the relative error
+/// of the force, as in log-linear least squares. Absent: the measured quantity has the error.
 std::optional<ErrorModel> noise_of_tables(const IdentifyOptions& options) {
   if (method_of_tables(options) == Method::kLogLinear) return std::nullopt;
   return ErrorModel::kLogForce;
 }
 
-/// If the logs fill the main values, the tables are still fitted, with their own method.
+/// If the logs set the main values, the tables are still fitted, with their own method.
 SubjectOptions subject_options(const IdentifyOptions& options, Method method,
                                const FamilyChoice& family) {
   const bool asks_for_noise = options.noise || options.method == Method::kNonlinear;
@@ -108,7 +108,8 @@ SubjectOptions subject_options(const IdentifyOptions& options, Method method,
           .keeps_outliers = options.keeps_outliers};
 }
 
-/// A dead zone belongs to the wheels: the surge runs show it, and it is taken off the turning runs.
+/// A dead zone is a property of the wheels: it is identified from the surge runs and subtracted
+/// from the turning runs.
 FamilyChoice yaw_family(const IdentifyOptions& options) {
   if (options.yaw_family.family == Family::kDeadZone) return {Family::kPower};
   return options.yaw_family;
@@ -121,7 +122,7 @@ void record(Step& step, Model& model) {
   std::move(step.findings.begin(), step.findings.end(), std::back_inserter(model.record.findings));
 }
 
-/// The surge or yaw law, as far as the runs show it.
+/// Fits the surge or yaw law, if the runs determine it.
 SubjectFit identify_law(const Subject& subject, const SubjectOptions& options, MainValues& values) {
   SubjectFit fit = fit_subject(subject, options);
   if (fit.chosen) set_law(subject, fit, values);
@@ -129,7 +130,7 @@ SubjectFit identify_law(const Subject& subject, const SubjectOptions& options, M
   return fit;
 }
 
-/// Surge and yaw laws from the tables. Returns the surge fit, which coast-downs build on.
+/// Fits surge and yaw laws to the tables. Returns the surge fit, which the coast-downs need.
 SubjectFit identify_laws(const Vehicle& vehicle, const TrialData& data,
                          const IdentifyOptions& options, MainValues& values, Reasons& reasons) {
   const Method method = method_of(data, options);
@@ -148,7 +149,7 @@ SubjectFit identify_laws(const Vehicle& vehicle, const TrialData& data,
   return surge;
 }
 
-/// m' and I'z from coast-downs, where there are any.
+/// Estimates m' and I'z from coast-downs, if any.
 void identify_mass(const Vehicle& vehicle, const TrialData& data, const IdentifyOptions& options,
                    const SubjectFit& surge, MainValues& values, Reasons& reasons) {
   if ((!data.coastdown || data.coastdown->rows.empty()) && data.curves.empty()) return;
@@ -179,13 +180,13 @@ bool is_fitted_to_logs(const Model& model, ParameterId id) {
   return model[id].method == name_in(kEstimatorNames, Estimator::kTrajectory);
 }
 
-/// Whether yaw resistance comes from differential turns only although the vehicle also steers.
+/// True if yaw resistance is from differential turns only, although the vehicle has steering.
 bool is_by_sides_alone(const TrialData& data, const Model& model) {
   return model.vehicle.has_steering() && data.turning && !data.turning->rows.empty() &&
          data.turning->rows.front().sides && !is_fitted_to_logs(model, ParameterId::kYawAlpha);
 }
 
-/// The rate, rad/s, that one in a hundred of the logs' readings exceed: single readings may be wrong.
+/// 99 % quantile of the logs' yaw rates, rad/s, which excludes spikes.
 std::optional<double> fastest_logged_turn_radps(const std::vector<DrivingLog>& logs) {
   constexpr double kShare = 0.99;
   std::vector<double> rates;

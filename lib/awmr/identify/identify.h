@@ -15,13 +15,13 @@ struct Identification {
   std::vector<ParameterId> refused;  ///< requested, but not identifiable: exit code 1
 };
 
-/// Errors (input): values that no option can save, such as a loss requested of the log-linear method. A
-/// parameter the data cannot identify is not an error: it has no value, a `not-identifiable`
-/// finding, and is in `refused`.
+/// Errors (input): contradictory options, such as a robust loss with the log-linear method. A
+/// parameter that the data cannot identify is not an error: it has no value and a
+/// `not-identifiable` finding, and it is in `refused`.
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings);
 
-/// The same for trials that load_trials() read; their findings come first in the record.
+/// The same for trials from load_trials(); their findings come first in the record.
 Result<Identification> identify(const Trials& trials, const IdentifyOptions& options);
 
 /// Factor from the assumed sway resistance (`assumed-sway`) to each end of its 95 % range, > 1.

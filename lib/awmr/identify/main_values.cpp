@@ -91,7 +91,7 @@ void set_joint(const JointFit& joint, MainValues& values) {
                    Source::kFitted, "joint with the surge runs", values);
 }
 
-/// Terms that the logs' families do not have are gone, whatever the tables' had.
+/// Terms that are not in the logs' families are set to 0, even if the tables' families have them.
 void set_surge_family_of_logs(Family surge, Model& model) {
   model.surge_family = surge;
   const Estimate none = given(0.0, "not in the family");
@@ -120,8 +120,8 @@ void set_given(const Vehicle& vehicle, Model& model) {
   if (vehicle.back_emf_s_per_m) {
     model[ParameterId::kBackEmf] = given(*vehicle.back_emf_s_per_m, "vehicle");
   }
-  // Wheels that stay straight have no lag. It is held at any value until the fits are done, so that
-  // none of them looks for it.
+  // Without steering there is no lag. It is fixed at an arbitrary value, so that no fit estimates
+  // it.
   constexpr double kAny_s = 1.0;
   model[ParameterId::kSteeringTimeConstant] =
       given(vehicle.has_steering() ? vehicle.steering_time_constant_s : kAny_s, "vehicle");

@@ -12,7 +12,7 @@
 
 namespace awmr {
 
-/// A model and the covariance of all that is fitted in it. Later evidence replaces earlier.
+/// A model and the covariance of its fitted parameters. Later evidence replaces earlier evidence.
 struct MainValues {
   Model& model;
   JointCovariance covariance = {};
@@ -24,8 +24,8 @@ void set_given(const Vehicle& vehicle, Model& model);
 /// A fitted resistance law with its family. Precondition: `fit` has one.
 void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values);
 
-/// m' by coast-downs and I'z from it; b1 too, where there is only a curve.
-/// Precondition: set_law() of the surge fit, where there is one.
+/// Sets m' from coast-downs, and I'z from m'; also b1, if there are curves but no surge law.
+/// Precondition: set_law() was called with the surge fit, if there is one.
 void set_mass(const MassResult& mass, const std::optional<SteadyFit>& surge, MainValues& values);
 
 /// Sets the values of the logs. `yaw_family`: of the logs' fit.

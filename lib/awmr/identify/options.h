@@ -15,52 +15,50 @@
 
 namespace awmr {
 
-/// Which estimator fills the main values.
+/// Estimator of the main values.
 enum class Method {
   kLogLinear,   ///< tables: the paper's; power law and squared loss only
-  kNonlinear,   ///< tables: where the error is on speed or time, another family or a robust loss
-  kTrajectory,  ///< logs: where there are drives rather than runs; tables fill what they lack
+  kNonlinear,   ///< tables: errors of speed or time, other families, robust losses
+  kTrajectory,  ///< logs: drives in place of single runs; tables give the parameters that logs lack
 };
 inline constexpr NameTable<Method, 3> kMethodNames{{{"log-linear", Method::kLogLinear},
                                                     {"nonlinear", Method::kNonlinear},
                                                     {"trajectory", Method::kTrajectory}}};
 
-/// Quantity with the error in the nonlinear fit: the measured one, not the one that was set
-/// exactly.
+/// Quantity with the measurement error in the nonlinear fit. The other one was set exactly.
 enum class ErrorModel {
-  kForce,     ///< the force was the uncertain one, e.g. a motor whose thrust drifts
-  kSpeed,     ///< the rate was read off a sensor
-  kTime,      ///< a known distance or angle was timed
-  kLogForce,  ///< a factor on the force: the log-linear method's assumption
+  kForce,     ///< error of the force, e.g. a motor whose thrust drifts
+  kSpeed,     ///< error of the speed or yaw rate, e.g. of a sensor
+  kTime,      ///< error of the time for a known distance or angle
+  kLogForce,  ///< relative error of the force: the assumption of the log-linear method
 };
 /// Error models that can be requested.
 inline constexpr NameTable<ErrorModel, 3> kErrorModelNames{
     {{"force", ErrorModel::kForce}, {"speed", ErrorModel::kSpeed}, {"time", ErrorModel::kTime}}};
-/// As in /estimates.
+/// Name in /estimates.
 constexpr std::string_view name_of(ErrorModel noise) {
   return noise == ErrorModel::kLogForce ? "log force" : name_in(kErrorModelNames, noise);
 }
 
 /// Loss of a residual: squares, or a robust loss that limits the effect of outliers.
 enum class Loss {
-  kSquared,  ///< default: the best where errors are normal
-  kHuber,    ///< a few runs lie off the curve
-  kCauchy,   ///< many do, or far off
-  kTukey,    ///< gross mistakes, which then count for nothing; needs a good initial guess
+  kSquared,  ///< default: optimal for normal errors
+  kHuber,    ///< a few outliers
+  kCauchy,   ///< many or large outliers
+  kTukey,    ///< ignores gross outliers; needs a good initial guess
 };
 inline constexpr NameTable<Loss, 4> kLossNames{{{"squares", Loss::kSquared},
                                                 {"huber", Loss::kHuber},
                                                 {"cauchy", Loss::kCauchy},
                                                 {"tukey", Loss::kTukey}}};
-/// As in /estimates: "Huber", "Cauchy", "Tukey".
+/// Name in /estimates: "Huber", "Cauchy", "Tukey".
 inline std::string title_of(Loss loss) {
   std::string title(name_in(kLossNames, loss));
   title.front() = static_cast<char>(title.front() - 'a' + 'A');
   return title;
 }
 
-/// One family of resistance, where it is known or to be compared with others; none to take the one
-/// with the minimum AICc, where the data are to say.
+/// The selected resistance family. Absent: the family with the minimum AICc.
 struct FamilyChoice {
   std::optional<Family> family = Family::kPower;
   /// True if the user selected the family. If false, logs are compared with every family, and one
@@ -68,39 +66,40 @@ struct FamilyChoice {
   bool requested = false;
 };
 
-/// Whether a parameter can be requested by name. A term is requested by its family; only back-EMF
-/// belongs to none.
+/// Whether a parameter can be requested by name. The terms of a family are requested by the family;
+/// back-EMF belongs to no family.
 inline bool can_be_requested(const ParameterInfo& parameter) {
   return !parameter.term || parameter.id == ParameterId::kBackEmf;
 }
 
 struct IdentifyOptions {
-  /// Default: the trajectory fit where there are logs, else log-linear, the paper's; nonlinear
-  /// where a family or a loss is requested that log-linear least squares does not know.
+  /// Default: the trajectory fit if there are logs; else log-linear as in the paper, or nonlinear
+  /// if the requested family or loss needs it.
   std::optional<Method> method = {};
-  /// Default: time where every run was timed, else speed. Set it where another was uncertain.
+  /// Default: time if every run was timed, else speed.
   std::optional<ErrorModel> noise = {};
-  FamilyChoice surge_family = {};  ///< other than power where `power-law-inadequate` is found
+  FamilyChoice surge_family = {};  ///< not power after a finding `power-law-inadequate`
   FamilyChoice yaw_family = {};
-  Loss loss = Loss::kSquared;  ///< robust where `outlier` is found and the run cannot be repeated
-  /// a1, b1, m' together from surge rows and coast-down curves: the curve then sharpens a1 and b1
-  /// too, where it is believed as much as the rows.
+  Loss loss = Loss::kSquared;  ///< robust after a finding `outlier`, if the run cannot be repeated
+  /// Fits a1, b1, m' jointly to surge rows and coast-down curves, so that the curves also improve
+  /// a1 and b1. For curves as reliable as the rows.
   bool joint = false;
-  std::vector<ParameterId> requested = {};  ///< empty: those the given trials exist for
+  std::vector<ParameterId> requested = {};  ///< empty: the parameters that the given trials measure
   /// `requested` contains all parameters; those that the vehicle does not have are left out.
   bool requested_all = false;
-  bool fit_input_delay = false;         ///< logs: one delay of all commands, s, where it is unknown
+  bool fit_input_delay = false;         ///< logs: estimates one delay of all commands, s
   std::vector<LogChannel> biases = {};  ///< logs: channels with an unknown constant offset
   std::uint64_t seed = 1;               ///< of the multistart and of the bootstrap
-  int starts = 6;     ///< logs: random initial guesses where no trial gives one; >= 0
-  int bootstrap = 0;  ///< logs: resamples, some 1000 where errors stay correlated; 0: none
-  /// Logs: seconds after which every search stops where it is; what has not converged by then is
-  /// refused. 0: none; the number of steps is bounded in any case. Where an answer is due.
+  int starts = 6;     ///< logs: number of random initial guesses if no trial gives one; >= 0
+  int bootstrap = 0;  ///< logs: number of resamples, about 1000 for correlated errors; 0: none
+  /// Logs: time limit of the searches, s, for a result by a deadline. Fits that have not converged
+  /// by then are refused. 0: no time limit; the number of steps is limited in any case.
   double time_limit_s = 0.0;
-  bool cross_validate = false;  ///< logs: leave one out, predict it; where there are two or more
+  bool cross_validate = false;  ///< logs: fits without each log in turn and predicts it; needs two
+                                ///< logs
   int threads = 0;              ///< 0: all; the result does not depend on it
   bool side_by_side =
-      true;  ///< false: the requested estimator alone, without its alternatives and tests
+      true;  ///< false: only the requested estimator, without alternatives and tests
   bool keeps_outliers = false;  ///< tables: gross outliers are fitted with the other runs
   /// Logs: called with a description of each step as it begins. Does not affect the result.
   std::function<void(std::string_view)> doing = {};

@@ -15,7 +15,7 @@ bool has_coastdown(const TrialData& data) {
 
 bool is_assumed(const Estimate& estimate) { return estimate.method == kAssumedSwayMethod; }
 
-/// Why the tables do not show a parameter.
+/// Reason why the tables do not determine a parameter.
 std::string table_reason(ParameterId id, const TrialData& data, const Reasons& reasons) {
   switch (id) {
     case ParameterId::kSurgeAlpha:
@@ -23,14 +23,14 @@ std::string table_reason(ParameterId id, const TrialData& data, const Reasons& r
       if (!data.surge) return reasons.curve_alone ? reasons.mass : "there is no surge trial";
       if (!reasons.surge.empty()) return reasons.surge;
       return fmt::format(
-          "the usable surge rows ({}) do not hold two different tau_speed with different speeds",
+          "the usable surge rows ({}) do not contain two different tau_speed with different speeds",
           data.surge->rows.size());
     case ParameterId::kYawAlpha:
     case ParameterId::kYawBeta:
       if (!data.turning) return "there is no turning trial";
       if (!reasons.turning.empty()) return reasons.turning;
       return fmt::format(
-          "the usable turning rows ({}) do not hold two different tau_turn with different yaw "
+          "the usable turning rows ({}) do not contain two different tau_turn with different yaw "
           "rates",
           data.turning->rows.size());
     case ParameterId::kMassNorm:

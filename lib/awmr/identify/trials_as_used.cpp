@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// u or r by the law that is in the model, and the stop time.
+/// Prediction of u or r by the model's law, and of the stop time.
 std::optional<double> predicted(const Model& model, TrialKind kind, double input) {
   const auto surge = fitted_law(model, TrialKind::kSurge);
   const auto yaw = fitted_law(model, TrialKind::kTurning);

@@ -1,4 +1,4 @@
-/// The rows of the tables as they went into a model. Private to identify/.
+/// Rows of the tables as used in the identification. Private to identify/.
 #pragma once
 
 #include <vector>

@@ -11,9 +11,9 @@ struct WithInterval {
   Interval ci95 = {};
 };
 
-/// The field f in the vehicle's plane, ahead and to the left, in any unit, describes an ellipse as
-/// the vehicle turns. Magnets that turn with the vehicle shift its centre (hard iron); iron deforms
-/// it (soft iron).
+/// While the vehicle turns, the field f in its plane (ahead and left, in any unit) describes an
+/// ellipse. Magnets that turn with the vehicle shift its centre (hard iron); iron deforms it (soft
+/// iron).
 ///     c = S (f - o),  S symmetric, det S = 1,  |c| = field
 ///     heading = atan2(-c_left, c_ahead) - declination, counter-clockwise from true north
 struct CompassCalibration {

@@ -43,12 +43,14 @@ struct Plant {
   T back_emf_s_per_m = T(0.0);
   /// 1: all four wheels are driven, as in the paper; 0: only the front wheels. Given.
   T rear_driven = T(1.0);
-  /// c, m, >= 0: Coulomb yaw moment over F_max that the tyres' scrub adds to g3 in a turn by left and
-  /// right wheel forces alone, see scrub_moment_m(). 0: none, as in the paper. From differential turns.
+  /// c, m, >= 0: Coulomb yaw moment over F_max that the tyres' scrub adds to g3 in a turn by left
+  /// and
+  /// right wheel forces alone, see scrub_moment_m(). 0: none, as in the paper. From differential
+  /// turns.
   T yaw_scrub_m = T(0.0);
 };
 
-/// g3 with all of the scrub: the steepest resistance to yaw that steps have to resolve.
+/// g3 plus the whole scrub: upper bound of the yaw resistance, for the choice of the step length.
 template <class T>
 Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   Resistance<T> law = p.yaw;
@@ -56,10 +58,10 @@ Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   return law;
 }
 
-/// The moment of the tyres' scrub against a yaw rate r, m: straight wheels that turn with the vehicle
-/// are dragged sideways, steered ones roll. c is measured where the whole turn is differential, and none
-/// where it is all steered, so it is scaled by the differential share of the moment:
-///   N_c = c q sgn r,   q = |tau_diff|/(|tau_diff| + |tau_steering|),   q = 0 where neither turns
+/// The moment of the tyres' scrub against a yaw rate r, m. In a differential turn the straight
+/// wheels are dragged sideways; in a steered turn they roll. c is measured in differential turns,
+/// so it is scaled by the differential share of the moment:
+///   N_c = c q sgn r,   q = |tau_diff|/(|tau_diff| + |tau_steering|),   q = 0 without a moment
 /// Below the yaw resistance's rest speed N_c is its chord, as g3 is.
 template <class T>
 T scrub_moment_m(const Plant<T>& p, const T& yaw_rate_radps, const T& tau_steering_m,
@@ -176,7 +178,7 @@ T steering_rate(const Plant<T>& p, const T& steering_rad, const T& steering_comm
 
 namespace detail {
 
-/// The forces of the motors of these commands: beyond the dead zone, less back-EMF.
+/// The motor forces for these commands, with dead zone and back-EMF.
 template <class T>
 WheelForces<T> wheel_forces(const Plant<T>& p, const State<T>& s, const WheelForces<T>& command) {
   using math::any;
@@ -213,7 +215,7 @@ T scrub_of(const Plant<T>& p, const State<T>& s, const YawMoments<T>& tau) {
 
 }  // namespace detail
 
-/// Rates of the state where each wheel has a force of its own, F' = motor_force(). With S_f = F'FL + F'FR and
+/// Rates of the state with individual wheel forces F' = motor_force(). With S_f = F'FL + F'FR and
 /// S_r = F'RL + F'RR, the last three are
 ///   u_dot = (S_f cos d_r + S_r + m' r v - g1(u)) / m'
 ///   v_dot = (S_f sin d_r       - m' r u - g2(v)) / m'
@@ -314,7 +316,7 @@ State<T> side_driven_rates(const Plant<T>& p, const State<T>& s, const SideForce
                        steering_rate(p, s.steering_rad, steering_command_rad));
 }
 
-/// Each wheel's command where the wheels of a side are commanded alike.
+/// Each wheel's command if both wheels of a side have the same command.
 template <class T>
 WheelForces<T> by_wheel(const Plant<T>& p, const SideForces<T>& f) {
   return {f.left, f.right, p.rear_driven * f.left, p.rear_driven * f.right};
@@ -324,7 +326,7 @@ const WheelForces<T>& by_wheel(const Plant<T>&, const WheelForces<T>& f) {
   return f;
 }
 
-/// Work that the ground takes by scrub per second, over F_max, m/s, >= 0: N_c r; 0 without scrub.
+/// Power dissipated by scrub, over F_max, m/s, >= 0: N_c r; 0 without scrub.
 template <class T>
 T scrub_power_mps(const Plant<T>& p, const State<T>& s, const SideForces<T>& f) {
   using math::cos;
@@ -335,9 +337,8 @@ T scrub_power_mps(const Plant<T>& p, const State<T>& s, const SideForces<T>& f) 
   return detail::scrub_of(p, s, tau) * s.r_radps;
 }
 
-/// Rates of the state where the wheels of a side are commanded alike. With back-EMF, or where the rear
-/// wheels are not driven, those push otherwise than the front ones of their side: each by itself. Scrub
-/// is in the equations by wheel as well.
+/// Rates of the state if both wheels of a side have the same command. Uses the equations by wheel
+/// with back-EMF or undriven rear wheels, where front and rear forces differ, and with scrub.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                      const T& steering_command_rad) {

@@ -16,7 +16,7 @@ struct HeadingGains {
   /// is proportional to S. Larger: less chattering, a softer response.
   T epsilon;
   /// w0, rad/s, >= 0.02: with Coulomb friction in yaw, the rest_speed of the g3 that is fed forward
-  /// (fed_forward()). Wider: less of the heading's noise passes, and a larger error is left at rest.
+  /// (fed_forward()). Larger: less heading noise in the command, and a larger error at rest.
   T friction_width_radps = feed_forward_rest_speed<T>();
 
   /// T1, s: on the surface S = 0 the error falls as exp(-t/T1).

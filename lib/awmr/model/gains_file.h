@@ -17,8 +17,8 @@ namespace awmr {
 /// and ignored. Errors: as read_json_file; gains that are missing or not above 0.
 Result<Gains<double>> read_gains(const std::filesystem::path& path);
 
-/// Reads `/certificate`; absent in files that were not tuned, and in those of before it. Errors: as read_gains; a
-/// certificate in another form.
+/// Reads `/certificate`; absent in files that were not tuned, and in older files. Errors: as
+/// read_gains; a certificate in another form.
 Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path);
 
 /// Read-back of gains.json (core/file.h).

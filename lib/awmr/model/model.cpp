@@ -122,7 +122,7 @@ Plant<double> Model::plant_as_known() const {
         (*this)[parameter.id].value.value_or(none_of(parameter.id));
   }
   Plant<double> plant = plant_of(vehicle, values);
-  // Below 0 by chance alone: tyres that are dragged sideways do not help.
+  // Negative values are due to noise, because scrub cannot drive a turn.
   if (yaw_scrub) plant.yaw_scrub_m = std::max(yaw_scrub->moment_m, 0.0);
   return plant;
 }

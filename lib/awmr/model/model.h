@@ -42,7 +42,7 @@ inline constexpr std::array<QuantileInfo, kQuantileCount> kQuantiles{{
     {"0.75", 0.75, 0.6744897501960817},
     {"0.975", 0.975, 1.959963984540054},
 }};
-/// By kQuantiles, not falling.
+/// By kQuantiles, ascending.
 using Quantiles = std::array<double, kQuantileCount>;
 
 /// One identified number with its uncertainty and its origin.
@@ -52,7 +52,7 @@ struct Estimate {
   std::optional<Interval> ci95;     ///< 95 % confidence interval; absent as `std_error`
   Source source = Source::kGiven;
   std::string method;  ///< "log-linear", "box formula", "vehicle.json", ...
-  /// Of what the trials leave open, where that is not a normal about `value`: the interval's ends, the
+  /// Quantiles of the uncertainty if it is not normal about `value`: the ends of the interval, the
   /// quartiles and the median. Plants are drawn from them (simulate/plant_sampler.h).
   std::optional<Quantiles> quantiles = {};
 };
@@ -107,8 +107,8 @@ struct Model {
   Family yaw_family = Family::kPower;
   std::array<Estimate, kParameterCount> estimates;  ///< by ParameterId
   Covariance covariance;
-  /// The least m', s^2/m, > 0, with which no coast-down decelerates by more than tyres of friction
-  /// kTyreFriction hold: g1(u)/(mu g). Absent where the identified m' is plausible.
+  /// Smallest m', s^2/m, > 0, with which no coast-down exceeds the deceleration limit of tyres with
+  /// friction kTyreFriction: g1(u)/(mu g). Absent if the identified m' is plausible.
   std::optional<double> mass_norm_by_grip;
   std::optional<YawScrub> yaw_scrub;  ///< absent: no turning trial determines it
   /// The largest yaw moment by left and right wheel forces, m, > 0, for which the vehicle did not

@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::string_view kModelSchema = "awmr.model/1";
 
-/// A number whose logarithm is drawn has to be positive; an exponent's or a term's spread may reach
-/// below 0.
+/// A number with a logarithmic coordinate has to be positive; the interval of an exponent or a term
+/// can extend below 0.
 NumberRule rule_of_quantile(ParameterId id) {
   return scale_of(id) == Scale::kLogarithmic ? kPositive : kAnyNumber;
 }
@@ -41,7 +41,7 @@ Json estimate_to_json(const Estimate& estimate, std::string_view unit) {
   return json;
 }
 
-/// All five, in rising order and each in the parameter's range.
+/// Reads all five, which must be ascending and in the parameter's range.
 Quantiles quantiles_from_json(JsonObject json, const ParameterInfo& parameter) {
   Quantiles quantiles{};
   for (std::size_t q = 0; q < kQuantileCount; ++q) {
@@ -120,7 +120,7 @@ void put_estimates(Json& json, const Model& model) {
   if (model.yaw_family != Family::kPower) json["yaw"]["family"] = name_of(model.yaw_family);
 }
 
-/// /si: computed from the rest of the file, for readers. It is not read back.
+/// Writes /si, which is computed from the rest of the file for users, and not read back.
 void put_si(Json& json, const Model& model) {
   for (const SiQuantity& quantity : si_quantities(model)) {
     json["si"][Json::json_pointer(quantity.pointer)] =
@@ -234,7 +234,7 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
   };
   const Interval ci = scrub.ci95_m;
   check(ci.contains(scrub.moment_m), "ci95_m",
-        fmt::format("[{:g}, {:g}] does not hold moment_m {:g}", ci.lo, ci.hi, scrub.moment_m));
+        fmt::format("[{:g}, {:g}] does not contain moment_m {:g}", ci.lo, ci.hi, scrub.moment_m));
   check(ci.hi >= 0.0, "ci95_m",
         fmt::format("[{:g}, {:g}] is all below 0: scrub does not help to turn", ci.lo, ci.hi));
   // Student's quantile: 12.7 with one degree of freedom, 1.96 with many.
@@ -263,10 +263,10 @@ std::vector<Fault> self_contradictions(const Model& model) {
   for (const ParameterInfo& parameter : parameter_table()) {
     const Estimate& estimate = model[parameter.id];
     if (!estimate.value || !estimate.ci95 || estimate.ci95->contains(*estimate.value)) continue;
-    faults.push_back({ErrorCode::kContradiction,
-                      fmt::format("{}:{}/ci95", model.file, parameter.pointer),
-                      fmt::format("[{:g}, {:g}] does not hold the value {:g}; null is no interval",
-                                  estimate.ci95->lo, estimate.ci95->hi, *estimate.value)});
+    faults.push_back(
+        {ErrorCode::kContradiction, fmt::format("{}:{}/ci95", model.file, parameter.pointer),
+         fmt::format("[{:g}, {:g}] does not contain the value {:g}; null is no interval",
+                     estimate.ci95->lo, estimate.ci95->hi, *estimate.value)});
   }
   if (model.yaw_scrub) add_scrub_contradictions(*model.yaw_scrub, model, faults);
   const Covariance& covariance = model.covariance;

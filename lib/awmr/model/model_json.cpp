@@ -23,8 +23,7 @@ constexpr NameTable<TrialKind, 3> kTableNames{
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Maximum relative difference of m(i,j) and m(j,i): the last digits of such sums depend on the
-/// order.
+/// Maximum relative difference of m(i,j) and m(j,i), which differ by rounding.
 constexpr double kSymmetryTolerance = 1e-9;
 
 /// True for the name of a parameter, or of another quantity that a fit estimates.
@@ -99,7 +98,7 @@ void check_covariance(JsonObject& json, const std::vector<std::vector<double>>& 
       m, [&](const std::vector<double>& row) { return row[at(&row - m.data())] >= 0.0; });
   if (variances && !are_correlations(m)) {
     json.fault(ErrorCode::kContradiction, "matrix",
-               "is no covariance: its correlations contradict each other");
+               "is not positive semi-definite: its correlations contradict each other");
   }
 }
 

@@ -44,9 +44,9 @@ const std::array<ParameterInfo, kParameterCount>& parameter_table() {
       {ParameterId::kYawQuadratic, "yaw.quadratic", "/yaw/quadratic", "q3", "m s^2/rad^2",
        "quadratic part of the yaw resistance over F_max", kTurningTrial, true},
       {ParameterId::kWheelDeadZone, "wheel.dead_zone", "/wheel/dead_zone", "F'0", "1",
-       "part of each wheel's command that moves nothing, over F_max", kSurgeTrial, true},
+       "part of each wheel's command without effect, over F_max", kSurgeTrial, true},
       {ParameterId::kBackEmf, "motor.back_emf_s_per_m", "/motor/back_emf_s_per_m", "k_e", "s/m",
-       "force that a motor loses per m/s at its wheel, over F_max",
+       "decrease of a motor's force per m/s at its wheel, over F_max",
        "a log of driven stretches and, from the same speeds, of coasting with the motors off "
        "(both forces 0)",
        true},

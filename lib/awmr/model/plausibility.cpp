@@ -74,7 +74,7 @@ std::optional<Scale> likely_scale(double mass_per_area) {
 }
 
 /// Checks length against width. Corrects the one that is too large by a unit factor.
-void judge_shape(Vehicle& vehicle, std::vector<Implausible>& found) {
+void check_shape(Vehicle& vehicle, std::vector<Implausible>& found) {
   constexpr Interval kShape{0.2, 10.0};
   const double ratio = vehicle.length_m / vehicle.width_m;
   if (kShape.contains(ratio)) return;
@@ -88,7 +88,7 @@ void judge_shape(Vehicle& vehicle, std::vector<Implausible>& found) {
 }
 
 /// Checks mass over the footprint. Corrects a value in another unit.
-void judge_mass(Vehicle& vehicle, std::vector<Implausible>& found) {
+void check_mass(Vehicle& vehicle, std::vector<Implausible>& found) {
   constexpr Interval kMassPerArea{1.0, 5000.0};
   const double per_area = vehicle.mass_kg / (vehicle.length_m * vehicle.width_m);
   if (kMassPerArea.contains(per_area)) return;
@@ -115,7 +115,7 @@ void judge_mass(Vehicle& vehicle, std::vector<Implausible>& found) {
   }
 }
 
-void judge_axles(const Vehicle& vehicle, std::vector<Implausible>& found) {
+void check_axles(const Vehicle& vehicle, std::vector<Implausible>& found) {
   const double track = 2.0 * vehicle.half_track_m / vehicle.width_m;
   if (!Interval{0.2, 1.2}.contains(track)) {
     found.push_back(
@@ -137,7 +137,7 @@ void judge_axles(const Vehicle& vehicle, std::vector<Implausible>& found) {
   }
 }
 
-void judge_inertia(const Vehicle& vehicle, std::vector<Implausible>& found) {
+void check_inertia(const Vehicle& vehicle, std::vector<Implausible>& found) {
   if (!vehicle.yaw_inertia_kgm2) return;
   Vehicle box = vehicle;
   box.yaw_inertia_kgm2.reset();
@@ -153,7 +153,7 @@ void judge_inertia(const Vehicle& vehicle, std::vector<Implausible>& found) {
                          : "; is it another vehicle's? Without this key the box is used")});
 }
 
-void judge_steering(const Vehicle& vehicle, std::vector<Implausible>& found) {
+void check_steering(const Vehicle& vehicle, std::vector<Implausible>& found) {
   if (!vehicle.has_steering()) return;
   if (vehicle.steering_max_deg < 2.0) {
     found.push_back({"/steering/max_deg",
@@ -179,12 +179,12 @@ void judge_steering(const Vehicle& vehicle, std::vector<Implausible>& found) {
 
 std::vector<Implausible> implausible_values(const Vehicle& vehicle) {
   std::vector<Implausible> found;
-  Vehicle mended = vehicle;
-  judge_shape(mended, found);
-  judge_mass(mended, found);
-  judge_axles(mended, found);
-  judge_inertia(mended, found);
-  judge_steering(mended, found);
+  Vehicle corrected = vehicle;
+  check_shape(corrected, found);
+  check_mass(corrected, found);
+  check_axles(corrected, found);
+  check_inertia(corrected, found);
+  check_steering(corrected, found);
   return found;
 }
 

@@ -3,7 +3,7 @@
 ///
 ///     mass over the footprint m/(length width)    1 to 5000 kg/m^2: from a toy to a mining truck
 ///     length over width                           1/5 to 10
-///     track 2 d over width                        0.2 to 1.2: the wheels are about where the body ends
+///     track 2 d over width                        0.2 to 1.2: wheels at the sides of the body
 ///     front axle l_f over half of the length      0.02 to 1
 ///     Iz over the box's m (length^2 + width^2)/12 1/20 to 3: all mass in the corners makes 3
 ///     steering stop                               2 deg and more: 90 deg are 1.6 rad

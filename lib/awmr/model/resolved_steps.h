@@ -1,5 +1,5 @@
-/// Runge-Kutta steps that are halved where the motion is too fast for them. Templates on the scalar: a
-/// double, or a batch with a trajectory per lane (simulate/vehicle_steps.h).
+/// Runge-Kutta steps with halving if the motion is too fast for the step. Templates on the scalar:
+/// a double, or a batch with a trajectory per lane (simulate/vehicle_steps.h).
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -7,17 +7,17 @@
 
 namespace awmr {
 
-/// The largest product of a rate (1/s) and an RK4 step: a deviation that dies out at this rate
-/// does so without changing its sign, and Runge-Kutta is stable to 2.78.
+/// Largest product of a rate (1/s) and an RK4 step, with which deviations decay without a change of
+/// sign. Runge-Kutta is stable up to 2.78.
 inline constexpr double kMostRateTimesStep = 1.0;
 
-/// A step is halved at most this often, and a run has at most so many halves.
+/// Largest number of halvings of a step, and of halved steps in a run.
 inline constexpr int kMostHalvings = 40;
 inline constexpr double kMostHalves = 5e7;
 
-/// g'(w)/inertia, at which a deviation from the speed w dies out:
+/// Rate at which a deviation from the speed w decays, g'(w)/inertia:
 ///   g'(w) = alpha beta |w|^(beta-1) + 2 q |w|
-/// For beta <= 1 it falls with |w| and is below 1/h from the chord's end on, by the choice of h.
+/// For beta <= 1 it decreases with |w|, and beyond the chord it is below 1/h, by the choice of h.
 template <class T>
 T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   using math::abs;
@@ -27,7 +27,7 @@ T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   const T w = abs(speed);
   const Mask<T> counts = (law.beta >= T(1.0) || law.quadratic > T(0.0)) && !(w < law.rest_speed);
   if (!any(counts)) return T(0.0);
-  // Lanes that do not count compute with a speed of 1, which is then left out.
+  // Lanes without a result, or at rest, compute with a speed of 1, which is replaced below.
   const Mask<T> moves = w > T(0.0);
   const T power = pow(select(counts && moves, w, T(1.0)), T(law.beta - T(1.0)));
   const T share = select(moves || !(law.beta > T(1.0)), power, T(0.0));
@@ -35,8 +35,8 @@ T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   return select(counts, T((slope + T(2.0) * law.quadratic * w) / inertia), T(0.0));
 }
 
-/// Faster than this nothing of the plant changes at `at`: resistance that grows with speed, and
-/// the turning of the velocity in the vehicle's frame (m' r v and m' r u), at r.
+/// Upper bound of the rates of change of the plant at `at`: of the resistances, and of the rotation
+/// of the velocity in the vehicle's frame (m' r v and m' r u), which is r.
 template <class T>
 T fastest_rate(const Plant<T>& plant, const State<T>& at) {
   using math::abs;
@@ -48,7 +48,7 @@ T fastest_rate(const Plant<T>& plant, const State<T>& at) {
   return select(faster < yaw, yaw, faster);
 }
 
-/// `a` where the mask holds, else `b`.
+/// `a` in the lanes whose mask is true, else `b`.
 template <class T>
 State<T> blend(const Mask<T>& mask, const State<T>& a, const State<T>& b) {
   using math::select;
@@ -73,7 +73,8 @@ template <class Body, class T, class Rates>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution);
 
-/// Two steps of half the length where `requested`; unresolved where they would be one too many.
+/// Two steps of half the length, if `requested`; marks the run as unresolved if that exceeds the
+/// limit.
 template <class Body, class T, class Rates>
 AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates, Mask<T> requested,
                                      int halvings, Resolution<T>& resolution) {
@@ -91,8 +92,8 @@ AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates,
   return blend(halved, end, from);
 }
 
-/// One step of the classical Runge-Kutta method where it resolves the rates at both of its ends,
-/// else two of half the length. Lanes outside `requested` have no meaning.
+/// One step of the classical Runge-Kutta method if it resolves the rates at both of its ends, else
+/// two of half the length. Lanes outside `requested` are undefined.
 template <class Body, class T, class Rates>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution) {
@@ -110,7 +111,7 @@ State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates
                advance_by_halves(body, from, h, rates, requested && !fits, halvings, resolution));
 }
 
-/// True where every number is finite: 0 times a number is NaN else.
+/// True if every number is finite, because only then 0 times the number is not NaN.
 template <class T>
 Mask<T> is_finite(const State<T>& s) {
   using math::abs;
@@ -119,8 +120,8 @@ Mask<T> is_finite(const State<T>& s) {
   return abs(none) <= T(0.0);
 }
 
-/// A speed whose square would be below the normal range is rest: no crawl through subnormal
-/// numbers.
+/// Sets a speed to 0 if its square would be subnormal, because arithmetic with subnormal numbers is
+/// slow.
 template <class T>
 T settled(const T& speed) {
   using math::abs;
@@ -128,8 +129,8 @@ T settled(const T& speed) {
   return select(abs(speed) < T(1e-150), T(0.0), speed);
 }
 
-/// Moves the state on by `substeps` steps of h where `requested`, with the rates of held commands. Where
-/// the motion is not resolved, the state stays as it was.
+/// Integrates the state by `substeps` steps of h, if `requested`, with the rates at constant
+/// commands. If the motion is not resolved, the state is unchanged.
 template <class Body, class T, class Rates>
 void integrate(const Body& body, const T& h, const T& substeps, const Rates& rates,
                const Mask<T>& requested, State<T>& state, Resolution<T>& resolution) {

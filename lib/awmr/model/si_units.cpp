@@ -8,8 +8,8 @@
 namespace awmr {
 namespace {
 
-/// A variance below this share of the terms that it is the difference of is their rounding: m' has
-/// dropped out of the quantity.
+/// A variance that is smaller than this share of the terms of which it is the difference is their
+/// rounding error: the quantity does not depend on m'.
 constexpr double kRounding = 1e-14;
 
 /// True for parameters divided by F_max in the equations of motion: neither exponents nor times.

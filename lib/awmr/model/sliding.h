@@ -2,7 +2,7 @@
 ///
 /// The curve g jumps by c in both directions at rest. Over a step the friction keeps its direction,
 ///
-///     u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v,   s: 1 or -1, the way the vehicle slides
+///     u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v,   s: 1 or -1, the direction of sliding
 ///
 /// and a step in which u passes 0 ends there: the vehicle is held, u_dot = 0, while the driving
 /// force |X + m' r v| is at most c. Yaw likewise. With a chord instead of the jump, the vehicle
@@ -81,7 +81,7 @@ State<T> with_friction(const FrictionRates<T>& friction, const Sliding& way, Sta
 }
 
 /// The fraction of a step from `from` to `to` after which a speed with sliding direction `way` is
-/// 0; 1: it does not reach 0. A speed that starts at 0 is not stopped by the step.
+/// 0; 1: it does not reach 0. A speed that starts at 0 does not stop in the step.
 inline double share_until_rest(double way, double from, double to) {
   if (!(way * from > 0.0) || !(way * to < 0.0)) return 1.0;
   return from / (from - to);

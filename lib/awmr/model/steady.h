@@ -22,8 +22,8 @@ std::optional<double> steady_rate(const Resistance<double>& law, double force,
 std::optional<double> stop_time_s(const Resistance<double>& law, double mass_norm,
                                   double speed_mps);
 
-/// Time constant with which a resistance slows the motion at the speed w > 0, s: inertia w/g(w). `inertia` is
-/// m' for surge and I'z for yaw.
+/// Time constant with which a resistance slows the motion at the speed w > 0, s: inertia w/g(w).
+/// `inertia` is m' for surge and I'z for yaw.
 inline double relaxation_time_s(const Resistance<double>& law, double inertia, double w) {
   return inertia * w / law.at(w);
 }
@@ -36,7 +36,7 @@ inline double relaxation_time_s(const Resistance<double>& law, double inertia, d
 /// where the rate is 1/h:
 ///   w = g(w) h/inertia                        with Coulomb friction: solved by iteration
 ///   w = (alpha h/inertia)^(1/(1 - beta))      for a power law of beta < 1
-///   w = 0: the law needs no chord             otherwise
+///   w = 0: the law needs no chord             in other cases
 double rest_speed(const Resistance<double>& law, double inertia, double step_s);
 
 }  // namespace awmr

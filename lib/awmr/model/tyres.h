@@ -130,7 +130,7 @@ TyreForces<T> tyre_forces(const FourWheels<T>& p, const State<T>& s, const Wheel
   return made;
 }
 
-/// Work that the ground takes from the sliding tyres per second, over F_max, m/s, >= 0:
+/// Power dissipated by the sliding tyres, over F_max, m/s, >= 0:
 ///   P = -sum of F'y s
 template <class T, class Forces>
 T tyre_power_mps(const FourWheels<T>& p, const State<T>& s, const Forces& f) {
@@ -142,7 +142,7 @@ T tyre_power_mps(const FourWheels<T>& p, const State<T>& s, const Forces& f) {
 
 /// Rates of the state on four tyres. A front wheel's forces in the body's frame are
 ///   X_i = F'x cos d_r - F'y sin d_r,   Y_i = F'x sin d_r + F'y cos d_r
-/// and a rear one's F'x and F'y. Newton and Euler, as in [paper (39)] but for what resists:
+/// and a rear one's F'x and F'y. Newton and Euler, as in [paper (39)] except for the resistances:
 ///   u_dot = (sum of X_i)/m' + r v
 ///   v_dot = (sum of Y_i)/m' - r u
 ///   r_dot = (l_f (Y_FL + Y_FR - Y_RL - Y_RR) + d (X_FR - X_FL + X_RR - X_RL))/I'z
@@ -178,8 +178,8 @@ State<T> state_rates(const FourWheels<T>& p, const State<T>& s, const Forces& f,
   return d;
 }
 
-/// The smallest inertia over F_max, s^2/m, that four equal resistances along the wheels slow down,
-/// for the body's surge or yaw. A wheel's lever is at most its distance from the centre of gravity.
+/// Smallest effective inertia over F_max, s^2/m, for four equal resistances along the wheels, in
+/// surge or yaw. A wheel's lever is at most its distance from the centre of gravity.
 ///   m'_w = min(m', I'z/(l_f^2 + d^2))
 template <class T>
 T rolling_inertia(const Plant<T>& p) {
@@ -218,8 +218,8 @@ T tyre_rate(const FourWheels<T>& p, const State<T>& s) {
                                   T((wheel_m2 * front + axle_m2 * rear) / p.body.inertia_norm));
 }
 
-/// Faster than this nothing of the vehicle changes at `at`: the turning of the velocity in its frame, the
-/// tyres, and the resistance of the drives at the speed of the fastest wheel.
+/// Upper bound of the rates of change of the vehicle at `at`: of the rotation of the velocity in
+/// its frame, of the tyres, and of the resistance of the drives at the speed of the fastest wheel.
 template <class T>
 T fastest_rate(const FourWheels<T>& vehicle, const State<T>& at) {
   using math::abs;

@@ -31,10 +31,10 @@ struct SensorQuality {
   std::optional<double> yaw_rate_degps = {};          ///< deg/s, >= 0
   std::optional<double> speed_mps = {};               ///< m/s, >= 0
   std::optional<double> position_m = {};              ///< m, >= 0
-  std::optional<double> heading_late_s = {};          ///< s, >= 0
-  std::optional<double> yaw_rate_late_s = {};         ///< s, >= 0
-  std::optional<double> speed_late_s = {};            ///< s, >= 0
-  std::optional<double> position_late_s = {};         ///< s, >= 0
+  std::optional<double> heading_latency_s = {};       ///< s, >= 0
+  std::optional<double> yaw_rate_latency_s = {};      ///< s, >= 0
+  std::optional<double> speed_latency_s = {};         ///< s, >= 0
+  std::optional<double> position_latency_s = {};      ///< s, >= 0
   std::optional<double> heading_correlation_s = {};   ///< s, >= 0
   std::optional<double> yaw_rate_correlation_s = {};  ///< s, >= 0
   std::optional<double> speed_correlation_s = {};     ///< s, >= 0

@@ -71,10 +71,10 @@ constexpr SensorKey kNoiseKeys[] = {{"heading_deg", &SensorQuality::heading_deg}
                                     {"yaw_rate_degps", &SensorQuality::yaw_rate_degps},
                                     {"speed_mps", &SensorQuality::speed_mps},
                                     {"position_m", &SensorQuality::position_m}};
-constexpr SensorKey kLatencyKeys[] = {{"heading", &SensorQuality::heading_late_s},
-                                      {"yaw_rate", &SensorQuality::yaw_rate_late_s},
-                                      {"speed", &SensorQuality::speed_late_s},
-                                      {"position", &SensorQuality::position_late_s}};
+constexpr SensorKey kLatencyKeys[] = {{"heading", &SensorQuality::heading_latency_s},
+                                      {"yaw_rate", &SensorQuality::yaw_rate_latency_s},
+                                      {"speed", &SensorQuality::speed_latency_s},
+                                      {"position", &SensorQuality::position_latency_s}};
 constexpr SensorKey kCorrelationKeys[] = {{"heading", &SensorQuality::heading_correlation_s},
                                           {"yaw_rate", &SensorQuality::yaw_rate_correlation_s},
                                           {"speed", &SensorQuality::speed_correlation_s}};

@@ -14,7 +14,7 @@ namespace awmr {
 /// One point of the curve through steady runs, all in the unit of the trial's input.
 struct CurvePoint {
   double rate = 0.0;   ///< u in m/s or r in rad/s
-  double value = 0.0;  ///< input that holds this rate: tau_speed, or tau_turn in m
+  double value = 0.0;  ///< input for this steady rate: tau_speed, or tau_turn in m
   /// Half width of the 95 % confidence band at this rate; 0 without a covariance of the law.
   double half_band = 0.0;
 };

@@ -47,7 +47,7 @@ std::optional<Finding> foreign_result(const std::string& result, const Json& jso
   if (*is_of_model && is_of_gains) return std::nullopt;
   return Finding{result, 0, Severity::kWarning, "result-of-another-model",
                  fmt::format("was made from another {} than the one in this directory, and is not "
-                             "shown. Make it again, or remove it from the directory",
+                             "shown. Create it again, or remove it from the directory",
                              *is_of_model ? "gains.json" : "model.json")};
 }
 
@@ -130,8 +130,8 @@ Status read_own_samples(const std::filesystem::path& directory, ReportData& data
   const Json& comparison = data.json["comparison"];
   if (comparison.contains("csv_sha256") && comparison["csv_sha256"] != sha256_hex(bytes)) {
     data.left_out.push_back({"comparison.csv", 0, Severity::kWarning, "result-without-origin",
-                             "does not hold the rows that comparison.json was written with, and is "
-                             "not shown. Compare again (awmr compare)"});
+                             "is not the file that comparison.json was written with, and is not "
+                             "shown. Compare again (awmr compare)"});
     return {};
   }
   AWMR_ASSIGN_OR_RETURN(data.json["samples"], read_samples(path));

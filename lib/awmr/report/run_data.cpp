@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Total over all runs: a page stays below 3 MB at about 100 bytes per row.
+/// Total over all runs, so that a page is below 3 MB at about 100 bytes per row.
 constexpr std::size_t kMostRows = 20000;
 constexpr std::size_t kMostRowsOfRun = 1500;
 constexpr std::size_t kFewestRowsOfRun = 100;

@@ -1,5 +1,5 @@
-/// A part of the guidance that follows a line by a law chosen at run time. Private to the program:
-/// a firmware has one law compiled in.
+/// Line guidance with a law that is selected at run time. Private to the program: a firmware has
+/// one law compiled in.
 #pragma once
 
 #include <variant>
@@ -8,12 +8,12 @@
 
 namespace awmr {
 
-/// LineFollower by any law.
+/// LineFollower with any law.
 template <class T>
 struct AnyLineFollower {
   struct Route {
     const Position<T>* points_m;
-    int count;  ///< 0: there is no line
+    int count;  ///< number of points; 0: no line
     T corner_m;
     LineLaws<std::variant, T> law;
   } line;

@@ -34,7 +34,8 @@ const Kernel* kernel_of(const BatchArithmetic& arithmetic) {
   return nullptr;
 }
 
-/// Calls take(i, metrics, run) for each run, without metrics where a run failed or no kernel drives it.
+/// Calls take(i, metrics, run) for each run. Without metrics if the run failed or there is no
+/// kernel for it.
 template <class Take>
 void drive_by_blocks(std::span<const BatchRun> runs, const Scenario& scenario, double sample_time_s,
                      const BatchArithmetic& arithmetic, bool keeps_rows, const Take& take) {
@@ -91,7 +92,7 @@ std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
           results.emplace_back(*metrics);
           return;
         }
-        // A run that failed is reported by simulate(), or saved by it.
+        // Repeats a failed run with simulate(), which either succeeds or reports the error.
         const DrivenRun one = one_by_one(runs[i], scenario, sample_time_s);
         const Status failure = failure_of(one.run, scenario);
         results.push_back(failure ? Result<Metrics>(one.metrics) : tl::unexpected(failure.error()));

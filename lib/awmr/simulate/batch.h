@@ -1,8 +1,8 @@
-/// Many runs at once, a lane of the processor's vector registers each, through the closed loop of
-/// simulate() (closed_loop.h).
+/// Batches of runs of the closed loop of simulate() (closed_loop.h), one run per lane of the
+/// processor's vector registers.
 ///
-/// A run's numbers do not depend on the other runs, nor on its place among them. They are those of
-/// simulate() but for rounding: powers and angles are computed by other polynomials.
+/// The results of a run do not depend on the other runs or on its position. They equal those of
+/// simulate() up to rounding, because powers and angles are computed by other polynomials.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,17 @@
 
 namespace awmr {
 
-/// Standard normals by sample that the sensors of a run take their noise from. Runs that differ in plant, gains
-/// or mode alone share them: drawing them takes as long as a tenth of a run.
+/// Standard normals by sample, for the sensor noise of a run. Runs that differ only in plant, gains
+/// or mode share them, because drawing them takes a tenth of the time of a run.
 struct DrawnNoise {
   std::vector<double> heading, yaw_rate, speed;  ///< empty: the sensor has no noise
 };
 
-/// The numbers that a run with this seed and sample draws. Some 24 bytes a sample.
+/// The numbers that a run with this seed and sample draws, about 24 bytes per sample.
 DrawnNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std::uint64_t seed,
                              std::uint64_t sample);
 
-/// One of the runs: its vehicle, the controller, how it turns, and where its random numbers come from.
+/// One of the runs: vehicle, controller, yaw mode and random numbers.
 struct BatchRun {
   Plant<double> plant;
   Controller<double> controller;
@@ -37,27 +37,26 @@ struct BatchRun {
   const DrawnNoise* noise = nullptr;
 };
 
-/// By which instructions batches are computed.
+/// Instruction set for batches.
 struct BatchArithmetic {
-  /// "avx512", "avx2", "neon"; "scalar": by simulate(), one by one.
+  /// "avx512", "avx2", "neon"; "scalar": by simulate(), one run at a time.
   std::string_view instructions;
-  /// Arithmetic that results of different machines must share to have the same bytes: "fused" (a b
-  /// + c is rounded once) for every vector instruction set, "scalar" for simulate().
+  /// Results of two machines have the same bytes only if this is the same: "fused" (a b + c is
+  /// rounded once) for every vector instruction set, "scalar" for simulate().
   std::string_view rounding;
 };
 
-/// Number of runs that fill the registers; a multiple of it leaves no lane idle.
+/// Number of runs that fill the registers.
 inline constexpr std::size_t kBatchRuns = 16;
 
-/// The widest instructions that this processor has, or those named by the environment variable
-/// AWMR_INSTRUCTIONS, for tests.
-/// Errors (input): it names none that the processor has.
+/// The widest instruction set of this processor, or the one in the environment variable
+/// AWMR_INSTRUCTIONS, for tests. Errors (input): the processor does not have that one.
 Result<BatchArithmetic> batch_arithmetic();
 /// Its rounding; empty on an error.
 std::string batch_rounding();
 
-/// The metrics of each run, in order. Errors (input) of a run: as failure_of(). All controllers have
-/// the same driven wheels, split and form of the allocation.
+/// The metrics of each run, in order. Errors (input) of a run: as failure_of(). All controllers
+/// have the same driven wheels, split and form of the allocation.
 std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
                                             const Scenario& scenario, double sample_time_s,
                                             const BatchArithmetic& arithmetic);
@@ -67,8 +66,7 @@ struct DrivenRun {
   Run run;
   Metrics metrics;
 };
-/// The same runs with their rows, for who asks more of a run than its metrics. One that fails is as
-/// simulate() leaves it.
+/// The same runs with their rows. A run that fails is the result of simulate().
 std::vector<DrivenRun> drive_batch(std::span<const BatchRun> runs, const Scenario& scenario,
                                    double sample_time_s, const BatchArithmetic& arithmetic);
 

@@ -1,7 +1,7 @@
 /// The closed loop of a single run (Row = double) and of sixteen runs at a time (lanes::Row):
 ///   sensors -> guidance -> controller -> actuators -> rows and metrics -> vehicle
-/// Sensors, guidance, disturbances and the ground are computed run by run; controller, motors, motion
-/// and metrics by steps on rows (loop_steps.h, vehicle_steps.h). Private to this folder.
+/// Sensors, guidance, disturbances and the ground are computed run by run; controller, motors,
+/// motion and metrics by steps on rows (loop_steps.h, vehicle_steps.h). Private to this folder.
 #pragma once
 
 #include <cmath>
@@ -38,7 +38,7 @@ struct LoopOptions {
   bool has_metrics = false;          ///< metrics() may be called
 };
 
-/// Runs of a scenario that are driven together.
+/// Runs of one scenario that are simulated together.
 template <class Row>
 class ClosedLoop {
  public:
@@ -46,7 +46,7 @@ class ClosedLoop {
   ClosedLoop(std::span<const BatchRun> runs, const Scenario& scenario, const LoopSteps<Row>& steps,
              const LoopOptions& options);
 
-  /// Drives all runs to their ends.
+  /// Simulates all runs to their ends.
   void drive();
 
   /// End of a run, with its rows if they are kept. RunEnd::kFailed: a number was not finite, or no
@@ -56,18 +56,18 @@ class ClosedLoop {
   std::optional<Metrics> metrics(std::size_t run) const;
 
  private:
-  /// State that each run has by itself.
+  /// State of a single run.
   struct Parts {
     Sensing sensing;
     Positioning positioning;
     RunDisturbance disturbance;
     Sensed sensed = {};
-    std::optional<ScenarioGuidance> guidance = {};  ///< once the first sample is sensed
-    CourseRow course = {};                          ///< of the present sample
+    std::optional<ScenarioGuidance> guidance = {};  ///< set after the first measurement
+    PathRow path = {};                              ///< of the present sample
     RunEnd ending =
-        RunEnd::kDuration;  ///< how the present sample ends the run; kDuration: it goes on
+        RunEnd::kDuration;  ///< how the current sample ends the run; kDuration: it continues
     std::vector<RunRow> rows = {};
-    std::optional<Ending> end = {};  ///< none: it goes on, or it failed
+    std::optional<Ending> end = {};  ///< absent: it continues, or it failed
   };
 
   void set_up_controller(const BatchRun& run, std::size_t index);
@@ -102,10 +102,10 @@ ClosedLoop<Row>::ClosedLoop(std::span<const BatchRun> runs, const Scenario& scen
       runs_(std::make_unique<LoopRuns<Row>>()),
       clock_(scenario, options.samples) {
   runs_->control = controller_setup(scenario, runs.front().controller, options.sample_time_s);
-  runs_->course = metered_course(scenario);
+  runs_->task = metrics_task(scenario);
   runs_->vehicles.setup = vehicle_setup(scenario, options.sample_time_s);
   for (std::size_t i = 0; i < kRunsOf<Row>; ++i) {
-    // A place without a run has a copy of the first, so that its numbers are harmless.
+    // An unused lane has a copy of the first run, so that its numbers are valid.
     const bool has_run = i < runs.size();
     const BatchRun& run = has_run ? runs[i] : runs.front();
     set_up_controller(run, i);
@@ -141,7 +141,8 @@ void ClosedLoop<Row>::set_up_vehicle(const BatchRun& run, std::size_t index) {
                        index, runs_->vehicles);
 }
 
-/// False where the guidance is the same for all runs and no row needs it: then no run has its own.
+/// True if each run needs its own guidance. False if it is the same for all runs and no row needs
+/// it.
 template <class Row>
 bool ClosedLoop<Row>::has_own_guidance() const {
   if (runs_->control.is_open_loop) return false;
@@ -149,7 +150,7 @@ bool ClosedLoop<Row>::has_own_guidance() const {
          scenario_.avoidance || scenario_.shaping;
 }
 
-/// Calls body(run) for each run that goes on.
+/// Calls body(run) for each active run.
 template <class Row>
 template <class Body>
 void ClosedLoop<Row>::for_active(const Body& body) {
@@ -194,11 +195,11 @@ template <class Row>
 void ClosedLoop<Row>::follow(std::size_t run, const GuidanceOutput& output) {
   const auto state = run_of<State<double>>(runs_->vehicles.state, run);
   Parts& parts = parts_[run];
-  parts.course = output.course;
+  parts.path = output.path;
   put(output.reference, run, runs_->reference);
-  put(output.course.psi_goal_rad, run, runs_->goal_rad);
-  put(output.course.cross_track_m, run, runs_->cross_track_m);
-  put(distance_m(output.course.target_m, {state.x_m, state.y_m}), run, runs_->off_target_m);
+  put(output.path.psi_goal_rad, run, runs_->goal_rad);
+  put(output.path.cross_track_m, run, runs_->cross_track_m);
+  put(distance_m(output.path.target_m, {state.x_m, state.y_m}), run, runs_->off_target_m);
   if (output.no_passage && std::abs(state.u_mps) < kStopped_mps) {
     parts.ending = RunEnd::kNoPassage;
   } else if (output.finished) {
@@ -240,7 +241,7 @@ RunRow ClosedLoop<Row>::row_of(std::size_t run, double t_s) const {
           .tau_turn_m = run_of<double>(runs_->tau_turn_m, run),
           .psi_ref_rad = reference.psi_rad,
           .u_ref_mps = reference.speed_mps,
-          .course = parts.course,
+          .path = parts.path,
           .measured = parts.sensed.motion,
           .measured_position_m = parts.sensed.position_m,
           .disturbance = run_of<BodyLoad>(v.load, run),

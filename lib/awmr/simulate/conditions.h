@@ -7,8 +7,8 @@
 namespace awmr {
 
 /// Noise and latency of the sensors, lag of the motors. vehicle.json gives them (`noise`,
-/// `noise_correlation_s`, `latency_s`, `motor`); where it does not, these: a compass, a MEMS gyro and a coarse encoder, read
-/// in the sample before, and small brushed motors.
+/// `noise_correlation_s`, `latency_s`, `motor`); these are the defaults: a compass, a MEMS gyro and
+/// a coarse encoder, with a latency of one sample, and small brushed motors.
 struct LoopConditions {
   double heading_noise_deg = 1.0;
   double yaw_rate_noise_degps = 0.5;
@@ -16,16 +16,16 @@ struct LoopConditions {
   double heading_correlation_s = 0.0;
   double yaw_rate_correlation_s = 0.0;
   double speed_correlation_s = 0.0;
-  double heading_late_s = 0.02;
-  double yaw_rate_late_s = 0.02;
-  double speed_late_s = 0.02;
+  double heading_latency_s = 0.02;
+  double yaw_rate_latency_s = 0.02;
+  double speed_latency_s = 0.02;
   double motor_time_constant_s = 0.02;
 };
 
-/// The vehicle's, with the values above where it gives none.
+/// The conditions of the vehicle file, with the defaults above.
 LoopConditions conditions_of(const Vehicle& vehicle);
 
-/// The scenario under these conditions; sensors and actuators of its own stay as they are.
+/// The scenario under these conditions. Its own sensors and actuators are unchanged.
 Scenario under(const LoopConditions& conditions, Scenario scenario);
 
 }  // namespace awmr

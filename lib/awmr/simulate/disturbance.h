@@ -1,4 +1,4 @@
-/// Disturbances in time, a value per sample. Private to this folder.
+/// Disturbances over time, one value per sample. Private to this folder.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,15 @@ namespace awmr {
 struct RunSeed {
   std::uint64_t seed = 0;
   std::uint64_t sample = 0;
-  /// `use` < 1024. Apart from the streams of compare/, which are small numbers and those with
+  /// `use` < 1024. Different from the streams of compare/, which are small numbers and those with
   /// bit 63.
   Random random(std::uint64_t use) const {
     return {seed, (std::uint64_t{1} << 62U) | (sample << 10U) | use};
   }
 };
 
-/// Two seeds made one. (The odd constant is 2^64 over the golden ratio: neighbours end far apart.)
+/// Combines two seeds. (The odd constant is 2^64 over the golden ratio, so that adjacent seeds give
+/// distant results.)
 inline RunSeed run_seed(std::uint64_t scenario_seed, std::uint64_t seed, std::uint64_t sample) {
   return {scenario_seed + seed * 0x9E3779B97F4A7C15U, sample};
 }

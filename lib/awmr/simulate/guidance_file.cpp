@@ -82,16 +82,16 @@ std::vector<Position<double>> read_points(JsonObject& json, const char* key, std
   return points;
 }
 
-WaypointCourse read_waypoints(JsonObject& json) {
-  WaypointCourse course;
-  course.points_m = read_points(json, "points_m", 1);
-  course.acceptance_m = json.number("acceptance_m", kLength_m);
-  course.skip_passed = json.optional_boolean("skip_passed").value_or(false);
-  course.slow_down_m = json.optional_number("slow_down_m", kLength_m);
-  return course;
+WaypointPath read_waypoints(JsonObject& json) {
+  WaypointPath path;
+  path.points_m = read_points(json, "points_m", 1);
+  path.acceptance_m = json.number("acceptance_m", kLength_m);
+  path.skip_passed = json.optional_boolean("skip_passed").value_or(false);
+  path.slow_down_m = json.optional_number("slow_down_m", kLength_m);
+  return path;
 }
 
-/// A segment without length has no direction to follow.
+/// A segment of zero length has no direction.
 void check_segments(JsonObject& json, const char* key,
                     const std::vector<Position<double>>& points_m) {
   for (std::size_t i = 1; i < points_m.size(); ++i) {
@@ -103,12 +103,9 @@ void check_segments(JsonObject& json, const char* key,
   }
 }
 
-/// Each law with its own keys, so that those of another are unknown ones.
-void read_line_law(JsonObject& json, LineCourse& course) {
-  const std::vector<AnyLineLaw> laws = line_laws();
-  std::vector<std::string> names;
-  for (const AnyLineLaw& law : laws) names.emplace_back(name_of(law));
-  course.law = laws[json.has("law") ? json.choice("law", names) : 0];
+/// Reads a law with its own keys; those of other laws are unknown keys.
+void read_line_law(JsonObject& json, LinePath& path) {
+  path.law = line_laws()[json.has("law") ? json.choice("law", line_law_names()) : 0];
   const auto read = [&json](const char* key, double& parameter, const LawParameter& rule) {
     const NumberRule range{.min = rule.min, .max = rule.max, .min_excluded = rule.min_excluded};
     parameter = rule.unit * json.number(key, range);
@@ -117,23 +114,23 @@ void read_line_law(JsonObject& json, LineCourse& course) {
     law.sideslip_compensation = json.optional_boolean("sideslip_compensation").value_or(true);
     law.parameters(law, read);
     if (!law.kUsesCorner) return;
-    course.corner_m = json.optional_number("corner_m", kLengthOrNone_m).value_or(0.0);
+    path.corner_m = json.optional_number("corner_m", kLengthOrNone_m).value_or(0.0);
   };
-  std::visit(read_law, course.law);
+  std::visit(read_law, path.law);
 }
 
-LineCourse read_line(JsonObject& json) {
-  LineCourse course;
+LinePath read_line(JsonObject& json) {
+  LinePath path;
   if (json.has("points_m")) {
-    course.points_m = read_points(json, "points_m", 2);
-    check_segments(json, "points_m", course.points_m);
+    path.points_m = read_points(json, "points_m", 2);
+    check_segments(json, "points_m", path.points_m);
   } else {
-    course.points_m = {read_point(json, "from_m"), read_point(json, "to_m")};
-    if (json.has("from_m") && json.has("to_m")) check_segments(json, "to_m", course.points_m);
+    path.points_m = {read_point(json, "from_m"), read_point(json, "to_m")};
+    if (json.has("from_m") && json.has("to_m")) check_segments(json, "to_m", path.points_m);
   }
-  read_line_law(json, course);
-  course.slow_down_m = json.optional_number("slow_down_m", kLength_m);
-  return course;
+  read_line_law(json, path);
+  path.slow_down_m = json.optional_number("slow_down_m", kLength_m);
+  return path;
 }
 
 /// Two numbers under a key.
@@ -144,20 +141,20 @@ std::array<double, 2> read_pair(JsonObject& json, const char* key, NumberRule ru
   return {};
 }
 
-LissajousCourse read_lissajous(JsonObject& json) {
-  LissajousCourse course;
+LissajousPath read_lissajous(JsonObject& json) {
+  LissajousPath path;
   const auto amplitude_m = read_pair(json, "amplitude_m", kCoordinate_m);
   const auto rate_radps = read_pair(json, "rate_radps", kSignedRate_radps);
-  course.path = {amplitude_m[0], amplitude_m[1], rate_radps[0], rate_radps[1]};
-  course.closed_loop = json.boolean("closed_loop");
+  path.path = {amplitude_m[0], amplitude_m[1], rate_radps[0], rate_radps[1]};
+  path.closed_loop = json.boolean("closed_loop");
   if (const auto gain = json.optional_number("position_gain_per_s", kRate)) {
-    if (!course.closed_loop) {
+    if (!path.closed_loop) {
       json.fault(ErrorCode::kConflict, "position_gain_per_s", "is for closed_loop true only");
     }
-    course.position_gain_per_s = *gain;
+    path.position_gain_per_s = *gain;
   }
-  course.tolerance_m = json.optional_number("tolerance_m", kLength_m).value_or(course.tolerance_m);
-  return course;
+  path.tolerance_m = json.optional_number("tolerance_m", kLength_m).value_or(path.tolerance_m);
+  return path;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-/// Controllers and meters of runs that are driven together, as steps on rows (row_view.h). With the
-/// vehicles' steps they are the arithmetic of the closed loop, for a double and for a register of
-/// doubles. Private to this folder.
+/// Controllers and meters of runs that are simulated together, as steps on rows (row_view.h).
+/// Together with vehicle_steps.h this is the arithmetic of the closed loop, for a double and for a
+/// register of doubles. Private to this folder.
 #pragma once
 
 #include "awmr/simulate/meter.h"
@@ -9,12 +9,12 @@
 
 namespace awmr {
 
-/// All numbers of runs of one scenario. Plain data: the kernels of lanes/ are compiled for other
-/// instruction sets than the rest of the program, and share no code with it.
+/// All numbers of runs of one scenario. Plain data, because the kernels of lanes/ are compiled for
+/// other instruction sets and share no code with the rest of the program.
 template <class Row>
 struct LoopRuns {
   ControllerSetup control;
-  MetricsCourse course;
+  MetricsTask task;
   MetricsTime time;  ///< of the present sample
 
   Vehicles<Row> vehicles;
@@ -23,8 +23,8 @@ struct LoopRuns {
   MetricsVehicle<Row> metered;
   MetricsAccumulator<Row> sums;
 
-  // Values of the present sample: measurements, references and requests of the controller; its
-  // commands are the vehicles'.
+  // Values of the current sample: measurements, references and requests of the controller. Its
+  // commands are in the vehicles' rows.
   Measurement<Row> measured;
   Reference<Row> reference;
   Row tau_speed, tau_turn_m;
@@ -37,9 +37,9 @@ struct LoopRuns {
 template <class Row>
 struct LoopSteps {
   const char* name;
-  /// From `measured` and `reference` to the commands.
+  /// Computes the commands from `measured` and `reference`.
   void (*control)(LoopRuns<Row>& runs);
-  /// Takes the sample into the sums.
+  /// Adds the sample to the sums of the meter.
   void (*measure)(LoopRuns<Row>& runs);
   VehicleSteps<Row> vehicle;
 };
@@ -76,7 +76,7 @@ AWMR_WHOLE void measure(const View& view, LoopRuns<Row>& runs) {
       {state, view(v.force), acting_forces(view, v), view(v.steering_command_rad),
        yaw(state.r_radps), view(runs.goal_rad), view(runs.cross_track_m), view(runs.off_target_m),
        view(runs.clearance_m), view(runs.reference.speed_mps), view(v.tyre_power_mps)},
-      view(runs.metered), runs.course, runs.time, sums);
+      view(runs.metered), runs.task, runs.time, sums);
   const Mask<T> counts = view(v.active) > T(0.0);
   if (all(counts)) {
     view.store(sums, runs.sums);

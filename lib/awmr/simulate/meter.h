@@ -1,5 +1,5 @@
-/// The metrics of a run, row by row as it is driven: no row needs to be kept. Templates on the
-/// scalar: a double, or a batch with a run per lane. Private to this folder.
+/// Streaming metrics accumulator: takes each row of a run once, so no row is stored. Templates on
+/// the scalar: a double, or a batch with a run per lane. Private to this folder.
 #pragma once
 
 #include "awmr/control/controller.h"
@@ -21,44 +21,44 @@ struct MetricsVehicle {
   T steering_max_rad;  ///< d_max; 0: no steering
   T dead_zone;         ///< F'0 of the motors
   T back_emf_s_per_m;  ///< k_e of the motors
-  T rear_driven;       ///< 1; 0 where the front wheels alone are driven
+  T rear_driven;       ///< 1; 0 for front-wheel drive
 };
 
-/// Properties of the course that enter the metrics; the same for all lanes.
-struct MetricsCourse {
-  bool has_headings = false;  ///< steps of the heading, each to be settled on
-  double speed_mps = 0.0;     ///< the speed that a drop is counted from
-  /// Of a timed path: how far from its point the vehicle may be in the second half of the run.
+/// Properties of the scenario that the metrics need; the same for all lanes.
+struct MetricsTask {
+  bool has_headings = false;  ///< the guidance has heading steps
+  double speed_mps = 0.0;     ///< reference speed of a speed drop
+  /// Timed path: largest allowed distance from its point in the second half of the run.
   double tolerance_m = 0.0;
-  bool is_on_tyres = false;  ///< tyre work is that of the tyres' side forces, not against g3
+  bool is_on_tyres = false;  ///< true: tyre work is of the tyres' lateral forces; false: against g3
 };
 
-/// Input of the meter per row.
+/// Input of the meter for one row.
 template <class T>
 struct MetricsRow {
   State<T> state;
   SideForces<T> force;     ///< commanded
-  WheelForces<T> acting;   ///< of the commands, over the sample that ends here: RunRow::acting
+  WheelForces<T> acting;   ///< applied over the sample that ends here: RunRow::acting
   T steering_command_rad;  ///< d_ro
-  T yaw_resistance_m;      ///< g3(r), as the controller knows it
+  T yaw_resistance_m;      ///< g3(r) of the controller's model
   T goal_rad;              ///< the heading commanded by the guidance
-  T cross_track_m;         ///< from the present leg, line or path
-  T off_target_m;          ///< from the point gone to
+  T cross_track_m;         ///< from the current leg, line or path
+  T off_target_m;          ///< from the target point
   T clearance_m;           ///< to the nearest obstacle; 0 without obstacles
   T speed_ref_mps;         ///< u_d, reference of the speed law
-  T tyre_power_mps;        ///< of the tyres' side forces; without tyres, of scrub
+  T tyre_power_mps;        ///< of the tyres' lateral forces; without tyres, of scrub
 };
 
-/// When a row is; the same for all lanes.
+/// Time of a row; the same for all lanes.
 struct MetricsTime {
   double t_s = 0.0;
-  double since_last_s = 0.0;  ///< from the row before; not of the first row
+  double since_last_s = 0.0;  ///< time since the previous row; not for the first row
   bool is_first = false;
-  bool starts_step = false;  ///< the commanded heading is not that of the row before
+  bool starts_step = false;  ///< the commanded heading differs from that of the previous row
   bool is_in_second_half = false;
 };
 
-/// Sums over the rows so far, of T alone. Flags are 0 or 1.
+/// Sums over the rows so far. All members are of type T; flags are 0 or 1.
 template <class T>
 struct MetricsAccumulator {
   T rows = T(0.0);
@@ -79,7 +79,7 @@ struct MetricsAccumulator {
   T speed_least_mps = T(0.0);
   T speed_itae_m_s = T(0.0);
   T steering_rate2_degps2 = T(0.0);  ///< squares of the commanded angle's rates
-  // Of the headings: sums over all steps, then those of the present step.
+  // Headings: sums over all steps, then those of the current step.
   T settling_s = T(0.0);
   T never_settled = T(0.0);  ///< flag: at the end of a step
   T overshoot_deg = T(0.0);
@@ -88,8 +88,8 @@ struct MetricsAccumulator {
   T step_start_s = T(0.0);
   T step_deg = T(0.0);
   T out_of_band = T(0.0);  ///< flag
-  T settled_s = T(0.0);    ///< from the step's start
-  // Of the row before.
+  T settled_s = T(0.0);    ///< time from the step's start
+  // Values of the previous row.
   T error_deg = T(0.0);
   T speed_error_m = T(0.0);  ///< t |u_d - u|
   T t_s = T(0.0);
@@ -113,7 +113,7 @@ using math::larger;
 /// Power and copper loss of the motors over a sample.
 template <class T>
 struct MotorWork {
-  T power_mps;  ///< that the four wheels put into the vehicle, over F_max: sum of F' w above 0
+  T power_mps;  ///< power of the four wheels over F_max: sum of max(0, F' w)
   T copper;     ///< half the sum of the wheels' F'^2
 };
 
@@ -155,7 +155,7 @@ Mask<T> at_a_limit(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle) {
           abs(row.steering_command_rad) >= vehicle.steering_max_rad);
 }
 
-/// A commanded angle over the largest; 0 where the vehicle has no steering.
+/// Commanded angle over the largest; 0 without steering.
 template <class T>
 T share_of_stop(const T& steering_rad, const T& steering_max_rad) {
   using math::select;
@@ -163,7 +163,7 @@ T share_of_stop(const T& steering_rad, const T& steering_max_rad) {
   return select(steers, T(steering_rad / select(steers, steering_max_rad, T(1.0))), T(0.0));
 }
 
-/// The step that the rows so far were of is over.
+/// Ends the current heading step.
 template <class T>
 void close_step(MetricsAccumulator<T>& m) {
   using math::select;
@@ -199,12 +199,12 @@ void measure_heading(const MetricsRow<T>& row, const MetricsTime& time, MetricsA
   m.error_deg = error_deg;
 }
 
-/// The least speed after the commanded one was first reached within 0.1 %.
+/// Smallest speed after the commanded one was first reached within 0.1 %.
 template <class T>
-void measure_speed(const T& u_mps, const MetricsCourse& course, MetricsAccumulator<T>& m) {
+void measure_speed(const T& u_mps, const MetricsTask& task, MetricsAccumulator<T>& m) {
   using math::select;
   const Mask<T> was = m.speed_reached > T(0.0);
-  const Mask<T> counts = was || u_mps >= T((1.0 - kReachedShare) * course.speed_mps);
+  const Mask<T> counts = was || u_mps >= T((1.0 - kReachedShare) * task.speed_mps);
   const T least = select(was && !(u_mps < m.speed_least_mps), m.speed_least_mps, u_mps);
   m.speed_least_mps = select(counts, least, m.speed_least_mps);
   m.speed_reached = select(counts, T(1.0), T(0.0));
@@ -292,22 +292,22 @@ void remember(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, double
 
 }  // namespace meter
 
-/// Takes a row into the sums; in order, from the first.
+/// Adds a row to the sums. Call it for every row, in order.
 template <class T>
-void measure(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle,
-             const MetricsCourse& course, const MetricsTime& time, MetricsAccumulator<T>& m) {
+void measure(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, const MetricsTask& task,
+             const MetricsTime& time, MetricsAccumulator<T>& m) {
   using math::select;
   m.rows += T(1.0);
-  if (course.has_headings) meter::measure_heading(row, time, m);
+  if (task.has_headings) meter::measure_heading(row, time, m);
   meter::measure_motion(row, vehicle, time.is_first, m);
   if (!time.is_first) {
-    meter::measure_work(row, vehicle, course.is_on_tyres, time.since_last_s, m);
+    meter::measure_work(row, vehicle, task.is_on_tyres, time.since_last_s, m);
   }
-  meter::measure_speed(row.state.u_mps, course, m);
+  meter::measure_speed(row.state.u_mps, task, m);
   meter::measure_speed_error(row, time, m);
   m.cross_track_m2 += row.cross_track_m * row.cross_track_m;
   if (time.is_in_second_half) {
-    m.strayed = select(row.off_target_m <= T(course.tolerance_m), m.strayed, T(1.0));
+    m.strayed = select(row.off_target_m <= T(task.tolerance_m), m.strayed, T(1.0));
   }
   m.clearance_min_m = select(Mask<T>(time.is_first) || row.clearance_m < m.clearance_min_m,
                              row.clearance_m, m.clearance_min_m);

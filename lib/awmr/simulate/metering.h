@@ -1,4 +1,4 @@
-/// Between a scenario and the meter of its runs. Private to this folder.
+/// Inputs of the meter from a scenario, and metrics from its sums. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,10 @@ struct Ending {
   int missed_waypoints = 0;
 };
 
-/// When the rows of a run are, one after the other.
+/// Times of the rows of a run, in sequence.
 class MeterClock {
  public:
-  /// `last`: of the rows of a run to its end, counted from 0. The scenario outlives the clock.
+  /// `last`: index of the last row of a full run, from 0. The scenario must outlive the clock.
   MeterClock(const Scenario& scenario, std::size_t last) : scenario_(&scenario), last_(last) {}
   MetricsTime next(double t_s);
 
@@ -32,10 +32,10 @@ class MeterClock {
 
 /// Constants of a run's metering (meter.h), and the metrics computed from its sums.
 MetricsVehicle<double> metered_vehicle(const AllocationLimits<double>& limits);
-MetricsCourse metered_course(const Scenario& scenario);
+MetricsTask metrics_task(const Scenario& scenario);
 Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending, const Scenario& scenario);
 
-/// True where every sum is finite.
+/// True if every sum is finite.
 bool is_finite(const MetricsAccumulator<double>& sums);
 
 }  // namespace awmr

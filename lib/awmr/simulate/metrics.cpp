@@ -12,17 +12,16 @@
 namespace awmr {
 namespace {
 
-/// The commanded heading, before what the scenario does to it on the way to the law.
+/// The commanded heading before shaping and avoidance.
 double goal_rad(const RunRow& row, const Scenario& scenario) {
-  return scenario.shaping || scenario.avoidance ? row.course.psi_goal_rad : row.psi_ref_rad;
+  return scenario.shaping || scenario.avoidance ? row.path.psi_goal_rad : row.psi_ref_rad;
 }
 
-/// Whether the commanded speed is constant, so that a speed drop is defined.
+/// True if the commanded speed is constant, so that a speed drop is defined.
 bool asks_for_one_speed(const Scenario& scenario) {
-  if (scenario.avoidance || std::holds_alternative<LissajousCourse>(scenario.guidance))
-    return false;
-  const auto* waypoints = std::get_if<WaypointCourse>(&scenario.guidance);
-  const auto* line = std::get_if<LineCourse>(&scenario.guidance);
+  if (scenario.avoidance || std::holds_alternative<LissajousPath>(scenario.guidance)) return false;
+  const auto* waypoints = std::get_if<WaypointPath>(&scenario.guidance);
+  const auto* line = std::get_if<LinePath>(&scenario.guidance);
   return !(waypoints && waypoints->slow_down_m) && !(line && line->slow_down_m);
 }
 
@@ -45,7 +44,7 @@ MetricsTime MeterClock::next(double t_s) {
       .is_first = is_first,
       .starts_step = is_first || goal_rad < goal_before_rad_ || goal_rad > goal_before_rad_,
       .is_in_second_half =
-          std::holds_alternative<LissajousCourse>(scenario_->guidance) && row_ >= (last_ + 1) / 2};
+          std::holds_alternative<LissajousPath>(scenario_->guidance) && row_ >= (last_ + 1) / 2};
   ++row_;
   before_s_ = t_s;
   goal_before_rad_ = goal_rad;
@@ -71,8 +70,8 @@ std::optional<double> electric_work_j(const Metrics& metrics, const Vehicle& veh
          max_wheel_force_n(vehicle.mass_kg, mass_norm) * metrics.energy_mech;
 }
 
-MetricsCourse metered_course(const Scenario& scenario) {
-  const auto* timed = std::get_if<LissajousCourse>(&scenario.guidance);
+MetricsTask metrics_task(const Scenario& scenario) {
+  const auto* timed = std::get_if<LissajousPath>(&scenario.guidance);
   return {.has_headings = std::holds_alternative<HeadingSteps>(scenario.guidance),
           .speed_mps = scenario.speed_mps,
           .tolerance_m = timed ? timed->tolerance_m : 0.0,
@@ -106,7 +105,7 @@ Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending,
     m.heading_itae_degs2 = sums.itae_degs2;
   } else if (!open) {
     m.cross_track_rms_m = std::sqrt(sums.cross_track_m2 / sums.rows);
-    if (std::holds_alternative<LissajousCourse>(scenario.guidance)) {
+    if (std::holds_alternative<LissajousPath>(scenario.guidance)) {
       m.completed = !(sums.strayed > 0.0);
     } else {
       m.completed = ending.end == RunEnd::kFinished && ending.missed_waypoints == 0;
@@ -127,7 +126,7 @@ Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending,
 
 Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<double>& controller) {
   const MetricsVehicle<double> vehicle = metered_vehicle(controller.limits);
-  const MetricsCourse course = metered_course(scenario);
+  const MetricsTask task = metrics_task(scenario);
   MeterClock clock(scenario, run.rows.size() - 1);
   MetricsAccumulator<double> sums;
   for (const RunRow& row : run.rows) {
@@ -137,12 +136,12 @@ Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<do
              .steering_command_rad = row.steering_command_rad,
              .yaw_resistance_m = controller.yaw(row.state.r_radps),
              .goal_rad = goal_rad(row, scenario),
-             .cross_track_m = row.course.cross_track_m,
-             .off_target_m = distance_m(row.course.target_m, {row.state.x_m, row.state.y_m}),
+             .cross_track_m = row.path.cross_track_m,
+             .off_target_m = distance_m(row.path.target_m, {row.state.x_m, row.state.y_m}),
              .clearance_m = row.clearance_m,
              .speed_ref_mps = row.u_ref_mps,
              .tyre_power_mps = row.tyre_power_mps},
-            vehicle, course, clock.next(row.t_s), sums);
+            vehicle, task, clock.next(row.t_s), sums);
   }
   return metrics_of(sums, {run.end, run.rows.back().t_s, run.missed_waypoints}, scenario);
 }

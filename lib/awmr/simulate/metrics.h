@@ -11,50 +11,50 @@ namespace awmr {
 
 /// The metrics of one run.
 struct Metrics {
-  /// The guidance's goal was reached without touching an obstacle. Headings: settled after every
-  /// step; waypoints: each reached; a line: its end; a timed path: within its tolerance in the
-  /// second half of the run.
+  /// The task was completed without touching an obstacle. Headings: settled after every step.
+  /// Waypoints: all reached. Line: end reached. Timed path: within the tolerance in the second half
+  /// of the run.
   bool completed = true;
-  /// Longest over the steps: from the step until |e| stays within 2 % of the step's size (at least
-  /// 0.5 deg).
+  /// Settling time, the longest of all steps: from the step until |e| stays within 2 % of the
+  /// step's size (at least 0.5 deg).
   std::optional<double> settling_time_s;
   /// Largest travel beyond a commanded heading in the direction of its step, deg, >= 0.
   std::optional<double> overshoot_deg;
   std::optional<double> heading_iae_degs;    ///< integral of |e|
   std::optional<double> heading_itae_degs2;  ///< integral of t |e|, t from each step (for tuning)
-  std::optional<double> cross_track_rms_m;   ///< from the present leg, line or path
-  double path_length_m = 0.0;                ///< of the way driven
-  /// Commanded speed minus the least speed after it was first reached within 0.1 %, >= 0.
+  std::optional<double> cross_track_rms_m;   ///< from the current leg, line or path
+  double path_length_m = 0.0;                ///< length of the driven path
+  /// Commanded speed minus the smallest speed after it was first reached within 0.1 %, >= 0.
   std::optional<double> speed_drop_mps;
   double speed_itae_m_s = 0.0;  ///< integral of t |u_d - u| (for tuning)
-  /// |atan2(v, |u|)|, from the vehicle's axis whether it drives ahead or back, where it moves
-  /// faster than 0.05 m/s.
+  /// Largest sideslip |atan2(v, |u|)|, for driving forward and backward, at speeds above 0.05 m/s.
   double sideslip_max_deg = 0.0;
   double yaw_rate_max_degps = 0.0;
   /// Total variation of the commanded d_r/d_max, F'L/F'max and F'R/F'max, summed, per second.
   double control_variation = 0.0;
-  double control_effort = 0.0;  ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run
-  std::optional<double>
-      clearance_min_m;                  ///< least distance from the vehicle's circle to an obstacle
-  std::optional<double> finish_time_s;  ///< when the guidance's end was reached
+  double control_effort = 0.0;            ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run
+  std::optional<double> clearance_min_m;  ///< smallest distance from the vehicle's circle to an
+                                          ///< obstacle
+  std::optional<double> finish_time_s;    ///< time at which the end of the path was reached
 
-  /// Work that the wheel forces that act (RunRow::acting) put into the vehicle where they push it on,
-  /// over F_max, m; a braking motor gives nothing back:
+  /// Positive mechanical work of the applied wheel forces (RunRow::acting), over F_max, m; braking
+  /// recovers no energy:
   ///   integral of sum_i max(0, F'_i w_i), w_i: the speed of wheel i in its rolling direction
   double energy_mech = 0.0;
-  /// Copper loss of the motors over that of one motor at F_max, s: integral of sum_i F'_i^2.
+  /// Copper loss of the motors, relative to the loss of one motor at F_max, s: integral of sum_i
+  /// F'_i^2.
   double energy_electric = 0.0;
   double saturation_s = 0.0;             ///< time with a command at a limit of F' or of d_r
   double steering_travel_deg = 0.0;      ///< total variation of the angle d_r
   double steering_rate_rms_degps = 0.0;  ///< of the commanded angle (for tuning)
-  /// Work against the yaw resistance, which scrubs the tyres, over F_max, m: integral of g3(r) r.
-  /// On tyres (Scenario::tyres): work of their side forces, integral of RunRow::tyre_power_mps.
+  /// Work that wears the tyres, over F_max, m. Against the yaw resistance: integral of g3(r) r. On
+  /// tyres (Scenario::tyres): work of their lateral forces, integral of RunRow::tyre_power_mps.
   double tyre_work = 0.0;
   /// Electrical work of the motors, J; absent if the vehicle has no stall power.
   std::optional<double> electric_work_j;
 };
 
-/// Into the copper and on to the wheels, J, of a vehicle whose normalised mass is m':
+/// Sum of copper loss and mechanical work, J, for the normalised mass m':
 ///   P_s energy_electric + F_max energy_mech,   F_max = m/m'                          [paper (66)]
 /// P_s is the motors' stall power; absent without it.
 std::optional<double> electric_work_j(const Metrics& metrics, const Vehicle& vehicle,

@@ -1,5 +1,6 @@
-/// Forces on the vehicle over one sample: of its motors, of disturbances and slopes. Templates on the
-/// scalar: a double, or a batch with a trajectory per lane (vehicle_steps.h). Private to this folder.
+/// Forces on the vehicle over one sample: of its motors, of disturbances and slopes. Templates on
+/// the scalar: a double, or a batch with a trajectory per lane (vehicle_steps.h). Private to this
+/// folder.
 #pragma once
 
 #include "awmr/model/resolved_steps.h"
@@ -13,20 +14,21 @@ template <class T>
 struct ExternalForces {
   BodyLoadOf<T> load;               ///< of the disturbances
   bool is_loaded = false;           ///< false: neither load nor slope
-  bool is_sloped = false;           ///< the ground falls
+  bool is_sloped = false;           ///< there is a slope
   double slope_accel_mps2 = 0.0;    ///< m g sin(slope) over m: the same for every vehicle
-  double slope_downhill_rad = 0.0;  ///< the heading in which it falls
+  double slope_downhill_rad = 0.0;  ///< heading of the steepest descent
 };
 
-/// First-order lag of the motors over a sample, from the force F that they have at its start to a
-/// command c that is held:
+/// First-order lag of the motors over a sample, from the force F at its start to a constant command
+/// c:
 ///   F(t) = c + (F - c) exp(-t/tau),   mean = c + (F - c) (1 - exp(-T_s/tau)) tau/T_s
 struct MotorLag {
   double left_over = 0.0;   ///< exp(-T_s/tau)
   double mean_share = 0.0;  ///< (1 - exp(-T_s/tau)) tau/T_s; 0: no lag
 };
 
-/// The mean force over the sample; `motors` is F, and then that at the sample's end.
+/// Returns the mean force over the sample. `motors`: F on entry, the force at the end of the sample
+/// on return.
 template <class T>
 SideForces<T> through_motors(const MotorLag& lag, const SideForces<T>& command,
                              SideForces<T>& motors) {
@@ -38,14 +40,15 @@ SideForces<T> through_motors(const MotorLag& lag, const SideForces<T>& command,
   return {command.left + behind.left * mean_share, command.right + behind.right * mean_share};
 }
 
-/// The same force at both wheels of a side; the rear ones where they are driven (Plant::rear_driven).
+/// Distributes the forces of the sides to the wheels: both wheels of a side have the same force;
+/// the rear ones only if they are driven (Plant::rear_driven).
 template <class T>
 WheelForces<T> at_all_wheels(const SideForces<T>& force, const T& rear_driven) {
   return {force.left, force.right, rear_driven * force.left, rear_driven * force.right};
 }
 
-/// Commands that act on motors with back-EMF: one that is commanded 0 is off at once, as it would
-/// brake for as long as a lag leaves it anything (motor_force() in dynamics.h).
+/// Commands of motors with back-EMF after the lag. A motor with the command 0 is off at once; with
+/// a remaining force from the lag it would brake (motor_force() in dynamics.h).
 template <class T>
 SideForces<T> switched_off(const T& back_emf_s_per_m, const SideForces<T>& command,
                            const SideForces<T>& arriving) {
@@ -56,7 +59,7 @@ SideForces<T> switched_off(const T& back_emf_s_per_m, const SideForces<T>& comma
           select(ideal || abs(command.right) > T(0.0), arriving.right, T(0.0))};
 }
 
-/// Both forces, no larger than `most` either way.
+/// Limits both forces to [-most, most].
 template <class T>
 SideForces<T> up_to(const SideForces<T>& force, const T& most) {
   return {math::saturate(force.left, most), math::saturate(force.right, most)};
@@ -67,7 +70,8 @@ SideForces<T> up_to(const SideForces<T>& force, const T& most) {
 /// c_i for which the motor is on:
 ///   s = 1 - rho sum c_i (s c_i - k_e w_i)
 ///     = (1 + rho k_e sum c_i w_i) / (1 + rho sum c_i^2)
-/// c: commands F'; rho: Battery::sag; w_i = u -+ d r of the sample's start, m/s, as if the wheels were straight.
+/// c: commands F'; rho: Battery::sag; w_i = u -+ d r of the sample's start, m/s, as if the wheels
+/// were straight.
 /// The voltage is that over the whole sample.
 template <class T>
 SideForces<T> under_sag(double sag, const T& motors_a_side, const T& back_emf_s_per_m,
@@ -98,7 +102,7 @@ State<T> with_push(State<T> d, const Plant<T>& plant, const ExternalForces<T>& p
   return d;
 }
 
-/// Rates of the state with what pushes the vehicle.
+/// Rates of the state, including external forces.
 template <class T, class Forces>
 State<T> pushed_rates(const Plant<T>& plant, const ExternalForces<T>& push, const State<T>& at,
                       const Forces& force, const T& steering_command_rad) {

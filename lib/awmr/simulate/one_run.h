@@ -9,14 +9,14 @@
 
 namespace awmr {
 
-/// Below this speed a vehicle that was commanded to stop counts as stopped.
+/// Speed below which a vehicle that was commanded to stop counts as stopped.
 inline constexpr double kStopped_mps = 1e-3;
 
 /// The controller with the scenario's changes.
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller);
 
-/// Properties that the controllers of a scenario share; the allocation is that of one of them. is_observed
-/// depends on the runs and is left false.
+/// Properties common to the controllers of a scenario; the allocation is that of any of them.
+/// is_observed depends on the runs and is left false.
 ControllerSetup controller_setup(const Scenario& scenario, const Controller<double>& controller,
                                  double sample_time_s);
 
@@ -27,13 +27,13 @@ RunController<double> run_controller(const Scenario& scenario, const Controller<
 /// Largest F' of a wheel over F_max, including the dead zone.
 double largest_force(const Controller<double>& controller);
 
-/// From the vehicle's circle to the nearest obstacle, < 0 inside of it.
+/// Distance from the vehicle's circle to the nearest obstacle; < 0 inside of it.
 double clearance_m(const Scenario& scenario, const State<double>& state);
 
-/// True where every number of the row is finite.
+/// True if every number of the row is finite.
 bool is_finite(const RunRow& row);
 
-/// The last sample at or before the duration, with room for rounding.
+/// Index of the last sample within the duration, allowing for rounding.
 std::size_t samples_in(double duration_s, double sample_time_s);
 
 }  // namespace awmr

@@ -15,7 +15,7 @@ double turn(const Position<double>& a, const Position<double>& b, const Position
   return (b.x_m - a.x_m) * (c.y_m - a.y_m) - (b.y_m - a.y_m) * (c.x_m - a.x_m);
 }
 
-/// Whether the segments cross. A point on a line counts to its left, so that a chain through a
+/// True if the segments cross. A point on a line counts as left of it, so that a chain through a
 /// vertex on the other segment crosses it once.
 bool cross(const Position<double>& a, const Position<double>& b, const Position<double>& c,
            const Position<double>& d) {
@@ -23,13 +23,13 @@ bool cross(const Position<double>& a, const Position<double>& b, const Position<
   return left(turn(a, b, c)) != left(turn(a, b, d)) && left(turn(c, d, a)) != left(turn(c, d, b));
 }
 
-/// Sets joined by edges that carry a parity: each element's parity is along the way to its root.
+/// Union-find with parities: the parity of an element is that of the path to its root.
 class ParitySets {
  public:
   explicit ParitySets(std::size_t count) : parent_(count), odd_(count, false) {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
-  /// False where the edge closes a cycle of odd parity.
+  /// False if the edge closes a cycle of odd parity.
   bool join(std::size_t a, std::size_t b, bool odd) {
     const auto [root_a, odd_a] = root(a);
     const auto [root_b, odd_b] = root(b);

@@ -1,4 +1,4 @@
-/// Whether obstacles leave a way.
+/// Checks whether a passage between obstacles exists.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,11 @@
 
 namespace awmr {
 
-/// Whether a point can get from `from` to `to` outside all discs grown by `grow_m`. Exact, but for
-/// a way of no width: the ends are separated exactly where a closed chain of overlapping discs
-/// encircles one of them, that is, where a cycle of the graph of overlaps crosses the segment from
-/// `from` to `to` an odd number of times. A disc that holds an end is taken as shrunk to leave it.
+/// True if a point can move from `from` to `to` outside all discs, enlarged by `grow_m`. Exact
+/// except for passages of zero width. The two points are separated if and only if a closed chain of
+/// overlapping discs encircles one of them: a cycle of the graph of overlaps then crosses the
+/// segment from `from` to `to` an odd number of times. A disc that contains one of the points is
+/// shrunk to exclude it.
 bool passage_exists(const std::vector<Obstacle<double>>& obstacles, double grow_m,
                     const Position<double>& from, const Position<double>& to);
 

@@ -11,12 +11,12 @@
 namespace awmr {
 namespace {
 
-/// RK4 steps per fastest time constant of the smooth part of the plant: the local error of a mode
-/// of time constant T is (h/T)^5/120, so 6 keeps it near 1e-6 of the excursion, and what it leaves
-/// dies out with T; the positions after a minute are held to CVODE's within 1e-5 m.
+/// RK4 steps per smallest time constant of the smooth part of the plant. The local error of a mode
+/// with the time constant T is (h/T)^5/120 of its excursion, 1e-6 for 6 steps, and decays with T.
+/// Tests compare the positions after a minute with CVODE's, within 1e-5 m.
 constexpr double kStepsPerTimeConstant = 6.0;
 
-/// The largest speed (m/s, rad/s) below which resistance may be its chord.
+/// Largest speed (m/s, rad/s) below which a resistance can be replaced by its chord.
 constexpr double kChordSpeed = 1e-3;
 
 double step_for_chord(const Resistance<double>& law, double inertia) {
@@ -24,9 +24,9 @@ double step_for_chord(const Resistance<double>& law, double inertia) {
   return relaxation_time_s(law, inertia, kChordSpeed);
 }
 
-/// The command of which a wheel's force, beyond the dead zone, is no larger than `most`. With back-EMF
-/// that depends on the speed at which the wheel rolls: by F' = e - k_e w, the command is that of
-/// e = F' + k_e w.
+/// Limits a command such that the wheel's force, beyond the dead zone, is at most `most`. With
+/// back-EMF the force depends on the rolling speed w: F' = e - k_e w, so the command is that of e =
+/// F' + k_e w.
 double slipping(const Plant<double>& plant, double command, double wheel_mps, double most) {
   const double k = plant.back_emf_s_per_m;
   const double drive = beyond_dead_zone(command, plant.wheel_dead_zone);
@@ -35,8 +35,8 @@ double slipping(const Plant<double>& plant, double command, double wheel_mps, do
   return with_dead_zone(math::saturate(force, most) + k * wheel_mps, plant.wheel_dead_zone);
 }
 
-/// Number of integration steps per sample. Allows for rounding: a sample of exactly n steps takes
-/// n.
+/// Number of integration steps per sample. Allows for rounding, so that a sample of exactly n steps
+/// has n.
 double steps_of_sample(const Plant<double>& plant, bool on_tyres, double sample_time_s) {
   return std::max(1.0, std::ceil(sample_time_s / step_limit(plant, on_tyres).step_s - 1e-9));
 }
@@ -44,7 +44,8 @@ double steps_of_sample(const Plant<double>& plant, bool on_tyres, double sample_
 }  // namespace
 
 /// h <= T/6 for the time constants that do not depend on speed, m'/a_s of sway, T of the servo and
-/// that by which back-EMF brakes; and h such that resistance is its chord only below kChordSpeed (rest_speed() solved for h):
+/// that of back-EMF; and h such that a resistance is its chord only below kChordSpeed (rest_speed()
+/// solved for h):
 ///   h <= inertia kChordSpeed / g(kChordSpeed)
 StepLimit step_limit(const Plant<double>& plant, bool on_tyres) {
   StepLimit limit{plant.steering_time_constant_s / kStepsPerTimeConstant,

@@ -1,5 +1,5 @@
-/// Vehicles in their world, one sample at a time: those of the closed loop, and a single one for a
-/// controller that runs elsewhere (on a chip).
+/// Vehicles with their environment, simulated sample by sample: those of the closed loop, and a
+/// single one for an external controller (on a chip).
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -27,9 +27,9 @@ class Physics {
 
   const State<double>& state() const { return vehicle_.state; }
   bool resolved() const { return vehicle_.active > 0.0; }
-  /// Over the sample that begins at `t_s`, with the commands held; in order from the first. Where no
-  /// step is short enough for the motion, or it is no longer finite, the state stays as it was and
-  /// resolved() is false from then on.
+  /// Simulates the sample that begins at `t_s` with constant commands. Call it for every sample, in
+  /// order. If no step is short enough for the motion, or the state is not finite, the state is
+  /// unchanged and resolved() is false from then on.
   void step(double t_s, const SideForces<double>& force, double steering_command_rad);
 
  private:
@@ -38,30 +38,32 @@ class Physics {
   RunDisturbance disturbance_;
 };
 
-/// True where the two wheels of a side may have different forces.
+/// True if the two wheels of a side can have different forces.
 bool forces_differ_by_wheel(const Scenario& scenario);
 
-/// Wheel forces that act, after motor faults and ground limits. The rear axle is taken as far
-/// behind the centre of gravity as the front one is before it.
+/// Applied wheel forces, after motor faults and ground limits. Assumes that both axles have the
+/// same distance from the centre of gravity.
 WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>& plant,
                                   const State<double>& state, double t_s,
                                   const SideForces<double>& force);
 
-/// The lag of the motors; none without actuators.
+/// The lag of the motors; no lag without actuators.
 MotorLag motor_lag(const std::optional<Actuators>& actuators, double sample_time_s);
 
-/// The share of the largest force that is left at `t_s`.
+/// Ratio of the largest force at `t_s` to F'max.
 double battery_share(const Battery& battery, double t_s);
 
-/// A command to the nearest step of the servo and count of the PWM. `force_max` is F'max of a wheel.
+/// Rounds a command to the nearest step of the servo and count of the PWM. `force_max` is F'max of
+/// a wheel.
 void quantise(const Actuators& actuators, double force_max, SideForces<double>& force,
               double& steering_command_rad);
 
-/// The plant with its chord at rest (rest.h), for the steps of a run; on tyres that of g1 at the wheels.
+/// The plant with its chord through rest (rest.h), for the steps of a run; on tyres the chord of g1
+/// at the wheels.
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario, double step_s);
 
-/// The longest RK4 step that resolves the plant at any speed, and the parameter that asks for it. On
-/// tyres: without the resistances that they replace; the tyres' own rate depends on speed.
+/// Longest RK4 step that resolves the time constants which do not depend on speed, and the
+/// parameter that limits it. On tyres: without the resistances that they replace.
 struct StepLimit {
   double step_s = 0.0;
   ParameterId parameter{};
@@ -71,10 +73,11 @@ StepLimit step_limit(const Plant<double>& plant, bool on_tyres);
 /// RK4 steps of a run from start to end, with those of its last row.
 double steps_of_run(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
-/// Properties that the vehicles of a scenario share; set_up_vehicle() adds what any of them has.
+/// Properties common to the vehicles of a scenario; set_up_vehicle() adds those that any of them
+/// has.
 VehicleSetup vehicle_setup(const Scenario& scenario, double sample_time_s);
 
-/// Puts a vehicle at its start. `force_max` is F'max of its motors, for the battery.
+/// Sets a vehicle to its initial state. `force_max` is F'max of its motors, for the battery.
 template <class Row>
 void set_up_vehicle(const Plant<double>& plant, double force_max, const Scenario& scenario,
                     double sample_time_s, int substeps, std::size_t run, Vehicles<Row>& v) {
@@ -103,7 +106,8 @@ bool any_active(const Vehicles<Row>& v) {
   return false;
 }
 
-/// Moves the active vehicles over the sample that begins at `t_s`, with commands and load held.
+/// Integrates the active vehicles over the sample that begins at `t_s`, with constant commands and
+/// load.
 template <class Row>
 void step_vehicles(const Scenario& scenario, double t_s, const VehicleSteps<Row>& steps,
                    Vehicles<Row>& v) {

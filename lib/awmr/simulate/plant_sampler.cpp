@@ -19,14 +19,14 @@ namespace {
 
 constexpr int kMostTries = 1000;
 
-/// Draws of scrub are apart from those of the other parameters, which do not depend on it.
+/// Stream of the scrub, separate from that of the other parameters.
 constexpr std::uint64_t kScrubStream = std::uint64_t{1} << 61U;
 
 /// Relative tolerance for a negative eigenvalue caused by rounding: the file's matrix has 17
 /// digits, a derived parameter (m' from a1, b1) makes it singular.
 constexpr double kSingularTolerance = 1e-9;
 
-/// A resistance does not fall with speed and does not push: b >= 0, and every term >= 0.
+/// A resistance does not decrease with speed and is not negative: b >= 0, and every term >= 0.
 bool is_admissible(ParameterId id, double value) {
   const bool is_exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
   return !(is_exponent || info(id).term) || value >= 0.0;
@@ -37,7 +37,8 @@ constexpr double kInsideStratum = 1e-6;
 /// The z with P(Z <= z) = p, Z standard normal, 0 < p < 1.
 double normal_quantile(double p) { return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * p); }
 
-/// y at x on the straight lines through five points in rising order of x, the outer ones prolonged.
+/// y at x by linear interpolation between five points in ascending order of x, and extrapolation
+/// beyond them.
 double interpolate(const Quantiles& y, double x) {
   std::size_t right = 1;
   while (right + 1 < kQuantileCount && x > kQuantiles[right].normal_score) ++right;
@@ -60,7 +61,7 @@ std::vector<double> stratified_normals(int count, Random& random) {
   return normals;
 }
 
-/// m' at least as large as the grip demands, and I'z with it: I'z = m' Iz/m.
+/// Raises m' to the value that the grip limit requires, and I'z by the same factor: I'z = m' Iz/m.
 void take_mass_by_grip(Model& model) {
   double& mass = *model[ParameterId::kMassNorm].value;
   const double factor = std::max(1.0, *model.mass_norm_by_grip / mass);
@@ -98,7 +99,7 @@ Eigen::MatrixXd coordinate_covariance(const Model& model) {
   return covariance;
 }
 
-/// L with L L^T = C; none where C is no covariance.
+/// L with L L^T = C; empty if C is not positive semi-definite.
 ///   C = V diag(w) V^T  =>  L = V diag(sqrt w), which also holds for a singular C.
 std::optional<Eigen::MatrixXd> factor_of(const Eigen::MatrixXd& covariance) {
   const SymmetricEigen eigen = symmetric_eigen(covariance);
@@ -119,7 +120,7 @@ Result<PlantSampler> PlantSampler::make(const Model& model) {
   const std::optional<Eigen::MatrixXd> factor = factor_of(coordinate_covariance(model));
   if (!factor) {
     return input_error(ErrorCode::kContradiction, place + "/matrix",
-                       "is no covariance: it is not positive semi-definite; identify again");
+                       "is not positive semi-definite; identify again");
   }
   PlantSampler sampler;
   sampler.model_ = model;
@@ -172,11 +173,10 @@ Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
       return with_scrub(*std::move(drawn), of_scrub.normal());
     }
   }
-  return input_error(
-      ErrorCode::kNotIdentified, model_.file + ":/covariance",
-      fmt::format("in {} draws an exponent or a term of a resistance was below 0 every time: "
-                  "identify from more trials",
-                  kMostTries));
+  return input_error(ErrorCode::kNotIdentified, model_.file + ":/covariance",
+                     fmt::format("all of {} draws have a negative exponent or term of a "
+                                 "resistance: identify from more trials",
+                                 kMostTries));
 }
 
 Model PlantSampler::with_scrub(Model drawn, double normal) const {
@@ -199,7 +199,8 @@ int PlantSampler::rank() const {
 
 std::vector<std::vector<double>> PlantSampler::directions_of(
     std::span<const ParameterId> ids) const {
-  // Rows of L, each over its length: a parameter's scale does not matter. V of V diag(w) V^T = L^T L.
+  // Rows of L, each divided by its length, so that the scale of a parameter does not matter. V of V
+  // diag(w) V^T = L^T L.
   const std::size_t n = centre_.size();
   Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(eigen_index(n), eigen_index(n));
   for (std::size_t i = 0; i < n; ++i) {

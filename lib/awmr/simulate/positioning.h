@@ -10,12 +10,13 @@
 
 namespace awmr {
 
-/// Standard deviation of a fix of this receiver, m, of one axis.
+/// Standard deviation of a fix of this receiver, m, per axis.
 inline double fix_noise_m(const Gps& gps) {
   return std::sqrt(gps.x.noise * gps.x.noise + gps.x.quantum * gps.x.quantum / 12.0);
 }
 
-/// The firmware's estimate if the scenario has a GPS and does not disable it; else the position as sensed.
+/// The firmware's estimate if the scenario has a GPS and does not disable it; else the measured
+/// position.
 class Positioning {
  public:
   Positioning(const Scenario& scenario, double sample_time_s) {
@@ -31,7 +32,7 @@ class Positioning {
                            sensed.motion);
   }
 
-  /// Resets of the estimate so far.
+  /// Number of resets of the estimate so far.
   int resets() const { return estimate_ ? estimate_->resets : 0; }
 
  private:

@@ -1,21 +1,21 @@
-/// The numbers of runs that are driven together. A struct of rows, such as State<Row>, holds in each
-/// field a row: one number of every run. The row of a single run is a double; lanes/row.h has that of
-/// sixteen. Private to this folder.
+/// Data layout of runs that are simulated together. A struct of rows, such as State<Row>, has in
+/// each field a row: one number of every run. The row of a single run is a double; that of sixteen
+/// runs is in lanes/row.h. Private to this folder.
 ///
-/// A step of the loop (vehicle_steps.h, loop_steps.h) is a template on a view of the rows: `view(rows)`
-/// are State<T> with the view's scalar T, a double or a register of doubles, and `view.store()` writes
-/// them back.
+/// A step of the loop (vehicle_steps.h, loop_steps.h) is a template on a view of the rows:
+/// `view(rows)` are State<T> with the view's scalar T, a double or a register of doubles, and
+/// `view.store()` writes them back.
 #pragma once
 
 #include <cstddef>
 #include <cstring>
 
-/// A step of the loop: all that it calls is copied in, because a call would spill registers.
+/// Marks a step of the loop: everything it calls is inlined, because a call would spill registers.
 #define AWMR_WHOLE __attribute__((flatten))
 
 namespace awmr {
 
-/// A single run's numbers, as they are.
+/// View of a single run: the numbers themselves.
 struct OneRun {
   using Number = double;
   template <class Numbers>
@@ -26,7 +26,7 @@ struct OneRun {
   void store(const Numbers& from, Numbers& to) const {
     to = from;
   }
-  /// Stores the lanes in which the mask is true.
+  /// Stores the lanes whose mask is true.
   template <class Numbers>
   void store(bool mask, const Numbers& from, Numbers& to) const {
     if (mask) to = from;
@@ -37,7 +37,8 @@ struct OneRun {
 template <class Row>
 constexpr std::size_t kRunsOf = sizeof(Row) / sizeof(double);
 
-/// The numbers of one run out of a struct of rows. Both structs hold nothing else, in the same order.
+/// Extracts the numbers of one run from a struct of rows. Both structs have only these members, in
+/// the same order.
 template <class Numbers, class Rows>
 Numbers run_of(const Rows& rows, std::size_t run) {
   constexpr std::size_t kCount = sizeof(Numbers) / sizeof(double);
@@ -51,7 +52,7 @@ Numbers run_of(const Rows& rows, std::size_t run) {
   }
   return numbers;
 }
-/// Puts the numbers of one run into a struct of rows.
+/// Stores the numbers of one run in a struct of rows.
 template <class Numbers, class Rows>
 void put(const Numbers& numbers, std::size_t run, Rows& rows) {
   constexpr std::size_t kCount = sizeof(Numbers) / sizeof(double);

@@ -1,5 +1,6 @@
-/// The controller of a run after its guidance, once for a run by itself and for a register of runs:
-/// laws or what replaces them, disturbance observer, allocation, motor commands. Private to this folder.
+/// The controller of a run after its guidance: laws or their replacements, disturbance observer,
+/// allocation, motor commands. Template for a single run and for a register of runs. Private to
+/// this folder.
 #pragma once
 
 #include "awmr/control/control_step.h"
@@ -8,19 +9,19 @@
 
 namespace awmr {
 
-/// Properties that the controllers of runs driven together share.
+/// Properties common to the controllers of runs that are simulated together.
 struct ControllerSetup {
   SteeringGeometry geometry = kFourWheelSteering;
   CombinedSplit split = CombinedSplit::kRedistribute;
   bool is_open_loop = false;  ///< tau_speed and tau_turn_m are commanded, and nothing is measured
   bool holds_tau_speed = false;  ///< tau_speed replaces the speed law
   bool is_lqi = false;           ///< an LQI replaces the sliding mode
-  bool is_observed = false;      ///< by the observer of any run
+  bool is_observed = false;      ///< any run has an observer
   bool anti_windup = true;       ///< as in Observers
   double sample_time_s = 0.0;
 };
 
-/// Constants of a run's controller, of T alone.
+/// Constants of a run's controller; all members are of type T.
 template <class T>
 struct RunController {
   PreparedController<T> laws;
@@ -60,7 +61,7 @@ YawSplit<T> yaw_split_of(const ControllerSetup& setup, const RunController<T>& c
   return {c.steering_share, may && c.steering_share > T(0.0) && c.steering_share < T(1.0)};
 }
 
-/// The state in which the observers see no disturbance.
+/// The initial state, without estimated disturbance.
 template <class T>
 RunControllerState<T> start_controller(const ControllerSetup& setup, const RunController<T>& c,
                                        const Measurement<T>& m) {

@@ -26,12 +26,12 @@ constexpr Column kColumns[] = {
     {"psi_ref_rad", [](const RunRow& r) { return r.psi_ref_rad; }},
     {"u_ref_mps", [](const RunRow& r) { return r.u_ref_mps; }},
 };
-constexpr Column kCourse[] = {
-    {"psi_goal_rad", [](const RunRow& r) { return r.course.psi_goal_rad; }},
-    {"cross_track_m", [](const RunRow& r) { return r.course.cross_track_m; }},
-    {"target_x_m", [](const RunRow& r) { return r.course.target_m.x_m; }},
-    {"target_y_m", [](const RunRow& r) { return r.course.target_m.y_m; }},
-    {"leg", [](const RunRow& r) { return static_cast<double>(r.course.leg); }},
+constexpr Column kPathColumns[] = {
+    {"psi_goal_rad", [](const RunRow& r) { return r.path.psi_goal_rad; }},
+    {"cross_track_m", [](const RunRow& r) { return r.path.cross_track_m; }},
+    {"target_x_m", [](const RunRow& r) { return r.path.target_m.x_m; }},
+    {"target_y_m", [](const RunRow& r) { return r.path.target_m.y_m; }},
+    {"leg", [](const RunRow& r) { return static_cast<double>(r.path.leg); }},
 };
 constexpr Column kClearance[] = {{"clearance_m", [](const RunRow& r) { return r.clearance_m; }}};
 constexpr Column kMeasured[] = {
@@ -50,7 +50,7 @@ constexpr Column kDisturbance[] = {
 
 constexpr Column kTyres[] = {{"tyre_power_mps", [](const RunRow& r) { return r.tyre_power_mps; }}};
 
-bool has_course(const Scenario& scenario) {
+bool has_path(const Scenario& scenario) {
   return !std::holds_alternative<OpenLoop>(scenario.guidance) &&
          !std::holds_alternative<HeadingSteps>(scenario.guidance);
 }
@@ -60,7 +60,7 @@ std::vector<Column> columns_of(const Scenario& scenario) {
   const auto add = [&](bool wanted, const auto& more) {
     if (wanted) columns.insert(columns.end(), std::begin(more), std::end(more));
   };
-  add(has_course(scenario), kCourse);
+  add(has_path(scenario), kPathColumns);
   add(!scenario.obstacles.empty(), kClearance);
   add(scenario.sensors.has_value(), kMeasured);
   add(scenario.disturbance.any(), kDisturbance);

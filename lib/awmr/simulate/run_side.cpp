@@ -61,8 +61,7 @@ Status check_run_side(const std::filesystem::path& side) {
 }
 
 std::string run_schema() {
-  return json_schema_text(kRunSchema, "Where a run of simulate is from, and its figures",
-                          describe_run);
+  return json_schema_text(kRunSchema, "Origin and metrics of a simulated run", describe_run);
 }
 
 }  // namespace awmr

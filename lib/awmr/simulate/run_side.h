@@ -1,5 +1,5 @@
-/// The side file of a run: `run.csv.json` next to `run.csv` names the model, the scenario and the gains
-/// that the run was made from.
+/// The side file of a run: `run.csv.json` next to `run.csv` names the model, the scenario and the
+/// gains of the run.
 #pragma once
 
 #include <filesystem>
@@ -13,15 +13,15 @@
 
 namespace awmr {
 
-/// The CSV's own name with `.json` behind it.
+/// The name of the CSV with `.json` appended.
 std::filesystem::path run_side_path(const std::filesystem::path& csv);
 
-/// The bytes of the side file: origin, the SHA-256 of `csv`, the keys of `figures`, the findings.
+/// Content of the side file: origin, the SHA-256 of `csv`, the keys of `figures`, the findings.
 /// Precondition: `figures` is empty or a JSON object without those keys.
 std::string run_side_text(std::string_view csv, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);
 
-/// Errors (input): a file of this name is there that is no side file of a run.
+/// Errors (input): a file with this name exists and is not the side file of a run.
 Status check_run_side(const std::filesystem::path& side);
 
 /// The JSON Schema of the side file.

@@ -10,7 +10,7 @@
 
 namespace awmr {
 
-/// The columns of run.csv that every run has. Errors: as read_csv; the time goes back.
+/// Reads the columns of run.csv that every run has. Errors: as read_csv; decreasing time.
 Result<CsvTable> read_run(const std::filesystem::path& path);
 
 /// Read-back (file.h) of run.csv. Errors: as read_run.

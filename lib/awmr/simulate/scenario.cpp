@@ -38,6 +38,12 @@ std::string_view name_of(const AnyLineLaw& law) {
   return std::visit([](const auto& held) { return std::string_view(held.name()); }, law);
 }
 
+std::vector<std::string> line_law_names() {
+  std::vector<std::string> names;
+  for (const AnyLineLaw& law : line_laws()) names.emplace_back(name_of(law));
+  return names;
+}
+
 std::optional<double> Scenario::held_tau_speed() const {
   const auto* heading = std::get_if<HeadingSteps>(&guidance);
   return heading ? heading->tau_speed : std::nullopt;
@@ -74,18 +80,16 @@ Status check_mode(const Vehicle& vehicle, YawMode mode) {
   if (std::find(modes.begin(), modes.end(), mode) != modes.end()) return {};
   return input_error(
       ErrorCode::kUnsupported, option_text("mode"),
-      fmt::format("the vehicle's drive is \"{}\": it has no steering, which {} is "
-                  "made with; its mode is {}",
+      fmt::format("a vehicle of drive \"{}\" has no steering, which mode {} needs; its mode is {}",
                   name_in(kDriveNames, vehicle.drive), name_of(mode), name_of(modes.front())));
 }
 
 std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario) {
   std::vector<TyreConflict> conflicts;
   if (!scenario.patches.empty()) {
-    conflicts.push_back(
-        {"slippery",
-         "a patch limits the forces along the wheels alone, and tyres hold sideways "
-         "too: remove it, or the tyres"});
+    conflicts.push_back({"slippery",
+                         "a patch limits only the longitudinal forces of wheels, but tyres also "
+                         "have lateral forces: remove it, or the tyres"});
   }
   for (const CornerParameter& corner : scenario.corner) {
     switch (corner.id) {
@@ -96,8 +100,7 @@ std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario) {
       case ParameterId::kYawQuadratic:
         conflicts.push_back(
             {"corner", std::string(info(corner.id).name) +
-                           " has no part on tyres, which resist sway and yaw in its place: "
-                           "remove it, or the tyres"});
+                           " has no effect on tyres, which replace it: remove it, or the tyres"});
         break;
       default:
         break;
@@ -145,8 +148,7 @@ Status check_tyres(const Scenario& scenario) {
   return {};
 }
 
-/// Weights whose gains are unstable at the controller's sample time are an error, not a run that
-/// oscillates.
+/// Weights whose gains are unstable at the controller's sample time are an error.
 Status check_lqi(const Scenario& scenario, const Model& model) {
   const auto& inertia_norm = model[ParameterId::kInertiaNorm].value;
   if (!scenario.control.lqi || !inertia_norm) return {};

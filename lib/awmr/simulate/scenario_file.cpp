@@ -21,7 +21,7 @@ State<double> read_initial(JsonObject json) {
   return state;
 }
 
-/// Reads u_d. Optional if the scenario holds a constant thrust, which has no commanded speed.
+/// Reads u_d. Not needed with a constant thrust, which has no commanded speed.
 double read_speed(JsonObject& json, bool holds_thrust) {
   if (!json.has("speed_mps")) {
     if (!holds_thrust) json.fault(ErrorCode::kMissing, "speed_mps", "this key is missing; add it");
@@ -55,7 +55,7 @@ void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
       json.fault(ErrorCode::kConflict, conflict.key, conflict.message);
     }
   }
-  const auto* timed = std::get_if<LissajousCourse>(&scenario.guidance);
+  const auto* timed = std::get_if<LissajousPath>(&scenario.guidance);
   if (timed && timed->closed_loop && scenario.speed_mps > 0.0) {
     json.fault(ErrorCode::kConflict, "speed_mps",
                "has to be 0 on a closed timed path, whose speed is the path's own");
@@ -97,7 +97,7 @@ Result<Scenario> read_scenario(const std::filesystem::path& path) {
 }
 
 std::string scenario_schema() {
-  return json_schema_text(kScenarioSchema, "A scenario: where to drive, and in which world",
+  return json_schema_text(kScenarioSchema, "A scenario: task and environment",
                           [](JsonObject& json) { scenario_from_json(json); });
 }
 

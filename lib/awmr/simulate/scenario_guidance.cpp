@@ -8,8 +8,7 @@
 namespace awmr {
 namespace {
 
-/// Distance of p from the line through a and b, left of its direction positive; from a where the
-/// two coincide.
+/// Distance of p from the line through a and b, positive to its left; from a if a and b coincide.
 double from_line_m(const Position<double>& a, const Position<double>& b,
                    const Position<double>& p) {
   const double length_m = distance_m(a, b);
@@ -30,7 +29,7 @@ double heading_at(const HeadingSteps& guidance, double t_s) {
 ScenarioGuidance::ScenarioGuidance(const Scenario& scenario, double sample_time_s,
                                    const Sensed& start)
     : scenario_(&scenario), sample_time_s_(sample_time_s), sectors_(scenario.obstacles.size()) {
-  std::visit([&](const auto& course) { set_up(course, start); }, scenario.guidance);
+  std::visit([&](const auto& path) { set_up(path, start); }, scenario.guidance);
   if (scenario.avoidance) {
     static_cast<Avoider<double>&>(laws_) = {*scenario.avoidance,
                                             scenario.obstacles.data(),
@@ -44,29 +43,29 @@ ScenarioGuidance::ScenarioGuidance(const Scenario& scenario, double sample_time_
   }
 }
 
-void ScenarioGuidance::set_up(const WaypointCourse& course, const Sensed& start) {
-  laws_.waypoints = {course.points_m.data(), static_cast<int>(course.points_m.size()),
-                     course.acceptance_m, course.skip_passed};
+void ScenarioGuidance::set_up(const WaypointPath& path, const Sensed& start) {
+  laws_.waypoints = {path.points_m.data(), static_cast<int>(path.points_m.size()),
+                     path.acceptance_m, path.skip_passed};
   laws_.progress = start_waypoints(start.position_m, start.motion.psi_rad);
   laws_.is_leg_started = true;
-  laws_.acceptance_m2 = course.acceptance_m * course.acceptance_m;
-  laws_.distance_m = course.slow_down_m.value_or(0.0);
+  laws_.acceptance_m2 = path.acceptance_m * path.acceptance_m;
+  laws_.distance_m = path.slow_down_m.value_or(0.0);
 }
 
-void ScenarioGuidance::set_up(const LineCourse& course, const Sensed& start) {
+void ScenarioGuidance::set_up(const LinePath& path, const Sensed& start) {
   AnyLineFollower<double>& part = laws_;
-  part.line = {course.points_m.data(), static_cast<int>(course.points_m.size()), course.corner_m,
-               course.law};
+  part.line = {path.points_m.data(), static_cast<int>(path.points_m.size()), path.corner_m,
+               path.law};
   part.progress = start_polyline(start.motion.psi_rad);
   part.is_started = true;
   part.sample_time_s = sample_time_s_;
-  laws_.distance_m = course.slow_down_m.value_or(0.0);
+  laws_.distance_m = path.slow_down_m.value_or(0.0);
 }
 
-void ScenarioGuidance::set_up(const LissajousCourse& course, const Sensed& start) {
+void ScenarioGuidance::set_up(const LissajousPath& path, const Sensed& start) {
   TimedPathFollower& part = laws_;
-  part.path = course.path;
-  part.gain_per_s = course.closed_loop ? course.position_gain_per_s : 0.0;
+  part.path = path.path;
+  part.gain_per_s = path.closed_loop ? path.position_gain_per_s : 0.0;
   part.held_rad = start.motion.psi_rad;
   part.start = 0.0;
   part.is_started = true;
@@ -82,8 +81,8 @@ GuidanceOutput ScenarioGuidance::step(double t_s, const Sensed& sensed) {
   }
   const GuidanceTarget<double> target = guide_by_route(laws_, pose, output.reference);
   output.finished = target.arrived;
-  std::visit([&](const auto& course) { describe(course, sensed, output); }, scenario_->guidance);
-  output.course.psi_goal_rad = output.reference.psi_rad;
+  std::visit([&](const auto& path) { describe(path, sensed, output); }, scenario_->guidance);
+  output.path.psi_goal_rad = output.reference.psi_rad;
   if (output.finished || output.no_passage) output.reference.speed_mps = 0.0;
   if (!output.no_passage) {
     steer_around_obstacles(part_of<Avoider<double>>(laws_), pose, target, output.reference);
@@ -92,7 +91,7 @@ GuidanceOutput ScenarioGuidance::step(double t_s, const Sensed& sensed) {
   return output;
 }
 
-/// Looked for once per leg, from where the vehicle then is.
+/// Checked once per leg, from the vehicle's position at that time.
 bool ScenarioGuidance::way_is_free(const Position<double>& from, const Position<double>& to,
                                    int leg) {
   if (!scenario_->avoidance) return true;
@@ -104,35 +103,34 @@ bool ScenarioGuidance::way_is_free(const Position<double>& from, const Position<
   return passage_;
 }
 
-void ScenarioGuidance::describe(const WaypointCourse& course, const Sensed& sensed,
+void ScenarioGuidance::describe(const WaypointPath& path, const Sensed& sensed,
                                 GuidanceOutput& output) {
-  const int count = static_cast<int>(course.points_m.size());
-  output.course.leg = std::min(laws_.progress.next, count - 1);
-  output.course.target_m = course.points_m[static_cast<std::size_t>(output.course.leg)];
+  const int count = static_cast<int>(path.points_m.size());
+  output.path.leg = std::min(laws_.progress.next, count - 1);
+  output.path.target_m = path.points_m[static_cast<std::size_t>(output.path.leg)];
   if (output.finished) return;
-  output.course.cross_track_m =
-      from_line_m(laws_.progress.leg_start_m, output.course.target_m, sensed.position_m);
-  output.no_passage = !way_is_free(sensed.position_m, output.course.target_m, laws_.progress.next);
+  output.path.cross_track_m =
+      from_line_m(laws_.progress.leg_start_m, output.path.target_m, sensed.position_m);
+  output.no_passage = !way_is_free(sensed.position_m, output.path.target_m, laws_.progress.next);
 }
 
-void ScenarioGuidance::describe(const LineCourse& course, const Sensed& sensed,
+void ScenarioGuidance::describe(const LinePath& path, const Sensed& sensed,
                                 GuidanceOutput& output) {
-  const int count = static_cast<int>(course.points_m.size());
+  const int count = static_cast<int>(path.points_m.size());
   const AnyLineFollower<double>& part = laws_;
-  output.course.leg = std::min(part.progress.segment, count - 2);
-  output.course.target_m = course.points_m[static_cast<std::size_t>(output.course.leg) + 1];
-  output.course.cross_track_m = part.guided.cross_track_m;
-  output.no_passage =
-      !output.finished && !way_is_free(sensed.position_m, course.points_m.back(), 0);
+  output.path.leg = std::min(part.progress.segment, count - 2);
+  output.path.target_m = path.points_m[static_cast<std::size_t>(output.path.leg) + 1];
+  output.path.cross_track_m = part.guided.cross_track_m;
+  output.no_passage = !output.finished && !way_is_free(sensed.position_m, path.points_m.back(), 0);
 }
 
-void ScenarioGuidance::describe(const LissajousCourse&, const Sensed& sensed,
+void ScenarioGuidance::describe(const LissajousPath&, const Sensed& sensed,
                                 GuidanceOutput& output) {
   const PathPoint<double>& path = laws_.point;
-  output.course.target_m = path.position_m;
+  output.path.target_m = path.position_m;
   const Position<double> ahead{path.position_m.x_m + path.vx_mps,
                                path.position_m.y_m + path.vy_mps};
-  output.course.cross_track_m = from_line_m(path.position_m, ahead, sensed.position_m);
+  output.path.cross_track_m = from_line_m(path.position_m, ahead, sensed.position_m);
 }
 
 }  // namespace awmr

@@ -1,5 +1,5 @@
-/// Guidance of a scenario: measurements -> heading and speed references of the laws. Private to this
-/// folder.
+/// Guidance of a scenario: measurements -> heading and speed references of the laws. Private to
+/// this folder.
 #pragma once
 
 #include <optional>
@@ -14,18 +14,18 @@
 
 namespace awmr {
 
-/// The heading that is to be held at `t_s`.
+/// The commanded heading at `t_s`.
 double heading_at(const HeadingSteps& guidance, double t_s);
 
 /// Output of the guidance at one sample.
 struct GuidanceOutput {
   Reference<double> reference{};
-  CourseRow course;
-  bool finished = false;    ///< the route's end is reached
+  PathRow path;
+  bool finished = false;    ///< the end of the route is reached
   bool no_passage = false;  ///< obstacles block the way
 };
 
-/// PathFollower that keeps the path's point of the last step.
+/// PathFollower that stores the path's point of the last step.
 struct TimedPathFollower : PathFollower<double, double> {
   PathPoint<double> point{};
 };
@@ -41,13 +41,14 @@ class ScenarioGuidance {
   ScenarioGuidance(const ScenarioGuidance&) = delete;
   ScenarioGuidance(ScenarioGuidance&&) = default;
 
-  /// Call it once per sample, in order; not in open loop.
+  /// Computes the references. Call it once per sample, in order; not in open loop.
   GuidanceOutput step(double t_s, const Sensed& sensed);
-  /// Waypoints passed by or covered by an obstacle, so far.
+  /// Number of waypoints so far that were missed or covered by an obstacle.
   int missed() const { return laws_.progress.missed; }
 
  private:
-  /// The parts of the guidance that a scenario can have; without a clock that wraps.
+  /// The parts of the guidance that a scenario can have. Unlike the firmware's, the clock does not
+  /// wrap.
   struct Parts {
     using Line = AnyLineFollower<double>;
     using Path = TimedPathFollower;
@@ -58,21 +59,21 @@ class ScenarioGuidance {
 
   void set_up(const OpenLoop&, const Sensed&) {}
   void set_up(const HeadingSteps&, const Sensed&) {}
-  void set_up(const WaypointCourse& course, const Sensed& start);
-  void set_up(const LineCourse& course, const Sensed& start);
-  void set_up(const LissajousCourse& course, const Sensed& start);
+  void set_up(const WaypointPath& path, const Sensed& start);
+  void set_up(const LinePath& path, const Sensed& start);
+  void set_up(const LissajousPath& path, const Sensed& start);
   void describe(const OpenLoop&, const Sensed&, GuidanceOutput&) {}
   void describe(const HeadingSteps&, const Sensed&, GuidanceOutput&) {}
-  void describe(const WaypointCourse& course, const Sensed& sensed, GuidanceOutput& output);
-  void describe(const LineCourse& course, const Sensed& sensed, GuidanceOutput& output);
-  void describe(const LissajousCourse& course, const Sensed& sensed, GuidanceOutput& output);
+  void describe(const WaypointPath& path, const Sensed& sensed, GuidanceOutput& output);
+  void describe(const LinePath& path, const Sensed& sensed, GuidanceOutput& output);
+  void describe(const LissajousPath& path, const Sensed& sensed, GuidanceOutput& output);
   bool way_is_free(const Position<double>& from, const Position<double>& to, int leg);
 
   const Scenario* scenario_;
   double sample_time_s_;
   GuidanceLaws<double, Parts> laws_{};
   std::vector<Sector<double>> sectors_;  ///< of the obstacles
-  std::optional<int> leg_checked_;       ///< the leg whose passage was looked for
+  std::optional<int> leg_checked_;       ///< the leg for which a passage was checked
   bool passage_ = true;
 };
 

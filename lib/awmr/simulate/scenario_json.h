@@ -6,8 +6,8 @@
 
 namespace awmr {
 
-// Ranges of the numbers in a scenario (listed in SCENARIOS.md): wider than any course, and within
-// the range in which the simulator stays finite.
+// Ranges of the numbers in a scenario (listed in SCENARIOS.md): wider than any path, and within the
+// range in which the simulator stays finite.
 inline constexpr NumberRule kDuration_s{.min = 0.0, .max = 1e6, .min_excluded = true};
 inline constexpr NumberRule kTime_s{.min = 0.0, .max = 1e6};
 inline constexpr NumberRule kCoordinate_m{.min = -1e6, .max = 1e6};
@@ -17,7 +17,7 @@ inline constexpr NumberRule kSignedSpeed_mps{.min = -1e3, .max = 1e3};
 inline constexpr NumberRule kSpeed_mps{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kAngle_deg{.min = -1e12, .max = 1e12};
 inline constexpr NumberRule kYawRate_degps{.min = -1e5, .max = 1e5};
-/// Forces over F_max and moments over F_max in m: a thousand motors.
+/// Forces over F_max and moments over F_max in m: those of a thousand motors.
 inline constexpr NumberRule kForce{.min = -1e3, .max = 1e3};
 inline constexpr NumberRule kForceSize{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kRate{.min = 0.0, .max = 1e6, .min_excluded = true};
@@ -32,7 +32,8 @@ Guidance read_guidance(JsonObject json);
 std::vector<Obstacle<double>> read_obstacles(JsonObject& scenario);
 Avoidance<double> read_avoidance(JsonObject json);
 HeadingShaping<double> read_shaping(JsonObject json);
-/// disturbance, faults, slippery, battery, sensors, actuators, control, corner, tyres: those there are.
+/// Reads disturbance, faults, slippery, battery, sensors, actuators, control, corner, tyres, if
+/// present.
 void read_world(JsonObject& json, Scenario& scenario);
 
 }  // namespace awmr

@@ -8,10 +8,11 @@
 namespace awmr {
 namespace {
 
-/// Streams of RunSeed::random, apart from those of the disturbances.
+/// Streams of RunSeed::random, separate from those of the disturbances.
 enum Use : std::uint64_t { kHeading = 1, kYawRate, kSpeed, kGps };
 
-/// Room for the rounding of times that are multiples of the sample time, in samples and in seconds.
+/// Tolerance for the rounding of times that are multiples of the sample time, in samples and in
+/// seconds.
 constexpr double kTimeRounding = 1e-9;
 constexpr double kTimeRounding_s = 1e-9;
 
@@ -49,8 +50,8 @@ DrawnNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std
 Sensing::Sensor::Sensor(const Channel& its_channel, double sample_time_s, const Random& its_random,
                         const std::vector<double>* its_normals)
     : channel(its_channel),
-      latency(static_cast<std::size_t>(its_channel.late_s / sample_time_s + kTimeRounding)),
-      part(its_channel.late_s / sample_time_s - static_cast<double>(latency)),
+      latency(static_cast<std::size_t>(its_channel.latency_s / sample_time_s + kTimeRounding)),
+      part(its_channel.latency_s / sample_time_s - static_cast<double>(latency)),
       correlation(noise_correlation(its_channel.correlation_s, sample_time_s)),
       random(its_random),
       normals(its_normals) {}
@@ -102,8 +103,8 @@ Sensed Sensing::at(std::size_t k, const State<double>& truth) {
   return sensed;
 }
 
-/// The last fix that has arrived. Before the first one, it is the true position at the start, as if
-/// taken a period before.
+/// The last fix that has arrived. Before the first one, the true initial position, as if taken one
+/// period before the start.
 void Sensing::receive_fixes(std::size_t k, const State<double>& truth, Sensed& sensed) {
   const Gps& gps = *sensors_->gps;
   true_m_.push_back({truth.x_m, truth.y_m});

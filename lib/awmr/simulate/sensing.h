@@ -17,18 +17,19 @@ namespace awmr {
 /// Measurements of one sample.
 struct Sensed {
   Measurement<double> motion;
-  Position<double> position_m;  ///< without a GPS the true one, else that of the last fix
-  double fix_taken_s = 0.0;     ///< when the last fix was taken
-  bool is_fix_new = false;      ///< it arrived since the sample before
+  Position<double> position_m;  ///< the true one, or with a GPS that of the last fix
+  double fix_taken_s = 0.0;     ///< time at which the last fix was taken
+  bool is_fix_new = false;      ///< it arrived after the previous sample
 };
 
-/// The sensors of one run, with their noise, latency and drop-outs.
+/// The sensors of one run, with their noise and latency.
 class Sensing {
  public:
-  /// `noise`: null, or what draw_sensor_noise() gives for this seed; it outlives the sensors.
+  /// `noise`: null, or the result of draw_sensor_noise() for this seed, which must outlive the
+  /// sensors.
   Sensing(const std::optional<Sensors>& sensors, double sample_time_s, const RunSeed& seed,
           const DrawnNoise* noise = nullptr);
-  /// The k-th sample; call it once per sample, in order from 0.
+  /// Measures the k-th sample. Call it once per sample, in order from 0.
   Sensed at(std::size_t k, const State<double>& truth);
 
  private:
@@ -38,27 +39,27 @@ class Sensing {
     Sensor(const Channel& channel, double sample_time_s, const Random& random,
            const std::vector<double>* normals);
     double read(std::size_t k, double truth);
-    /// The next of the noise's standard normals:
+    /// The next standard normal of the noise:
     ///   n_0 = w_0,   n_k = rho n_{k-1} + sqrt(1 - rho^2) w_k,   rho = exp(-T_s/tau)
     double next_noise(std::size_t k);
 
     Channel channel;
     std::size_t latency;  ///< whole samples
-    double part;          ///< of a sample more, [0, 1)
+    double part;          ///< additional fraction of a sample, [0, 1)
     double correlation;   ///< rho
     double noise = 0.0;   ///< n_{k-1}
     Random random;
     const std::vector<double>* normals;  ///< null: drawn from `random`
   };
-  /// The true quantity that the sensor reads at the k-th sample, the latency before it: on the line
-  /// between the two samples around that time, and before the first sample as at the first.
+  /// The true quantity at the latency before the k-th sample, interpolated linearly between
+  /// samples; before the first sample, that of the first.
   double truth_at(std::size_t k, const Sensor& sensor, double Measurement<double>::*quantity) const;
 
   std::optional<Sensors> sensors_;
   double sample_time_s_;
   Sensor heading_, yaw_rate_, speed_;
   Random gps_;
-  std::vector<Measurement<double>> motion_;  ///< true, of the latest samples that are still read
+  std::vector<Measurement<double>> motion_;  ///< true motion of the samples within the latency
   std::vector<Position<double>> true_m_;     ///< by sample
   Position<double> fix_m_{};                 ///< the last one
   double fix_taken_s_ = 0.0;

@@ -31,10 +31,10 @@ bool is_finite(const RunRow& row) {
                             row.tau_turn_m,
                             row.psi_ref_rad,
                             row.u_ref_mps,
-                            row.course.psi_goal_rad,
-                            row.course.cross_track_m,
-                            row.course.target_m.x_m,
-                            row.course.target_m.y_m,
+                            row.path.psi_goal_rad,
+                            row.path.cross_track_m,
+                            row.path.target_m.x_m,
+                            row.path.target_m.y_m,
                             row.measured.psi_rad,
                             row.measured.u_mps,
                             row.measured.v_mps,
@@ -60,14 +60,14 @@ Controller<double> controller_in(const Scenario& scenario, Controller<double> co
 
 namespace {
 
-/// The scenario's observer, or else the one of the gains; bandwidth 0 where there is none. An LQI takes
-/// no gains, and so not their observer.
+/// The scenario's observer, else that of the gains; bandwidth 0 if there is none. With an LQI, the
+/// gains and their observer are not used.
 ObserverGains<double> observer_in(const Scenario& scenario, const Gains<double>& gains) {
   ObserverGains<double> observer = scenario.control.lqi ? ObserverGains<double>{} : gains.observer;
   if (const auto& own = scenario.control.observer) {
     observer = {own->bandwidth_radps, own->yaw_max_m, own->surge_max};
   }
-  // A held thrust leaves a surge observer nothing to act on.
+  // With a constant thrust, a surge observer has no effect.
   if (scenario.held_tau_speed()) observer.surge_max = 0.0;
   return observer;
 }
@@ -179,9 +179,9 @@ Status failure_of(const Run& run, const Scenario& scenario) {
   const RunRow& last = run.rows.back();
   return input_error(
       ErrorCode::kDiverges, fmt::format("scenario '{}'", scenario.name),
-      fmt::format("the simulation cannot go on after {:g} s, at u {:.4g} m/s, v {:.4g} m/s, r "
-                  "{:.4g} deg/s: resistance is too stiff there for any step, or a number is no "
-                  "longer finite; check the initial speeds, the disturbances, {}and the model's "
+      fmt::format("the simulation cannot continue after {:g} s, at u {:.4g} m/s, v {:.4g} m/s, r "
+                  "{:.4g} deg/s: resistance is too stiff there for any step, or a number is not "
+                  "finite; check the initial speeds, the disturbances, {}and the model's "
                   "exponents",
                   last.t_s, last.state.u_mps, last.state.v_mps, degrees(last.state.r_radps),
                   scenario.tyres ? "the tyres' cornering stiffness and rest speed, " : ""));

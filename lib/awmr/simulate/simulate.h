@@ -17,15 +17,15 @@
 
 namespace awmr {
 
-/// Path columns of a row, in addition to the vehicle's state; unused in open loop.
-struct CourseRow {
+/// Guidance columns of a row, in addition to the vehicle's state; unused in open loop.
+struct PathRow {
   double psi_goal_rad = 0.0;    ///< the guidance's heading, before avoidance and shaping
-  double cross_track_m = 0.0;   ///< from the present leg, line or path; left of it is positive
-  Position<double> target_m{};  ///< the point gone to: waypoint, segment's end, point of the path
+  double cross_track_m = 0.0;   ///< from the current leg, line or path; positive to its left
+  Position<double> target_m{};  ///< target point: waypoint, end of the segment, point of the path
   int leg = 0;                  ///< index of the waypoint or segment
 };
 
-/// The state at t and the command computed from it, held until the next row.
+/// The state at t and the command computed from it, which is constant until the next row.
 struct RunRow {
   double t_s = 0.0;
   State<double> state{};
@@ -35,16 +35,18 @@ struct RunRow {
   double tau_turn_m = 0.0;            ///< requested by the law, before any limit
   double psi_ref_rad = 0.0;           ///< 0 in open loop
   double u_ref_mps = 0.0;             ///< 0 in open loop
-  CourseRow course = {};
+  PathRow path = {};
   Measurement<double> measured = {};          ///< measurements of the controller
   Position<double> measured_position_m = {};  ///< the same
-  BodyLoad disturbance = {};                  ///< without a slope's share
-  /// From the vehicle's circle to the nearest obstacle, < 0 inside of it; 0 without obstacles.
+  BodyLoad disturbance = {};                  ///< without the effect of a slope
+  /// Distance from the vehicle's circle to the nearest obstacle; < 0 inside of it; 0 without
+  /// obstacles.
   double clearance_m = 0.0;
-  /// Power that the tyres' side forces dissipate with the commands, over F_max; without tyres, the
-  /// power of the model's scrub, without g3.
+  /// Power dissipated by the tyres' lateral forces, over F_max; without tyres, the power of the
+  /// model's scrub, without g3.
   double tyre_power_mps = 0.0;
-  /// Mean wheel forces over the sample that ends here, over F_max, after the motors' lag, the battery,
+  /// Mean wheel forces over the sample that ends here, over F_max, after the motors' lag, the
+  /// battery,
   /// faults and the ground. 0 in the first row.
   WheelForces<double> acting = {0.0, 0.0, 0.0, 0.0};
 };
@@ -53,28 +55,28 @@ struct RunRow {
 enum class RunEnd {
   kDuration,   ///< at the scenario's duration
   kFinished,   ///< the last waypoint was reached, or the end of the line
-  kNoPassage,  ///< obstacles leave no way to the guidance target: the vehicle stopped
-  /// Before its time, and of no use (see failure_of): a number was no longer finite, no step was
-  /// short enough for the motion, or the run is beyond kMostRows or kMostSteps.
+  kNoPassage,  ///< obstacles block the way to the guidance target: the vehicle stopped
+  /// Failed early, without a valid result (see failure_of): a number was not finite, no step was
+  /// short enough for the motion, or the run exceeds kMostRows or kMostSteps.
   kFailed,
 };
 
 /// One simulated run.
 struct Run {
-  std::vector<RunRow> rows;  ///< at 0, T_s, 2 T_s, ... up to and including the end
+  std::vector<RunRow> rows;  ///< at 0, T_s, 2 T_s, ... including the end
   int substeps = 0;          ///< RK4 steps per sample
   RunEnd end = RunEnd::kDuration;
-  int missed_waypoints = 0;  ///< passed by, or covered by an obstacle
-  int position_resets = 0;   ///< of the position's estimate, after rejected fixes (up to 255)
+  int missed_waypoints = 0;  ///< missed, or covered by an obstacle
+  int position_resets = 0;   ///< of the position estimate, after rejected fixes (up to 255)
 };
 
 /// Options of a run.
 struct SimulateOptions {
   /// T_s, s, > 0: time between two commands of the controller; the vehicle's.
   double sample_time_s = 0.01;
-  /// RK4 steps per sample, > 0. Absent: substeps_for(). To be given to study the integration error.
+  /// RK4 steps per sample, > 0, to study the integration error. Absent: substeps_for().
   std::optional<int> substeps;
-  /// Together with the scenario's own seed it decides everything random. Another seed: another run.
+  /// Seed of all random numbers, together with the scenario's own seed.
   std::uint64_t seed = 0;
   /// Number of the draw (0, 1, 2, ...) for several runs with one seed.
   std::uint64_t sample = 0;
@@ -85,10 +87,10 @@ inline constexpr double kMostRows = 2e6;
 inline constexpr double kMostSteps = 1e8;
 inline constexpr int kMostSubsteps = 100'000'000;
 
-/// RK4 steps per sample such that the step resolves the fastest time constant of the plant that
-/// does not depend on speed (see physics.cpp), at most kMostSubsteps.
+/// RK4 steps per sample that resolve the smallest time constant of the plant which does not depend
+/// on speed (see physics.cpp), at most kMostSubsteps.
 int substeps_for(const Plant<double>& plant, double sample_time_s);
-/// The same in a scenario, whose tyres replace some of the plant's resistances.
+/// The same in a scenario, whose tyres can replace some of the plant's resistances.
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
 /// The plant's controller with these gains and the vehicle's limits.
@@ -96,36 +98,36 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
                                    const Gains<double>& gains,
                                    CombinedSplit split = CombinedSplit::kRedistribute);
 
-/// The controller that knows the model's own values, not a corner of their intervals; where they
-/// are those of straight motion alone, it is one for straight motion.
-/// Errors (input): as Model::plant and check_observer_rate.
+/// The controller with the model's own values, without the scenario's corner. If the model only has
+/// straight motion, a controller for straight motion. Errors (input): as Model::plant and
+/// check_observer_rate.
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
 
-/// One run of the model under its own controller, at the vehicle's sample time: the scenario's
-/// corner moves the plant, and the controller does not know. A model that knows nothing of turning
-/// (Model::simulated_motion) drives straight.
-/// Errors (input): as plant_for, Model::plant, check_mode and failure_of; the run turns and the
-/// model knows nothing of turning: where it turns, and what is missing by name.
+/// Simulates the model with its own controller, at the vehicle's sample time. The scenario's corner
+/// changes the plant, but not the controller. A model without turning parameters
+/// (Model::simulated_motion) drives straight. Errors (input): as plant_for, Model::plant,
+/// check_mode and failure_of; the run turns and the model has no turning parameters (the message
+/// has the time and the missing parameters).
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                      YawMode mode);
 
 /// Errors (input): the run would have more than kMostRows rows (names duration_s) or take more
-/// than kMostSteps steps (names the parameter whose time constant asks for them).
+/// than kMostSteps steps (names the parameter whose time constant requires them).
 Status check_work(const Plant<double>& plant, const std::string& model_file,
                   const Scenario& scenario, double sample_time_s);
 
-/// Errors (input): the run ended as kFailed; says when, and at what speeds.
+/// Errors (input): the run ended as kFailed; the message has the time and the speeds.
 Status failure_of(const Run& run, const Scenario& scenario);
 
-/// The same with plant, controller and sample time of the caller's choice.
-/// All rows are finite, and there is at least one; RunEnd::kFailed where it cannot go on. The
-/// scenario's corner is not applied here: see plant_for.
+/// The same with the given plant, controller and sample time. There is at least one row, and all
+/// rows are finite; RunEnd::kFailed if the run cannot continue. Does not apply the scenario's
+/// corner: see plant_for.
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,
              const Scenario& scenario, YawMode mode, const SimulateOptions& options);
 
-/// The bytes of run.csv: the contract's columns, then those that the scenario gives a meaning.
+/// Content of run.csv: the fixed columns, then those that apply to the scenario.
 std::string run_csv(const Run& run, const Scenario& scenario);
-/// A row under the names of its columns in run.csv.
+/// A row by the names of its columns in run.csv.
 std::vector<std::pair<std::string_view, double>> named_values(const RunRow& row,
                                                               const Scenario& scenario);
 

@@ -10,9 +10,9 @@
 namespace awmr {
 namespace {
 
-/// True where nothing moves the vehicle out of its straight line. What is below this is rounding:
-/// a sine of pi, a bearing by atan2. The motion that it is part of has no resistance to yaw and
-/// sway, so that with any resistance there would be less of it.
+/// True if no force or moment moves the vehicle out of its straight line. Values below the
+/// threshold are rounding errors, as of sin(pi) or atan2. The simulated motion has no resistance to
+/// yaw and sway, so any resistance would reduce them further.
 bool is_straight(const RunRow& row) {
   constexpr double kRounding = 1e-9;  // m/s, rad/s, rad, m
   const double turning[] = {row.state.v_mps,        row.state.r_radps,

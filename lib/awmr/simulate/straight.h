@@ -1,4 +1,4 @@
-/// Runs of a model that knows straight motion alone.
+/// Check of runs with a model of straight motion.
 #pragma once
 
 #include "awmr/core/result.h"
@@ -6,8 +6,8 @@
 
 namespace awmr {
 
-/// Errors (input): a run of a model that knows straight motion alone turns; says where, and what
-/// turning takes.
+/// Errors (input): the model only has straight motion and the run turns; the message has the time
+/// and the missing parameters.
 Status check_straight(const Run& run, const Scenario& scenario, const Model& model);
 
 }  // namespace awmr

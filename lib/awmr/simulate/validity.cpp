@@ -25,19 +25,20 @@ namespace {
 void note_late_steps(const Scenario& scenario, std::vector<Finding>& findings) {
   const auto* headings = std::get_if<HeadingSteps>(&scenario.guidance);
   if (headings == nullptr || headings->steps.back().t_s < scenario.duration_s) return;
-  findings.push_back({"", 0, Severity::kWarning, "late-step",
-                      fmt::format("{}: the heading step at {:g} s is not before the end at {:g} s, "
-                                  "and is never followed",
-                                  scenario.name, headings->steps.back().t_s, scenario.duration_s)});
+  findings.push_back(
+      {"", 0, Severity::kWarning, "late-step",
+       fmt::format(
+           "{}: the heading step at {:g} s is not before the end at {:g} s, and has no effect",
+           scenario.name, headings->steps.back().t_s, scenario.duration_s)});
 }
 
 void note_blocked_waypoints(const Scenario& scenario, std::vector<Finding>& findings) {
-  const auto* course = std::get_if<WaypointCourse>(&scenario.guidance);
-  if (course == nullptr) return;
-  for (std::size_t i = 0; i < course->points_m.size(); ++i) {
+  const auto* path = std::get_if<WaypointPath>(&scenario.guidance);
+  if (path == nullptr) return;
+  for (std::size_t i = 0; i < path->points_m.size(); ++i) {
     for (const Obstacle<double>& obstacle : scenario.obstacles) {
-      const double apart_m = std::hypot(course->points_m[i].x_m - obstacle.centre_m.x_m,
-                                        course->points_m[i].y_m - obstacle.centre_m.y_m);
+      const double apart_m = std::hypot(path->points_m[i].x_m - obstacle.centre_m.x_m,
+                                        path->points_m[i].y_m - obstacle.centre_m.y_m);
       if (apart_m > obstacle.radius_m) continue;
       findings.push_back(
           {"", 0, Severity::kWarning, "blocked-waypoint",
@@ -59,8 +60,8 @@ void note_speed(const Scenario& scenario, const Model& model, std::vector<Findin
                                   scenario.name, scenario.speed_mps, needed, std::max(most, 0.0))});
 }
 
-/// The yaw rate, deg/s, that a steady moment of tau_turn_m makes under way, in a plain scenario; on
-/// tyres where they are given.
+/// Yaw rate, deg/s, under a steady moment of tau_turn_m while driving, in a simple scenario; on
+/// tyres if given.
 double turned_degps(const Model& model, double tau_turn_m,
                     const std::optional<Tyres<double>>& tyres) {
   Scenario turn;
@@ -92,9 +93,9 @@ std::optional<Finding> missing_intervals(const Model& model) {
   }
   return Finding{
       model.file, 0, Severity::kWarning, "no-interval",
-      fmt::format("{} of the model {} no 95 % interval{}: they may be wrong by any amount, and no "
-                  "draw varies them. Do what the findings of identify advise, and identify again, "
-                  "before the vehicle drives with these numbers",
+      fmt::format("{} of the model {} no 95 % interval{}: their error is unknown, and draws do not "
+                  "vary them. Follow the findings of identify and identify again before driving "
+                  "with these values",
                   fmt::join(missing, ", "), missing.size() == 1 ? "has" : "have",
                   causes.empty() ? "" : fmt::format(" (identify: {})", fmt::join(causes, ", ")))};
 }
@@ -132,7 +133,7 @@ void limit_heading_rate(double limit_degps, Scenario& scenario) {
     scenario.shaping->rate_max_radps = std::min(scenario.shaping->rate_max_radps, limit_radps);
     return;
   }
-  // The limit is reached within a time constant of the filter.
+  // With this acceleration the rate limit is reached within one time constant of the filter.
   scenario.shaping =
       HeadingShaping<double>{.omega_radps = kShapingBandwidth_radps,
                              .rate_max_radps = limit_radps,

@@ -1,5 +1,5 @@
-/// Vehicles of runs that are driven together: commands -> motors -> battery -> motion, as steps on
-/// rows (row_view.h). Private to this folder.
+/// Vehicles of runs that are simulated together: commands -> motors -> battery -> motion, as steps
+/// on rows (row_view.h). Private to this folder.
 #pragma once
 
 #include "awmr/simulate/motion.h"
@@ -7,17 +7,17 @@
 
 namespace awmr {
 
-/// Properties that all vehicles share.
+/// Properties common to all vehicles.
 struct VehicleSetup {
   MotorLag lag;
   bool has_battery = false;
   double battery_sag = 0.0;  ///< Battery::sag
-  bool is_by_wheel = false;  ///< each wheel has a force of its own
+  bool is_by_wheel = false;  ///< the wheels of a side can have different forces
   bool is_on_tyres = false;
   Tyres<double> tyres;            ///< of vehicles on tyres
-  bool has_back_emf = false;      ///< a vehicle
-  bool has_scrub = false;         ///< a vehicle
-  bool is_front_driven = false;   ///< a vehicle
+  bool has_back_emf = false;      ///< any vehicle
+  bool has_scrub = false;         ///< any vehicle
+  bool is_front_driven = false;   ///< any vehicle
   ExternalForces<double> push{};  ///< without a load; the same for every vehicle
 };
 
@@ -25,23 +25,23 @@ struct VehicleSetup {
 template <class Row>
 struct Vehicles {
   VehicleSetup setup;
-  double battery_share = 1.0;  ///< of the largest force, over the present sample
+  double battery_share = 1.0;  ///< ratio of the largest force to F'max, over the current sample
 
-  Row active;  ///< 1; 0 once the run has ended or failed, or where there is none
+  Row active;  ///< 1; 0 if the run has ended or failed, or for an unused lane
 
   // Constant over a run.
-  Plant<Row> plant;  ///< with its chord at rest
+  Plant<Row> plant;  ///< with its chord through rest
   Row step_s;        ///< h
   Row substeps;
   Row force_most;  ///< largest F' of a wheel, with the dead zone
 
-  // As a run goes on.
+  // State of a run.
   State<Row> state;
   SideForces<Row> motors;  ///< see MotorLag
   Row halves;              ///< see Resolution
 
-  // Values of the present sample: the commands, the forces that act on the ground, by side or by
-  // wheel, and the load of the disturbances.
+  // Values of the current sample: the commands, the applied forces by side or by wheel, and the
+  // load of the disturbances.
   SideForces<Row> force;
   Row steering_command_rad;
   SideForces<Row> arriving;
@@ -53,12 +53,12 @@ struct Vehicles {
 /// Steps of a sample for one kind of row. Runs that are not active do not change.
 template <class Row>
 struct VehicleSteps {
-  /// From the commands to `tyre_power_mps`.
+  /// Computes `tyre_power_mps` from the commands.
   void (*dissipate)(Vehicles<Row>& v);
-  /// From the commands to the motor forces `arriving`, through motors and battery.
+  /// Computes the motor forces `arriving` from the commands, through motors and battery.
   void (*actuate)(Vehicles<Row>& v);
-  /// Moves the states on. A vehicle that no step can follow, or whose numbers are no longer finite,
-  /// stays, and its run is no longer active.
+  /// Integrates the states. If no step is short enough or a number is not finite, the vehicle's
+  /// state is unchanged and its run becomes inactive.
   void (*move)(Vehicles<Row>& v);
 };
 
@@ -126,7 +126,7 @@ AWMR_WHOLE void actuate(const View& view, Vehicles<Row>& v) {
   view.store(force, v.arriving);
 }
 
-/// `rates(body, state, steering command)`: those of the state, with forces that are held.
+/// `rates(body, state, steering command)`: rates of the state with constant forces.
 template <bool kIsOnTyres, class View, class Row, class Rates>
 AWMR_WHOLE void move_by(const View& view, Vehicles<Row>& v, const Rates& rates) {
   using math::select;
@@ -166,8 +166,8 @@ void move_alone(const View& view, Vehicles<Row>& v,
           __attribute__((always_inline)) { return side_driven_rates(plant, at, force, command); });
 }
 
-/// Chooses rates without terms that no vehicle has: a branch inside the rates would stall the
-/// processor in every step.
+/// Selects rates without terms that no vehicle has, because a branch inside the rates would stall
+/// the processor in every step.
 template <class View, class Row>
 void move(const View& view, Vehicles<Row>& v) {
   using T = typename View::Number;

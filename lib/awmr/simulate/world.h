@@ -24,7 +24,7 @@ struct BodyLoadOf {
 };
 using BodyLoad = BodyLoadOf<double>;
 
-/// A span of time: from `from_s` on, up to but not including `to_s`.
+/// Time window [from_s, to_s).
 struct Window {
   double from_s = 0.0;  ///< >= 0
   /// > from_s; infinity: to the end of the run.
@@ -37,7 +37,7 @@ struct Window {
 struct DisturbanceTerm {
   enum class Kind { kConstant, kSine, kNoise };
   Kind kind = Kind::kConstant;
-  /// kConstant: the value; kSine: the amplitude; kNoise: the standard deviation. Its sign counts.
+  /// kConstant: the value; kSine: the amplitude; kNoise: the standard deviation. Its sign matters.
   double value = 0.0;
   Window window;                    ///< a step is a constant with from_s > 0
   double frequency_hz = 0.0;        ///< kSine, > 0
@@ -45,13 +45,13 @@ struct DisturbanceTerm {
   double bandwidth_hz = 0.0;        ///< kNoise, > 0: corner of the first-order low pass
 };
 
-/// A plane that falls in one direction.
+/// Uniform slope of the ground.
 struct Slope {
   double angle_rad = 0.0;     ///< rad, below the horizontal
-  double downhill_rad = 0.0;  ///< rad: the heading, in the world frame, in which it falls
+  double downhill_rad = 0.0;  ///< rad: heading of the steepest descent in the world frame
 };
 
-/// All that pushes the vehicle other than its own wheels; the terms of an axis add up.
+/// External forces on the vehicle; the terms of an axis are added.
 struct Disturbance {
   std::vector<DisturbanceTerm> surge;  ///< force over F_max, forward positive
   std::vector<DisturbanceTerm> sway;   ///< force over F_max, to the left positive
@@ -63,43 +63,43 @@ struct Disturbance {
 /// The four driven wheels.
 enum class Wheel { kFrontLeft, kFrontRight, kRearLeft, kRearRight };
 
-/// A motor that gives only a share of the requested force.
+/// Fault of a motor, which gives only a share of the requested force.
 struct WheelFault {
   std::vector<Wheel> wheels;
   Window window;
   double share = 0.0;  ///< of the force requested, [0, 1]; 0: the motor is dead
 };
 
-/// A slippery disc on the ground: a wheel on it passes on no more than `force_max`.
+/// Slippery disc on the ground, which limits the force of a wheel on it to `force_max`.
 struct SlipperyPatch {
   Position<double> centre_m{};
   double radius_m = 0.0;   ///< > 0
   double force_max = 0.0;  ///< >= 0, over F_max
 };
 
-/// The battery runs down: the largest force of a motor falls linearly from all of F'max at
-/// `from_s` to `share_end` of it at `to_s`, and stays there. And its voltage sags under the motors'
-/// current. The controller knows of neither.
+/// Battery discharge: the largest force of a motor decreases linearly from F'max at `from_s` to
+/// `share_end` of it at `to_s`, and is then constant. In addition, the voltage sags under the
+/// motors' current. The controller measures neither.
 struct Battery {
   double from_s = 0.0;     ///< >= 0
   double to_s = 1.0;       ///< > from_s
   double share_end = 1.0;  ///< of F'max, [0, 1]
-  /// The battery's inner resistance over that of one motor's winding, >= 0: the share of the voltage
-  /// that is lost where one motor is stalled, nearly. 0: none is.
+  /// Ratio of the battery's internal resistance to that of one motor's winding, >= 0: approximately
+  /// the relative voltage drop with one stalled motor. 0: no sag.
   double sag = 0.0;
 };
 
 /// Errors of one sensor, in the unit of its reading.
 struct Channel {
-  double noise = 0.0;    ///< >= 0: standard deviation
-  double bias = 0.0;     ///< constant over a run; its sign counts
-  double quantum = 0.0;  ///< >= 0: step of the reading; 0: none
-  double late_s = 0.0;   ///< >= 0: a reading is of this long ago
+  double noise = 0.0;      ///< >= 0: standard deviation
+  double bias = 0.0;       ///< constant over a run; its sign matters
+  double quantum = 0.0;    ///< >= 0: step of the reading; 0: none
+  double latency_s = 0.0;  ///< >= 0: latency of a reading
   /// tau, s, >= 0: errors a time t apart have the correlation exp(-t/tau); 0: independent readings.
   double correlation_s = 0.0;
 };
 
-/// Correlation of two errors of a sensor `apart_s` > 0 apart, exp(-t/tau); 0 where tau is 0.
+/// Correlation of two errors of a sensor `apart_s` > 0 apart, exp(-t/tau); 0 if tau is 0.
 inline double noise_correlation(double correlation_s, double apart_s) {
   return correlation_s > 0.0 ? std::exp(-apart_s / correlation_s) : 0.0;
 }
@@ -112,14 +112,14 @@ struct Gps {
   std::vector<Window> dropouts;
 };
 
-/// Without a sensor of a quantity the controller is given its true value, except sway: real
-/// vehicles do not measure it, `sway_measured` false gives 0.
+/// Sensors of the controller. A quantity without a sensor has its true value. Exception: sway is 0
+/// if `sway_measured` is false, as on real vehicles.
 struct Sensors {
   Channel heading;   ///< rad
   Channel yaw_rate;  ///< rad/s
   Channel speed;     ///< m/s, surge
   bool sway_measured = true;
-  bool speed_signed = true;  ///< false: the speed is |u|, as a GPS gives it
+  bool speed_signed = true;  ///< false: the measured speed is |u|, as with a GPS
   std::optional<Gps> gps;    ///< absent: the true position
 };
 
@@ -127,11 +127,11 @@ struct Sensors {
 struct Actuators {
   double steering_quantum_rad = 0.0;  ///< one step of the servo's pulse; 0: any angle
   int pwm_counts = 0;                 ///< counts for the force F'max; 0: any force
-  /// First-order lag of the wheels' forces behind their commands, s, >= 0.
+  /// Time constant of the first-order lag of the wheel forces, s, >= 0.
   double motor_time_constant_s = 0.0;
 };
 
-/// A parameter that is put at an end of its 95 % interval.
+/// A parameter that is set to an end of its 95 % interval.
 struct CornerParameter {
   ParameterId id{};
   bool high = true;  ///< the upper end, else the lower
@@ -142,14 +142,14 @@ struct ControlOptions {
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< of the combined mode
   struct Observer {
     double bandwidth_radps = 0.0;  ///< of the estimate, > 0
-    double yaw_max_m = 0.0;  ///< most that is taken for a disturbance: moment over F_max, m, > 0
-    double surge_max = 0.0;  ///< the same along x: force over F_max, > 0
+    double yaw_max_m = 0.0;        ///< largest estimated disturbance: moment over F_max, m, > 0
+    double surge_max = 0.0;        ///< the same along x: force over F_max, > 0
     /// true: the observer uses the command after its limits; false: before them,
     /// so that a saturated actuator looks like a disturbance and the estimate winds up.
     bool anti_windup = true;
   };
   std::optional<Observer> observer;
-  std::optional<LqiWeights<double>> lqi;     ///< absent: the heading law is the sliding mode
+  std::optional<LqiWeights<double>> lqi;     ///< absent: the heading law is sliding mode
   std::optional<AllocationForm> allocation;  ///< absent: the vehicle's
 };
 

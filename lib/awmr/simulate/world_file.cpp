@@ -1,4 +1,5 @@
-// scenario.json: disturbance, faults, slippery, battery, sensors, estimator, actuators, control, corner, tyres.
+// scenario.json: disturbance, faults, slippery, battery, sensors, estimator, actuators, control,
+// corner, tyres.
 
 #include <array>
 #include <string>
@@ -24,7 +25,7 @@ Window read_window(JsonObject& json) {
   return window;
 }
 
-/// As the file has them; a step is a constant that begins later.
+/// Kinds of terms in the file; a step is a constant that begins later.
 enum class TermType { kConstant, kStep, kSine, kNoise };
 constexpr NameTable<TermType, 4> kTermTypes{{{"constant", TermType::kConstant},
                                              {"step", TermType::kStep},
@@ -117,13 +118,13 @@ Battery read_battery(JsonObject json) {
   return battery;
 }
 
-/// A sensor's numbers in the unit of the file, times `unit` in that of the program.
+/// Reads a sensor. `unit`: factor from the unit of the file to that of the program.
 Channel read_channel(JsonObject json, double unit) {
   Channel channel{
       .noise = unit * json.optional_number("noise", kSensorSize).value_or(0.0),
       .bias = unit * json.optional_number("bias", kSensorBias).value_or(0.0),
       .quantum = unit * json.optional_number("quantum", kSensorSize).value_or(0.0),
-      .late_s = json.optional_number("latency_s", kLatency_s).value_or(0.0),
+      .latency_s = json.optional_number("latency_s", kLatency_s).value_or(0.0),
       .correlation_s = json.optional_number("correlation_s", kCorrelation_s).value_or(0.0)};
   json.reject_unknown_keys();
   return channel;
@@ -160,7 +161,8 @@ Sensors read_sensors(JsonObject json) {
   return sensors;
 }
 
-/// The servo's pulse: `us_per_deg` at a resolution of `step_us` (an ATmega's timer at 2 MHz: 0.5).
+/// Reads the servo's pulse: `us_per_deg` at a resolution of `step_us` (an ATmega's timer at 2 MHz:
+/// 0.5).
 Actuators read_actuators(JsonObject json) {
   Actuators actuators;
   if (auto servo = json.optional_object("servo")) {
@@ -189,7 +191,7 @@ constexpr NumberRule kLqiYawRate_degps{.min = 1e-3, .max = 1e5};
 constexpr NumberRule kLqiIntegral_deg_s{.min = 1e-3, .max = 1e6};
 constexpr NumberRule kLqiMoment_m{.min = 1e-6, .max = 1e3};
 
-/// The weights of the LQI; none for the sliding mode.
+/// The weights of the LQI; empty for sliding mode.
 std::optional<LqiWeights<double>> read_heading_law(JsonObject json) {
   std::optional<LqiWeights<double>> lqi;
   if (json.choice("type", kHeadingLaws) == HeadingLaw::kLqi) {
@@ -232,7 +234,7 @@ std::vector<CornerParameter> read_corner(JsonObject json) {
       for (const ParameterInfo& parameter : parameter_table()) {
         known += (known.empty() ? "" : ", ") + std::string(parameter.name);
       }
-      json.fault(ErrorCode::kUnknownName, name, "is no parameter; they are " + known);
+      json.fault(ErrorCode::kUnknownName, name, "is not a parameter; available: " + known);
     }
   }
   return corner;

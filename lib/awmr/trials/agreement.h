@@ -8,8 +8,9 @@
 /// with
 ///
 ///     rounding     half a unit in the last decimal place of the printed column, and at most 5 % of
-///                  the value. Trailing zeros are not seen, so the place is the finest of the whole
-///                  column; the 5 % keep a column of whole numbers from agreeing with everything.
+///                  the value. Trailing zeros are lost, so the finest place in the whole column is
+///                  used. Without the limit of 5 %, a column of whole numbers would agree with any
+///                  value.
 ///     stop_watch   0.2 s: a hand on a stop watch is accurate to about 0.1 s, once at the start and
 ///                  once at the end. Times given to the millisecond or finer are not hand-timed:
 ///                  for them it is one unit of their last place.

@@ -32,9 +32,9 @@ std::uint32_t sequence_of(std::string_view bytes, std::size_t offset) {
   return number_in<std::uint32_t>(bytes.substr(offset + kLogRowCovered));
 }
 
-/// Adds the complete row at this offset with its run, and the rows lost before it. `anew`: a header
-/// precedes the row.
-void add_row(std::string_view bytes, std::size_t at, bool anew, Scan& scan) {
+/// Adds the complete row at this offset with its run, and the rows lost before it. `after_header`:
+/// a header precedes the row.
+void add_row(std::string_view bytes, std::size_t at, bool after_header, Scan& scan) {
   const std::uint32_t sequence = sequence_of(bytes, at);
   const double t_s = time_of(bytes, at, scan.layout);
   std::size_t run = 1;
@@ -44,7 +44,7 @@ void add_row(std::string_view bytes, std::size_t at, bool anew, Scan& scan) {
     const Place& last = scan.rows.back();
     const std::uint32_t before = sequence_of(bytes, last.offset);
     const bool goes_on =
-        !anew && sequence > before && t_s > time_of(bytes, last.offset, scan.layout);
+        !after_header && sequence > before && t_s > time_of(bytes, last.offset, scan.layout);
     run = last.run + (goes_on ? 0 : 1);
     if (goes_on) missing = sequence - before - 1;
     last_end = last.offset;
@@ -95,16 +95,16 @@ void note_end(std::string_view bytes, Scan& scan) {
 
 Result<Scan> scan_of(std::string_view bytes, const std::string& file) {
   Scan scan;
-  bool anew = true;
+  bool after_header = true;
   std::size_t damaged_headers = 0;
   for (std::size_t at = 0; at < bytes.size();) {
     if (const auto header = header_at(bytes, at)) {
       AWMR_RETURN_IF_ERROR(add_header(*header, at, file, scan));
-      anew = true;
+      after_header = true;
       at += kLogHeaderBytes;
     } else if (scan.layout.row_bytes > 0 && is_row(bytes, at, scan.layout.row_bytes)) {
-      add_row(bytes, at, anew, scan);
-      anew = false;
+      add_row(bytes, at, after_header, scan);
+      after_header = false;
       at += scan.layout.row_bytes;
     } else {
       if (bytes.substr(at).starts_with(kMagic) && ++damaged_headers > kMostDamagedHeaders) {

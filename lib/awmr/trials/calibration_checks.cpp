@@ -23,8 +23,8 @@ constexpr double kSignificance = 5.0;  // standard errors
 constexpr double kLeastScale = 0.03;
 constexpr double kLeastOffset_rad = 0.0175;
 
-/// Twenty windows or more: the longer, the less the noise at their ends counts, but side slip and heading
-/// errors add up.
+/// Twenty windows or more. Longer windows reduce the effect of noise at their ends, but accumulate
+/// sideslip and heading errors.
 std::vector<LogWindow> calibration_windows(const DrivingLog& log) {
   constexpr double kShortest_s = 1.0;
   constexpr double kLongest_s = 5.0;
@@ -36,7 +36,7 @@ std::vector<LogWindow> calibration_windows(const DrivingLog& log) {
 struct Regression {
   Eigen::VectorXd coefficients;
   Eigen::VectorXd std_errors;
-  double scatter = 0.0;  ///< of the rows that count
+  double scatter = 0.0;  ///< of the rows that are not outliers
 };
 
 /// The rows whose residual is within four standard deviations, by the median.
@@ -51,7 +51,8 @@ std::vector<Eigen::Index> usual_rows(const Eigen::VectorXd& residuals) {
   return rows;
 }
 
-/// Least squares of y = X k, outliers left out in three rounds; none where X is short of rank.
+/// Least squares of y = X k, without outliers, which are removed in three rounds; empty if X is
+/// rank-deficient.
 std::optional<Regression> regression(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
   constexpr int kRounds = 3;
   Regression found;
@@ -100,7 +101,7 @@ CourseWindow course_window(const DrivingLog& log, const LogWindow& window, doubl
   return sums;
 }
 
-/// k and the scatter of its fit. Headings count times `heading_factor`.
+/// k and the scatter of its fit. Headings are multiplied by `heading_factor`.
 struct CourseFit {
   Complex factor;
   double std_error = 0.0;
@@ -173,7 +174,8 @@ std::string mapping_option(std::span<const ColumnMapping> mappings, std::string_
   return option_text("column '" + scaled_mapping(mappings, column, factor) + "'");
 }
 
-/// Which of the two is off: the positions follow the heading as it is, or as the yaw rate has it.
+/// Determines which of the two is wrong: the positions agree with the heading, or with the integral
+/// of the yaw rate.
 enum class ChannelAtFault { kYawRate, kHeading, kEither };
 ChannelAtFault channel_at_fault(const DrivingLog& log, const Calibration& scale) {
   constexpr double kClearly = 0.7;

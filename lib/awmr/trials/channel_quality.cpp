@@ -80,7 +80,7 @@ std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
   return fresh;
 }
 
-void judge_repeats(std::span<const double> value, ChannelQuality& quality) {
+void classify_repeats(std::span<const double> value, ChannelQuality& quality) {
   const Changes changes = changes_of(value);
   quality.fresh.assign(value.size(), true);
   constexpr std::size_t kFewestChanges = 8;
@@ -102,7 +102,8 @@ void judge_repeats(std::span<const double> value, ChannelQuality& quality) {
 }
 
 /// Each reading less the median of itself and its two neighbours on either side. Edges give small
-/// values; jumps away and back of up to two readings give large ones. 0 for two readings at each end.
+/// values; jumps away and back of up to two readings give large ones. 0 for two readings at each
+/// end.
 std::vector<double> off_median(std::span<const double> value) {
   std::vector<double> off(value.size(), 0.0);
   for (std::size_t k = 2; k + 2 < value.size(); ++k) {
@@ -119,11 +120,11 @@ bool all_equal(std::span<const double> values) {
 }
 
 /// Beyond noise and motion. Five equal readings, as an encoder gives them at rest, show no
-/// noise. Of normal noise, |off| has its 75 % quantile at 1.04 standard deviations
-/// and exceeds 7 of them once in 1e9 readings. The quantile of n readings is itself known to
-/// 1.3/sqrt(n): four times that is allowed for. A reading at the turn of a motion is off by one change
-/// of the signal from row to row: three times the 80 % quantile of these (for noise alone 5.4
-/// standard deviations) is allowed for.
+/// noise. For normal noise, the 75 % quantile of |off| is 1.04 standard deviations, and |off|
+/// exceeds 7 of them once in 1e9 readings. The quantile of n readings has a relative error of
+/// 1.3/sqrt(n), of which four times is added. At a sharp change of a motion, |off| is one change
+/// between rows; the limit includes three times the 80 % quantile of these (5.4 standard deviations
+/// for noise only).
 double spike_limit(std::span<const double> value, std::span<const double> off, double quantum) {
   constexpr double kQuantileOverStd = 1.04;
   constexpr double kStandardDeviations = 7.0;
@@ -145,8 +146,8 @@ double spike_limit(std::span<const double> value, std::span<const double> off, d
                    0.1 * range, 3.0 * quantum});
 }
 
-/// Whether the readings on one side of `k` lead to it in a straight line, as at the sharp turn of a
-/// motion: from the two nearest that are within the limit.
+/// True if the readings on one side of `k` extrapolate linearly to it, as at a sharp change of a
+/// motion: from the two nearest readings within the limit.
 bool is_reached_from(std::span<const double> value, std::span<const double> off, double limit,
                      std::size_t k, std::ptrdiff_t side) {
   const auto rows = static_cast<std::ptrdiff_t>(value.size());
@@ -311,7 +312,7 @@ void find_saturation(std::span<const double> all, std::span<const double> activi
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity) {
   ChannelQuality quality;
-  judge_repeats(value, quality);
+  classify_repeats(value, quality);
   find_spikes(value, quality);
   find_stuck(t_s, value, activity, quality);
   if (quality.repeats == Repeats::kNone && quality.stuck.empty())

@@ -32,12 +32,12 @@ struct ChannelQuality {
 };
 
 /// `activity` by row: the command, in any scale. A signal that is constant while this changes is
-/// stuck; one that rests while this rests is not. Times rise.
+/// stuck; a signal at rest while this rests is not. Times are ascending.
 ///
-/// A slow sensor leaves at least two rows between changes and jumps by many of its smallest
-/// differences. A coarse one also changes in neighbouring rows, mostly by one step. Each reading of
-/// a slow sensor counts once. Of a coarse one every row counts, because an unchanged value means
-/// that the signal did not cross a step. Spikes, stuck and saturated rows do not count.
+/// A slow sensor changes in at most every second row, by many of its smallest differences. A
+/// coarse one also changes in neighbouring rows, mostly by one step. Each reading of a slow sensor
+/// counts once. Of a coarse one every row counts, because an unchanged value means that the signal
+/// did not cross a step. Spikes, stuck and saturated rows do not count.
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity);
 

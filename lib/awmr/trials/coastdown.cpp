@@ -20,7 +20,7 @@ bool is_stop_time(const TrialReader& reader) {
   return reader.has("initial_speed_mps") && reader.has("stop_time_s");
 }
 
-/// A row per speed bin, as on a road-load rig.
+/// One row per speed bin, as in road-load measurements.
 bool is_binned(const TrialReader& reader) {
   return reader.has("from_mps") && reader.has("to_mps") && reader.has("elapsed_s");
 }
@@ -109,9 +109,9 @@ void check_length(TrialReader& reader, const std::vector<CoastCurve>& curves) {
   }
 }
 
-/// Rows of time per speed bin as a curve: its speeds are the ends of the bins, its times the sums of
-/// their durations. Bins of a run follow each other; another run begins where `run` changes, or with a
-/// bin that does not begin where the one before ends.
+/// Converts times per speed bin to a curve: the speeds are the ends of the bins, the times the sums
+/// of their durations. A new run begins if `run` changes, or with a bin that does not start at the
+/// end of the previous one.
 std::vector<CoastCurve> read_bins(TrialReader& reader) {
   std::vector<CoastCurve> curves;
   std::optional<double> run;

@@ -20,9 +20,9 @@ struct ConstantChannel {
   double value = 0.0;  ///< in the column's unit
 };
 
-/// Returns the constant ones among speed, lateral speed, yaw rate and heading, if another channel
-/// shows motion. Motion is a speed beyond 0.05 m/s, a yaw rate beyond 0.1 rad/s, a heading change
-/// of 5 deg or a position change of 0.2 m. A file of a vehicle at rest has none.
+/// Returns the constant ones of speed, lateral speed, yaw rate and heading, if another channel
+/// contains motion. Motion is a speed beyond 0.05 m/s, a yaw rate beyond 0.1 rad/s, a heading
+/// change of 5 deg or a position change of 0.2 m. A file of a vehicle at rest has none.
 std::vector<ConstantChannel> constant_channels(const ColumnValues& values);
 
 }  // namespace awmr

@@ -10,9 +10,9 @@
 namespace awmr {
 namespace {
 
-/// At most this speed, or a tenth of the highest one where that is less.
+/// Largest speed at rest: this, or a tenth of the highest speed if that is smaller.
 constexpr double kRest_mps = 0.1;
-/// A larger difference than noise, a slow turn or a start in a turn makes.
+/// Threshold of the difference, larger than that of noise, of a slow turn or of a start in a turn.
 constexpr double kFar_rad = 20.0 * pi<double>() / 180.0;
 
 double difference(double a_rad, double b_rad) { return std::abs(wrap_angle(a_rad - b_rad)); }

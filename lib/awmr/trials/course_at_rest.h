@@ -1,4 +1,4 @@
-/// Heading readings at rest of a sensor that measures the course. Private to this folder.
+/// Detects heading readings at rest of a sensor that measures the course. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,14 @@ namespace awmr {
 /// after.
 struct CourseAtRest {
   double rest_mps = 0.0;          ///< below this speed, the vehicle counts as at rest
-  std::vector<std::size_t> rows;  ///< at rest; empty: the heading at rest is one
+  std::vector<std::size_t> rows;  ///< at rest; empty: the readings at rest are valid headings
   double off_rad = 0.0;           ///< largest difference from the heading in motion, (0, pi]
 };
 
-/// `present`: the rows with a heading, rising. `speed_mps` and `heading_rad` have one value per row;
-/// the heading may wrap. A vehicle that was turned by hand between two drives is not taken for one:
-/// its headings before and after the rest differ.
+/// `present`: the rows with a heading, rising. `speed_mps` and `heading_rad` have one value per
+/// row;
+/// the heading may wrap. A vehicle that was turned by hand between two drives is not reported,
+/// because its headings before and after the rest differ.
 CourseAtRest course_at_rest(std::span<const double> speed_mps, std::span<const double> heading_rad,
                             std::span<const std::size_t> present);
 

@@ -13,7 +13,7 @@ namespace {
 /// A jump exceeds this multiple of the 95 % quantile of the change between two readings.
 constexpr double kTimes = 10.0;
 constexpr double kQuantile = 0.95;
-/// A smaller jump is a corrected fix, not another place.
+/// A smaller jump is a corrected fix, not a new run.
 constexpr double kVehicleLengths = 4.0;
 constexpr double kLeastTurn_rad = 1.0;
 constexpr std::size_t kFewest = 20;
@@ -48,7 +48,7 @@ double common_rate(const std::vector<Move>& moves) {
   return rates[static_cast<std::size_t>(place)];
 }
 
-/// The first change too large for the vehicle after which the signal does not return.
+/// The first change that is too large for the vehicle and after which the signal does not return.
 std::optional<Move> jump_in(const std::vector<Move>& moves, double least, const Size& size) {
   if (moves.size() < kFewest) return std::nullopt;
   const double rate = common_rate(moves);

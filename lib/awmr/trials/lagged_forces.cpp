@@ -6,7 +6,7 @@
 namespace awmr {
 namespace {
 
-/// Commands may be read so much before the first row requested, or after the last one.
+/// Largest time before the first, or after the last requested row at which commands are read.
 constexpr double kLongestDelay_s = 1.0;
 constexpr double kForgotten = 40.0;  // time constants: exp(-40) is 4e-18
 
@@ -53,7 +53,7 @@ LaggedForces::Side LaggedForces::side(const std::vector<double>& command, std::s
 
 LaggedForces::Value LaggedForces::at(const Side& side, const std::vector<double>& command,
                                      double t_s) const {
-  // The end of a step is the begin of a row but for rounding.
+  // The end of a step equals the begin of a row, up to rounding.
   constexpr double kRounding_s = 1e-9;
   const auto first = log_->t_s.begin() + static_cast<std::ptrdiff_t>(first_row_);
   const auto last = first + static_cast<std::ptrdiff_t>(side.force.size());

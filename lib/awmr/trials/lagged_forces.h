@@ -1,4 +1,4 @@
-/// Wheel forces behind motors that lag the commands of a log.
+/// Wheel forces of motors with a first-order lag, from the commands of a log.
 #pragma once
 
 #include <cstddef>
@@ -8,17 +8,18 @@
 
 namespace awmr {
 
-/// Forces F' behind motors of the time constant T, with the derivatives by T. While the command is c:
+/// Forces F' of motors with the time constant T, with their derivatives by T. For a constant
+/// command c:
 ///
 ///     T dF'/dt = c - F',   F'(t + h) = c + (F'(t) - c) exp(-h/T)
 ///     mean over [t, t + h] = mean of c - (T/h) (F'(t + h) - F'(t))
 ///
-/// F' begins at c so many time constants before the rows that are requested, or at the log's first
-/// row, that an earlier command has less weight than rounding. T = 0 passes the commands on.
+/// F' starts at c so many time constants before the requested rows that earlier commands have less
+/// effect than rounding, or at the first row of the log. With T = 0, F' = c.
 class LaggedForces {
  public:
-  /// For the rows [begin, end) of the log, and commands that act up to a second earlier or later.
-  /// The log must outlive it.
+  /// For the rows [begin, end) of the log, and delays of up to a second in either direction. The
+  /// log must outlive it.
   LaggedForces(const DrivingLog& log, std::size_t begin, std::size_t end, double lag_s);
 
   /// The mean over a span, and its derivatives.
@@ -41,12 +42,12 @@ class LaggedForces {
     double by_lag;
   };
   Side side(const std::vector<double>& command, std::size_t end) const;
-  /// At `t_s`, before a command that begins there counts.
+  /// At `t_s`, before a command that begins at this time.
   Value at(const Side& side, const std::vector<double>& command, double t_s) const;
 
   const DrivingLog* log_;
   double lag_s_;
-  std::size_t first_row_;  ///< of the two below
+  std::size_t first_row_;  ///< first row of the two vectors below
   Side left_;
   Side right_;
 };

@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-/// Returns the value, or nothing and adds the faults.
+/// Returns the value; if there is none, adds the faults.
 template <class Read>
 std::optional<Read> keep(Result<Read> read, std::vector<Fault>& faults) {
   if (read) return std::move(*read);
@@ -81,7 +81,7 @@ bool is_same_recording(const DrivingLog& a, const DrivingLog& b) {
   return is_same;
 }
 
-/// A recording given twice counts twice, and its intervals are too narrow by the root of 2.
+/// Finds duplicates: a recording that is given twice would narrow intervals by sqrt(2).
 void check_repeated_logs(const std::vector<DrivingLog>& logs, std::vector<Fault>& faults) {
   for (std::size_t i = 0; i < logs.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {

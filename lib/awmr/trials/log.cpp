@@ -292,7 +292,7 @@ std::vector<LogChannel> find_unmeasured(const TrialReader& reader, std::vector<F
   return unmeasured;
 }
 
-/// The last speed that was read, by row; the first one before it. Empty: there is none.
+/// By row: the last reading of the speed; before the first one, the first. Empty without speed.
 std::vector<double> last_speeds(const TrialReader& reader, RowSpan rows) {
   if (!reader.has("speed_mps")) return {};
   const std::vector<std::size_t> present = rows_present(reader, rows, "speed_mps");
@@ -307,8 +307,8 @@ std::vector<double> last_speeds(const TrialReader& reader, RowSpan rows) {
   return speeds;
 }
 
-/// Takes heading readings at rest out of `present` where they are none, and makes them those of the
-/// next row. Adds a finding.
+/// Removes invalid heading readings at rest from `present`, and replaces their values by that of
+/// the next valid row. Adds a finding.
 void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> speed_mps,
                               std::vector<double>& heading_rad, std::vector<std::size_t>& present,
                               std::vector<Finding>& findings) {

@@ -20,7 +20,7 @@ Measured measured_of(LogChannel channel, const DrivingLog& log,
                      const std::vector<std::size_t>& rows, std::vector<double> values,
                      std::vector<Finding>& findings);
 
-/// A receiver gives x and y together, so a repeat of only one is chance: both count.
+/// A receiver updates x and y together, so if only one of them repeats, both readings are new.
 void join_position(DrivingLog& log);
 
 /// Adds finding `held-samples`: channels slower than the log.

@@ -12,8 +12,8 @@
 ///     curvature r/u          with   tan(d_r)/l_f: a vehicle cannot turn far more sharply than its
 ///                                   front axle points
 ///
-/// A vehicle that never moves is refused first. A ratio near 57.3, 3.6, 1000 or -1 tells which unit or sign is off; where one of several columns
-/// may be to blame, all are named.
+/// A vehicle that never moves is refused first. A ratio near 57.3, 3.6, 1000 or -1 identifies the
+/// wrong unit or sign. If any of several columns can be wrong, all are named.
 #pragma once
 
 #include <optional>
@@ -36,8 +36,8 @@ struct Contradiction {
 };
 
 /// Empty if all channels agree. `mappings`: those with which the log was read, so that the remedy
-/// refers to the file's own column. A comparison with too weak a signal (a straight drive, a
-/// vehicle at rest, fewer than 10 windows) is skipped.
+/// refers to the file's own column. Comparisons with a weak signal (a straight drive, a vehicle at
+/// rest, fewer than 10 windows) are skipped.
 std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& vehicle,
                                           std::span<const ColumnMapping> mappings);
 

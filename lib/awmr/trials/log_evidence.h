@@ -49,7 +49,7 @@ struct Evidence {
 Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
                      std::span<const ColumnMapping> mappings);
 
-/// Windows of about this length side by side, each between readings.
+/// Consecutive windows of about this length, each beginning and ending with a reading.
 std::vector<LogWindow> evidence_rows(const DrivingLog& log, double length_s);
 
 /// The integral of a channel over a window, by trapezoids.
@@ -81,7 +81,7 @@ std::string scaled_mapping(const Evidence& evidence, std::string_view column, do
 /// The two mappings that swap the force columns.
 std::array<std::string, 2> swapped_mappings(const Evidence& evidence);
 
-/// A vehicle that never moves: then no channel can be compared with another.
+/// Detects a vehicle that never moves, for which channels cannot be compared.
 std::optional<Contradiction> rest_contradiction(const Evidence& evidence);
 /// Units: time, forces, steering angle, yaw rate against heading, speed against positions.
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence);

@@ -30,7 +30,7 @@ struct Predictor {
   double step_s;
   double delay_s;
   std::optional<LaggedForces> lagged;
-  std::size_t series_step;  ///< every so many readings of a channel go into its series; 0: none
+  std::size_t series_step;  ///< every n-th reading of a channel is in its series; 0: none
 };
 
 Predictor predictor(const DrivingLog& log, const Plant<double>& plant,

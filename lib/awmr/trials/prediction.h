@@ -1,4 +1,4 @@
-/// Accuracy of a model that predicts a log from its commands.
+/// Errors of a model's prediction of a log from its commands.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,8 @@ struct PredictionOptions {
   double horizon_s = 10.0;   ///< the length of a window, each from its own measured initial state
   double delay_s = 0.0;      ///< from a command to its effect
   double motor_lag_s = 0.0;  ///< the time constant of the motors, >= 0
-  /// Of so many readings of a channel at most the series is kept, every n-th of them; 0: of none.
+  /// Maximum number of readings of a channel in its series, of which every n-th is kept; 0: no
+  /// series.
   std::size_t most_in_series = 0;
 };
 

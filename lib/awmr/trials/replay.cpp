@@ -52,7 +52,8 @@ std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s) {
   for (std::size_t row = 1; row <= log.rows(); ++row) {
     if (row == log.rows() || log.t_s[row] - log.t_s[row - 1] > gap_s) {
       piece_end = row;
-      // Equal parts, so that no short remainder is left. A time in nanoseconds has more parts than rows.
+      // Equal parts, so that no short remainder is left. A time in nanoseconds has more parts than
+      // rows.
       const double span_s = log.t_s[piece_end - 1] - log.t_s[begin];
       const double most = static_cast<double>(piece_end - begin);
       const auto parts =
@@ -122,12 +123,14 @@ State<double> measured_initial_state(const LogWindow& window) {
 
 namespace {
 
-/// Below this speed, m/s or rad/s, resistance may be its chord (rest_speed()): no log resolves it.
+/// Largest speed, m/s or rad/s, below which a resistance can be replaced by its chord
+/// (rest_speed()); logs do not resolve it.
 constexpr double kChordSpeed = 0.01;
 
-/// The longest step with which resistance without Coulomb friction decays as it should, s:
-///   h <= inertia w/(max(1, beta) g(w))   at kChordSpeed and at the speed that `force` holds,
-/// where g(w)/w is largest for beta < 1 and beta > 1. The Runge-Kutta method is stable up to 2.78 times it.
+/// Longest step, s, that resolves a resistance without Coulomb friction:
+///   h <= inertia w/(max(1, beta) g(w))   at kChordSpeed and at the steady speed under `force`,
+/// where g(w)/w is largest for beta < 1 and beta > 1. The Runge-Kutta method is stable up to 2.78
+/// times it.
 double resistance_step_s(Resistance<double> law, double inertia, double force) {
   law.coulomb = 0.0;
   double step_s = std::numeric_limits<double>::infinity();

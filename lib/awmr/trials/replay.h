@@ -28,13 +28,13 @@ struct LogWindow {
 /// are dropped.
 std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s);
 
-/// The equal steps that a span is taken in, none longer than `longest_step_s` but for rounding.
+/// Division of a span into equal steps, none longer than `longest_step_s` (up to rounding).
 inline int steps_in(double span_s, double longest_step_s) {
   return std::max(1, static_cast<int>(std::ceil(span_s / longest_step_s - 1e-9)));
 }
 
-/// The force over [t, t + h] of motors that lag. Those with back-EMF are off as soon as their command, here
-/// its mean `command` as it arrives, is 0.
+/// Mean force over [t, t + h] of motors with lag. Motors with back-EMF are off as soon as their
+/// command, here the mean `command` after the delay, is 0.
 template <class T>
 SideForces<T> lagged_force(const LaggedForces& lagged, const LogSignals& signals, double t_s,
                            double h_s, const T* delay_s, const SideForces<T>& command,
@@ -50,9 +50,9 @@ SideForces<T> lagged_force(const LaggedForces& lagged, const LogSignals& signals
           side(mean.force.right, mean.by_delay.right, command.right)};
 }
 
-/// Calls visit(row, state) at every row of [begin, end), from the initial state `state` on, and moves it
-/// in steps of at most `longest_step_s` by step(state, h_s, force, steering_rad). `delay_s` null: none.
-/// `lagged` null: motors that follow their commands at once. A logged angle is used as it is: no lag.
+/// Calls visit(row, state) at every row of [begin, end), starting at `state`. Integrates in steps
+/// of at most `longest_step_s` by step(state, h_s, force, steering_rad). `delay_s` null: no delay.
+/// `lagged` null: motors without lag. A logged angle is used as it is: no lag.
 template <class T, class Visit, class Step>
 void replay_rows(const LogSignals& signals, std::size_t begin, std::size_t end,
                  const Plant<T>& plant, const T* delay_s, double longest_step_s, State<T> state,
@@ -91,14 +91,14 @@ void replay_rows(const LogSignals& signals, std::size_t begin, std::size_t end,
   }
 }
 
-/// No stop limits an angle that was logged itself.
+/// A logged angle is not limited to the stop.
 template <class T>
 Plant<T> without_stop_of_logged_angle(Plant<T> plant, const DrivingLog& log) {
   if (!log.steering_command_rad) plant.steering_max_rad = T(10.0);
   return plant;
 }
 
-/// replay_rows() of the 3-DOF model. The plant is one of resolved_beside_friction().
+/// replay_rows() of the 3-DOF model. `plant`: from resolved_beside_friction().
 template <class T, class Visit>
 void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant<T> plant,
             const T* delay_s, double longest_step_s, State<T> state, Visit visit,
@@ -114,8 +114,8 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
               });
 }
 
-/// replay_rows() of four wheels, which are those of resolved_at_rest_on_tyres(). False: the tyres are too stiff for
-/// any step, and the states after that have no meaning.
+/// replay_rows() of the four-wheel model, from resolved_at_rest_on_tyres(). False: the tyres are
+/// too stiff for any step, and the states are invalid from there on.
 template <class Visit>
 bool replay(const LogSignals& signals, std::size_t begin, std::size_t end,
             FourWheels<double> vehicle, double longest_step_s, const State<double>& state,

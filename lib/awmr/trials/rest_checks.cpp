@@ -36,10 +36,10 @@ std::vector<WindowMoments> moments_of(const DrivingLog& log, LogChannel channel)
   return all;
 }
 
-/// Whether the means of the windows differ by no more than their readings scatter within them (a test of
-/// variances, F = n var(means)/mean var within), so that the channel holds noise about one value.
+/// True if a channel is only noise about one value: the means of the windows scatter no more than
+/// the readings within them (F = n var(means)/mean var within).
 bool is_noise_alone(const std::vector<WindowMoments>& windows) {
-  constexpr double kMostF = 5.0;  // noise with a memory is above 1; motion is beyond 100
+  constexpr double kMostF = 5.0;  // correlated noise gives more than 1, motion more than 100
   const auto n = static_cast<double>(windows.size());
   double mean = 0.0, within = 0.0, readings = 0.0, between = 0.0;
   for (const WindowMoments& w : windows) {
@@ -51,8 +51,8 @@ bool is_noise_alone(const std::vector<WindowMoments>& windows) {
   return readings * between <= kMostF * within;
 }
 
-/// Whether a speed that is noise about one value has rest for it: 0 within its error, or slower than any
-/// vehicle of this length drives.
+/// True if the value of a constant speed means rest: 0 within its error, or slower than any vehicle
+/// of this length drives.
 bool is_about_zero(const std::vector<WindowMoments>& windows, double length_m) {
   constexpr double kFroude = 0.005;  // u over sqrt(g length)
   double sum = 0.0, count = 0.0, variance = 0.0;
@@ -69,7 +69,7 @@ bool is_about_zero(const std::vector<WindowMoments>& windows, double length_m) {
 
 std::optional<Contradiction> rest_contradiction(const Evidence& evidence) {
   constexpr std::size_t kFewestWindows = 5;
-  bool shows_motion = false;  // a channel that would
+  bool shows_motion = false;  // any channel that measures motion
   std::string column;
   for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kX, LogChannel::kY,
                                    LogChannel::kHeading, LogChannel::kYawRate}) {

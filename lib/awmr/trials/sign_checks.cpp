@@ -192,7 +192,7 @@ std::string alternatives(const std::vector<Contradiction>& columns) {
   return text;
 }
 
-std::vector<Contradiction> judge_signs(const Evidence& evidence) {
+std::vector<Contradiction> check_signs(const Evidence& evidence) {
   // East and north of latitudes and longitudes cannot be mirrored.
   const unsigned fixed = evidence.log.is_geographic ? bit(Signed::kY) : 0U;
   const std::vector<unsigned> solutions = smallest_flips(sign_relations(evidence), fixed);
@@ -213,7 +213,7 @@ std::vector<Contradiction> judge_signs(const Evidence& evidence) {
 }
 
 /// Forward thrust with backward motion.
-std::optional<Contradiction> judge_direction(const Evidence& evidence) {
+std::optional<Contradiction> check_direction(const Evidence& evidence) {
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
   const auto ratio = robust_ratio(
       series(evidence.overlapping, [](const EvidenceWindow& w) { return w.thrust; }),
@@ -229,7 +229,7 @@ std::optional<Contradiction> judge_direction(const Evidence& evidence) {
 /// forces, and not their sum. Shares of sum v^2 that a proportional law explains:
 ///
 ///     R^2 = (sum v s)^2 / (sum v^2 sum s^2)   for s = F'L + F'R and s = F'R - F'L
-std::optional<Contradiction> judge_one_side(const Evidence& evidence) {
+std::optional<Contradiction> check_one_side(const Evidence& evidence) {
   constexpr double kExplains = 0.5;
   constexpr double kMoreThanSum = 3.0;
   constexpr std::size_t kFewestSeconds = 10;
@@ -294,7 +294,7 @@ double gathered_backwards_mps(const DrivingLog& log) {
 
 /// Detects an unsigned speed: it is never negative although rearward thrust increases it. Rearward
 /// thrust brakes a vehicle that drives forward, whatever its resistance.
-std::optional<Contradiction> judge_unsigned(const Evidence& evidence) {
+std::optional<Contradiction> check_unsigned(const Evidence& evidence) {
   constexpr double kNegative = 0.05;  // fraction of the largest speed
   constexpr double kMuch = 0.15;
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
@@ -316,11 +316,11 @@ std::optional<Contradiction> judge_unsigned(const Evidence& evidence) {
 
 std::vector<Contradiction> sign_contradictions(const Evidence& evidence) {
   // With one side reversed, thrust and moment are exchanged: no other sign can be compared.
-  if (auto one_side = judge_one_side(evidence)) return {*std::move(one_side)};
+  if (auto one_side = check_one_side(evidence)) return {*std::move(one_side)};
   std::vector<Contradiction> found;
-  if (auto is_unsigned = judge_unsigned(evidence)) found.push_back(*is_unsigned);
-  if (auto direction = judge_direction(evidence)) found.push_back(*direction);
-  for (Contradiction& one : judge_signs(evidence)) found.push_back(std::move(one));
+  if (auto is_unsigned = check_unsigned(evidence)) found.push_back(*is_unsigned);
+  if (auto direction = check_direction(evidence)) found.push_back(*direction);
+  for (Contradiction& one : check_signs(evidence)) found.push_back(std::move(one));
   return found;
 }
 

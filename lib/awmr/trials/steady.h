@@ -11,10 +11,10 @@ namespace awmr {
 /// Criteria of a steady segment: the part of a stretch of constant commands in which the measured
 /// rate neither rises nor falls.
 ///   - force_left, force_right and steering each stay within `same` of one value;
-///   - the first `settling_s` after a change of command are excluded, then `later_s` more at a time
-///     until the rest is steady or shorter than `shortest_s`;
-///   - a rest is steady if the straight line through its rate rises from end to end by less than
-///     `drift` of the mean, or by less than three of its own standard errors.
+///   - the first `settling_s` after a change of command are excluded, then further spans of
+///     `later_s` until the remainder is steady or shorter than `shortest_s`;
+///   - the remainder is steady if a straight line fitted to its rate changes from end to end by
+///     less than `drift` of the mean, or by less than three of its standard errors.
 /// With |steering| <= straight_rad it is a surge run (rate: speed), else a turning run (rate: yaw
 /// rate). Both sides must be driven equally, forward.
 struct SteadyRule {

@@ -1,10 +1,10 @@
 /// Checks the units of tables of runs by plausible speeds and times. Private to this folder.
 ///
-///     speed_mps over distance_m/elapsed_s       1; 3.6, 1000, 0.01, ... tell a unit
-///     yaw_rate_radps over 2 pi turns/elapsed_s  1; 57.3, 1000 tell a unit
+///     speed_mps over distance_m/elapsed_s       1; 3.6, 1000, 0.01, ... identify a unit
+///     yaw_rate_radps over 2 pi turns/elapsed_s  1; 57.3, 1000 identify a unit
 ///     fastest run over the vehicle's length     0.02 to 100 1/s: from a crawl to a racing model car
-///     fastest turn                              0.01 rad/s and more; turn_evidence.h has the most
-///     hardest coast-down, mean deceleration     0.01 m/s^2 and more: what the best bearings lose
+///     fastest turn                              0.01 rad/s and more; upper limit: turn_evidence.h
+///     hardest coast-down, mean deceleration     0.01 m/s^2 and more: that of the best bearings
 ///     gentlest coast-down, the same             20 m/s^2 and less: locked wheels on racing tyres
 #pragma once
 

@@ -51,7 +51,7 @@ struct StopTimeRow {
   double timing_std_s = 0.0;
 };
 
-/// A recorded coast-down: speed by time, with the motors off from an unknown moment on.
+/// A recorded coast-down: speed by time, with the motors off from an unknown time on.
 struct CoastCurve {
   std::string file;
   int line = 0;  ///< line of its first row
@@ -73,10 +73,10 @@ struct TrialSet {
   std::string force_column = {};         ///< source column of the force of a surge or turning run
   std::string rate_column =
       {};  ///< source column of the rate of a turning run: "yaw_rate_radps" or "turns"
-  /// Differential turns of a vehicle that also steers. They scrub the tyres, so g3 of steered turns
-  /// does not apply. Not in `rows`.
+  /// Differential turns of a vehicle that also steers. They include tyre scrub, so g3 of steered
+  /// turns does not apply. Not in `rows`.
   std::vector<Row> by_sides = {};
-  /// Those that did not turn: their moment is a lower bound of the tyres' static moment.
+  /// Differential runs without rotation: their moment is a lower bound of the tyres' static moment.
   std::vector<Row> standing = {};
 };
 

@@ -176,7 +176,7 @@ TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
 }
 
 /// One criterion for all rows.
-struct TurnJudgement {
+struct TurnCriterion {
   std::vector<TurnShare> shares;
   double most;   ///< maximum possible share
   double least;  ///< minimum of the largest share; 0: no minimum
@@ -184,14 +184,14 @@ struct TurnJudgement {
   Interval possible;
 };
 
-std::vector<TurnJudgement> judgements(const TrialSet<TurningRow>& turning,
-                                      const std::optional<SpeedCurve>& speed,
-                                      const Vehicle& vehicle) {
-  TurnJudgement steered{{}, kMostSteered, kLeastSteered, kPossibleShare};
-  TurnJudgement by_sides{{}, kMostBySides, 0.0, kPossibleShare};
+std::vector<TurnCriterion> criteria_of(const TrialSet<TurningRow>& turning,
+                                       const std::optional<SpeedCurve>& speed,
+                                       const Vehicle& vehicle) {
+  TurnCriterion steered{{}, kMostSteered, kLeastSteered, kPossibleShare};
+  TurnCriterion by_sides{{}, kMostBySides, 0.0, kPossibleShare};
   const Interval grip{0.003, std::sqrt(kPossibleAcceleration_mps2 / kMostAcceleration_mps2)};
-  TurnJudgement circle{{}, 1.0, 0.0, grip};
-  TurnJudgement any{{}, 1.0, 0.0, {0.0005, 0.5}};
+  TurnCriterion circle{{}, 1.0, 0.0, grip};
+  TurnCriterion any{{}, 1.0, 0.0, {0.0005, 0.5}};
   for (const auto* rows : {&turning.rows, &turning.by_sides}) {
     for (const TurningRow& row : *rows) {
       auto& rolled = row.sides ? by_sides : steered;
@@ -222,9 +222,9 @@ std::vector<UnitFix> turn_unit_fixes(double share, const Interval& possible, boo
   return found;
 }
 
-WrongUnit wrong_column(const TurnShare& worst, const TurnJudgement& evaluation, bool is_printed,
+WrongUnit wrong_column(const TurnShare& worst, const TurnCriterion& criterion, bool is_printed,
                        int line) {
-  std::vector<UnitFix> unit_fixes = turn_unit_fixes(worst.share, evaluation.possible, is_printed);
+  std::vector<UnitFix> unit_fixes = turn_unit_fixes(worst.share, criterion.possible, is_printed);
   const std::string described = fmt::format("line {} turns at {}, {}", worst.row->line,
                                             turn_text(*worst.row), worst.described);
   if (unit_fixes.empty()) {
@@ -251,20 +251,20 @@ WrongUnit wrong_rows(const std::vector<TurnShare>& shares, double most) {
 }
 
 /// Returns the column or the rows that violate a criterion.
-std::optional<WrongUnit> wrong_by(TurnJudgement evaluation, bool is_printed) {
+std::optional<WrongUnit> wrong_by(TurnCriterion criterion, bool is_printed) {
   constexpr double kApart = 10.0;
-  std::vector<TurnShare>& shares = evaluation.shares;
+  std::vector<TurnShare>& shares = criterion.shares;
   if (shares.empty()) return std::nullopt;
   int line = shares.front().row->line;
   for (const TurnShare& one : shares) line = std::min(line, one.row->line);
   std::ranges::stable_sort(shares, {}, &TurnShare::share);
   const TurnShare& middle = shares[shares.size() / 2];
   const TurnShare& largest = shares.back();
-  if (largest.share < evaluation.least) return wrong_column(largest, evaluation, is_printed, line);
-  if (largest.share <= evaluation.most) return std::nullopt;
-  const bool is_apart = middle.share <= evaluation.most && largest.share > kApart * middle.share;
-  if (is_apart) return wrong_rows(shares, evaluation.most);
-  return wrong_column(largest, evaluation, is_printed, line);
+  if (largest.share < criterion.least) return wrong_column(largest, criterion, is_printed, line);
+  if (largest.share <= criterion.most) return std::nullopt;
+  const bool is_apart = middle.share <= criterion.most && largest.share > kApart * middle.share;
+  if (is_apart) return wrong_rows(shares, criterion.most);
+  return wrong_column(largest, criterion, is_printed, line);
 }
 
 }  // namespace
@@ -273,9 +273,9 @@ std::optional<WrongUnit> wrong_turn(const TrialSet<TurningRow>& turning,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle) {
   const bool is_printed = turning.rate_column == "yaw_rate_radps";
-  for (TurnJudgement& evaluation :
-       judgements(turning, speed_curve(turning, surge, vehicle), vehicle)) {
-    if (auto wrong = wrong_by(std::move(evaluation), is_printed)) return wrong;
+  for (TurnCriterion& criterion :
+       criteria_of(turning, speed_curve(turning, surge, vehicle), vehicle)) {
+    if (auto wrong = wrong_by(std::move(criterion), is_printed)) return wrong;
   }
   return std::nullopt;
 }

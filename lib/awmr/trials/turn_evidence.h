@@ -11,8 +11,8 @@
 ///     by steering   r^2 l_f/tan(d_r) = a <= 60 m/s^2     6 g: twice that of a spinning model car
 ///     any           r <= 25 rad/s                        four turns a second
 ///
-/// The fastest row is checked. If it is ten times beyond the median of all rows, which are
-/// possible, the row is wrong and not the column.
+/// The fastest row is checked. If it exceeds the median of the rows by a factor of ten and the
+/// median is possible, the row is wrong, not the column.
 #pragma once
 
 #include <optional>

@@ -51,7 +51,7 @@ Contradiction time_in(const UnitFactor& unit, const Evidence& evidence) {
           scaled_mapping(evidence, "t_s", 1.0 / unit.factor)};
 }
 
-std::optional<Contradiction> judge_time(const Evidence& evidence) {
+std::optional<Contradiction> check_time(const Evidence& evidence) {
   static constexpr std::array<UnitFactor, 3> kFactors{
       {{1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}}};
   const double step_s = evidence.log.median_step_s();
@@ -60,7 +60,7 @@ std::optional<Contradiction> judge_time(const Evidence& evidence) {
     if (ratio < 0.3 * unit.factor || ratio > 30.0 * unit.factor) continue;
     return time_in(unit, evidence);
   }
-  // Nobody logs a thousand times a second and also twenty times as often as the controller runs.
+  // Assumes that no log has both 1000 rows per second and 20 times the rate of the controller.
   constexpr double kFastest_s = 1e-3;
   constexpr double kOften = 0.05;
   if (step_s >= kFastest_s || ratio >= kOften) return std::nullopt;
@@ -73,7 +73,7 @@ std::optional<Contradiction> judge_time(const Evidence& evidence) {
   return time_in(nearest, evidence);
 }
 
-std::optional<Contradiction> judge_force(const Evidence& evidence, std::string_view column,
+std::optional<Contradiction> check_force(const Evidence& evidence, std::string_view column,
                                          const std::vector<double>& values,
                                          const ForceSpan& of_both) {
   const Interval& limit = evidence.vehicle.wheel_force;
@@ -87,7 +87,7 @@ std::optional<Contradiction> judge_force(const Evidence& evidence, std::string_v
       "vehicle: ",
       worst, limit.lo, limit.hi);
   if (of_both.largest <= std::max(limit.hi, -limit.lo) * kForceRounding) {
-    // The vehicle has this magnitude in the other direction, so no unit is wrong.
+    // The magnitude is allowed in the other direction, so the unit is not wrong.
     return Contradiction{
         std::string(column), beyond + "the other way the vehicle has such a force", "",
         fmt::format("widen wheel_force in vehicle.json to {:.4g}, or correct the signs", worst)};
@@ -113,18 +113,18 @@ ForceSpan force_span(const DrivingLog& log) {
   return span;
 }
 
-std::vector<Contradiction> judge_forces(const Evidence& evidence) {
+std::vector<Contradiction> check_forces(const Evidence& evidence) {
   const ForceSpan span = force_span(evidence.log);
   std::vector<Contradiction> found;
   for (const auto& [column, values] : {std::pair{"force_left", &evidence.log.force_left},
                                        std::pair{"force_right", &evidence.log.force_right}}) {
-    if (auto one = judge_force(evidence, column, *values, span)) found.push_back(*one);
+    if (auto one = check_force(evidence, column, *values, span)) found.push_back(*one);
   }
   return found;
 }
 
 /// True if all headings lie within one turn counted in radians, +-3.15 or 0 to 6.3. A vehicle that
-/// turns by less than 6 degrees in a whole log shows nothing of its yaw anyway.
+/// turns by less than 6 deg in the whole log has no yaw information anyway.
 bool heading_spans_radians(const DrivingLog& log) {
   double least = 360.0;
   double most = -360.0;
@@ -169,7 +169,7 @@ double usual_largest(const Measured& channel) {
   return *place;
 }
 
-std::optional<Contradiction> judge_rates(const Evidence& evidence) {
+std::optional<Contradiction> check_rates(const Evidence& evidence) {
   if (!evidence.has(LogChannel::kHeading) || !evidence.has(LogChannel::kYawRate)) return {};
   const std::vector<double> rate =
       series(evidence.overlapping, [](const EvidenceWindow& w) { return w.rate_rad; });
@@ -231,7 +231,7 @@ std::optional<double> rate_over_rolling(const Evidence& evidence) {
 }
 
 /// Detects a rate beyond any wheeled vehicle, for logs without a heading.
-std::optional<Contradiction> judge_rate_alone(const Evidence& evidence) {
+std::optional<Contradiction> check_rate_alone(const Evidence& evidence) {
   constexpr double kLargest_radps = 25.0;  // as for turning tables
   if (!evidence.has(LogChannel::kYawRate) || evidence.has(LogChannel::kHeading)) return {};
   const double rate_radps = usual_largest(*evidence.log[LogChannel::kYawRate]);
@@ -297,9 +297,10 @@ double position_variance_m2(const DrivingLog& log) {
   return *quartile / (12.0 * std::log(4.0 / 3.0));
 }
 
-/// The distance between the ends of the windows against that by the speed. The noise of the two
-/// positions makes the distance longer, E moved^2 = true^2 + 4 sigma^2, and is subtracted. Empty if
-/// the vehicle, in the half of the windows in which it drives further, hardly moves beyond that noise.
+/// Compares the distance between the ends of the windows with the integral of the speed. The noise
+/// of the two positions makes the distance longer, E moved^2 = true^2 + 4 sigma^2, and is
+/// subtracted. Empty if the motion in the half of the windows with the longer distances is not
+/// clearly above that noise.
 std::optional<RobustRatio> moved_over_driven(const Evidence& evidence) {
   constexpr double kClear = 4.0;  // twice as far as noise alone
   const double noise_m2 = 4.0 * position_variance_m2(evidence.log);
@@ -321,7 +322,7 @@ std::optional<RobustRatio> moved_over_driven(const Evidence& evidence) {
   return robust_ratio(driven, moved);
 }
 
-std::optional<Contradiction> judge_speed(const Evidence& evidence) {
+std::optional<Contradiction> check_speed(const Evidence& evidence) {
   const bool position = evidence.has(LogChannel::kX) && evidence.has(LogChannel::kY);
   if (!position || !evidence.has(LogChannel::kSpeed)) return std::nullopt;
   const auto ratio = moved_over_driven(evidence);
@@ -356,7 +357,7 @@ std::optional<Contradiction> judge_speed(const Evidence& evidence) {
 }
 
 /// Detects a speed beyond any wheeled vehicle of this length, for logs without positions.
-std::optional<Contradiction> judge_speed_alone(const Evidence& evidence) {
+std::optional<Contradiction> check_speed_alone(const Evidence& evidence) {
   constexpr double kLargest_mps = 100.0;
   constexpr double kLargestLengthsPerSecond = 100.0;  // as for surge tables
   if (!evidence.has(LogChannel::kSpeed) || !implausible_values(evidence.vehicle).empty()) return {};
@@ -406,7 +407,7 @@ double largest_steering_deg(const DrivingLog& log) {
 
 /// Detects servo commands given instead of an angle: an angle about 90 deg, a pulse length, a
 /// fraction of the stop.
-std::optional<Contradiction> judge_servo(const Evidence& evidence, const std::string& column) {
+std::optional<Contradiction> check_servo(const Evidence& evidence, const std::string& column) {
   const std::vector<double>& angle_rad = evidence.log.driving_steering_rad();
   const auto [low_rad, high_rad] = std::ranges::minmax_element(angle_rad);
   const double low = degrees(*low_rad);
@@ -439,7 +440,7 @@ std::optional<Contradiction> judge_servo(const Evidence& evidence, const std::st
   return std::nullopt;
 }
 
-std::optional<Contradiction> judge_absent_steering(const Evidence& evidence) {
+std::optional<Contradiction> check_absent_steering(const Evidence& evidence) {
   const double largest_deg = largest_steering_deg(evidence.log);
   if (!(largest_deg > 0.0)) return std::nullopt;
   const std::string column(evidence.log.steering_column());
@@ -450,12 +451,12 @@ std::optional<Contradiction> judge_absent_steering(const Evidence& evidence) {
                        column + "=0"};
 }
 
-std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
+std::optional<Contradiction> check_steering_unit(const Evidence& evidence) {
   const double largest_deg = largest_steering_deg(evidence.log);
   const std::string column(evidence.log.steering_column());
   const double stop_deg = evidence.vehicle.steering_max_deg;
   if (largest_deg > 1.5 * stop_deg) {
-    if (auto servo = judge_servo(evidence, column)) return servo;
+    if (auto servo = check_servo(evidence, column)) return servo;
   }
   if (largest_deg > 3.0 * stop_deg) {
     return Contradiction{
@@ -495,17 +496,17 @@ std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
 }  // namespace
 
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence) {
-  std::vector<Contradiction> found = judge_forces(evidence);
+  std::vector<Contradiction> found = check_forces(evidence);
   // Windows of a second are meaningless while the time unit is wrong.
-  if (auto time = judge_time(evidence)) {
+  if (auto time = check_time(evidence)) {
     found.insert(found.begin(), *time);
     return found;
   }
-  const auto steering = evidence.vehicle.has_steering() ? judge_steering_unit(evidence)
-                                                        : judge_absent_steering(evidence);
-  const auto speed = judge_speed(evidence);
-  for (const auto& evaluated : {steering, judge_rates(evidence), judge_rate_alone(evidence),
-                                speed ? speed : judge_speed_alone(evidence)}) {
+  const auto steering = evidence.vehicle.has_steering() ? check_steering_unit(evidence)
+                                                        : check_absent_steering(evidence);
+  const auto speed = check_speed(evidence);
+  for (const auto& evaluated : {steering, check_rates(evidence), check_rate_alone(evidence),
+                                speed ? speed : check_speed_alone(evidence)}) {
     if (evaluated) found.push_back(*evaluated);
   }
   return found;

@@ -19,10 +19,11 @@ constexpr ParameterId kLoopParameters[] = {ParameterId::kYawAlpha, ParameterId::
                                            ParameterId::kYawQuadratic, ParameterId::kInertiaNorm,
                                            ParameterId::kSteeringTimeConstant};
 
-/// A point of the unit ball, then a place in [0, 1] between the logarithms of the least and largest yaw rate.
+/// A point of the unit ball, followed by the position of ln(yaw rate) between its limits, in [0,
+/// 1].
 using SetPoint = std::vector<double>;
 
-/// Brings a point back into the ball and the range.
+/// Projects a point on the ball and the range.
 SetPoint inside(SetPoint point) {
   double square = 0.0;
   for (std::size_t i = 0; i + 1 < point.size(); ++i) square += point[i] * point[i];
@@ -43,7 +44,8 @@ SetPoint random_direction(std::size_t size, Random& random) {
   return direction;
 }
 
-/// Centre, axes and corners, each at kPlaces of the yaw rate, then random points of the ball and its surface.
+/// Centre, axes and corners, each at kPlaces of the yaw rate, then random points of the ball and
+/// its surface.
 std::vector<SetPoint> first_points(std::size_t dimension, Random& random) {
   constexpr int kPlaces = 5;
   constexpr int kRandomPoints = 500;
@@ -83,7 +85,8 @@ struct ValuedPoint {
 };
 using PointFunction = std::function<double(const SetPoint&)>;
 
-/// Steps along the axes and as many random directions; half the step where none of them falls.
+/// Pattern search: steps along the axes and as many random directions; the step is halved if none
+/// decreases the function.
 ValuedPoint search_by_pattern(ValuedPoint best, const PointFunction& value, Random& random) {
   constexpr double kFirstPatternStep = 0.25;
   constexpr double kLastPatternStep = 5e-4;
@@ -112,7 +115,8 @@ ValuedPoint search_by_pattern(ValuedPoint best, const PointFunction& value, Rand
   return best;
 }
 
-/// The least point in each orthant of the ball: functions of a set often have a valley in more than one.
+/// The smallest point in each orthant of the ball, because the function can have several local
+/// minima.
 std::vector<ValuedPoint> best_by_orthant(std::vector<ValuedPoint> points) {
   std::map<unsigned, ValuedPoint> best;
   for (ValuedPoint& one : points) {
@@ -145,7 +149,7 @@ ValuedPoint least_over_set(std::size_t dimension, const PointFunction& value) {
   return least;
 }
 
-/// The values of the loop's parameters that the vehicle has.
+/// The loop's parameters that the vehicle has, with their values.
 std::vector<std::pair<ParameterId, double>> loop_parameters(const Model& model,
                                                             const Plant<double>& plant) {
   std::vector<std::pair<ParameterId, double>> values;
@@ -175,7 +179,7 @@ Result<ConfidenceSet> ConfidenceSet::make(const Model& model) {
   ConfidenceSet set;
   AWMR_ASSIGN_OR_RETURN(set.own_, model.plant());
   if (model.covariance.parameters.empty()) return set;
-  Model bare = model;  // it is copied for each plant
+  Model bare = model;  // a small copy, because it is copied for each plant
   bare.record = {};
   AWMR_ASSIGN_OR_RETURN(set.sampler_, PlantSampler::make(bare));
   set.parameters_ = static_cast<int>(model.covariance.parameters.size());

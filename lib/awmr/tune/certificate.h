@@ -1,4 +1,5 @@
-/// Worst-case damping and delay margin of the heading loop over the model's confidence set. Private to tune/.
+/// Worst-case damping and delay margin of the heading loop over the model's confidence set. Private
+/// to tune/.
 #pragma once
 
 #include <optional>
@@ -12,37 +13,39 @@
 
 namespace awmr {
 
-/// By mode, the smallest damping ratio and the smallest delay margin of SampledHeadingLoop with hold, servo, latency
-/// (to a fraction of a sample) and motor lag, over
-///   - the plants of the 95 % ellipsoid of the model's covariance, |n| <= r with r^2 the 0.95 quantile of the
-///     chi-squared of PlantSampler::rank() degrees of freedom, seen in the parameters that the loop depends on
-///     (a3, b3, q3, I'z, T), their exponents and terms not negative;
-///   - every yaw rate from the slowest to the fastest that the runs reach;
-///   - the masses of `open`.
+/// Computes for each mode the smallest damping ratio and the smallest delay margin of
+/// SampledHeadingLoop with hold, servo, latency (including a fraction of a sample) and motor lag,
+/// over
+///   - the plants of the 95 % ellipsoid of the model's covariance, |n| <= r with r^2 the 0.95
+///     quantile of the
+///     chi-squared of PlantSampler::rank() degrees of freedom, projected on the parameters of the
+///     loop (a3, b3, q3, I'z, T), with non-negative exponents and terms;
+///   - all yaw rates of examined_rates_radps();
+///   - the mass factors of `open`.
 /// Without a covariance: the model's own plant.
 ///
-/// The law knows the context's own plant. Each minimum is searched for: the least of the centre, the axes, the corners
-/// (at five yaw rates) and 500 random points, then a pattern search from the least of each orthant of the ellipsoid.
-/// That is no proof; of 20,000 random points (5,000 for the margin) of each of nine vehicles none is worse by more than kCertificateTolerance
-/// (tests/tune/certificate_test.cpp).
-/// Errors (input): as PlantSampler::make.
+/// The law uses the context's own plant. Each minimum is found by search: first the centre, the
+/// axes and the corners at five yaw rates and 500 random points; then a pattern search from the
+/// best point of each orthant of the ellipsoid. This is not a proof. In a test with nine vehicles,
+/// none of 20,000 random points (5,000 for the margin) is worse by more than kCertificateTolerance
+/// (tests/tune/certificate_test.cpp). Errors (input): as PlantSampler::make.
 Result<Certificate> certify(const Model& model, const ConstraintContext& context,
                             const UnmodelledVariation& open, const Gains<double>& gains);
 
 /// Accepted error of the search: relative for a delay margin, absolute for a damping ratio.
 inline constexpr double kCertificateTolerance = 2e-3;
 
-/// A plant of the confidence set that loops are examined with.
+/// 95 % confidence set of the plant parameters on which the heading loop depends.
 class ConfidenceSet {
  public:
   static Result<ConfidenceSet> make(const Model& model);
 
-  /// Directions in which the set has an extent, 0 ... 5.
+  /// Dimension of the set, 0 ... 5.
   std::size_t dimension() const { return directions_.size(); }
   int parameters() const { return parameters_; }
   int rank() const { return sampler_ ? sampler_->rank() : 0; }
-  /// The plant at a point of the unit ball; the centre is the model's own. None where an exponent or a term is
-  /// negative there.
+  /// The plant at a point of the unit ball; the centre is the model's own plant. Empty if an
+  /// exponent or a term is negative there.
   std::optional<Plant<double>> plant_at(std::span<const double> point) const;
 
  private:
@@ -53,7 +56,7 @@ class ConfidenceSet {
   std::vector<std::vector<double>> directions_;
 };
 
-/// The loop that is certified, at a plant, a yaw rate and a mode.
+/// The loop of certify() for a plant, a yaw rate and a mode.
 SampledHeadingLoop certified_loop(const Gains<double>& gains, const ConstraintContext& context,
                                   const Plant<double>& plant, double rate_radps, YawMode mode);
 

@@ -7,7 +7,7 @@
 
 namespace awmr {
 
-/// Errors (input): every option that is out of its range or contradicts another one, at once.
+/// Errors (input): lists all options that are out of range or contradict another option.
 Status check_options(const TuneOptions& options, const Vehicle& vehicle);
 
 }  // namespace awmr

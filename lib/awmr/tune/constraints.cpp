@@ -39,7 +39,7 @@ double examined_rate_radps(double share, const ConstraintContext& context) {
   return std::max(share * context.fastest_radps, kSlowest_radps);
 }
 
-/// The share of the moment that left and right wheel forces make; the servo makes the rest.
+/// Share of the moment from left and right wheel forces; the rest is from the servo.
 double direct_share(YawMode mode) {
   switch (mode) {
     case YawMode::kDifferential:
@@ -76,7 +76,7 @@ std::vector<ExaminedLoop> at_all_rates(const Plant<double>& plant,
   return loops;
 }
 
-/// The least and the largest rate of the context's own plant and of each of its draws.
+/// The loops at the lowest and the highest rate, of the context's own plant and each draw.
 std::vector<ExaminedLoop> at_end_rates(const ConstraintContext& context) {
   const Interval rates = examined_rates_radps(context);
   std::vector<ExaminedLoop> loops;
@@ -87,7 +87,7 @@ std::vector<ExaminedLoop> at_end_rates(const ConstraintContext& context) {
   return loops;
 }
 
-/// The worst of the three modes in each of the loops.
+/// Smallest value over the modes and the loops.
 double heading_damping(const Gains<double>& gains, const ConstraintContext& context,
                        std::span<const ExaminedLoop> loops, double latency_s,
                        double motor_time_constant_s) {
@@ -107,12 +107,12 @@ double heading_damping(const Gains<double>& gains, const ConstraintContext& cont
   return worst;
 }
 
-/// Every constraint that a vehicle has by itself.
+/// Constraints that are evaluated for a single vehicle.
 std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
                                                const ConstraintContext& context,
                                                const DrawnVehicle& vehicle);
 
-/// Largest tau_turn of each way to turn at steady speed, m.
+/// Largest tau_turn of steering and of differential at steady speed, m.
 struct Moments {
   double steering;
   double differential;
@@ -129,7 +129,7 @@ Moments moments_m(const DrawnVehicle& vehicle, double speed_mps) {
                           std::min(vehicle.wheel_force.hi - held, held - vehicle.wheel_force.lo)};
 }
 
-/// -margin over the larger of value and limit: what is above 0 is broken.
+/// -margin over the larger of value and limit; > 0: violated.
 double residual(const ConstraintReport& c) {
   const double scale = std::max({std::abs(c.value), std::abs(c.limit), 1e-12});
   return -c.margin / scale;
@@ -218,8 +218,8 @@ double mean_of_product(const F& f, const G& g) {
   return mean;
 }
 
-/// E[w(z) w(z')] of an odd w, z and z' standard normals with the correlation rho, from below: the terms up
-/// to k = 7 of Mehler's series, of which none is negative,
+/// Lower bound of E[w(z) w(z')] for an odd w and standard normals z, z' with the correlation rho:
+/// the terms up to k = 7 of Mehler's series, all of them >= 0,
 ///   sum over odd k of rho^k E[w He_k(z)]^2/k!
 template <class W>
 double mean_of_correlated(const W& w, double rho) {
@@ -243,7 +243,8 @@ double mean_of_correlated(const W& w, double rho) {
   return mean;
 }
 
-/// As in core/distributions.h, whose Boost.Math is not in the report's page.
+/// Standard normal distribution. core/distributions.h needs Boost.Math, which the report's
+/// WebAssembly does not have.
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 double normal_density(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * pi<double>()); }
 
@@ -255,9 +256,11 @@ double mean_saturated(double m, double s) {
          s * (normal_density(above) - normal_density(below)) - 1.0;
 }
 
-/// Mean square of a change from reading to reading, over 2, of what the heading law feeds forward at rest:
+/// Half the mean square change between two readings of the friction that the heading law feeds
+/// forward at rest:
 ///   b = 1{|n| < rest} B,   B = g3(rest)/I'z sat(-lambda n_psi/rest)
-/// and of twice its product with -lambda k n_psi. The rate n and the heading n_psi are independent.
+/// plus that of twice its product with -lambda k n_psi. The rate n and the heading n_psi are
+/// independent.
 ///   E[b^2] - E[b b'] = P(|n| < rest) E[B^2] - P(|n| < rest, |n'| < rest) E[B B']
 double resting_mean_square(const Resistance<double>& g3, const Gains<double>& gains,
                            const ConstraintContext& context) {

@@ -25,7 +25,7 @@ constexpr double kLargestStep_deg = 30.0;
 constexpr double kSmallestStep_deg = 5.0;
 constexpr double kShortestHold_s = 5.0;
 constexpr double kLongestHold_s = 20.0;
-/// Time held over the time to turn.
+/// Ratio of the time that a heading is held to the time of the turn.
 constexpr double kHoldOverTurn = 1.6;
 /// Settling time in addition to the turn, in multiples of the lags of servo and sensors.
 constexpr double kSettlingOverLag = 10.0;
@@ -36,7 +36,7 @@ double rounded(double value) {
   return std::round(value / unit) * unit;
 }
 
-/// The fastest steady speed of the surge trials; absent where the model has none.
+/// Highest steady speed of the surge trials; absent if the model has none.
 std::optional<double> measured_speed_mps(const Model& model) {
   std::optional<double> fastest;
   for (const TrialPoint& trial : model.record.trials) {
@@ -60,8 +60,8 @@ double speed_for(const Model& model, const Plant<double>& plant) {
   return rounded(std::max(speed, 1e-6));
 }
 
-/// Time that the weaker mode takes to turn by an angle, s: at its steady yaw rate r, which is no faster than
-/// turning was measured, after speeding up by N/I'z, and for the loop to settle.
+/// Time of the weaker mode for a turn by an angle, s: at its steady yaw rate r, limited to the
+/// measured ones, after an acceleration of N/I'z, plus the settling of the loop.
 ///   angle/r + sqrt(angle I'z/N) + 10 (T + latency)
 double turning_time_s(const Model& model, const Plant<double>& plant, double speed_mps,
                       double angle_rad) {
@@ -69,7 +69,7 @@ double turning_time_s(const Model& model, const Plant<double>& plant, double spe
   const LoopConditions conditions = conditions_of(model.vehicle);
   const double lag_s = std::max(model.vehicle.has_steering() ? plant.steering_time_constant_s : 0.0,
                                 conditions.motor_time_constant_s) +
-                       std::max(conditions.heading_late_s, conditions.yaw_rate_late_s);
+                       std::max(conditions.heading_latency_s, conditions.yaw_rate_latency_s);
   std::optional<double> rate = steady_rate(plant.yaw, moment);
   if (const auto measured_degps = measured_yaw_rate_degps(model)) {
     rate = std::min(rate.value_or(radians(*measured_degps)), radians(*measured_degps));

@@ -1,4 +1,4 @@
-/// A vehicle that gains have to suit. Private to tune/.
+/// A vehicle on which gains are tuned or evaluated. Private to tune/.
 #pragma once
 
 #include "awmr/core/interval.h"

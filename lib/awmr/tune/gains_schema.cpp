@@ -1,4 +1,4 @@
-// gains.json as gains_text() writes it. Who reads gains needs `heading` and `speed` alone.
+// Schema of gains.json. A program that only uses the gains needs `heading` and `speed`.
 #include "awmr/core/json.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/gains_json.h"
@@ -34,7 +34,7 @@ void describe_constraints(JsonObject& json) {
     constraint.string("name");
     constraint.boolean("required");
     for (const char* key : {"value", "limit", "margin"}) constraint.number(key);
-    // Files of before the key have both sides in the order of `meaning`.
+    // Files from before this key state the side in `meaning` only.
     if (constraint.has("sense")) constraint.choice("sense", kSenseNames);
     constraint.string("meaning");
     constraint.reject_unknown_keys();
@@ -45,7 +45,7 @@ void describe_objective(JsonObject json) {
   json.number("value");
   JsonObject weights = json.object("weights");
   for (const ObjectiveTerm& term : kObjectiveTerms) {
-    // Files of before the term "settling" have no weight of it.
+    // Files from before the term "settling" have no weight for it.
     if (term.weight != &ObjectiveWeights::settling || weights.has(term.name)) {
       weights.number(term.name, kNonNegative);
     }
@@ -109,7 +109,7 @@ void describe_robust(JsonObject json) {
     for (JsonObject& one : by_scenario->values()) describe_quantiles(one);
   }
   if (auto open = json.optional_object("open")) read_open(std::move(*open));
-  // Files of before pole placement have the nominal gains and their search.
+  // Files from before pole placement have the nominal gains and their search.
   if (auto nominal = json.optional_object("nominal")) {
     gains_from_json(*nominal);
     nominal->reject_unknown_keys();
@@ -259,7 +259,7 @@ void describe_gains(JsonObject& json) {
 }  // namespace
 
 std::string gains_schema() {
-  return json_schema_text(kGainsSchema, "Gains, and how they were found", describe_gains);
+  return json_schema_text(kGainsSchema, "Gains and their origin", describe_gains);
 }
 
 }  // namespace awmr

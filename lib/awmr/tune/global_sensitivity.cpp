@@ -26,18 +26,18 @@ constexpr const char* kFigures[] = {"settling_time_s", "overshoot_deg", "heading
 
 /// One value of every input.
 struct Sample {
-  Model model;                                               ///< its parameters alone count
-  double noise_level = 1.0, latency = 1.0, motor_lag = 1.0;  ///< over what is assumed
-  std::size_t noise = 0;                                     ///< which noise
+  Model model;                                               ///< only its parameters are used
+  double noise_level = 1.0, latency = 1.0, motor_lag = 1.0;  ///< relative to the assumed value
+  std::size_t noise = 0;                                     ///< number of the noise realisation
 };
 
-/// An input: how a sample takes its value from another one.
+/// An input, with the function that copies its value from one sample to another.
 struct Input {
   std::string name;
   std::function<void(const Sample& from, Sample& to)> take;
 };
 
-/// The parameters of the covariance in sets without a covariance between them.
+/// Groups of parameters that are uncorrelated with those of other groups.
 std::vector<std::vector<ParameterId>> tied_sets(const Covariance& covariance) {
   const std::size_t n = covariance.parameters.size();
   std::vector<std::size_t> set_of(n);
@@ -80,7 +80,7 @@ std::vector<Input> inputs_of(const Model& model) {
   return inputs;
 }
 
-/// `count` samples whose noises have the numbers from `first` on.
+/// `count` samples, whose noise realisations have the numbers from `first` on.
 Result<std::vector<Sample>> drawn_samples(const Model& model, std::uint64_t seed, std::size_t first,
                                           int count) {
   std::optional<PlantSampler> sampler;
@@ -94,7 +94,7 @@ Result<std::vector<Sample>> drawn_samples(const Model& model, std::uint64_t seed
     if (sampler) {
       AWMR_ASSIGN_OR_RETURN(sample.model, sampler->draw_model(seed, number));
     }
-    sample.model.record = {};  // there are as many as samples
+    sample.model.record = {};  // saves memory: there is one model per sample
     Random random(seed ^ 0x736f626f6cULL, static_cast<std::uint64_t>(number));
     for (double* level : {&sample.noise_level, &sample.latency, &sample.motor_lag}) {
       *level = 2.0 * random.uniform();
@@ -108,15 +108,15 @@ LoopConditions conditions_at(const Sample& sample, LoopConditions c) {
   for (double* noise : {&c.heading_noise_deg, &c.yaw_rate_noise_degps, &c.speed_noise_mps}) {
     *noise *= sample.noise_level;
   }
-  for (double* late_s : {&c.heading_late_s, &c.yaw_rate_late_s, &c.speed_late_s}) {
-    *late_s *= sample.latency;
+  for (double* latency_s : {&c.heading_latency_s, &c.yaw_rate_latency_s, &c.speed_latency_s}) {
+    *latency_s *= sample.latency;
   }
   c.motor_time_constant_s *= sample.motor_lag;
   return c;
 }
 
-/// The figures of one sample, by mode, then figure: means over the scenarios. Empty if a run
-/// breaks off.
+/// Metrics of one sample as means over the scenarios, by mode, then metric. Empty if a run breaks
+/// off.
 std::vector<double> figures_at(const Sample& sample, const ObjectiveSetting& setting,
                                const LoopConditions& assumed,
                                const Controller<double>& controller) {
@@ -162,7 +162,7 @@ Result<GlobalSensitivity> global_sensitivity(const Model& model, const Objective
                         drawn_samples(model, setting.seed, at(samples), samples));
   const auto controller = make_controller(setting.vehicles.front().plant, setting.vehicle, gains);
   const std::size_t n = at(samples);
-  // By input, then sample; behind those A and B themselves.
+  // The samples AB_i by input, then A and B.
   std::vector<std::vector<double>> figures((inputs.size() + 2) * n);
   parallel_for(figures.size(), 0, [&](std::size_t i) {
     const std::size_t input = i / n;

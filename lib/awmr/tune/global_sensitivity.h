@@ -7,16 +7,19 @@
 
 namespace awmr {
 
-/// Sobol's indices of how the loop with these gains settles, overshoots and errs, by mode. The inputs: each set of
-/// parameters that the model's covariance ties to each other, drawn from it; the level of the sensors' noise, how late
-/// they are and the motors' lag, each even from none to twice what is assumed; and the noise itself. `setting`: with
-/// the model's own plant and the scenarios as they are without noise. Over several scenarios a figure is the mean.
+/// Computes the Sobol indices of the loop's metrics (settling, overshoot, error), by mode. Inputs:
+///   - each group of correlated parameters, drawn from the model's covariance;
+///   - the level of the sensor noise, the latency and the motor lag, each uniform from 0 to twice
+///     the assumed value;
+///   - the noise realisation.
+/// `setting`: with the model's own plant and noise-free scenarios. With several scenarios, a metric
+/// is the mean over them.
 /// Errors (input): as PlantSampler's; (refused): a run breaks off.
 Result<GlobalSensitivity> global_sensitivity(const Model& model, const ObjectiveSetting& setting,
                                              const LoopConditions& assumed,
                                              const Gains<double>& gains, int samples);
 
-/// Runs that `samples` of a model take in one mode and scenario.
+/// Number of runs for `samples` samples of a model in one mode and scenario.
 double sensitivity_runs(const Model& model, int samples);
 
 }  // namespace awmr

@@ -45,7 +45,7 @@ std::vector<double> excesses(const GoalInMode& one, std::span<const RunOutcome> 
   return all;
 }
 
-/// Stands for a figure that is not finite: beyond every limit, and a number that files can hold.
+/// Replaces an excess that is not finite: larger than any limit, and representable in JSON.
 constexpr double kNoFigure = 1e100;
 
 }  // namespace

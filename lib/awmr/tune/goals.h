@@ -1,9 +1,10 @@
 /// Goals of tuning, as probabilities: "95 % of the runs settle within 2 s and overshoot by at most
 /// 1 deg". Private to tune/, but for TuningGoal itself (tune.h).
 ///
-/// With x_i a run's figure and l_i its limit, the run's excess is e = max_i x_i/l_i, infinite where it breaks off;
-/// that of a draw is the largest over the scenarios. A goal of the share p holds in a mode where the p quantile of
-/// e over all draws is at most 1. Of few draws the quantile is their worst: ceil(p n) of n.
+/// With x_i a metric of a run and l_i its limit, the run's excess is e = max_i x_i/l_i, infinite if
+/// the run breaks off. The excess of a draw is the largest over the scenarios. A goal with the
+/// share p is met in a mode if the p quantile of e over all draws is at most 1. The quantile of n
+/// draws is the ceil(p n)-th smallest, so with few draws it is the largest.
 #pragma once
 
 #include <span>
@@ -30,7 +31,7 @@ std::string in_words(const TuningGoal& goal);
 /// Largest ratio of a run's metric to its limit, >= 0. At most 1 if the run meets the goal.
 double excess_of(const TuningGoal& goal, const RunOutcome& outcome);
 
-/// A goal in one of the modes that it is for.
+/// A goal in one of its modes.
 struct GoalInMode {
   const TuningGoal* goal = nullptr;
   YawMode mode{};
@@ -39,12 +40,12 @@ struct GoalInMode {
 /// By goal, then mode.
 std::vector<GoalInMode> by_mode(std::span<const TuningGoal> goals, std::span<const YawMode> modes);
 
-/// The quantile of the draws' excess over the mode's runs, which are by draw, then mode, then one of
-/// so many scenarios. >= 0.
+/// Quantile over the draws of the excess in the mode, >= 0. `outcomes` are by draw, then mode, then
+/// scenario.
 double quantile_of_excess(const GoalInMode& one, std::span<const RunOutcome> outcomes,
                           std::size_t scenarios);
 
-/// In how many draws the goal holds in the mode, with the verdict on it.
+/// Counts the draws that meet the goal in the mode, and gives the verdict.
 EvaluatedGoal evaluate_goal(const GoalInMode& one, const EvaluatedRuns& runs,
                             std::size_t scenarios);
 

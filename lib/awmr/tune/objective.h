@@ -1,18 +1,20 @@
 /// Objective of the search. Private to tune/.
 ///
-/// For each run, with x a figure of it and x0 the same figure with the baseline gains on the same vehicle in
-/// the same mode and scenario:
+/// For each run, with x a metric of it and x0 the same metric with the baseline gains on the same
+/// vehicle in the same mode and scenario:
 ///
 ///     ln J = sum_i w_i ln((x_i + f_i)/(x0_i + f_i)) / sum_i w_i
 ///
-/// over settling time, heading ITAE, overshoot, control variation, effort and speed ITAE. f_i is a floor in the
-/// unit of x_i, below which a difference does not matter: the baseline scores exactly 1, even where
-/// its overshoot is 0. Over several vehicles, ln J of a mode and scenario is (mean + CVaR)/2, CVaR the
-/// mean over the worst share of them. The objective is the geometric mean of J over modes and scenarios, plus
-/// for each soft goal and mode the excess of the quantile of its excess (goals.h) over 1.
+/// over settling time, heading ITAE, overshoot, control variation, effort and speed ITAE. f_i is a
+/// floor in the unit of x_i, below which a difference does not matter: the baseline scores exactly
+/// 1, even where its overshoot is 0. Over several vehicles, ln J of a mode and scenario is (mean +
+/// CVaR)/2, CVaR the mean over the worst share of them. The objective is the geometric mean of J
+/// over modes and scenarios, plus for each soft goal and mode the excess of the quantile of its
+/// excess (goals.h) over 1.
 ///
-/// A geometric mean, because the best gains then do not depend on the baseline: half of a figure weighs the same
-/// whatever the baseline's is. In a sum of the ratios, a figure in which the baseline is bad hardly counts.
+/// With a geometric mean the best gains do not depend on the baseline: halving a metric has the
+/// same weight for any baseline. In a sum of ratios, a metric that is large for the baseline hardly
+/// counts.
 #pragma once
 
 #include <array>
@@ -28,12 +30,12 @@
 
 namespace awmr {
 
-/// One figure x_i of the objective, with its weight and its floor.
+/// One term of the objective: metric x_i, weight and floor.
 struct ObjectiveTerm {
-  const char* name;                  ///< of its weight in tune.json and gains.json
+  const char* name;                  ///< key of the weight in tune.json and gains.json
   double ObjectiveWeights::*weight;  ///< w_i
-  const char* figure;                ///< the key of x_i in gains.json
-  double floor;                      ///< f_i in the figure's unit, > 0
+  const char* figure;                ///< key of x_i in gains.json
+  double floor;                      ///< f_i in the unit of x_i, > 0
 };
 inline constexpr ObjectiveTerm kObjectiveTerms[] = {
     {"settling", &ObjectiveWeights::settling, "settling_time_s", 0.05},
@@ -53,25 +55,25 @@ double unsettled_s(const Scenario& scenario, double itae_degs2);
 /// x_i of one run, in the order of kObjectiveTerms.
 std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score);
 
-/// J of one run; exactly 1 for the baseline against itself. Infinite or NaN where a figure is.
+/// J of one run; exactly 1 for the baseline against itself. Infinite or NaN if a metric is.
 double objective_of(const ModeScore& score, const ModeScore& baseline,
                     const ObjectiveWeights& weights);
 
-/// All modes of the vehicle, or the one of them.
+/// `mode` if given, else all modes of the vehicle.
 std::span<const YawMode> tuned_modes(const Vehicle& vehicle, std::optional<YawMode> mode);
 
 /// Vehicles, modes and scenarios that the gains are scored on.
 struct ObjectiveSetting {
-  std::vector<DrawnVehicle> vehicles;  ///< the controller knows the first's plant alone; not empty
+  std::vector<DrawnVehicle> vehicles;  ///< the controller uses the first one's plant; not empty
   Vehicle vehicle;
   ObjectiveWeights weights;
-  std::vector<Scenario> scenarios;  ///< each holds headings; not empty
+  std::vector<Scenario> scenarios;  ///< with heading guidance; not empty
   double tail_share = 1.0;          ///< (0, 1]
-  std::uint64_t seed = 0;  ///< of what is random in the scenarios, another for each vehicle
+  std::uint64_t seed = 0;           ///< of the random numbers of the runs, which differ by vehicle
   BatchArithmetic arithmetic = {};  ///< of the runs
   std::vector<TuningGoal> goals = {};
   std::vector<std::uint64_t> numbers = {};  ///< of the vehicles; empty: 0, 1, ...
-  std::optional<YawMode> mode = {};         ///< the only one; absent: all of the vehicle's
+  std::optional<YawMode> mode = {};         ///< the only one; absent: all modes of the vehicle
 
   std::span<const YawMode> modes() const { return tuned_modes(vehicle, mode); }
 };
@@ -85,20 +87,21 @@ RunNoise draw_noise(const ObjectiveSetting& setting);
 struct Evaluation {
   std::vector<ModeScore> scores;       ///< of the first vehicle, by mode, then scenario
   std::vector<double> mode_objective;  ///< geometric mean over scenarios, in the order of modes()
-  std::vector<double> mode_activity;   ///< control variation over the baseline's, of all vehicles
+  std::vector<double> mode_activity;   ///< ratio of control variation to the baseline's, all
+                                       ///< vehicles
   std::vector<double> goal_quantile;   ///< of the excess, by goal, then mode (goals.h)
   TradeOffPoint trade_off;             ///< over all runs
   double objective = 0.0;  ///< geometric mean over the modes, plus soft goals; finite where `valid`
   bool valid = false;      ///< finite, and no run breaks off
 };
 
-/// Not for several threads at once.
+/// Evaluates gains. Not thread-safe; the runs of a call are distributed over the cores.
 class Objective {
  public:
   Objective(ObjectiveSetting setting, const Gains<double>& baseline);
 
-  /// Simulates every mode of every vehicle for each set of gains that was not evaluated before. What is found of
-  /// one depends neither on the others nor on the number of cores.
+  /// Simulates every mode of every vehicle for each set of gains that was not evaluated before. The
+  /// result of one set depends neither on the others nor on the number of cores.
   std::vector<Evaluation> operator()(std::span<const Gains<double>> gains) const;
   Evaluation operator()(const Gains<double>& gains) const;
   const Evaluation& baseline() const { return baseline_; }
@@ -114,13 +117,13 @@ class Objective {
   RunNoise noise_;
   std::vector<ModeScore> baseline_scores_;  ///< by vehicle, then mode, then scenario
   Evaluation baseline_;
-  /// Evaluations so far, by the numbers of the gains: the parts of a search meet the same gains again.
+  /// Cache of evaluations by the values of the gains: the stages of a search repeat some gains.
   using GainNumbers = std::array<double, sizeof(Gains<double>) / sizeof(double)>;
   mutable std::map<GainNumbers, Evaluation> known_;
 };
 
-/// All runs of each set of gains, by vehicle, then mode, then scenario. The number of a vehicle is
-/// that of its noise, too. `noise`: draw_noise() of the setting.
+/// All runs of each set of gains, by vehicle, then mode, then scenario. The number of a vehicle
+/// also selects its noise. `noise`: draw_noise() of the setting.
 std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting, const RunNoise& noise,
                                             std::span<const Gains<double>> gains);
 

@@ -12,12 +12,12 @@ namespace {
 constexpr int kRatios = 13;
 const double kRatioStep = std::sqrt(0.5);
 const double kRateStep = std::pow(0.5, 0.25);
-/// From the fastest k, 1/T_s, to the slowest: 1e-4 of it.
+/// Slowest k as a fraction of the fastest, 1/T_s.
 constexpr int kRates = 54;
 constexpr int kBisections = 6;
-/// A gain that is met with equality would be lost to rounding.
+/// Distance from a limit, so that rounding does not violate it.
 constexpr double kInside = 1.0 - 1e-9;
-/// The least force that a law may have where nothing asks for any.
+/// Smallest mu where no resistance has to be dominated.
 constexpr double kLeastMu = 1e-3;
 
 const ConstraintReport& named(const std::vector<ConstraintReport>& all, std::string_view name) {
@@ -29,7 +29,7 @@ double violation(const Gains<double>& gains, const ConstraintContext& context) {
   return *std::ranges::max_element(broken);
 }
 
-/// The least force of a law that dominates.
+/// Smallest mu that meets the constraint `dominates`.
 double least_mu(const ConstraintReport& dominates) {
   return std::max(dominates.limit / kInside, kLeastMu);
 }
@@ -42,7 +42,7 @@ SpeedGains<double> place_speed_pole(const std::vector<ConstraintReport>& at_one)
   return {mu, mu / rate};
 }
 
-/// Looks for heading poles, the speed gains being given.
+/// Finds the heading poles for given speed gains.
 class HeadingPoles {
  public:
   HeadingPoles(const ConstraintContext& context, const SpeedGains<double>& speed, double mu)
@@ -64,7 +64,8 @@ class HeadingPoles {
   }
 
   bool is_met(const Gains<double>& gains) {
-    double broken = violation(gains, own_);  // the draws only if the model's own plant allows it
+    double broken = violation(gains, own_);  // the draws only if the model's own plant meets the
+                                             // constraints
     if (broken <= 0.0 && !context_.draws.empty()) broken = violation(gains, context_);
     if (broken < least_broken_) {
       least_broken_ = broken;
@@ -73,7 +74,8 @@ class HeadingPoles {
     return broken <= 0.0;
   }
 
-  /// The largest k of a ratio, from above; given up where lambda would be no larger than what was found.
+  /// Largest feasible k of a ratio, searched downwards. Stops where lambda would not exceed the
+  /// largest found so far.
   void look_along(double ratio) {
     double k = 1.0 / context_.sample_time_s;
     const auto is_behind = [&](double rate) {

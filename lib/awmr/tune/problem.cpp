@@ -16,7 +16,7 @@ namespace {
 /// Added to the violation of a point that was not simulated or whose runs break off, to give its
 /// value in a search: above any relevant objective.
 constexpr double kRejected = 1e3;
-/// Violation of every limit by gains whose runs break off, on top of their own.
+/// Added to the violation of every limit if a run breaks off.
 constexpr double kInvalid = 1.0;
 
 }  // namespace
@@ -165,7 +165,7 @@ std::vector<Looked> Problem::look_at(std::span<const Point> points) {
   if (options_.progress) {
     const auto total = static_cast<std::size_t>(options_.global_evaluations) +
                        static_cast<std::size_t>(options_.local_evaluations);
-    // The starts are not in the budget.
+    // The starts do not count towards the budget.
     options_.progress(std::min(static_cast<std::size_t>(evaluations), total), total);
   }
   return all;

@@ -19,20 +19,21 @@ inline constexpr unsigned kMostDimensions = 6;
 /// Their logarithms; the last is 0 where no observer is searched.
 using Point = std::array<double, kMostDimensions>;
 
-/// Gives the bounds that are absent: from the least of these gains over kBoundFactor to the largest times it.
+/// Fills in the absent bounds: from the smallest of these gains divided by kBoundFactor to the
+/// largest times kBoundFactor.
 void bound_around(std::span<const Gains<double>> gains, GainBounds& bounds);
 
 /// Bounds of the search.
 class SearchSpace {
  public:
-  /// All bounds and an observer's limits have to be there.
+  /// Precondition: all bounds and the observer's limits are set.
   explicit SearchSpace(const TuneOptions& options);
 
   unsigned dimension() const { return observer_ ? kMostDimensions : kMostDimensions - 1; }
   /// The corners of the bounds.
   Point lower_corner() const;
   Point upper_corner() const;
-  /// Held inside the bounds, against rounding.
+  /// Clamped to the bounds, against rounding.
   Gains<double> gains_at(const Point& point) const;
   Point point_of(const Gains<double>& gains) const;
 
@@ -41,20 +42,19 @@ class SearchSpace {
   std::optional<ObserverSearch> observer_;
 };
 
-/// Gains that were looked at.
+/// Evaluated gains.
 struct Candidate {
   Gains<double> gains{};
   /// Largest residual of the constraints, the activity limit and the goals; <= 0 is feasible.
   double violation = 0.0;
-  double objective = 0.0;  ///< meaningful where `simulated`
-  bool simulated = false;  ///< false: a constraint was broken, so nothing was run
+  double objective = 0.0;  ///< meaningful if `simulated`
+  bool simulated = false;  ///< false: a constraint is violated, so nothing was run
   bool valid = false;      ///< finite, and no run breaks off
 
   bool feasible() const { return simulated && valid && violation <= 0.0; }
 };
 
-/// The order of candidates: any feasible one before any other; feasible ones by their objective,
-/// the others by their violation.
+/// Order of candidates: feasible ones first, by objective; then the others, by violation.
 bool better(const Candidate& a, const Candidate& b);
 
 /// A point with its evaluation.
@@ -67,27 +67,28 @@ struct Looked {
   double value() const;
 };
 
-/// Looks at points, keeps the best one and counts.
+/// Evaluates points, keeps the best one and counts the evaluations.
 class Problem {
  public:
   Problem(const TuneOptions& options, const ConstraintContext& context, const Objective& objective);
 
-  /// Names of the residuals: the required constraints, then the limited activity of each mode, then
+  /// Names of the residuals: the required constraints, then the activity limit of each mode, then
   /// the goals that are not soft.
   const std::vector<std::string>& names() const { return names_; }
   const SearchSpace& space() const { return space_; }
   unsigned constraints() const { return static_cast<unsigned>(names_.size()); }
-  bool simulate_all = false;  ///< also points that break a constraint, as a local model needs
+  bool simulate_all = false;  ///< also points that violate a constraint: the local search models
+                              ///< them
   /// By constraint: the residual up to which it counts as met. 0, except to find the benefit of a
   /// wider limit.
   std::vector<double> tolerated;
   Candidate nearest;
   int evaluations = 0;
   int simulated = 0;
-  std::vector<TradeOffPoint> met;  ///< of all feasible ones
-  std::vector<SearchStep> steps;   ///< the evaluations that were better than all before them
+  std::vector<TradeOffPoint> met;  ///< of all feasible points
+  std::vector<SearchStep> steps;   ///< the evaluations that improved on all earlier ones
 
-  /// In the order of the points; their runs are driven together.
+  /// Results in the order of the points, whose runs are simulated together.
   std::vector<Looked> look_at(std::span<const Point> points);
 
  private:
@@ -100,7 +101,7 @@ class Problem {
   const Objective& objective_;
   std::vector<std::string> names_;
   std::optional<std::size_t> steering_rate_;  ///< its place among the names
-  std::size_t before_runs_ = 0;               ///< constraints that are known without a run
+  std::size_t before_runs_ = 0;               ///< number of constraints that need no run
   std::vector<std::size_t> hard_goals_;       ///< their places in Evaluation::goal_quantile
 };
 

@@ -50,7 +50,7 @@ std::string advice_on(std::string_view constraint) {
   return fmt::format("relax {} of tune.json; {}", known->limit, known->cause);
 }
 
-/// The goal, if any, that keeps the nearest gains from being taken.
+/// The goal that the nearest gains violate most, if any.
 std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, const Evaluation& e,
                                                  const Objective& objective,
                                                  const std::vector<Scenario>& scenarios) {

@@ -17,7 +17,7 @@
 namespace awmr {
 namespace {
 
-/// Median, 95 % quantile (the least value that as many do not exceed) and mean of the worst.
+/// Median, 95 % quantile (smallest value that 95 % do not exceed) and mean of the tail.
 EvaluatedFigure figure_of(const std::string& name, std::vector<double> values, double tail_share) {
   std::sort(values.begin(), values.end());
   const auto n = static_cast<double>(values.size());
@@ -56,8 +56,8 @@ EvaluatedRuns in_scenario(const EvaluatedRuns& runs, std::size_t scenario, std::
   return of_one;
 }
 
-/// Applies the unmodelled variation of draw `number`, from 1. The draws take the combinations in
-/// turn; the mass factor changes with every draw, the force range after all mass factors.
+/// Applies the unmodelled variation of draw `number`, from 1. Successive draws use successive
+/// combinations: the mass factor changes with every draw, the force range after all mass factors.
 void open_up(const UnmodelledVariation& open, int number, DrawnVehicle& vehicle) {
   const std::size_t turn = at(number - 1) % open.combinations();
   const std::size_t masses = std::max<std::size_t>(1, open.mass_factors.size());
@@ -77,16 +77,16 @@ std::size_t UnmodelledVariation::combinations() const {
 
 namespace {
 
-/// The sampler of a model, from what its trials leave open alone. Every constraint has to hold for all
-/// draws: a mass that the grip demands, some three times the identified one, would make all gains
-/// slower for the sake of trials that contradict themselves. Who means it gives it as mass_factors.
+/// Sampler of the model's covariance, without the mass that the grip limit demands. Every
+/// constraint has to hold for all draws, and that mass, some three times the identified one, would
+/// make all gains slower because of inconsistent trials. A user who wants it gives mass_factors.
 Result<PlantSampler> sampler_of(Model model) {
   model.mass_norm_by_grip.reset();
   return PlantSampler::make(model);
 }
 
-/// The nominal vehicle, then the drawn plants of these numbers, each with its unmodelled variation;
-/// without plants the nominal one again.
+/// The nominal vehicle, then the draws with these numbers, each with its unmodelled variation.
+/// Without `plants` the draws are nominal.
 Result<std::vector<DrawnVehicle>> vehicles_with(const Model& model, std::span<const int> numbers,
                                                 const std::vector<Plant<double>>& plants,
                                                 const UnmodelledVariation& open) {

@@ -13,28 +13,30 @@
 
 namespace awmr {
 
-/// The model's own vehicle, then those of the numbers (from 1) from its covariance, or its own
-/// again where it has none; each with its unmodelled variation. Errors (input): as PlantSampler's.
+/// The nominal vehicle, then the draws with these numbers (from 1), each with its unmodelled
+/// variation. A draw is from the model's covariance, or nominal without one. Errors (input): as
+/// PlantSampler's.
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
                                               std::uint64_t seed, const UnmodelledVariation& open);
 /// Draws 1 to `draws`, spread evenly (PlantSampler::draw_evenly).
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
                                               const UnmodelledVariation& open);
 
-/// Gains with the name that they are evaluated under.
+/// Gains with a name for the evaluation.
 struct NamedCandidate {
   const char* name;
   Gains<double> gains;
 };
 
-/// Every set of gains in every mode over all vehicles of the setting but the first, the model's own.
+/// Evaluates every set of gains in every mode over all vehicles of the setting except the first,
+/// which is nominal.
 std::vector<EvaluatedRuns> run_candidates(const ObjectiveSetting& setting,
                                           const std::vector<NamedCandidate>& candidates);
 
 struct EvaluationResult {
   std::vector<EvaluatedGains> gains;  ///< by gains, then mode
   std::vector<EvaluatedGains>
-      by_scenario;  ///< by scenario, then gains, then mode; empty where there is one
+      by_scenario;  ///< by scenario, then gains, then mode; empty with a single scenario
   std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode
 };
 /// Criteria of the runs.

@@ -19,7 +19,7 @@
 namespace awmr {
 namespace {
 
-/// z -> zeta of its continuous equal s = ln(z)/T_s.
+/// Damping ratio of s = ln(z)/T_s.
 double damping_of(const std::complex<double>& z) {
   if (std::abs(z) < kGoneWithinASample) return 1.0;
   const std::complex<double> s = std::log(z);
@@ -40,14 +40,14 @@ Matrix5 held_over(const SampledHeadingLoop& loop, double time_s) {
   continuous(1, lag ? 3 : 4) = loop.input_gain * loop.direct_share;
   continuous(2, 2) = -1.0 / loop.servo_time_constant_s;
   continuous(2, 4) = 1.0 / loop.servo_time_constant_s;
-  // Without a lag nothing reads w_motor: it only has to die out.
+  // Without a lag nothing uses w_motor, which only has to decay.
   const double motor_s = lag ? loop.motor_time_constant_s : loop.sample_time_s;
   continuous(3, 3) = -1.0 / motor_s;
   continuous(3, 4) = 1.0 / motor_s;
   return (continuous * time_s).exp();
 }
 
-/// A delay as whole samples and a part of one.
+/// A delay as whole samples and a fraction of a sample.
 struct SplitDelay {
   int samples;  ///< >= 0
   double part;  ///< [0, 1)
@@ -60,7 +60,8 @@ SplitDelay split_delay(double delay_s, double sample_time_s) {
   return {static_cast<int>(whole), part > kRounding ? part : 0.0};
 }
 
-/// The plant from one sample to the next; in its first part the command before the last still acts:
+/// The plant from one sample to the next. During the first part of the sample, the previous command
+/// still acts:
 ///   x_(j+1) = Phi x_j + Gamma0 w_(j-m) + Gamma1 w_(j-m-1)
 struct HeldPlant {
   Eigen::Matrix4d phi;
@@ -85,12 +86,12 @@ double damping_ratio(const SampledHeadingLoop& loop) {
   const HeldPlant plant = hold(loop, delay.part);
   const bool is_split = delay.part > 0.0;
 
-  // The states, y of an observer, then the commands still to come: w of this sample's readings enters
-  // at the last of them, or at once.
+  // States: the plant's, y of an observer, then the delayed commands. The w of this sample enters
+  // the last delayed command, or the plant if there is none.
   const double k = loop.reaching_rate;
   const double l = loop.observer_radps;
   const Eigen::Index states = l > 0.0 ? 5 : 4;
-  const Eigen::Index n = loop.late_samples + delay.samples + (is_split ? 1 : 0);
+  const Eigen::Index n = loop.latency_samples + delay.samples + (is_split ? 1 : 0);
   Eigen::RowVectorXd law = Eigen::RowVectorXd::Zero(states);
   law(0) = -loop.lambda * k;
   law(1) = loop.fed_forward_rate - loop.lambda - k - l;
@@ -170,7 +171,7 @@ double excess_at(const CompensatedLoop& open, double omega_radps) {
 std::vector<Interval> crossings_of(const SampledHeadingLoop& loop, const CompensatedLoop& open) {
   constexpr int kFrequencies = 100;
   const double k = loop.reaching_rate;
-  // The heading integrates: far below its own gain |P| > 1.
+  // The heading is an integral of the command, so |P| > 1 at low frequencies.
   const double lowest =
       1e-4 * loop.lambda * k / (loop.lambda + k + loop.resistance_rate + loop.fed_forward_rate);
   const double nyquist = pi<double>() / loop.sample_time_s;
@@ -187,8 +188,8 @@ std::vector<Interval> crossings_of(const SampledHeadingLoop& loop, const Compens
   return ranges;
 }
 
-/// The least delay, s, above `least_s` at which the loop has a pole on the unit circle, with w in one
-/// of the ranges; nothing if |P| does not pass 1 in one of them.
+/// Smallest delay, s, above `least_s` at which the loop has a pole on the unit circle with w in one
+/// of the ranges. Empty if |P| does not cross 1 in a range.
 std::optional<double> next_crossing_s(const CompensatedLoop& open,
                                       const std::vector<Interval>& ranges, double least_s) {
   constexpr std::uintmax_t kEvaluationsMax = 60;
@@ -211,8 +212,8 @@ std::optional<double> next_crossing_s(const CompensatedLoop& open,
   return next_s;
 }
 
-/// The fixed point of the delay, s, from the part f of a sample, with w in the ranges as long as |P|
-/// passes 1 in each: at least one step, as the ranges belong to this f.
+/// Fixed-point iteration of the delay, s, over its fraction f of a sample, as long as |P| crosses 1
+/// in each range. The ranges belong to the first f, so at least one step succeeds.
 double settled_delay_s(const SampledHeadingLoop& loop, const std::vector<Interval>& ranges,
                        double part, double present_s) {
   constexpr int kSteps = 30;
@@ -233,7 +234,7 @@ double settled_delay_s(const SampledHeadingLoop& loop, const std::vector<Interva
 double delay_margin_s(const SampledHeadingLoop& loop) {
   constexpr int kSearches = 10;
   if (!(damping_ratio(loop) > 0.0)) return 0.0;
-  const double present_s = loop.late_samples * loop.sample_time_s + loop.command_delay_s;
+  const double present_s = loop.latency_samples * loop.sample_time_s + loop.command_delay_s;
   double delay_s = std::numeric_limits<double>::infinity();
   double part = 0.0;
   for (int i = 0; i < kSearches; ++i) {

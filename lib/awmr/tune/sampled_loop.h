@@ -1,4 +1,4 @@
-/// The heading loop as it really runs: sampled, its command held, part of it through the servo.
+/// Sampled heading loop: zero-order hold of the command, part of which acts through the servo.
 /// Private to tune/.
 #pragma once
 
@@ -13,21 +13,21 @@ namespace awmr {
 ///     w = c r_j - (lambda + k) r_j - lambda k psi_j     the law, k = mu/eps, held over T_s,
 ///                                                       from the readings of j = n samples ago
 ///
-/// The law knows the model alone: c is the g3'(r0)/I'z of the model, and q the I'z of the model
-/// over the plant's. For the model's own plant c = a and q = 1.
+/// The law uses the parameters of the model: c is g3'(r0)/I'z of the model, and q is I'z of the
+/// model over that of the plant. For the model's own plant c = a and q = 1.
 ///
-/// With an observer of bandwidth L (control/disturbance_observer.h), d_hat = I'z (y + L r) is taken
-/// off:
+/// With an observer of bandwidth L (control/disturbance_observer.h), d_hat = I'z (y + L r) is
+/// subtracted:
 ///
 ///     w       = c r_j - (lambda + k + L) r_j - lambda k psi_j - y_j
 ///     y_(j+1) = y_j + T_s L ((lambda + k) r_j + lambda k psi_j)
 ///
 /// Without hold and servo, with the model's own plant, a cancels and
 /// s^2 + (lambda + k) s + lambda k has the roots -lambda, -k, and the observer adds -L.
-/// With them the cancellation comes late: a r - a r(t - tau) is about a tau r_dot, an added inertia
-/// of 1 + a tau, and the product (lambda + k) tau takes phase, tau = T + T_s/2. To first order and
-/// with lambda k << (lambda + k)/tau, damping zeta needs (lambda + k) tau <= 1/(4 zeta^2); here the
-/// exact discretisation is used instead.
+/// Hold and servo delay the cancellation by tau = T + T_s/2: a r - a r(t - tau) is about a tau
+/// r_dot, which multiplies the inertia by 1 + a tau, and (lambda + k) tau reduces the phase. To
+/// first order and with lambda k << (lambda + k)/tau, damping zeta needs (lambda + k) tau <= 1/(4
+/// zeta^2); here the exact discretisation is used instead.
 struct SampledHeadingLoop {
   double lambda = 0.0;                 ///< 1/s
   double reaching_rate = 0.0;          ///< k = mu/eps, 1/s
@@ -39,27 +39,27 @@ struct SampledHeadingLoop {
   double direct_share = 0.0;           ///< s: 1 differential, 0 steering, 1/2 combined
   double motor_time_constant_s = 0.0;  ///< T_m, >= 0
   double observer_radps = 0.0;         ///< L, >= 0, L T_s < 1; 0: no observer
-  int late_samples = 0;                ///< n, 0 ... 1000: latency of the readings in samples
-  /// Delay of the held command on its way to motors and servo, s, >= 0: any part of T_s. A delay of as
-  /// much of the readings gives the same loop.
+  int latency_samples = 0;             ///< n, 0 ... 1000: latency of the readings in samples
+  /// Delay of the held command before motors and servo, s, >= 0; need not be a multiple of T_s. The
+  /// same delay of the readings gives the same loop.
   double command_delay_s = 0.0;
 };
 
 /// Smallest damping ratio zeta = -Re(s)/|s|, s = ln(z)/T_s, over the eigenvalues z of the closed
-/// loop from one sample to the next. In [-1, 1]; positive exactly when every |z| < 1; a ringing z <
-/// 0 counts with its angle pi. A mode of which less than kGoneWithinASample is left after a sample
-/// does not ring: it counts as 1.
+/// loop from one sample to the next. In [-1, 1]; positive exactly when every |z| < 1; z < 0
+/// (alternating signs) counts with the angle pi. A mode that decays below kGoneWithinASample within
+/// one sample counts as zeta = 1.
 inline constexpr double kGoneWithinASample = 0.1;
 double damping_ratio(const SampledHeadingLoop& loop);
 
-/// The least further delay of the command, s, with which the loop is no longer stable: 0 if it is not
-/// stable as it is, infinity if no delay makes it so.
+/// Delay margin: smallest additional delay of the command, s, that makes the loop unstable. 0 if
+/// the loop is already unstable, infinity if no delay makes it unstable.
 ///
-/// With the delay D = (n + m + f) T_s, m whole and 0 <= f < 1, the loop has a pole z = e^(j w T_s) on the unit
-/// circle exactly where
+/// With the delay D = (n + m + f) T_s, m whole and 0 <= f < 1, the loop has a pole z = e^(j w T_s)
+/// on the unit circle exactly where
 ///     P(w, f) = e^(j w D),   P(w, f) = C(z) (z I - Phi)^-1 (Gamma0(f) + Gamma1(f)/z) e^(j w f T_s),
-/// Phi, Gamma the plant held over T_s, C the law. |P| = 1 gives w, the phase D. P hardly depends on f, so
-/// that D follows by fixed-point iteration from the f before.
+/// Phi, Gamma the plant held over T_s, C the law. |P| = 1 determines w, and the phase of P
+/// determines D. P hardly depends on f, so a fixed-point iteration over f converges.
 double delay_margin_s(const SampledHeadingLoop& loop);
 
 }  // namespace awmr

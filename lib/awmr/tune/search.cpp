@@ -22,14 +22,14 @@ constexpr unsigned kPopulation = 40;
 /// First step and smallest step of the local search, in ln(gain): 20 % and 0.1 %.
 constexpr double kFirstStep = 0.2;
 constexpr double kLastStep = 1e-3;
-/// A local search that improves the objective by less is the last one.
+/// Smallest improvement of a local search after which another one is started.
 constexpr double kWorthwhile = 1e-4;
-/// Starts of the feasibility search in addition to the baseline and the middle of the bounds, and steps of
-/// each.
+/// Starts of the feasibility search in addition to the baseline and the middle of the bounds, and
+/// steps of each.
 constexpr int kRandomStarts = 30;
 constexpr int kStartEvaluations = 300;
 
-/// Evaluations on all draws, from gains that are feasible there.
+/// Evaluations on all draws, if the start is feasible there.
 constexpr int kFinishEvaluations = 12;
 
 using Optimizer = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
@@ -50,7 +50,7 @@ class NloptCallbacks {
   virtual void residuals(const Point& point, std::span<double> result) = 0;
 };
 
-/// One point at a time; the last one is kept, so that it is looked at once.
+/// Evaluates one point at a time and caches the last one, so that each point is evaluated once.
 class OneByOne : public NloptCallbacks {
  public:
   explicit OneByOne(Problem& problem) : problem_(problem) {}
@@ -69,8 +69,8 @@ class OneByOne : public NloptCallbacks {
   std::optional<Looked> last_;
 };
 
-/// Goes through the points that are known, notes those of the next generation and stops there: their
-/// values are not known yet, and none of them depends on another's.
+/// Returns the cached values of known points, collects the points of the next generation, and stops
+/// there. The points of a generation do not depend on each other's values.
 class OneGeneration : public NloptCallbacks {
  public:
   OneGeneration(const std::vector<Looked>& known, nlopt_opt search)
@@ -136,11 +136,11 @@ nlopt_result run(nlopt_opt search, NloptCallbacks& callbacks, unsigned constrain
 
 bool failed(nlopt_result code) { return code < 0 && code != NLOPT_ROUNDOFF_LIMITED; }
 
-/// ISRES, a generation at a time, though NLopt asks for one point after the other: for each generation
-/// the search begins anew from the known points, which takes it to the next one. It is the search
-/// that it would be in one go.
+/// Runs ISRES by generations, so that the points of a generation are evaluated in parallel. NLopt
+/// requests one point at a time, so the seeded search is restarted for each generation and replays
+/// the known values. The result equals that of a sequential run.
 nlopt_result search_globally(Problem& problem, const TuneOptions& options, const Point& start) {
-  // NLopt's random generator is one per process.
+  // NLopt has one random generator per process.
   static std::mutex generator;
   const std::lock_guard<std::mutex> turn(generator);
   std::vector<Looked> known;
@@ -253,7 +253,7 @@ void note_broken(Problem& problem, SearchResult& result) {
   result.broken_by = *most;
 }
 
-/// Goes on from gains that were found on some of the draws, on all of them.
+/// Continues on all draws, from gains that were found on some of them.
 Result<std::string> finish(Problem& problem, const Gains<double>& from,
                            std::span<const Gains<double>> starts, int most_evaluations) {
   const auto look_at = [&problem](const Gains<double>& gains) {
@@ -261,7 +261,8 @@ Result<std::string> finish(Problem& problem, const Gains<double>& from,
     problem.look_at(std::span(&point, 1));
   };
   look_at(from);
-  // Gains that are feasible on some draws only may be further from those of all than a start is.
+  // Gains that are feasible on some draws can violate the limits on all draws more than a start
+  // does.
   if (!problem.nearest.feasible()) std::ranges::for_each(starts, look_at);
   problem.simulate_all = true;
   const int budget = problem.nearest.feasible() ? std::min(kFinishEvaluations, most_evaluations)

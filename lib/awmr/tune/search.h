@@ -1,5 +1,4 @@
-/// The search over the gains' logarithms: feasibility, a global search, a local one. Private to
-/// tune/.
+/// Search over the logarithms of the gains: feasibility, then global, then local. Private to tune/.
 #pragma once
 
 #include <optional>
@@ -14,7 +13,7 @@ namespace awmr {
 
 struct SearchResult {
   std::optional<Candidate> best;  ///< the best feasible one, if any was met
-  Candidate nearest;              ///< the best of all by better()
+  Candidate nearest;              ///< the first in the order of better()
   /// Without a best: the constraint that the nearest candidate violates most, and the violation as
   /// a fraction of the larger of the constraint's two sides.
   std::string broken_most = {};
@@ -27,22 +26,24 @@ struct SearchResult {
   std::string stop_reason;
 };
 
-/// LN_COBYLA from `start`, then again and again from the best point that `problem` has met, each
-/// time with the first step anew, until a search gains less than 1e-4 or the budget is spent.
-/// Returns why it stopped. Errors (program fault): NLopt's.
+/// Runs LN_COBYLA from `start`, then repeatedly from the best point of `problem`, each time with
+/// the initial step size, until an improvement is below 1e-4 or the budget is spent. Returns the
+/// reason for stopping. Errors (program fault): NLopt's.
 Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
                                    int most_evaluations);
 
-/// Gains within the bounds that meet `context`, or those that come nearest: no simulation is
-/// needed.
+/// Returns gains within the bounds that meet `context`, or those with the smallest violation. Needs
+/// no simulation.
 Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
                          const Gains<double>& baseline);
 
-/// On `searched`: GN_ISRES from the first of `starts`, then LN_COBYLA from the best point met, the
-/// other starts among them, over ln(gains); if that finds no feasible gains, from each of the
-/// starts as well. Then, where `all` has more draws, LN_COBYLA on them from there. All starts meet
-/// the constraints that need no run; there is at least one. Each point is kept only if it meets
-/// every constraint exactly, whatever tolerance the search itself works with. Deterministic:
+/// Searches ln(gains) in this order:
+///   1. on `searched`: GN_ISRES from the first of `starts`;
+///   2. LN_COBYLA from the best point so far, including the other starts;
+///   3. without feasible gains, LN_COBYLA from each start;
+///   4. if `all` has more draws, LN_COBYLA on `all` from the best point.
+/// Precondition: at least one start; all meet the constraints that need no run. The result meets
+/// every constraint exactly, whatever the tolerance of NLopt. Deterministic:
 /// NLopt's generator is reseeded, and searches in one process take turns.
 Result<SearchResult> search(const TuneOptions& options, const ConstraintContext& context,
                             const Objective& searched, const Objective& all,

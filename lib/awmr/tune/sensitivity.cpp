@@ -11,12 +11,12 @@ namespace {
 
 /// Bisection steps on either side of an interval.
 constexpr int kHalvings = 6;
-/// A residual above this is that of an active constraint.
+/// A constraint is active if its residual is above this.
 constexpr double kActive = -0.01;
 /// Evaluations of the search for the benefit of a wider limit.
 constexpr int kPriceEvaluations = 30;
 
-/// The places of a mu and its epsilon in a Point.
+/// Indices of a mu and its epsilon in a Point.
 using Pair = std::array<unsigned, 2>;
 constexpr Pair kHeading{1, 2};
 constexpr Pair kSpeed{3, 4};
@@ -65,7 +65,7 @@ SettledGains settle(const TuneOptions& options, const ConstraintContext& context
   SettledGains settled;
   Point point = problem.space().point_of(best.gains);
   const double objective = problem.look_at(std::span(&point, 1)).front().candidate.objective;
-  // Half of what may be given up for each of the two.
+  // Half of kIndifferent for each of the two.
   const Interval heading =
       stretch(problem, point, kHeading, (1.0 + 0.5 * kIndifferent) * objective);
   settled.mu = {best.gains.heading.mu * std::exp(heading.lo),
@@ -88,7 +88,7 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
   TuneOptions quiet = options;
   quiet.progress = {};
   const Point point = SearchSpace(options).point_of(best.gains);
-  // The least objective of a local search with one constraint wider, or with none.
+  // Smallest objective of a local search with one constraint relaxed, or none.
   const auto searched = [&](std::size_t wider) -> Result<double> {
     Problem problem(quiet, context, objective);
     if (wider < problem.tolerated.size()) problem.tolerated[wider] = kWider;
@@ -104,7 +104,8 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
     if (residuals[i] > kActive) active.push_back({.name = problem.names()[i]});
   }
   if (active.empty()) return active;
-  // A search that had not converged would also improve without a wider limit.
+  // The difference to a search without a relaxed limit: an unconverged search improves also without
+  // it.
   AWMR_ASSIGN_OR_RETURN(const double without, searched(residuals.size()));
   for (ActiveConstraint& one : active) {
     const auto place = std::ranges::find(problem.names(), one.name) - problem.names().begin();

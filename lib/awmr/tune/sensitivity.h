@@ -10,24 +10,23 @@
 
 namespace awmr {
 
-/// Gains with the ranges in which the objective hardly changes.
+/// Gains with the ranges of mu and mu_s in which the objective is nearly constant.
 struct SettledGains {
   Gains<double> gains{};
-  /// Values of mu, rad/s^2, that epsilon is scaled with while the objective rises by at most
-  /// kIndifferent.
+  /// mu, rad/s^2, with mu/epsilon constant and the objective within kIndifferent of the best.
   Interval mu;
   Interval speed_mu;  ///< mu_s, m/s^2, with epsilon_s in the same way
 };
 
-/// The objective hardly depends on mu while mu/epsilon stays: inside the boundary layer that ratio
-/// alone acts. So that the search's seed does not decide, the least mu is taken that scores as well as
-/// `best` within kIndifferent on the searched draws and meets every constraint, then the least mu_s;
-/// `best` itself where they do not hold on all draws.
+/// Selects the smallest mu, then the smallest mu_s, that meets every constraint and scores as
+/// `best` within kIndifferent on the searched draws. With mu/epsilon constant the objective hardly
+/// depends on mu, because only that ratio acts inside the boundary layer; without this rule the
+/// seed would decide. Returns `best` if the selected gains violate a constraint on all draws.
 SettledGains settle(const TuneOptions& options, const ConstraintContext& context,
                     const Objective& searched, const Objective& all, const Candidate& best);
 
-/// The constraints within 1 % of which `best` is, and how far the objective falls in a local search
-/// from there where one of them may be broken by a tenth. Errors: as search().
+/// The constraints that are active at `best` (residual within 1 %), each with the improvement of
+/// the objective in a local search that relaxes it by a tenth. Errors: as search().
 Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& options,
                                                          const ConstraintContext& context,
                                                          const Objective& objective,

@@ -15,7 +15,7 @@ struct FirstAndTotal {
   double first = 0.0, total = 0.0;
 };
 
-/// Over the samples of these places, which may be there several times.
+/// Indices over the samples with these numbers, which can repeat (bootstrap).
 FirstAndTotal indices_over(const std::vector<std::size_t>& places, const std::vector<double>& of_a,
                            const std::vector<double>& of_b, const std::vector<double>& of_mixed) {
   double mean = 0.0, least = of_a[places.front()], most = least;

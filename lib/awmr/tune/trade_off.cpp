@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// LQI weights that scale with the vehicle (Bryson's rule), as TradeOff::named has them.
+/// LQI weights that scale with the vehicle (Bryson's rule), see TradeOff::named.
 LqiWeights<double> lqi_weights(const ConstraintContext& context) {
   const double error_rad = context.step_rad / 6.0;
   return {.heading_rad = error_rad,

@@ -1,4 +1,4 @@
-/// Settling against command activity. Private to tune/.
+/// Trade-off between settling time and control variation. Private to tune/.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace awmr {
 
-/// The points that no other beats in both figures, by settling time.
+/// Pareto-optimal points, by settling time.
 std::vector<TradeOffPoint> front_of(std::vector<TradeOffPoint> points);
 
 /// The Pareto front of the points that a search evaluated, and the named gains on its draws.

@@ -34,10 +34,10 @@
 namespace awmr {
 namespace {
 
-/// Maximum number of RK4 steps of a search: some hours.
+/// Largest number of RK4 steps of a search, which take some hours.
 constexpr double kMostSearchSteps = 1e11;
 
-/// Each run's work is bounded, and so is that of all evaluations together.
+/// Limits the total work of all evaluations.
 Status check_work(const TuneOptions& options, const std::vector<Scenario>& scenarios,
                   const Plant<double>& plant, const Model& model) {
   const double sample_time_s = model.vehicle.sample_time_s;
@@ -50,7 +50,7 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
   double evaluations = static_cast<double>(options.global_evaluations) + options.local_evaluations;
   if (!options.nominal) {
     steps *= 1.0 + options.draws;
-    // Three sets of gains are evaluated, each draw once.
+    // The evaluation runs three sets of gains on each draw.
     evaluations += (3.0 * options.evaluation_draws + sensitivity_runs(model, options.sensitivity)) /
                    (1.0 + options.draws);
   }
@@ -75,8 +75,7 @@ double largest_step_rad(const Scenario& scenario) {
   return largest;
 }
 
-/// The yaw rate that runs of the scenario reach, rad/s: the step within a second, or as fast as its heading
-/// is limited to.
+/// Highest yaw rate in runs of the scenario, rad/s: the step within 1 s, or the heading-rate limit.
 double reached_radps(const Scenario& scenario) {
   const double in_a_second = largest_step_rad(scenario) / 1.0;
   return scenario.shaping ? std::min(in_a_second, scenario.shaping->rate_max_radps) : in_a_second;
@@ -100,13 +99,13 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
     context.step_rad = std::max(context.step_rad, largest_step_rad(s));
     context.fastest_radps = std::max(context.fastest_radps, reached_radps(s));
   }
-  // No mode turns faster than its largest moment holds.
+  // No mode turns faster than its largest moment sustains.
   const auto steady = steady_rate(plant.yaw, largest_moment_m(context.own(), context.speed_mps));
   if (steady) context.fastest_radps = std::clamp(*steady, kSlowest_radps, context.fastest_radps);
   return context;
 }
 
-/// The limit on the steering command that the user did not give.
+/// Sets the default limit of the steering rate.
 void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context) {
   if (context.limits.steering_rate_rms_degps || !context.steers()) return;
   constexpr double kShareOfServo = 0.9;
@@ -115,7 +114,7 @@ void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context) {
       std::min(vehicle.steering_max_rate_degps, 2.0 * degrees(context.plant.steering_max_rad) /
                                                     context.plant.steering_time_constant_s);
   const Gains<double> none{{0.0, 0.0, 1.0}, {0.0, 1.0}};
-  // A wider friction width makes Coulomb friction as calm as it has to be.
+  // Excludes Coulomb friction, whose noise with_friction_width() limits.
   ConstraintContext without_friction = context;
   without_friction.plant.yaw.coulomb = 0.0;
   context.limits.steering_rate_rms_degps =
@@ -123,8 +122,7 @@ void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context) {
                kOverFeedForward * steering_rate_rms_degps(none, without_friction));
 }
 
-/// Gives an observer the limits that the user did not. Errors (input): there is nothing left to take
-/// off with.
+/// Sets the default limits of an observer. Errors (input): no force remains to compensate with.
 Status limit_observer(const ConstraintContext& context, std::optional<ObserverSearch>& observer) {
   if (!observer) return {};
   const Plant<double>& plant = context.plant;
@@ -144,7 +142,7 @@ Status limit_observer(const ConstraintContext& context, std::optional<ObserverSe
   return {};
 }
 
-/// The setting with the vehicle's own plant and the draws that a search runs.
+/// The setting with the nominal vehicle and the first draws, for the search.
 ObjectiveSetting searched(ObjectiveSetting setting, const TuneOptions& options) {
   const std::size_t as_many_runs =
       at(kSearchedDraws) * std::size(kYawModes) / setting.modes().size();
@@ -163,9 +161,9 @@ Status check_baseline(const Objective& objective, const Baseline& baseline) {
 /// Factors on the poles of further starts: slower ones suit a vehicle with large noise.
 constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 
-/// Starts of the search: pole placement with wide layers, the same slowed, pole placement and the
-/// baseline, as far as they meet the constraints; else the gains nearest to the first that do.
-/// Errors (refused): none do.
+/// Starts of the search that meet the constraints, from: pole placement with wide layers, the same
+/// slowed down, pole placement, and the baseline. If none does, the feasible gains nearest to the
+/// first. Errors (refused): there are none.
 Result<std::vector<Gains<double>>> starts_of(const TuneOptions& options,
                                              const ConstraintContext& context,
                                              std::span<const Gains<double>> poles) {
@@ -182,7 +180,7 @@ Result<std::vector<Gains<double>>> starts_of(const TuneOptions& options,
   return starts;
 }
 
-/// Searches on one setting, and scores what it finds on `held_out` as well.
+/// Searches on one setting, and evaluates the result on `held_out` too.
 Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
                             const ConstraintContext& context, TuneOptions options,
                             const Scenario& held_out) {
@@ -240,22 +238,22 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
                 .robust = {}};
 }
 
-/// The work of a constraint grows with the cube of the latency in samples.
+/// Limits the latency: the work of a constraint grows with the cube of the latency in samples.
 Status check_latency(const ConstraintContext& context, const std::string& model_file) {
   const double samples = context.latency_s / context.sample_time_s;
-  if (samples < kMostLateSamples + 1e-9) return {};
+  if (samples < kMostLatencySamples + 1e-9) return {};
   return input_error(
       ErrorCode::kTooLarge, model_file + ":/vehicle/latency_s",
       fmt::format("{:g} s are {:.4g} samples of {:g} s, more than the limit of {}; give a longer "
                   "sample_time_s, or tune without latency ({})",
-                  context.latency_s, samples, context.sample_time_s, kMostLateSamples,
+                  context.latency_s, samples, context.sample_time_s, kMostLatencySamples,
                   option_text("nominal")));
 }
 
-/// XORed with the seed, so that gains are evaluated on other draws than they were tuned on.
+/// XORed with the seed, so that the evaluation uses other draws than the search.
 constexpr std::uint64_t kEvaluationSeeds = 0x6a75646765ULL;
 
-/// The numbers of the fresh draws, from 1: those of the part, or all.
+/// Numbers of the new draws, from 1: of the part, or all.
 std::vector<int> evaluation_draws_of(const TuneOptions& options) {
   const Shard shard = options.shard.value_or(Shard{});
   std::vector<int> draws(at(shard.share_of(options.evaluation_draws)));
@@ -263,7 +261,8 @@ std::vector<int> evaluation_draws_of(const TuneOptions& options) {
   return draws;
 }
 
-/// The tuned gains, the baseline, the paper's gains, and the tuned ones without their observer.
+/// Sets of gains to evaluate: tuned, baseline, the paper's, and the tuned ones without their
+/// observer.
 std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   std::vector<NamedCandidate> candidates{{kRobustGains, tuning.gains},
                                          {"baseline", tuning.baseline.gains}};
@@ -276,9 +275,9 @@ std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   return candidates;
 }
 
-/// Runs the candidates on fresh draws. A shard keeps its runs; otherwise adds their statistics.
-Status judge(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
-             const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
+/// Runs the candidates on new draws. A shard stores its runs; otherwise their statistics are added.
+Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
+                           const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
   if (options.evaluation_draws == 0) return {};
   setting.seed ^= kEvaluationSeeds;
   const std::vector<int> draws = evaluation_draws_of(options);
@@ -325,12 +324,12 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   context.yaw_rate_noise_radps = radians(c.yaw_rate_noise_degps);
   context.heading_correlation = noise_correlation(c.heading_correlation_s, context.sample_time_s);
   context.yaw_rate_correlation = noise_correlation(c.yaw_rate_correlation_s, context.sample_time_s);
-  context.latency_s = std::max(c.heading_late_s, c.yaw_rate_late_s);
+  context.latency_s = std::max(c.heading_latency_s, c.yaw_rate_latency_s);
   context.motor_time_constant_s = c.motor_time_constant_s;
   limit_steering_rate(model.vehicle, context);
   AWMR_RETURN_IF_ERROR(check_latency(context, model.file));
   AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(model, setting, context, options, held_out));
-  AWMR_RETURN_IF_ERROR(judge(model, setting, options, candidates_of(tuning), robust));
+  AWMR_RETURN_IF_ERROR(evaluate_candidates(model, setting, options, candidates_of(tuning), robust));
   if (options.sensitivity > 0) {
     AWMR_ASSIGN_OR_RETURN(robust.sensitivity,
                           global_sensitivity(model, without_noise, robust.conditions, tuning.gains,

@@ -1,4 +1,4 @@
-// tune.json in, gains.json out.
+// Reads tune.json, writes gains.json.
 #include "awmr/tune/tune_file.h"
 
 #include <fmt/format.h>
@@ -98,7 +98,7 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
   }
 }
 
-/// A word for gains that the program knows, or the path of a gains.json relative to `directory`.
+/// "pole-placement", "paper", or the path of a gains.json relative to `directory`.
 void read_baseline(JsonObject& json, const std::filesystem::path& directory, TuneConfig& config,
                    std::vector<Fault>& faults) {
   const std::optional<std::string> name = json.optional_string("baseline");
@@ -146,7 +146,7 @@ void read_goals(JsonObject& json, TuneOptions& options) {
   }
 }
 
-/// Paths relative to the config file; a broken scenario's faults join the config's.
+/// Paths relative to the config file. Faults of a scenario are added to those of the config.
 void read_scenarios(JsonObject& json, const std::filesystem::path& directory, TuneConfig& config,
                     std::vector<Fault>& faults) {
   if (!json.has("scenarios")) return;
@@ -250,9 +250,9 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
                  {"yaw_rate_degps", c.yaw_rate_noise_degps},
                  {"speed_mps", c.speed_noise_mps}}},
                {"latency",
-                {{"heading_s", c.heading_late_s},
-                 {"yaw_rate_s", c.yaw_rate_late_s},
-                 {"speed_s", c.speed_late_s}}},
+                {{"heading_s", c.heading_latency_s},
+                 {"yaw_rate_s", c.yaw_rate_latency_s},
+                 {"speed_s", c.speed_latency_s}}},
                {"motor_time_constant_s", c.motor_time_constant_s},
                {"judged_draws", options.evaluation_draws},
                {"quantiles", quantiles_json(robust.evaluated)}};
@@ -264,7 +264,7 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
   }
   if (options.open.any()) json["open"] = open_json(options.open);
   if (options.activity_max) json["activity_max"] = *options.activity_max;
-  // Last, where a merge of parts puts it.
+  // Last, as in a merge of parts.
   if (!robust.evaluated_by_scenario.empty()) {
     json["by_scenario"] = by_scenario_json(robust.evaluated_by_scenario);
   }
@@ -325,7 +325,7 @@ Json objective_json(const Tuning& tuning, const TuneOptions& options) {
 
 constexpr std::string_view kTuneSchema = "awmr.tune/1";
 
-/// Scenarios are read from `directory`; their faults join those of the file.
+/// Scenarios are read from `directory`; their faults are added to those of the file.
 TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& directory,
                             std::vector<Fault>& faults) {
   TuneConfig config;
@@ -367,7 +367,7 @@ Result<TuneConfig> read_tune_config(const std::filesystem::path& path) {
 }
 
 std::string tune_schema() {
-  return json_schema_text(kTuneSchema, "What a search for gains is to do", [](JsonObject& json) {
+  return json_schema_text(kTuneSchema, "Options of a search for gains", [](JsonObject& json) {
     std::vector<Fault> ignored;
     config_from_json(json, "", ignored);
   });

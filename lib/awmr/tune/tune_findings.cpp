@@ -88,7 +88,7 @@ void note_observer(const TuneOptions& options, std::vector<Finding>& findings) {
        "with a disturbance, or no scenarios to use the default ones"});
 }
 
-/// Requests that the vehicle cannot meet, in the scenarios and in the conditions of the draws.
+/// Infeasible requests in the scenarios and in the conditions of the draws.
 void note_scenarios(const Model& model, const TuneOptions& options, const Tuning& tuning,
                     std::vector<Finding>& findings) {
   std::vector<Scenario> scenarios = options.scenarios;
@@ -101,7 +101,7 @@ void note_scenarios(const Model& model, const TuneOptions& options, const Tuning
   }
 }
 
-/// Findings of nominal gains, or without fresh draws: of the runs that were tuned on.
+/// Findings from the tuned runs, for nominal gains or without new draws.
 std::vector<Finding> nominal_findings(const Tuning& tuning) {
   std::vector<Finding> findings;
   for (const ModeScore& score : tuning.scores) {

@@ -59,7 +59,7 @@ TuningGoal read_goal(JsonObject json) {
   }
   limits.reject_unknown_keys();
   if (goal.at_most.empty()) {
-    json.fault(ErrorCode::kMissing, "at_most", "names no metric");
+    json.fault(ErrorCode::kMissing, "at_most", "contains no metric");
   }
   goal.share =
       json.optional_number("share", {.min = kLeastShare, .max = kMostShare}).value_or(goal.share);

@@ -19,7 +19,7 @@ inline constexpr LimitKey kLimitKeys[] = {{"damping", &TuningLimits::damping},
                                           {"delayed_damping", &TuningLimits::delayed_damping},
                                           {"noise_share", &TuningLimits::noise_share}};
 
-/// Limits as tune.json and gains.json have them; those that are not there have their default.
+/// Limits as tune.json and gains.json have them; missing ones get their default.
 TuningLimits read_limits(JsonObject json);
 
 /// `/examined` of gains.json.

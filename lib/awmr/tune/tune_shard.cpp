@@ -19,7 +19,7 @@ namespace awmr {
 namespace {
 
 /// Maximum of evaluation_draws, as in tune.json.
-constexpr long kMaxJudgedDraws = 100'000;
+constexpr long kMaxEvaluationDraws = 100'000;
 
 /// The keys of shard.json that a tuning adds; the runs are in the table.
 struct Payload {
@@ -31,20 +31,22 @@ struct Payload {
 
 Payload read_payload(JsonObject& json) {
   Payload payload{
-      .evaluation_draws = static_cast<int>(json.integer("judged_draws", 1, kMaxJudgedDraws)),
+      .evaluation_draws = static_cast<int>(json.integer("judged_draws", 1, kMaxEvaluationDraws)),
       .gains = json.strings("gains"),
       .by = {},
       .findings = {}};
   for (const std::string& name : json.strings("modes")) {
     const auto mode = value_in(kYawModeNames, name);
-    if (!mode) json.fault(ErrorCode::kUnknownName, "modes", fmt::format("'{}' is no mode", name));
+    if (!mode)
+      json.fault(ErrorCode::kUnknownName, "modes", fmt::format("'{}' is not a mode", name));
     payload.by.modes.push_back(mode.value_or(YawMode::kCombined));
   }
-  if (payload.by.modes.empty()) json.fault(ErrorCode::kMissing, "modes", "names no mode");
-  if (payload.gains.empty()) json.fault(ErrorCode::kMissing, "gains", "names no evaluated gains");
+  if (payload.by.modes.empty()) json.fault(ErrorCode::kMissing, "modes", "contains no mode");
+  if (payload.gains.empty())
+    json.fault(ErrorCode::kMissing, "gains", "contains no evaluated gains");
   payload.by.scenarios = json.strings("scenarios");
   if (payload.by.scenarios.empty()) {
-    json.fault(ErrorCode::kMissing, "scenarios", "names no scenario");
+    json.fault(ErrorCode::kMissing, "scenarios", "contains no scenario");
   }
   payload.by.tail_share = json.number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true});
   for (JsonObject& goal : json.objects("goals")) {
@@ -83,7 +85,7 @@ std::optional<RunOutcome> outcome_in(std::string_view line, std::string_view pla
   return outcome;
 }
 
-/// Takes the first line off the text, without its end.
+/// Removes the first line from the text and returns it without its end.
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   const std::string_view line = text.substr(0, end);
@@ -157,7 +159,7 @@ Result<std::vector<EvaluatedRuns>> read_all_runs(const std::vector<Part>& parts,
   return by_gains;
 }
 
-/// gains.json, which is the same in all parts.
+/// gains.json, identical in all parts.
 Result<Json> read_gains_json(const std::vector<Part>& parts) {
   const ShardFile& file = tune_shards().files.back();
   for (const Part& part : parts) AWMR_RETURN_IF_ERROR(read_part_file(part, file));
@@ -170,8 +172,8 @@ Result<Json> read_gains_json(const std::vector<Part>& parts) {
   return json;
 }
 
-/// The text of judged.csv: `gains,draw,mode,scenario,completed,broke_off` and the figures, scenarios
-/// by number, from 1.
+/// The text of judged.csv: `gains,draw,mode,scenario,completed,broke_off` and the figures,
+/// scenarios by number, from 1.
 std::string evaluation_csv(const Tuning& tuning, const TuneOptions& options) {
   const std::vector<EvaluatedRuns>& all = tuning.robust->runs;
   const std::size_t draws = at(options.shard->share_of(options.evaluation_draws));

@@ -1,6 +1,6 @@
-/// Evaluation of gains in parts, on several machines: each searches the gains, with the same
-/// result, and runs some of the fresh draws; merge_tune_shards() puts the runs together to the
-/// bytes of a single `awmr tune`.
+/// Evaluation of gains on several machines. Each machine repeats the search, with the same result,
+/// and runs its part of the new draws. merge_tune_shards() combines the parts to the output of a
+/// single `awmr tune`, byte for byte.
 #pragma once
 
 #include <filesystem>
@@ -15,14 +15,14 @@
 namespace awmr {
 
 /// Parts of a tuning: judged.csv has a row for each run by gains, draw, mode and scenario;
-/// gains.json the gains without what fresh draws say of them.
+/// gains.json has the gains without their evaluation on new draws.
 const ShardKind& tune_shards();
 
-/// The part of a tuning that options.shard is. Precondition: robust gains, tuned with that.
+/// The files of the part `options.shard`. Precondition: robust gains, tuned with these options.
 PartText tune_part(const Tuning& tuning, const TuneOptions& options, const Provenance& provenance,
                    const std::vector<Finding>& findings = {});
 
-/// The result that a single run without parts has.
+/// Result of the combined parts, the same as that of a single run.
 struct MergedTuning {
   std::string gains_text;                                        ///< the bytes of gains.json
   std::vector<EvaluatedGains> evaluated, evaluated_by_scenario;  ///< as in RobustTuning
@@ -30,9 +30,8 @@ struct MergedTuning {
   std::vector<Finding> findings;  ///< of the evaluation draws, then of the first part
 };
 
-/// Puts the parts in the directories together, in any order. Errors (input): as read_parts(); a file
-/// that is not the one that shard.json was written with; a row of another part, or
-/// missing.
+/// Combines the parts in these directories, in any order. Errors (input): as read_parts(); a file
+/// that differs from the one that shard.json names; a row of another part, or a missing row.
 Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>& directories);
 
 }  // namespace awmr

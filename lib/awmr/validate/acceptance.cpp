@@ -51,9 +51,9 @@ LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
     const double share = 2.0 * random.uniform();
     if (!given) value *= share;
   };
-  draw(vehicle.sensors.heading_late_s, c.heading_late_s);
-  draw(vehicle.sensors.yaw_rate_late_s, c.yaw_rate_late_s);
-  draw(vehicle.sensors.speed_late_s, c.speed_late_s);
+  draw(vehicle.sensors.heading_latency_s, c.heading_latency_s);
+  draw(vehicle.sensors.yaw_rate_latency_s, c.yaw_rate_latency_s);
+  draw(vehicle.sensors.speed_latency_s, c.speed_latency_s);
   draw(vehicle.motor_time_constant_s, c.motor_time_constant_s);
   return c;
 }

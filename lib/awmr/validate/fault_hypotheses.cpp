@@ -81,8 +81,8 @@ void add_sensors(std::vector<Change>& changes) {
                        "s",
                        {0.0, 0.5},
                        0.0,
-                       [=](PerturbedModel& v, double late_s) {
-                         if (late_s > 0.0) ((*v.scenario.sensors).*which).late_s = late_s;
+                       [=](PerturbedModel& v, double latency_s) {
+                         if (latency_s > 0.0) ((*v.scenario.sensors).*which).latency_s = latency_s;
                        }});
   };
   add("heading", &Sensors::heading, "deg", degrees(1.0), 30.0);

@@ -9,7 +9,7 @@
 
 #include "awmr/core/units.h"
 #include "awmr/validate/heading_runs.h"
-#include "awmr/validate/paper_courses.h"
+#include "awmr/validate/paper_scenarios.h"
 
 namespace awmr {
 namespace {
@@ -81,14 +81,14 @@ double final_cross_track_m(const ModeRun& run) {
   double largest = 0.0;
   const auto& rows = run.run.rows;
   for (std::size_t i = rows.size() - rows.size() / 4; i < rows.size(); ++i) {
-    largest = std::max(largest, std::abs(rows[i].course.cross_track_m));
+    largest = std::max(largest, std::abs(rows[i].path.cross_track_m));
   }
   return largest;
 }
 
 Claim line_followed(const ModeRuns& runs) {
   const Scenario scenario = line_scenario();
-  const auto& law = std::get<LineOfSight<double>>(std::get<LineCourse>(scenario.guidance).law);
+  const auto& law = std::get<LineOfSight<double>>(std::get<LinePath>(scenario.guidance).law);
   const double accepted_m = kOnTheLineShare * law.width_m;
   const auto off = [](const ModeRun& run) -> std::optional<double> {
     return final_cross_track_m(run);
@@ -146,7 +146,7 @@ Claim obstacles_avoided(const ModeRuns& line, const ModeRuns& points) {
 double off_path_m(const ModeRun& run) {
   double largest = 0.0;
   for (const RunRow& row : run.run.rows) {
-    largest = std::max(largest, distance_m(row.course.target_m, {row.state.x_m, row.state.y_m}));
+    largest = std::max(largest, distance_m(row.path.target_m, {row.state.x_m, row.state.y_m}));
   }
   return largest;
 }
@@ -178,7 +178,7 @@ Claim timed_path_followed(const ModeRuns& open, const OffPath& closed_off_m) {
   };
   const auto followed = [&](const ModeRun& run) { return *off(run) <= kPathTolerance_m; };
   const bool all = all_modes(open, followed);
-  const double radius_m = least_radius_m(std::get<LissajousCourse>(open_scenario.guidance).path,
+  const double radius_m = least_radius_m(std::get<LissajousPath>(open_scenario.guidance).path,
                                          open_scenario.duration_s);
   const std::string slow = modes_without(open, followed);
   return {.id = "C11",

@@ -116,7 +116,7 @@ void add_open_cases(const Model& model, const std::optional<Gains<double>>& gain
   std::atomic<std::size_t> done = 0;
   LoopControl control;
   if (progress) control.progress = [&] { progress(done, cases.size()); };
-  const auto judge = [&](std::size_t b) {
+  const auto evaluate = [&](std::size_t b) {
     std::vector<Model> models;
     for (const std::size_t i : batches[b]) models.push_back(model_in(cases[i], model));
     auto claims_of =
@@ -126,7 +126,7 @@ void add_open_cases(const Model& model, const std::optional<Gains<double>>& gain
     }
     done += claims_of.size();
   };
-  parallel_for(batches.size(), 0, judge, control);
+  parallel_for(batches.size(), 0, evaluate, control);
   for (std::size_t c = 0; c < claims.size(); ++c) {
     Claim& claim = claims[c];
     for (std::size_t i = 0; i < cases.size(); ++i) {

@@ -64,7 +64,7 @@ std::optional<double> rms_relative_error(const std::vector<TrialResidual>& trial
   return std::sqrt(sum / count);
 }
 
-void judge(Validation& validation, double tolerance) {
+void set_verdict(Validation& validation, double tolerance) {
   if (validation.trials.empty()) {
     validation.verdict =
         "not validated: the model contains no trials; identify it from trials, then validate";
@@ -193,7 +193,7 @@ Result<Validation> validate(const Model& model, const std::optional<Gains<double
       rms_relative_error(validation.trials, TrialKind::kTurning);
   validation.coastdown_rms_relative_error =
       rms_relative_error(validation.trials, TrialKind::kCoastdown);
-  judge(validation, options.tolerance);
+  set_verdict(validation, options.tolerance);
   AWMR_RETURN_IF_ERROR(add_claims(model, gains, options, validation));
   return validation;
 }

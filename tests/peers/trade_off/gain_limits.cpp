@@ -19,7 +19,7 @@ struct Loop {
   double gain = 1.0;        ///< I'z of the model over the body's
   double by_forces = 0.0;   ///< share of the moment
   double motor_s = 0.0;
-  double late_s = 0.0;
+  double latency_s = 0.0;
 };
 
 /// The body over a time by the classical Runge-Kutta method, the command held.
@@ -52,7 +52,7 @@ Vector4 held(const Loop& loop, const Geometry& g, Vector4 x, double command, dou
 double damping(const Loop& loop, const Geometry& g, const LawGains& k) {
   const double k_s = k.mu / k.epsilon;
   // Commands under way, the oldest first: it acts in the first part of the sample, the next one after that.
-  const double late = loop.late_s / g.sample_s;
+  const double late = loop.latency_s / g.sample_s;
   const auto whole = static_cast<Eigen::Index>(late + 1e-9);
   const double part = std::max(0.0, late - static_cast<double>(whole));
   const bool is_split = part > 1e-9;
@@ -82,7 +82,7 @@ double damping(const Loop& loop, const Geometry& g, const LawGains& k) {
 }
 
 double least_damping(const Controls& c, const Geometry& g, const Body& body, double rate,
-                     double late_s, double motor_s) {
+                     double latency_s, double motor_s) {
   Loop loop{.own_rate = body.yaw.slope(rate) / body.inertia,
             .known_rate = c.fed_forward == FedForward::kMeasured
                               ? c.known.yaw.slope(rate) / c.known.inertia
@@ -90,7 +90,7 @@ double least_damping(const Controls& c, const Geometry& g, const Body& body, dou
             .gain = c.known.inertia / body.inertia,
             .by_forces = 1.0,
             .motor_s = motor_s,
-            .late_s = late_s};
+            .latency_s = latency_s};
   double least = damping(loop, g, c.gains);
   if (!(g.servo_s > 0.0)) return least;
   for (const double share : {0.5, 0.0}) {
@@ -166,7 +166,7 @@ double excess(const Controls& c, const Geometry& g, const SensorErrors& errors,
               const std::vector<Body>& bodies, const Limits& limits, const Examined& examined) {
   const LawGains& k = c.gains;
   const double speed_rate = k.speed_mu / k.speed_epsilon;
-  const double late_s = std::max(errors.heading_late_s, errors.yaw_rate_late_s);
+  const double latency_s = std::max(errors.heading_latency_s, errors.yaw_rate_latency_s);
   const double slowest = std::numbers::pi / 180.0;
   double worst = above(k.epsilon / k.mu * k.lambda, limits.margin);
   if (g.servo_s > 0.0) {
@@ -180,7 +180,7 @@ double excess(const Controls& c, const Geometry& g, const SensorErrors& errors,
     const auto take = [&worst](double e) { worst = std::max(worst, e); };
     const double rate = speed_rate * c.known.mass / body->mass;
     take(above(rate * g.sample_s, 0.5));
-    const double lag_s = std::max(g.servo_s, g.motor_s) + late_s + 0.5 * g.sample_s;
+    const double lag_s = std::max(g.servo_s, g.motor_s) + latency_s + 0.5 * g.sample_s;
     take(above(rate * lag_s, 1.0 / (4.0 * limits.damping * limits.damping)));
     take(below(k.mu, 0.2 * body->yaw.of_magnitude(examined.fastest_radps) / c.known.inertia));
     take(below(k.speed_mu, 0.2 * body->surge.of_magnitude(examined.speed_mps) / c.known.mass));
@@ -191,8 +191,8 @@ double excess(const Controls& c, const Geometry& g, const SensorErrors& errors,
       const double r = std::max(share * examined.fastest_radps, slowest);
       take(below(least_damping(c, g, *body, r, 0.0, 0.0), limits.damping));
       if (share > 0.5 || share < 0.05) {
-        take(below(least_damping(c, g, *body, r, late_s, g.motor_s), limits.late_damping));
-        take(below(least_damping(c, g, *body, r, 2.0 * late_s + g.sample_s, g.motor_s),
+        take(below(least_damping(c, g, *body, r, latency_s, g.motor_s), limits.late_damping));
+        take(below(least_damping(c, g, *body, r, 2.0 * latency_s + g.sample_s, g.motor_s),
                    limits.delayed_damping));
       }
       if (worst > 0.0) return worst;

@@ -247,9 +247,9 @@ RunFigures drive(const Body& body, const Geometry& vehicle, const SensorErrors& 
     const double t = static_cast<double>(k) * ts;
     past.push_back(state);
     const Readings m{
-        read(k, errors.heading_late_s, &State::psi) + errors.heading_rad * noise[0][k],
-        read(k, errors.yaw_rate_late_s, &State::r) + errors.yaw_rate_radps * noise[1][k],
-        read(k, errors.speed_late_s, &State::u) + errors.speed_mps * noise[2][k], state.v};
+        read(k, errors.heading_latency_s, &State::psi) + errors.heading_rad * noise[0][k],
+        read(k, errors.yaw_rate_latency_s, &State::r) + errors.yaw_rate_radps * noise[1][k],
+        read(k, errors.speed_latency_s, &State::u) + errors.speed_mps * noise[2][k], state.v};
     const std::size_t now = std::min(static_cast<std::size_t>(std::floor(t / course.hold_s + 1e-9)),
                                      course.headings_rad.size() - 1);
     const double goal = course.headings_rad[now];

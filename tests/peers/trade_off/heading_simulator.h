@@ -34,7 +34,7 @@ struct Geometry {
 
 struct SensorErrors {
   double heading_rad = 0.0, yaw_rate_radps = 0.0, speed_mps = 0.0;  ///< standard deviations
-  double heading_late_s = 0.0, yaw_rate_late_s = 0.0, speed_late_s = 0.0;
+  double heading_latency_s = 0.0, yaw_rate_latency_s = 0.0, speed_latency_s = 0.0;
 };
 
 struct LawGains {

@@ -96,9 +96,9 @@ inline Case case_of(const Model& model, const std::vector<Scenario>& scenarios,
   one.errors = {radians(c.heading_noise_deg),
                 radians(c.yaw_rate_noise_degps),
                 c.speed_noise_mps,
-                c.heading_late_s,
-                c.yaw_rate_late_s,
-                c.speed_late_s};
+                c.heading_latency_s,
+                c.yaw_rate_latency_s,
+                c.speed_latency_s};
   one.modes = {Mode::kDifferential};
   if (v.has_steering()) one.modes = {Mode::kDifferential, Mode::kSteering, Mode::kCombined};
   for (const Scenario& scenario : scenarios) one.courses.push_back(course_of(scenario));

@@ -50,7 +50,7 @@ EstimatorReport report_of_alone(const CoastFit& fit) {
   return report;
 }
 
-/// The family requested, alone; else every one.
+/// The requested family, or all families.
 std::vector<CoastFit> fits_of(const std::vector<CoastCurve>& curves, const Interval& beta_range,
                               const FamilyChoice& choice) {
   std::vector<CoastFit> fits;
@@ -63,7 +63,7 @@ std::vector<CoastFit> fits_of(const std::vector<CoastCurve>& curves, const Inter
   return fits;
 }
 
-/// The usable one of minimum AICc; the first where there is none.
+/// The usable one with the minimum AICc; the first one if none is usable.
 const CoastFit& best_of(const std::vector<CoastFit>& fits) {
   return *std::min_element(fits.begin(), fits.end(), [](const CoastFit& a, const CoastFit& b) {
     if (!b.usable || !b.aicc) return a.usable && a.aicc.has_value();

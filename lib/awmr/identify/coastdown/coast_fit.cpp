@@ -35,20 +35,20 @@ std::optional<Eigen::VectorXd> by_surge_law(CoastProblem& problem, const Eigen::
   return derivative;
 }
 
-/// m' and its variance are numbers that a model can hold.
+/// True if m' and its variance are valid in a model file.
 bool is_finite(const CoastFit& fit) {
   return std::isnormal(std::exp(fit.log_mass_norm)) && std::isfinite(fit.variance) &&
          std::isfinite(fit.beta_variance) && fit.dof > 0.0 && std::isfinite(fit.dof);
 }
 
-/// The fit as one that cannot be used, with the reason of the search where that has one.
+/// Marks the fit as unusable, with the stop reason of the search, if any.
 CoastFit not_finite(CoastFit fit, const CoastProblem& problem) {
   fit.usable = false;
   if (converged(problem.summary())) fit.stop_reason = kNotFinite;
   return fit;
 }
 
-/// The shape of g1/a1 that a family leaves free: b1, c1/a1, q1/a1.
+/// The free parameters of g1/a1 in a family: b1, c1/a1, q1/a1.
 std::vector<TransformedParameter> shapes_of(Family family) {
   const FamilyTerms terms = terms_of(family);
   std::vector<TransformedParameter> shapes;
@@ -58,7 +58,7 @@ std::vector<TransformedParameter> shapes_of(Family family) {
   return shapes;
 }
 
-/// a1 = 1: the other numbers are over it. Terms begin at a tenth of it.
+/// a1 = 1, and the other parameters are relative to it. Initial guess of a term: 0.1.
 TransformedParameters start_of(Family family, const Interval& beta_range) {
   constexpr double kTermOverAlpha = 0.1;
   const FamilyTerms terms = terms_of(family);
@@ -76,8 +76,8 @@ bool is_inside(const Interval& range, double value) {
   return value > range.lo + kOnTheEdge && value < range.hi - kOnTheEdge;
 }
 
-/// The shape's numbers and their variances, the first columns of the covariance being ln m' and
-/// those `inside` of their ranges.
+/// Sets the parameters of the shape and their variances. The first columns of the covariance are ln
+/// m' and those of `inside`.
 void add_shapes(CoastProblem& problem, const std::vector<TransformedParameter>& free,
                 const std::vector<TransformedParameter>& inside, const Eigen::MatrixXd& covariance,
                 CoastFit& fit) {
@@ -138,7 +138,7 @@ CoastFit fit_coast_alone(const std::vector<CoastCurve>& curves, const Interval& 
   fit.beta = *problem.block(TransformedParameter::kBeta);
   fit.stop_reason = stop_reason(problem.summary());
   std::vector<double*> blocks{problem.log_mass()};
-  std::vector<TransformedParameter> inside;  // of their ranges
+  std::vector<TransformedParameter> inside;  // parameters that are not at a bound
   for (const TransformedParameter c : free) {
     if (!is_inside(range_of(c, beta_range), *problem.block(c))) continue;
     blocks.push_back(problem.block(c));

@@ -39,7 +39,8 @@ Eigen::MatrixXd correlated_information(const Eigen::MatrixXd& j, const std::vect
   return sum;
 }
 
-/// Rank and condition of J with its columns scaled to length one: units do not matter.
+/// Rank and condition of J with its columns scaled to length 1, which makes them independent of
+/// units.
 void add_rank(const Eigen::MatrixXd& j, CoastFit& fit) {
   Eigen::MatrixXd scaled = j;
   for (Eigen::Index c = 0; c < j.cols(); ++c) {

@@ -41,7 +41,8 @@ T coast_step(const Resistance<T>& law, const T& mass, const T& u, const T& h) {
   return next > T(0.0) ? next : T(0.0);
 }
 
-/// Between two samples: half an hour in steps of 2 ms. A search that runs off in time ends there.
+/// Largest number of steps between two samples: half an hour in steps of 2 ms. Ends a search that
+/// diverges in time.
 constexpr double kMaximumSteps = 1e6;
 
 /// The residuals of one curve over (ln a, b, c, q, ln m', (u0, t0)).
@@ -67,7 +68,7 @@ struct CoastResidual {
           u = coasted(initial[0], *beta, k, T(T(t_s) - initial[1]));
         } else {
           const double count = (t_s - value_of(at_s)) / longest_step_s;
-          if (!(count < kMaximumSteps)) return false;  // not a place to look at
+          if (!(count < kMaximumSteps)) return false;  // rejects this point
           const int steps = 1 + static_cast<int>(count);
           const T h = (T(t_s) - at_s) / static_cast<double>(steps);
           for (int n = 0; n < steps; ++n) u = coast_step(law, mass, u, h);
@@ -79,7 +80,7 @@ struct CoastResidual {
     return true;
   }
 
-  bool derivative_wanted = false;  ///< by c or q, which the closed form does not know
+  bool derivative_wanted = false;  ///< by c or q, which the closed form does not give
 };
 
 using CoastCost = ceres::AutoDiffCostFunction<CoastResidual, ceres::DYNAMIC, 1, 1, 1, 1, 1, 2>;
@@ -87,8 +88,8 @@ using CoastCost = ceres::AutoDiffCostFunction<CoastResidual, ceres::DYNAMIC, 1, 
 /// RK4 at this step errs by (h/T)^4/120 a time constant, below 1e-6 of the speed for T > 0.05 s.
 constexpr double kLongestStep_s = 2e-3;
 
-/// The noise is seen in second differences, which a smooth curve does not have; the plateau ends at
-/// the last sample within 4 of its deviations of the mean of the first ones.
+/// The noise is estimated from second differences, which are small for a smooth curve. The plateau
+/// ends at the last sample within 4 standard deviations of the mean of the first ones.
 CoastInitialState initial_state_of(const CoastCurve& curve) {
   const std::vector<double>& u = curve.speed_mps;
   double squares = 0.0;
@@ -138,7 +139,8 @@ CoastProblem::CoastProblem(const std::vector<CoastCurve>& curves,
 
 void CoastProblem::solve() {
   ceres::Solve(exact_options(), &problem_, &summary_);
-  // Before the first sample u0 and t0 are one number: such a run has no plateau after all.
+  // A motors-off time before the first sample cannot be separated from u0: such a run has no
+  // plateau.
   bool again = false;
   for (std::size_t i = 0; i < initial_.size(); ++i) {
     CoastInitialState& initial = initial_[i];

@@ -13,19 +13,18 @@
 
 namespace awmr {
 
-/// The initial state of a run: its plateau's mean and end, if it was recorded from before
-/// motors-off.
+/// Initial state of a run: mean and end of the plateau, if it was recorded from before motors-off.
 struct CoastInitialState {
   double block[2];         ///< u0 in m/s, t0 in s
-  bool free_time = false;  ///< t0 is fitted along
+  bool free_time = false;  ///< t0 is fitted
 };
 
 /// The residuals u(t) - measured of every sample, run after run, over the surge law's ln a, b, c,
-/// q, ln m' and each run's (u0, t0). The surge law is held unless its blocks are set variable.
-/// The problem points into itself and into `curves`: it stays where it was made.
+/// q, ln m' and each run's (u0, t0). The surge law is constant unless its blocks are set variable.
+/// Not movable: the problem has pointers to its members and to `curves`.
 class CoastProblem {
  public:
-  /// `terms_free`: derivatives by c or q may be wanted, which the closed form does not know.
+  /// `terms_free`: derivatives by c or q can be requested, which the closed form does not give.
   CoastProblem(const std::vector<CoastCurve>& curves, const TransformedParameters& surge,
                double log_mass, bool terms_free);
   CoastProblem(const CoastProblem&) = delete;

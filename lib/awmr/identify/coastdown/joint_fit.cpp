@@ -14,18 +14,18 @@ namespace awmr {
 namespace {
 
 constexpr int kMaximumRounds = 200;
-/// The fit has converged where the last step is shorter than this, in standard errors, and where the
-/// noise levels change by less, relative to themselves.
+/// The fit has converged where the last step is shorter than this, in standard errors, and where
+/// the noise levels change by less, relative to themselves.
 constexpr double kTolerance = 1e-8;
 
-/// A number for each of the two sets of rows.
+/// One number for each of the two sets of rows.
 struct BySet {
   double surge = 0.0;
   double coast = 0.0;
 };
 
-/// The columns that surge rows and curves share: the surge law's, a dead zone excepted, which does
-/// not enter a coast-down.
+/// The columns common to surge rows and curves: those of the surge law, without the dead zone,
+/// which does not act in a coast-down.
 struct SharedColumns {
   std::vector<double*> blocks;         ///< of the curves' problem, with ln m' as the last
   std::vector<Eigen::Index> of_surge;  ///< by block but the last: its column among the surge rows
@@ -129,7 +129,7 @@ double mean_square(const Eigen::VectorXd& e) {
   return e.squaredNorm() / static_cast<double>(e.size());
 }
 
-/// Stores the fit at the present parameters and noise levels, the last or not.
+/// Stores the fit at the current parameters and noise levels, converged or not.
 void keep(const Stacked& s, const Rows& rows, CoastProblem& problem, const BySet& variance,
           const BySet& dof, JointFit& joint) {
   const Eigen::Index count = rows_of(joint.surge.free) + 1;
@@ -153,7 +153,7 @@ std::optional<Rows> rows_at(const SteadyProblem& surge, const TransformedParamet
   return Rows{std::move(*surge_rows), std::move(*residuals), std::move(*jacobian)};
 }
 
-/// The fit as one that cannot be used and whose covariance says nothing.
+/// Marks the fit as unusable and its covariance as unknown.
 JointFit not_finite(JointFit joint) {
   joint.coast.usable = false;
   joint.coast.stop_reason = kNotFinite;
@@ -176,7 +176,7 @@ JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& alone,
   const std::optional<Eigen::VectorXd> initial = problem.residuals();
   BySet variance{alone.residual_std * alone.residual_std, initial ? mean_square(*initial) : 0.0};
   joint.coast.stop_reason = "not converged: the step is still above 1e-8 standard errors";
-  // The noise levels are those of the last step's residuals; both settle together.
+  // The noise levels are from the residuals of the last step; both converge together.
   for (int round = 0; round < kMaximumRounds && !joint.coast.usable; ++round) {
     joint.surge.theta = problem.theta();
     const std::optional<Rows> evaluated =

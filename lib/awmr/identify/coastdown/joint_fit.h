@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// Surge rows and curves together, each weighted by its own noise, which is estimated.
+/// Joint fit of surge rows and curves, each weighted by its estimated noise.
 struct JointFit {
   SteadyFit surge;             ///< theta, free, covariance of the joint optimum
   double log_mass_norm = 0.0;  ///< ln m'

@@ -14,10 +14,11 @@
 namespace awmr {
 namespace {
 
-/// A curve whose speed falls by less than this many deviations of its noise shows no deceleration.
+/// Smallest decrease of the speed, in standard deviations of its noise, for a curve to show a
+/// deceleration.
 constexpr double kMinimumFall = 5.0;
 
-/// The noise of a curve, by how far each speed lies off the line through its neighbours:
+/// Noise of a curve from the distance of each speed to the line through its neighbours:
 ///
 ///     e_i = u_i - (1 - w) u_(i-1) - w u_(i+1),   w = (t_i - t_(i-1))/(t_(i+1) - t_(i-1))
 ///     std^2 = mean of e_i^2/(1 + w^2 + (1 - w)^2)
@@ -33,8 +34,8 @@ double noise_of(const CoastCurve& curve) {
   return std::sqrt(squares / static_cast<double>(u.size() - 2));
 }
 
-/// False for a curve whose speeds only wander about one level: its mean of the last fifth is not
-/// below that of the first by more than noise explains. Precondition: three rows.
+/// False if the speed does not fall significantly: the mean of the last fifth is not below that of
+/// the first fifth by more than noise. Precondition: three rows.
 bool falls(const CoastCurve& curve) {
   const std::size_t part = std::max<std::size_t>(1, curve.speed_mps.size() / 5);
   const auto mean = [&](std::size_t begin) {
@@ -54,16 +55,15 @@ std::vector<CoastCurve> falling(const std::vector<CoastCurve>& curves, MassResul
       kept.push_back(curve);
       continue;
     }
-    result.findings.push_back(
-        {curve.file, curve.line, Severity::kWarning, "no-deceleration",
-         "the speed of this coast-down does not fall by more than its noise: it shows nothing of "
-         "m' and is set aside"});
+    result.findings.push_back({curve.file, curve.line, Severity::kWarning, "no-deceleration",
+                               "the speed of this coast-down does not fall by more than its noise, "
+                               "so it does not determine m' and is set aside"});
   }
   return kept;
 }
 
-/// m' from the stop times, whose report goes into `result`. Where they give none, `result` has the
-/// reason.
+/// Estimates m' from the stop times and adds the report to `result`. If that fails, `result` has
+/// the reason.
 std::optional<MassEstimate> by_stop_time(const SteadyFit& surge,
                                          const std::optional<TrialSet<StopTimeRow>>& stops,
                                          MassResult& result) {
@@ -84,7 +84,7 @@ std::optional<MassEstimate> by_stop_time(const SteadyFit& surge,
   return estimate;
 }
 
-/// m' from the curves, whose report goes into `result`. Where they give none, `result` has the
+/// Estimates m' from the curves and adds the report to `result`. If that fails, `result` has the
 /// reason.
 std::optional<MassEstimate> by_curves(const SteadyFit& surge, const std::vector<CoastCurve>& curves,
                                       MassResult& result) {
@@ -141,7 +141,8 @@ EstimatorReport report_of(const JointFit& joint, std::size_t surge_rows) {
   return report;
 }
 
-/// m' by stop times, curves or both under one surge law. Reports and findings go into `result`.
+/// Estimates m' from stop times, curves or both under one surge law. Adds reports and findings to
+/// `result`.
 std::optional<MassEstimate> estimate_under(const SteadyFit& law,
                                            const std::optional<TrialSet<StopTimeRow>>& stops,
                                            const std::vector<CoastCurve>& curves,
@@ -156,7 +157,8 @@ std::optional<MassEstimate> estimate_under(const SteadyFit& law,
   return both;
 }
 
-/// (theta, ln m') under one surge law: C and v of theta and of m' apart from it, g = d ln m'/d theta,
+/// Covariance of (theta, ln m') under one surge law, with C of theta, v the own variance of ln m',
+/// g = d ln m'/d theta:
 ///   [ C    C g       ]
 ///   [ g'C  g'C g + v ]
 /// Precondition: the law has a covariance.
@@ -175,7 +177,7 @@ Posterior::Alternative with_mass(const NoiseAlternative& law, const MassEstimate
   return joint;
 }
 
-/// m' under the surge laws next to the chosen one, whose m' is in `result` already.
+/// Estimates m' under the alternative surge laws; that of the chosen one is already in `result`.
 void add_alternatives(const std::vector<NoiseAlternative>& laws,
                       const std::optional<TrialSet<StopTimeRow>>& stops,
                       const std::vector<CoastCurve>& curves, MassResult& result) {
@@ -201,7 +203,8 @@ void add_alternatives(const std::vector<NoiseAlternative>& laws,
   for (std::size_t r = own_report; r < result.reports.size(); ++r) *result.reports[r].weight /= sum;
 }
 
-/// `noise-model`, where the median of m' is more than a standard error of the shown value off it.
+/// `noise-model` if the median of m' differs from the reported value by more than its standard
+/// error.
 void check_noise(const std::vector<NoiseAlternative>& laws, const std::string& file,
                  MassResult& result) {
   if (result.posterior.alternatives.size() < 2) return;
@@ -216,13 +219,13 @@ void check_noise(const std::vector<NoiseAlternative>& laws, const std::string& f
            "mass_norm depends on which measurement of the surge runs has the error, which is "
            "unknown: "
            "{:.3g} with errors on {}, median {:.3g} over all that the runs allow (weight in "
-           "/estimates); its interval and the draws of tune and compare hold all of them. "
+           "/estimates); its interval and the draws of tune and compare include all of them. "
            "{} selects the error location; a coast-down curve depends less on the surge law",
            std::exp(result.estimate->log_mass_norm), name_of(laws.front().noise), std::exp(median),
            option_text("noise"))});
 }
 
-/// The m' that the grip demands of the coast-downs that decelerate implausibly.
+/// The m' that the grip limit requires for coast-downs with an implausible deceleration.
 std::optional<double> demanded_by_grip(const SteadyFit& surge,
                                        const std::optional<TrialSet<StopTimeRow>>& stops,
                                        const std::vector<CoastCurve>& curves, double mass_norm) {
@@ -239,8 +242,8 @@ std::optional<double> demanded_by_grip(const SteadyFit& surge,
   return mass_norm_by_grip(surge.law(), fastest_mps);
 }
 
-/// `back-emf-assumed`: the surge runs are driven and the coast-down is not, so that a force which falls
-/// with the speed would pass for resistance, and for mass:  m' = g1/|u_dot|,  g1 + 4 k_e u in its place.
+/// `back-emf-assumed`: with back-EMF, the surge runs give g1 + 4 k_e u in place of g1, but the
+/// coast-down does not. m' = g1/|u_dot| would then be too large.
 Finding assumed_back_emf(const std::string& file) {
   return {
       file, 0, Severity::kNote, "back-emf-assumed",
@@ -250,7 +253,7 @@ Finding assumed_back_emf(const std::string& file) {
       "it from a log with driven and coasting sections"};
 }
 
-/// `implausible-deceleration` and the like. A whole curve does not depend on the last centimetres.
+/// Adds the findings about m'. The one on stop times does not apply to a whole curve.
 void check(const SteadyFit& surge, const std::optional<TrialSet<StopTimeRow>>& stops,
            const std::vector<CoastCurve>& curves, const Vehicle& vehicle, MassResult& result) {
   if (!result.estimate) return;

@@ -12,21 +12,21 @@
 namespace awmr {
 
 struct MassResult {
-  std::optional<MassEstimate> estimate;  ///< by the chosen surge law: the value that is shown
+  std::optional<MassEstimate> estimate;  ///< main value, by the chosen surge law
   /// Coordinates: SteadyFit::free of the surge law, then ln m'. Empty if the surge fit has no
-  /// covariance. Excludes laws under which the vehicle would never stop.
+  /// covariance. Excludes laws that never stop the vehicle.
   Posterior posterior;
   std::optional<double> by_grip;  ///< Model::mass_norm_by_grip
-  std::optional<JointFit> joint;  ///< where requested and usable
+  std::optional<JointFit> joint;  ///< if requested and usable
   std::optional<CoastFit> alone;  ///< curves without a surge law
   std::string reason;             ///< why there is no estimate
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
 };
 
-/// Precondition: at least a stop time or a curve. `surge` is null where its law is not identified.
-/// Curves that do not fall are set aside (`no-deceleration`). Without a surge law, `family` is
-/// fitted to the curves alone; one that was not requested is compared with the others
+/// Precondition: at least a stop time or a curve. `surge` is null if its law is not identified.
+/// Curves without a deceleration are excluded (`no-deceleration`). Without a surge law, `family` is
+/// fitted to the curves alone, and compared with the other families unless it was requested
 /// (`power-law-inadequate`).
 MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<StopTimeRow>>& stops,
                          const std::vector<CoastCurve>& curves, const Vehicle& vehicle,

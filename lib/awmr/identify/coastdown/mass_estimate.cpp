@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-constexpr double kDisagreement = 0.01;  ///< p below which two estimates of one thing disagree
+constexpr double kDisagreement = 0.01;  ///< p below which two estimates disagree
 
 }  // namespace
 

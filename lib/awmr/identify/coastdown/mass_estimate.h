@@ -1,4 +1,4 @@
-/// ln m' with its sources of error, by one trial or by several. Private to identify/.
+/// Estimate of ln m' with its sources of error, from one trial or several. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,15 +12,16 @@
 
 namespace awmr {
 
-/// ln m' and its errors: the surge law's, which every coast-down shares, and its own.
+/// ln m' with two independent errors: that of the surge law, common to all coast-downs, and its
+/// own.
 struct MassEstimate {
   double log_mass_norm = 0.0;
   Eigen::VectorXd by_surge;   ///< d ln m' by SteadyFit::free of the surge fit
   double own_variance = 0.0;  ///< of ln m', independent of the surge fit; >= 0
-  double own_dof = 1e9;       ///< degrees of freedom of that variance; 1e9: known, not estimated
+  double own_dof = 1e9;       ///< degrees of freedom of that variance; 1e9: a known variance
   std::string method;         ///< "stop time", "coast-down curve", "stop time and coast-down curve"
 
-  /// The variance of ln m'; none where the surge fit has no covariance.
+  /// The variance of ln m'; empty if the surge fit has no covariance.
   std::optional<double> variance(const SteadyFit& surge) const;
   /// Satterthwaite: V^2 / (V_surge^2/dof_surge + V_own^2/dof_own)
   double dof(const SteadyFit& surge) const;
@@ -29,11 +30,11 @@ struct MassEstimate {
 MassEstimate from_stop_time(const MassFromStopTime& mass, std::size_t runs);
 MassEstimate from_curve(const CoastFit& fit);
 
-/// w a + (1 - w) b of minimum variance, the surge fit's share being common to both.
+/// w a + (1 - w) b with minimum variance; the error of the surge fit is common to a and b.
 /// Precondition: the surge fit has a covariance.
 MassEstimate combined(const MassEstimate& a, const MassEstimate& b, const SteadyFit& surge);
 
-/// `estimates-disagree`, where two estimates differ by more than chance allows (p < 0.01).
+/// `estimates-disagree` if two estimates differ significantly (p < 0.01).
 std::vector<Finding> disagreement(const MassEstimate& a, const MassEstimate& b,
                                   const SteadyFit& surge, const std::string& file);
 

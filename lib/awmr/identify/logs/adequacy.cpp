@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// Adds the fits of the other families of surge resistance; returns advice if another one is best.
+/// Adds fits of the other families of surge resistance. Returns advice if another one is best.
 std::optional<std::string> try_rivals(BestFamily alternatives, const FamilyFit& chosen,
                                       Adequacy& adequacy) {
   for (EstimatorReport& report : reports_of(alternatives.others, chosen)) {
@@ -26,9 +26,9 @@ std::optional<std::string> try_rivals(BestFamily alternatives, const FamilyFit& 
                      aic_lead(alternatives.best.fit, chosen.fit));
 }
 
-/// True for channels that show the model's errors: those of speed and of yaw rate, or where there are
-/// none, of what they add up to. A compass and a GPS wander by themselves.
-bool judges_model(const NoiseLevels& noise, LogChannel channel) {
+/// True for channels whose errors are evaluated: speed and yaw rate, or without them their
+/// integrals. Compass and GPS have drift of their own.
+bool is_evaluated(const NoiseLevels& noise, LogChannel channel) {
   switch (channel) {
     case LogChannel::kSpeed:
     case LogChannel::kYawRate:
@@ -43,8 +43,8 @@ bool judges_model(const NoiseLevels& noise, LogChannel channel) {
   }
 }
 
-/// Nothing but positions: an error that lasts is then as long as the motion itself, and may be the end of
-/// a search in a wrong place as well as a receiver that wanders.
+/// True if only positions are measured. A lasting error can then also be due to a drifting receiver
+/// or to a wrong optimum.
 bool has_only_positions(const NoiseLevels& noise) {
   return std::ranges::all_of(noise, [](const auto& channel) {
     return channel.first == LogChannel::kX || channel.first == LogChannel::kY;
@@ -61,15 +61,15 @@ std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::stri
     if (test.p_value >= kSignificant || !test.name.starts_with("whiteness")) continue;
     findings.push_back(
         {file, 0, fit.widened >= kMuch ? Severity::kWarning : Severity::kNote, "coloured-residuals",
-         fmt::format("{}: the residuals stay correlated (p = {:.2g}) beyond what their noise model "
-                     "explains: the model misses something; standard errors are widened by up to "
-                     "{:.2g} times to what blocks of the logs scatter by",
+         fmt::format("{}: the residuals are correlated (p = {:.2g}) beyond their noise model, so "
+                     "the model is incomplete; standard errors are widened by a factor of up to "
+                     "{:.2g}, to the scatter of blocks of the logs",
                      test.name, test.p_value, fit.widened)});
   }
   return findings;
 }
 
-Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         const FamilyFit& chosen, bool try_families) {
   Adequacy adequacy;
   for (const auto& [channel, noise] : chosen.fit.noise) {
@@ -82,13 +82,13 @@ Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
                           adequacy)
                    .value_or(advice);
     }
-    const bool is_models = noise.overwhelms_sensor() && judges_model(chosen.fit.noise, channel);
+    const bool is_models = noise.overwhelms_sensor() && is_evaluated(chosen.fit.noise, channel);
     const bool withdraws = is_models || has_only_positions(chosen.fit.noise);
     adequacy.withdraws_intervals |= withdraws;
     adequacy.findings.push_back(
         {logs.front().file, 0, Severity::kWarning, "model-inadequate",
-         fmt::format("the model misses {} by {:.3g} {} over {} at a time, where the sensor's "
-                     "own noise is {:.2g}: {}. {}",
+         fmt::format("the model has an error of {1:.3g} {2} in {0} for {3} at a time, compared "
+                     "with a sensor noise of {4:.2g}: {5}. {6}",
                      info(channel).name, noise.drift_std, info(channel).unit,
                      noise.correlation_s < kWindow_s ? fmt::format("{:.2g} s", noise.correlation_s)
                                                      : fmt::format("more than {:g} s", kWindow_s),

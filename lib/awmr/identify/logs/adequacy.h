@@ -1,4 +1,4 @@
-/// Does the model describe the logs? Private to identify/.
+/// Checks whether the model describes the logs. Private to identify/.
 #pragma once
 
 #include <vector>
@@ -7,19 +7,19 @@
 
 namespace awmr {
 
-/// `coloured-residuals` for every channel whose residuals stay correlated after the whitening: a
-/// warning where the standard errors had to be widened by half or more for it.
+/// `coloured-residuals` for every channel whose residuals are still correlated after whitening. A
+/// warning if the standard errors were widened by half or more because of it.
 std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::string& file);
 
 struct Adequacy {
-  std::vector<EstimatorReport> alternatives;  ///< other families, where they were tried
+  std::vector<EstimatorReport> alternatives;  ///< fits of other families, if any
   std::vector<Finding> findings;
-  bool withdraws_intervals = false;  ///< no interval of this model holds for the vehicle
+  bool withdraws_intervals = false;  ///< the intervals of this model are invalid
 };
 
-/// `model-inadequate` for every channel whose errors are the model's own, not the sensor's. Where
-/// that is the speed and `try_families`, the other families of surge resistance are fitted too.
-Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+/// `model-inadequate` for every channel whose errors are due to the model, not the sensor. If that
+/// is the speed and `try_families`, the other families of surge resistance are fitted too.
+Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         const FamilyFit& chosen, bool try_families);
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// A parameter by the logs and by other trials. Private to identify/.
+/// Comparison of a parameter from logs with that from other trials. Private to identify/.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace awmr {
 
-/// `estimates-disagree` where the fit's i-th quantity, a parameter, and the estimate of other
-/// trials differ by more than their errors allow (normal in the coordinate, two-sided, p < 0.01).
-/// Empty if the other trials gave no value with an error.
+/// `estimates-disagree` if the fit's i-th quantity, a parameter, differs significantly from the
+/// estimate of other trials (normal in the coordinate, two-sided, p < 0.01). Empty if the other
+/// trials gave no value with a standard error.
 std::optional<Finding> disagreement(const LogFit& fit, std::size_t i, const Estimate& known,
                                     const std::string& file);
 

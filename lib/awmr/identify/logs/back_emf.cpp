@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// For how long the motors are off and the vehicle can still be rolling: no gap, and no longer than
-/// kRolls_s after they drove it.
+/// Time in which the motors are off and the vehicle can still roll: without gaps in the log, within
+/// kRolls_s after being driven.
 double coasting_s(const DrivingLog& log) {
   constexpr double kRolls_s = 3.0;
   const double gap_s = kGapSteps * log.median_step_s();
@@ -86,10 +86,9 @@ Finding back_emf_finding(const std::string& file, const FamilyFit& with, const F
   double std_error = 0.0;
   const double k = fitted_back_emf(with, std_error);
   return {file, 0, Severity::kWarning, "back-emf",
-          fmt::format("motors that are ideal sources of force do not describe these logs: with "
-                      "back-EMF, {:.3g} +- {:.2g} of their largest force lost per m/s, the fit {}, "
-                      "and it is taken; what a motor gives falls with its wheel's speed, and "
-                      "resistance is what coasting shows",
+          fmt::format("motors with a force independent of speed do not describe these logs. With "
+                      "back-EMF, {:.3g} +- {:.2g} of the largest force per m/s, the fit {}, and is "
+                      "used; resistance is then identified from coasting",
                       k, std_error,
                       without.fit.usable ? fmt::format("is better by {:.0f} of AIC",
                                                        aic_lead(with.fit, without.fit))

@@ -20,14 +20,14 @@ namespace {
 
 constexpr double kLevel = 0.001;  // of a test of all quantities
 
-/// One quantity as single logs show it.
+/// One quantity by single logs.
 struct ByLog {
   std::vector<std::string> files;
   std::vector<double> coordinates;
   std::vector<double> weights;  ///< 1/variance
 };
 
-/// Index of a quantity in a fit; none if the fit does not identify it.
+/// Index of a quantity in a fit; empty if the fit does not identify it.
 std::optional<std::size_t> place_in(const LogFit& fit, const std::string& name) {
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     if (fit.quantities[i].name() == name && fit.why_not[i].empty()) return i;
@@ -35,7 +35,7 @@ std::optional<std::size_t> place_in(const LogFit& fit, const std::string& name) 
   return std::nullopt;
 }
 
-/// Adds where one log puts a quantity.
+/// Adds the estimate of one log.
 void add(const std::string& file, double coordinate, double variance, ByLog& by_log) {
   by_log.files.push_back(file);
   by_log.coordinates.push_back(coordinate);
@@ -58,7 +58,7 @@ ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& 
 /// Result of Cochran's Q test that the logs agree on a quantity.
 struct Heterogeneity {
   double p_value = 1.0;
-  double std_error = 0.0;    ///< of the mean of such vehicles, of the coordinate
+  double std_error = 0.0;    ///< of the coordinate's mean over such logs
   double mean_square = 0.0;  ///< Q/(L - 1)
 };
 
@@ -82,8 +82,9 @@ Heterogeneity heterogeneity(const ByLog& by_log) {
           q / degrees};
 }
 
-/// Widens the i-th quantity of the common fit, known from this many logs, to this standard error. The
-/// common fit's own may be larger: it has the scatter of rows that one value does not describe.
+/// Widens the standard error of the i-th quantity of the common fit to this one, from this many
+/// logs. That of the common fit can already be larger, because it includes the scatter of rows that
+/// one value does not describe.
 void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   const Eigen::Index row = eigen_index(i);
   const double by = std::max(1.0, std_error / std::sqrt(fit.covariance(row, row)));
@@ -140,9 +141,9 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
   return disagreements;
 }
 
-/// The term that the common fit does not have and on which the logs differ most by their score
-/// tests, if by more than three times the noise. Blocks of a log that all err in the same way
-/// scatter, so the errors are those of the noise alone.
+/// The term outside the common fit on which the logs differ most in their score tests, if by more
+/// than three standard errors. The standard errors are those of the noise model, because blocks
+/// with a common error also scatter.
 std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>& logs,
                                                    const LogFitOptions& options,
                                                    const LogFit& common) {
@@ -167,7 +168,7 @@ std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>
   return strongest;
 }
 
-/// A term that the common fit does not have, and that each log puts in another place if it is free.
+/// Frees a term outside the common fit on which the logs disagree.
 std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLog>& logs,
                                                      const std::vector<std::string>& files,
                                                      LogFitOptions options, const LogFit& common) {
@@ -208,11 +209,11 @@ LogComparison compare_parts(const std::vector<DrivingLog>& log, const LogFitOpti
 }  // namespace
 
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common) {
-  constexpr double kLongEnough_s = 20.0;  // for each half to show something
+  constexpr double kLongEnough_s = 20.0;  // so that each half has information
   if (!common.fit.usable) return {};
   LogFitOptions options = from_optimum(common.options, common);
   options.bootstrap = 0;
-  options.effort.reset();  // short searches from the optimum; without them no interval holds
+  options.effort.reset();  // short searches from the optimum, needed for valid intervals
   if (logs.size() == 1) {
     const std::vector<double>& t_s = logs.front().t_s;
     if (t_s.back() - t_s.front() < kLongEnough_s) return {};

@@ -1,4 +1,4 @@
-/// Whether several logs show the same vehicle. Private to identify/.
+/// Tests whether several logs agree on the vehicle's parameters. Private to identify/.
 #pragma once
 
 #include <optional>
@@ -10,40 +10,42 @@
 
 namespace awmr {
 
-/// A quantity that differs between logs by more than its errors explain.
+/// A quantity that differs significantly between logs.
 struct LogDisagreement {
   std::string name;
-  double p_value = 1.0;            ///< of all logs having one value
-  std::vector<std::string> files;  ///< those that show the quantity on their own
+  double p_value = 1.0;            ///< p of the hypothesis that all logs have one value
+  std::vector<std::string> files;  ///< logs that determine the quantity on their own
   std::vector<double> values;      ///< by file
-  bool withdraws = false;          ///< no interval of the common fit holds
-  bool refuses = false;            ///< widened, it is not known: LogFit::why_not has it
+  bool withdraws = false;          ///< the intervals of the common fit are invalid
+  bool refuses = false;            ///< the widened interval is too wide: refused in LogFit::why_not
 };
 
 /// Differences between fits of single logs, or of the halves of a single one.
 struct LogComparison {
   std::vector<LogDisagreement> disagreements;
-  /// The last fifth of a single log, if its first half does not predict it and the halves agree.
+  /// Set if the first half of a single log does not predict its last fifth although the halves
+  /// agree.
   std::optional<HeldOut> missed;
 };
 
-/// Fits every log on its own from the common optimum and compares: with x_l, w_l = 1/var(x_l) of the
-/// coordinate of a quantity in each of L logs that show it,
+/// Fits every log on its own from the common optimum and compares the results. With x_l, w_l =
+/// 1/var(x_l) of a coordinate in each of L logs that determine it,
 ///
 ///     Q = sum w_l (x_l - mean)^2,   chi-squared with L - 1 degrees of freedom for one vehicle,
 ///     tau^2 = (Q - (L - 1)) / (sum w - sum w^2 / sum w)                    (DerSimonian and Laird)
 ///
-/// Where p < 0.001 over all quantities, the standard error and the interval of the common fit are
-/// at least those of the mean of such logs: they then hold for the mean of vehicles like these; a quantity whose standard error
-/// then exceeds kUnknown is refused. A bias may differ. A delay
-/// or an error of the commands that the common fit does not have, as a trim that was set anew
-/// between two logs, is freed where the score tests of the logs differ most. If the logs disagree
-/// on it, or on a trim or an imbalance that the common fit has, no interval of the common fit
-/// holds: what such a term does in each log is in the other quantities.
+/// If p < 0.001 over all quantities, the standard error of the common fit is widened at least to
+/// that of the mean over such logs, and the interval covers that mean. A quantity whose standard
+/// error then exceeds kUnknown is refused. Biases may differ between logs. A delay or command error
+/// that the common fit lacks (for example a trim that was changed between two logs) is freed if its
+/// score tests differ most between the logs. If the logs disagree on it, or on a trim or imbalance
+/// of the common fit, the intervals of the common fit are invalid, because the other quantities
+/// absorb the effect in each log.
 ///
-/// Of a single log of 20 s and more, the first half is fitted and predicts the second half and the last
-/// fifth (held_out.h). Where it predicts both (p > 0.05), nothing differs; else the halves are compared
-/// as logs are. A last fifth that is missed with p < 0.001 is reported where the halves do not disagree.
+/// For a single log of 20 s or more, a fit of the first half predicts the second half and the last
+/// fifth (held_out.h). If it predicts both (p > 0.05), there is no difference; otherwise the halves
+/// are compared as two logs. A last fifth that is not predicted (p < 0.001) is reported if the
+/// halves agree.
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common);
 
 }  // namespace awmr

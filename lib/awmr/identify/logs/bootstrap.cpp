@@ -15,7 +15,7 @@ Eigen::VectorXd mean_of(const std::vector<Eigen::VectorXd>& scores, Eigen::Index
   return mean;
 }
 
-/// The sum of as many scores as there are, drawn with replacement, without their mean.
+/// Sum of n of the n scores, drawn with replacement, after subtracting their mean.
 Eigen::VectorXd drawn_sum(const std::vector<Eigen::VectorXd>& scores, const Eigen::VectorXd& mean,
                           Random& random) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(mean.size());
@@ -30,7 +30,7 @@ double percentile(const std::vector<double>& sorted, double share) {
   return sorted[at(std::lround(share * static_cast<double>(sorted.size() - 1)))];
 }
 
-/// The factor that takes the draws' standard deviation to `std`; 1 where they do not vary.
+/// Ratio of `std` to the standard deviation of the draws; 1 if they do not vary.
 double scale_to(double std, const std::vector<double>& draws) {
   double squares = 0.0;
   for (const double draw : draws) squares += draw * draw;

@@ -1,4 +1,4 @@
-/// Intervals that do not rest on the model of the noise. Private to identify/.
+/// Block-bootstrap intervals, which do not depend on the noise model. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,8 +24,8 @@ struct BootstrapInput {
 
 /// Block bootstrap: blocks drawn with replacement, one Gauss-Newton step from the solution for each
 /// draw, scaled to the covariance's standard error; the 2.5 % and 97.5 % percentiles of every
-/// quantity's value. The percentiles bring the shape, which need not be normal. Empty where no
-/// resamples are requested.
+/// quantity's value. The shape of the intervals need not be normal. Empty if no resamples are
+/// requested.
 std::vector<Interval> block_bootstrap(const BootstrapInput& input, const BootstrapOptions& options);
 
 }  // namespace awmr

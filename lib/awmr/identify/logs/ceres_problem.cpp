@@ -35,10 +35,11 @@ std::int64_t numbers_integrated(const LogProblem& problem) {
   return std::llround(steps * static_cast<double>(1 + derivatives));
 }
 
-/// Evaluates every window before Ceres asks for any. The point is the one that Ceres moves. A coordinate
-/// at the end of its range that the cost would push beyond it is held there, by derivatives of 0: a
-/// step that is cut at the bound would leave the others where they belong without it. Derivatives are made at once: they cost little more than the residuals, and Ceres asks for them at every point
-/// that it keeps.
+/// Evaluates all windows in parallel before Ceres requests the first one, at the point that Ceres
+/// changes. A coordinate at a bound with a cost gradient beyond it is fixed by derivatives of 0;
+/// otherwise a step cut at the bound would not be optimal for the other coordinates. Derivatives
+/// are always computed: they take little more time than the residuals, and Ceres needs them at
+/// every accepted point.
 class Evaluator : public ceres::EvaluationCallback {
  public:
   Evaluator(const LogProblem& problem, const SearchPoint& point)
@@ -86,7 +87,7 @@ class Evaluator : public ceres::EvaluationCallback {
   std::vector<bool> held_;  ///< by coordinate
 };
 
-/// Passes the Evaluator's results for one window to Ceres, a few rows in place of many: blocks
+/// Cost function of one window with the Evaluator's results, condensed to few rows. Blocks:
 /// coordinates, initial state.
 class WindowCost : public ceres::CostFunction {
  public:
@@ -126,7 +127,7 @@ class WindowCost : public ceres::CostFunction {
   int initial_;
 };
 
-/// The weak pull of every coordinate to its initial guess.
+/// The weak prior of every coordinate at its initial guess.
 class PriorCost : public ceres::CostFunction {
  public:
   explicit PriorCost(const Evaluator& evaluator) : evaluator_(evaluator) {
@@ -159,7 +160,7 @@ void bound(ceres::Problem& problem, const std::vector<Interval>& bounds,
   }
 }
 
-/// At least a millisecond: Ceres takes no other.
+/// At least 1 ms, because Ceres rejects smaller limits.
 double seconds_until(std::chrono::steady_clock::time_point deadline) {
   const std::chrono::duration<double> left = deadline - std::chrono::steady_clock::now();
   return std::max(1e-3, left.count());
@@ -179,10 +180,10 @@ ceres::Solver::Options solver_options(double function_tolerance) {
   return options;
 }
 
-/// Ends a search whose steps fail although they promise little: twice in a row, less than 0.05 of
-/// -ln L, which is a step of a third of a standard error. Where the speed or the yaw rate changes its
-/// sign, a Runge-Kutta step crosses the kink of the resistance: in long logs, which have thousands of
-/// such steps, the cost is rough on that scale, and shorter steps would find one dent after the other.
+/// Ends a search if two steps in a row fail with a predicted decrease of -ln L below 0.05, which is
+/// a third of a standard error. On this scale the cost is not smooth: where the speed or the yaw
+/// rate changes sign, a Runge-Kutta step crosses the kink of the resistance, which happens
+/// thousands of times in a long log. Shorter steps would only find local minima.
 class EndAtRoughness : public ceres::IterationCallback {
  public:
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) final {
@@ -198,8 +199,8 @@ class EndAtRoughness : public ceres::IterationCallback {
   int failures_ = 0;
 };
 
-/// Ends a search at the limit of effort. Only searches that run one after the other are ended, so that
-/// the place does not depend on the number of threads.
+/// Ends a search at the limit of effort. Applies to sequential searches only, so that the result
+/// does not depend on the number of threads.
 class EndAtLimit : public ceres::IterationCallback {
  public:
   explicit EndAtLimit(const LogProblem& problem) : problem_(problem) {}
@@ -214,7 +215,7 @@ class EndAtLimit : public ceres::IterationCallback {
   bool has_ended_ = false;
 };
 
-/// Why a search ended, and whether it got there.
+/// Stop reason of a search, and whether it converged.
 void tell_end(const ceres::Solver::Summary& summary, bool at_limit, Solved& solved) {
   const bool rough = summary.termination_type == ceres::USER_SUCCESS && !at_limit;
   solved.cost = summary.final_cost;
@@ -227,9 +228,9 @@ void tell_end(const ceres::Solver::Summary& summary, bool at_limit, Solved& solv
 
 /// Treatment of steps that would give non-finite numbers.
 enum class LineSearch {
-  /// Steps are cut at the bounds and halved where they cannot be simulated. Evaluates a jacobian a step.
+  /// Steps are cut at the bounds, and halved if they cannot be simulated. One Jacobian per step.
   kOff,
-  /// Ceres looks along every step for a point with finite derivatives: two jacobians a step.
+  /// Ceres searches along every step for a point with finite derivatives: two Jacobians per step.
   kOn,
 };
 
@@ -243,8 +244,8 @@ Solved search_from(const LogProblem& problem, SearchPoint from, double function_
   problem_options.evaluation_callback = &evaluator;
   ceres::Problem search(problem_options);
   double* const coordinates = point.coordinates.data();
-  // Ceres eliminates the initial states in the order of their addresses: here that of the windows,
-  // in every run.
+  // Ceres eliminates the initial states in the order of their addresses, which here is that of the
+  // windows, so that runs are reproducible.
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (std::size_t i = 0; i < problem.windows.size(); ++i) {
     double* const initial_state = point.initial_states.data() + i * problem.model.initial.size();

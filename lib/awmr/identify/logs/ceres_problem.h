@@ -1,4 +1,4 @@
-/// The search for the least squares of a LogProblem, by Ceres. Private to identify/.
+/// Least-squares solution of a LogProblem by Ceres. Private to identify/.
 #pragma once
 
 #include <limits>
@@ -9,15 +9,15 @@
 namespace awmr {
 
 struct Solved {
-  SearchPoint point;  ///< where the search ended
+  SearchPoint point;  ///< end of the search
   double cost = std::numeric_limits<double>::infinity();
   bool converged = false;
-  bool usable = false;  ///< the point is at least no worse than where the search began
+  bool usable = false;  ///< the cost is not above that of the start
   std::string stop_reason;
 };
 
 /// Levenberg-Marquardt within the bounds, each window's initial state eliminated. Ends when a step
-/// changes the cost by less than this share.
+/// changes the cost by less than this relative amount.
 Solved solve(const LogProblem& problem, SearchPoint from, double function_tolerance);
 
 }  // namespace awmr

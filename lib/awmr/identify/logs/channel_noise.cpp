@@ -39,7 +39,7 @@ struct InnovationSums {
 
 InnovationSums innovation_sums(std::span<const ErrorSeries> series, const ChannelNoise& noise) {
   InnovationSums sums;
-  double product = 1.0;  // of variances: one logarithm for many of them
+  double product = 1.0;  // of many variances, to save logarithms
   for (const ErrorSeries& part : series) {
     Whitener whitener(noise);
     for (std::size_t k = 0; k < part.error.size(); ++k) {
@@ -57,11 +57,11 @@ InnovationSums innovation_sums(std::span<const ErrorSeries> series, const Channe
   return sums;
 }
 
-/// -2 ln L of errors with a noise, and the factor on both variances that makes it least:
+/// -2 ln L of errors with a noise, and the factor on both variances that minimises it:
 ///
 ///     -2 ln L = sum ln S_k + nu_k^2 / S_k,   factor = (1/n) sum nu_k^2 / S_k
 struct Likelihood {
-  double cost = 0.0;    ///< at the best factor, but for a constant
+  double cost = 0.0;    ///< at the best factor, up to a constant
   double factor = 1.0;  ///< on sigma_w^2 and sigma_d^2
 };
 
@@ -71,7 +71,7 @@ Likelihood likelihood(std::span<const ErrorSeries> series, const ChannelNoise& n
   return {n * std::log(factor) + log_variances, factor};
 }
 
-/// Unit variance, of which e^x / (1 + e^x) is the drift's.
+/// Noise with unit variance, of which the drift has the share e^x / (1 + e^x).
 ChannelNoise unit_noise(double logit, double correlation_s) {
   const double share = 1.0 / (1.0 + std::exp(-logit));
   return {.white_std = std::sqrt(1.0 - share),
@@ -79,8 +79,8 @@ ChannelNoise unit_noise(double logit, double correlation_s) {
           .correlation_s = correlation_s};
 }
 
-/// All errors of a channel, or if there are more than 2 kEnough, at least about kEnough of them in
-/// whole windows spread over the logs. These determine the levels to 1 %.
+/// All errors of a channel. If there are more than 2 kEnough, about kEnough of them, in whole
+/// windows spread over the logs, which determine the levels to 1 %.
 std::vector<ErrorSeries> some_of(std::span<const ErrorSeries> series) {
   constexpr std::size_t kEnough = 20'000;
   std::size_t total = 0;
@@ -111,7 +111,7 @@ struct Drift {
   }
 };
 
-/// The likeliest share of a drift with this memory.
+/// Maximum-likelihood share of a drift with this memory.
 Drift likeliest_share(std::span<const ErrorSeries> series, double correlation_s) {
   constexpr int kBits = 10;
   std::uintmax_t evaluations = 24;
@@ -123,9 +123,9 @@ Drift likeliest_share(std::span<const ErrorSeries> series, double correlation_s)
   return {unit_noise(logit, correlation_s), least};
 }
 
-/// The likeliest drift with a memory from a step of the samples to the length of a window: a coarse
-/// grid of memories, then a search around the best. `white_cost`: without a drift. Where the grid is
-/// hardly better than that, a search on half its spacing cannot make it plainly better.
+/// Maximum-likelihood drift with a memory between the sample interval and the length of a window: a
+/// coarse grid, then a search around the best. `white_cost`: without a drift. If the grid is hardly
+/// better than that, a finer search cannot make the drift significant, and is skipped.
 Drift likeliest_drift(std::span<const ErrorSeries> series, double step_s, double white_cost) {
   constexpr double kWorthASearch = 4.0;  // of -2 ln L
   constexpr int kGrid = 7;
@@ -154,7 +154,7 @@ Drift likeliest_drift(std::span<const ErrorSeries> series, double step_s, double
   return drift.cost < best.cost ? drift : best;
 }
 
-/// Share, frequency and damping of a drift of second order, as they are searched.
+/// Search coordinates of a second-order drift: share, frequency and damping.
 struct SecondOrder {
   double logit = 0.0;
   double log_radps = 0.0;
@@ -165,7 +165,7 @@ struct SecondOrder {
     ChannelNoise unit = unit_noise(logit, 0.0);
     unit.frequency_radps = std::exp(log_radps);
     unit.damping = std::exp(log_damping);
-    // The slower of the two exponentials that the drift is made of.
+    // The slower of the two exponentials of the drift.
     const double over = std::sqrt(std::max(0.0, unit.damping * unit.damping - 1.0));
     unit.correlation_s = 1.0 / (unit.frequency_radps * (unit.damping - over));
     return unit;
@@ -189,7 +189,7 @@ Drift as_drift(std::span<const ErrorSeries> series, const SecondOrder& s) {
   return {noise, likelihood(series, noise).cost};
 }
 
-/// The best of a coarse grid of frequencies and shares.
+/// The best point of a coarse grid of frequencies and shares.
 SecondOrder likeliest_of_grid(std::span<const ErrorSeries> series, const SecondOrderRange& range) {
   constexpr int kFrequencies = 8;
   SecondOrder best;
@@ -208,7 +208,7 @@ SecondOrder likeliest_of_grid(std::span<const ErrorSeries> series, const SecondO
   return best;
 }
 
-/// Data of the search, passed through NLopt, and the best point tried.
+/// Data of the NLopt callback, and the best point so far.
 struct SecondOrderSearch {
   std::span<const ErrorSeries> series;
   Drift best = {};
@@ -222,8 +222,8 @@ double second_order_cost(unsigned, const double* x, double*, void* data) {
   return drift.cost;
 }
 
-/// Nelder and Mead's simplex from there. Where it fails, the best of what it tried, if any, is what
-/// there is: it is compared with the other noise models in any case. [NLopt, LN_NELDERMEAD]
+/// Nelder-Mead search from there [NLopt, LN_NELDERMEAD]. If it fails, returns its best point, if
+/// any, which is compared with the other noise models in any case.
 Drift likeliest_from(std::span<const ErrorSeries> series, const SecondOrder& from,
                      const SecondOrderRange& range) {
   constexpr int kMostEvaluations = 150;
@@ -247,7 +247,7 @@ Drift likeliest_from(std::span<const ErrorSeries> series, const SecondOrder& fro
   return search.best;
 }
 
-/// The likeliest drift of second order; from that of `before`, where there is one.
+/// Maximum-likelihood drift of second order; starts from that of `before`, if there is one.
 Drift likeliest_second_order(std::span<const ErrorSeries> series, double step_s,
                              const ChannelNoise& before) {
   const SecondOrderRange range(step_s);

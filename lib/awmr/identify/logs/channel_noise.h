@@ -1,4 +1,4 @@
-/// The errors of a channel as a fit of logs takes them. Private to identify/.
+/// Noise model of a channel in a log fit. Private to identify/.
 #pragma once
 
 #include <cmath>
@@ -22,38 +22,38 @@ namespace awmr {
 /// sample to sample, and oscillates for zeta < 1.
 struct ChannelNoise {
   double white_std = 1.0;        ///< sigma_w, SI
-  double drift_std = 0.0;        ///< sigma_d, SI; 0: none was found
+  double drift_std = 0.0;        ///< sigma_d, SI; 0: no drift
   double correlation_s = 0.0;    ///< tau, or the duration of the oscillations; 0 without a drift
   double frequency_radps = 0.0;  ///< omega of a drift of second order; 0: first order
   double damping = 0.0;          ///< zeta of a drift of second order, > 0
-  double sensor_std = 0.0;  ///< noise from the roughness of the signal alone, without a model, SI
+  double sensor_std = 0.0;  ///< noise from the second differences of the signal, without a model,
+                            ///< SI
   int count = 0;            ///< samples
-  double cost = 0.0;        ///< -2 ln L of the channel's errors, but for a constant
+  double cost = 0.0;        ///< -2 ln L of the channel's errors, up to a constant
 
   double std() const { return std::hypot(white_std, drift_std); }
   bool second_order() const { return frequency_radps > 0.0; }
-  /// Numbers that were estimated: sigma_w, and of the drift sigma_d with its memory.
+  /// Number of estimated parameters: sigma_w, and those of the drift.
   int numbers() const { return drift_std > 0.0 ? (second_order() ? 4 : 3) : 1; }
-  /// Errors of more than half of the sensor's that stay for half a second or more are the model's, or
-  /// a sensor's that wanders.
+  /// True for a drift above half of the sensor noise that lasts half a second or more: an error of
+  /// the model, or a drifting sensor.
   bool of_the_model() const { return drift_std > 0.5 * sensor_std && correlation_s >= 0.5; }
-  /// Errors many times the sensor's own, which a bound on the model's share cannot come from: the
-  /// model is not that of the vehicle.
+  /// True for a drift that is many times the sensor noise: the model does not describe the vehicle.
   bool overwhelms_sensor() const {
     constexpr double kMany = 2.5;
     return of_the_model() && drift_std > kMany * sensor_std;
   }
-  /// A drift that a missing term of the model may be behind.
+  /// True for a drift that a missing term of the model can cause.
   bool has_slow_drift() const { return drift_std > 0.25 * sensor_std && correlation_s > 0.2; }
 };
 
 using NoiseLevels = std::map<LogChannel, ChannelNoise>;
 
-/// Data without noise still have to weigh something.
+/// Smallest noise, so that noise-free data have a finite weight.
 inline constexpr double kMinimumStd = 1e-9;
 
-/// White noise as the roughness of each channel shows it. What is smooth vanishes in the second
-/// differences d_k = y_k - 2 y_{k-1} + y_{k-2}, whose variance is 6 sigma^2 for white noise:
+/// Estimates the white noise of each channel from second differences d_k = y_k - 2 y_{k-1} +
+/// y_{k-2}. Smooth signals vanish in them, and white noise gives a variance of 6 sigma^2:
 ///
 ///     sigma^2 = sum d^2 / (6 n)   over the n second differences within windows
 NoiseLevels sensor_noise(const std::vector<FitWindow>& windows);
@@ -61,19 +61,19 @@ NoiseLevels sensor_noise(const std::vector<FitWindow>& windows);
 /// The errors of one channel in one window, in order of time.
 struct ErrorSeries {
   std::vector<double> error;    ///< SI
-  std::vector<double> since_s;  ///< time since the one before; 0: the first
+  std::vector<double> since_s;  ///< time since the previous one; 0: the first
 };
 
-/// The errors of a fit, by channel, a series for each window.
+/// The errors of a fit by channel, with one series per window.
 using ErrorsByChannel = std::map<LogChannel, std::vector<ErrorSeries>>;
 
-/// -2 ln L of errors with this noise, but for a constant: sum ln S_k + nu_k^2/S_k.
+/// -2 ln L of errors with this noise, up to a constant: sum ln S_k + nu_k^2/S_k.
 double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
 
-/// The likeliest noise of these errors: white, or with a drift if that is significantly likelier
-/// (10 of -2 ln L), of second order if that is significantly likelier again. `free_share`, in (0,
-/// 1]: of the errors' squares, what the fit has not taken for itself. The search begins at
-/// `before`, whose sensor_std stays.
+/// Maximum-likelihood noise of these errors: white; with a drift of first order if that lowers -2
+/// ln L by more than 10; of second order if that lowers it by more than 10 again. `free_share`, in
+/// (0, 1]: degrees of freedom of the errors per error. The search begins at `before`, whose
+/// sensor_std is kept.
 ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_share,
                              const ChannelNoise& before);
 

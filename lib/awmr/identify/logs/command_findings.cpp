@@ -19,7 +19,7 @@ struct FoundTerm {
   double error;
 };
 
-/// Those of one kind beyond two standard errors and 1 ms, 1 mrad or 0.1 %.
+/// Those of one kind that exceed two standard errors and 1 ms, 1 mrad or 0.1 %.
 std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
   constexpr double kSmallest = 1e-3;
   std::vector<FoundTerm> found;
@@ -32,8 +32,8 @@ std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
   return found;
 }
 
-/// Reports a dead time of the commands, or late time stamps. `with_lag`: the motors' lag is free as
-/// well.
+/// Reports a dead time of the commands, or latency of their time stamps. `with_lag`: motor lag is
+/// also free.
 Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::string& file) {
   if (input.value < 0.0) {
     return {file, 0, Severity::kWarning, "late-commands",
@@ -120,7 +120,7 @@ std::vector<Finding> steering_findings(const LogFit& fit, const std::string& fil
              "or add that latency in tuning",
              latency.value, latency.error)});
   }
-  // Only one of them is free where the commands do not show the other.
+  // Only one of them is free if the commands cannot separate both.
   for (const FoundTerm& trim : found_terms(fit, FreeQuantity::Kind::kSteeringTrim)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "steering-trim",

@@ -9,7 +9,8 @@
 namespace awmr {
 
 /// Findings of an identified delay, lag or error: `sensor-delay`, `sensor-lag`, `steering-delay`,
-/// `steering-trim`, `force-imbalance`, `actuator-lag`, `late-commands`. `file`: the log they name.
+/// `steering-trim`, `force-imbalance`, `actuator-lag`, `late-commands`. `file`: the log named in
+/// the findings.
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, const std::string& file);
 
 }  // namespace awmr

@@ -47,11 +47,10 @@ CrossValidation leave_one_log_out(const std::vector<DrivingLog>& logs, LogFitOpt
     for (const EstimatorParameter& p : fit.report.parameters) entry.values.push_back(p.value);
     result.leave_one_out.push_back(entry);
     if (!fit.usable) continue;
-    result.findings.push_back(
-        {logs[out].file, 0, Severity::kNote, "held-out-log",
-         fmt::format("predicted by the other logs over windows of 10 s, error over the signal's "
-                     "own deviation: {}",
-                     prediction_errors(logs[out], options, fit))});
+    result.findings.push_back({logs[out].file, 0, Severity::kNote, "held-out-log",
+                               fmt::format("prediction by the other logs over windows of 10 s, "
+                                           "error relative to the signal's standard deviation: {}",
+                                           prediction_errors(logs[out], options, fit))});
   }
   return result;
 }

@@ -1,4 +1,4 @@
-/// Each log predicted by a model of the others. Private to identify/.
+/// Prediction of each log by a fit of the others. Private to identify/.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ struct CrossValidation {
   std::vector<Finding> findings;           ///< `held-out-log`: the errors of the prediction
 };
 
-/// Fits again without each log in turn. Precondition: at least two logs.
+/// Fits without each log in turn and predicts it. Precondition: at least two logs.
 CrossValidation leave_one_log_out(const std::vector<DrivingLog>& logs, LogFitOptions options);
 
 }  // namespace awmr

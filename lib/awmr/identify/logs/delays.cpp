@@ -22,7 +22,7 @@ bool has_delay(const std::vector<FreeQuantity>& quantities, LogChannel channel) 
   });
 }
 
-/// Whether the lag of the servo is free, so that a dead time of the steering could pass for it.
+/// True if the servo's time constant is free; it would absorb a dead time of the steering.
 bool frees_servo(const std::vector<FreeQuantity>& quantities) {
   return std::ranges::any_of(
       quantities, [](const FreeQuantity& q) { return q.is(ParameterId::kSteeringTimeConstant); });
@@ -60,14 +60,14 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
 
 namespace {
 
-/// A candidate worth a fit, with where one step would put it.
+/// A candidate for a fit, with its estimate by one step.
 struct CandidateTerm {
   FreeQuantity quantity;
   double value;
-  double significance;  ///< |value| over standard error, by the noise alone
+  double significance;  ///< |value| over standard error, by the noise model
 };
 
-/// The likeliest first.
+/// Most significant first.
 std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   constexpr double kWorthATry = 3.0;
   const std::vector<FreeQuantity> channels = further_terms(settled.problem);
@@ -100,17 +100,16 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
   return settle_noise(std::move(from.problem), std::move(from.point), loss, 1);
 }
 
-/// Readings that a program may smooth before it logs them.
+/// Channels that are often filtered before logging.
 bool may_be_smoothed(LogChannel channel) {
   return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate;
 }
 
-/// The likeliest fit with one more delay, lag or error free, of the commands, of the steering alone or
-/// of one sensor, after one round; the strongest candidate if none improves the fit by then, or none.
+/// The fit with the lowest AIC after one round with one more term free. If none improves the fit,
+/// that of the most significant candidate, or empty.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
-  // A filter of the speed looks like a lag of the motors, which more vehicles have, where no other
-  // channel separates them; both give the same mass then. Else it has to be likelier by this much
-  // of AIC.
+  // Without other channels, a filter of the speed has the same effect as a motor lag, which is more
+  // common; both give the same mass. The filter is selected only if its AIC is lower by this.
   constexpr double kLikelierFilter = 10.0;
   constexpr double kComparable = 0.2;  // of the strongest candidate's significance
   const bool tells_filters = settled.problem.model.noise.size() > 1;
@@ -131,7 +130,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   std::vector<std::pair<LogChannel, double>> filters;
   const std::vector<CandidateTerm> terms = candidate_terms(settled);
   for (const CandidateTerm& candidate_term : terms) {
-    // The next round tests the weaker ones again, without the model error of the strongest.
+    // The next round tests the weaker candidates again, without the model error of the strongest.
     if (best && candidate_term.significance < kComparable * terms.front().significance) break;
     const FreeQuantity& more = candidate_term.quantity;
     const bool is_sensor = more.kind == FreeQuantity::Kind::kSensorDelay;
@@ -142,8 +141,8 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
       strongest = fit;
     }
     has_sensor |= consider(std::move(fit)) && is_sensor;
-    // Also where a sensor's delay does as well as one of the commands: a lag may do better than both.
-    // The commands may be delayed, or logged late, and the motors lag as well.
+    // Also if delays of a sensor and of the commands are equally good: a lag can be better than
+    // both. The commands can be delayed, or logged late, in addition to a motor lag.
     if (more.kind == FreeQuantity::Kind::kDelay && may_lag) {
       const double lag_s = 0.5 * std::abs(found_s);
       consider(tried(settled, {{input_delay(), found_s - lag_s}, {motor_lag(), lag_s}}, loss));
@@ -157,7 +156,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   for (const auto& [channel, found_s] : filters) {
     consider(tried(settled, {{sensor_lag_of(channel), found_s}}, loss), kLikelierFilter);
   }
-  // One round may be too few where the model was far off and a drift passed for its error.
+  // One round can be too few if the drift absorbed a large model error.
   return best ? std::move(best) : std::move(strongest);
 }
 
@@ -166,8 +165,8 @@ bool is_of_turning(const FreeQuantity& q) {
          q.kind == FreeQuantity::Kind::kForceImbalance;
 }
 
-/// Where the trim or the imbalance is free, with the other free as well, if the commands show both:
-/// each turns the vehicle almost as the other does, and only their joint covariance is honest.
+/// Frees trim and imbalance together if one of them is free and the commands allow both. Their
+/// effects are nearly the same, so only the joint covariance is valid.
 Extended with_both_of_turning(NoiseIteration fit) {
   const std::vector<FreeQuantity>& quantities = fit.problem.model.quantities;
   std::vector<FreeQuantity> other;
@@ -178,7 +177,7 @@ Extended with_both_of_turning(NoiseIteration fit) {
                   std::vector<double>(other.size(), 0.0));
 }
 
-/// The fit with one more of them free, where that lowers AIC enough.
+/// The fit with one more term free, if that lowers AIC enough.
 std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss loss) {
   constexpr double kPlainly = 10.0;  // of AIC
   std::optional<NoiseIteration> more = likeliest_with_one_more(settled, loss);

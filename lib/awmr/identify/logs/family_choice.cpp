@@ -60,8 +60,8 @@ FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, F
   return result;
 }
 
-/// The optimum of `inner` as a place to begin from for other families: a term that these do not have
-/// is what it is for a power law, and one that was 0 begins from its guess.
+/// The optimum of `inner` as a start for other families. Terms outside these families get the value
+/// of a power law; terms that are 0 start from their guess.
 LogFitOptions without_terms(const LogFitOptions& power_law, const FamilyFit& inner, Family surge,
                             Family yaw) {
   LogFitOptions options = from_optimum(power_law, inner);
@@ -76,7 +76,7 @@ LogFitOptions without_terms(const LogFitOptions& power_law, const FamilyFit& inn
   return options;
 }
 
-/// The fastest that the logs drive, m/s, and turn, rad/s; 1 where nothing shows it.
+/// Highest speed, m/s, and yaw rate, rad/s, of the logs; 1 without measurements.
 double fastest(const std::vector<DrivingLog>& logs, LogChannel channel) {
   double most = 0.0;
   for (const DrivingLog& log : logs) {
@@ -89,7 +89,7 @@ double fastest(const std::vector<DrivingLog>& logs, LogChannel channel) {
   return most > 0.0 ? most : 1.0;
 }
 
-/// Puts the curves of these families that are nearest to those of `inner` among `values`.
+/// Adds the curves of these families that are nearest to those of `inner` to `values`.
 void begin_near(const std::vector<DrivingLog>& logs, const FamilyFit& inner, Family surge,
                 Family yaw, ParameterValues<double>& values) {
   const Vehicle& vehicle = inner.options.vehicle;
@@ -131,8 +131,8 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
   return most;
 }
 
-/// Whether a family with more terms may do better: a score test finds a candidate term worth
-/// freeing, or errors are correlated, which can hide a missing term.
+/// True if a family with more terms can be better: a score test is large, or errors are correlated,
+/// which can hide a missing term.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // of -2 ln L
   if (!fit.usable) return true;
@@ -148,7 +148,7 @@ bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_ter
                 : drifts(LogChannel::kSpeed) || drifts(LogChannel::kX);
 }
 
-/// By how many joint standard errors the parameter that differs most does, with its name.
+/// The parameter with the largest difference, in joint standard errors.
 std::pair<double, std::string> largest_difference(const LogFit& a, const LogFit& b) {
   std::pair<double, std::string> largest{0.0, ""};
   for (std::size_t i = 0; i < a.quantities.size(); ++i) {
@@ -173,8 +173,8 @@ Finding taken(const std::string& file, const FamilyFit& best, const LogFit& powe
           "a power law does not describe these logs: " + why};
 }
 
-/// An alternative family that is better than the selected one, but not significantly, and changes a
-/// parameter.
+/// Finding on an alternative family that is better than the selected one, but not significantly,
+/// and that changes a parameter.
 std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                                  const FamilyFit& alternative) {
   constexpr double kApart = 2.0;
@@ -183,12 +183,12 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
   if (!alternative.fit.usable || !(gain > 0.0) || !(apart > kApart)) return std::nullopt;
   return Finding{
       file, 0, Severity::kWarning, "family-undecided",
-      fmt::format("these logs do not decide between {} and {} (better by {:.1f} of AIC, "
-                  "too little to take it): under it {} is {:.1f} standard errors away; the "
-                  "intervals hold for {} only",
-                  families_in_words(best.surge, best.yaw),
-                  families_in_words(alternative.surge, alternative.yaw), gain, name, apart,
-                  families_in_words(best.surge, best.yaw))};
+      fmt::format(
+          "these logs do not decide between {} and {} (AIC lower by {:.1f}, not significant), with "
+          "which {} differs by {:.1f} standard errors; the intervals are valid for {} only",
+          families_in_words(best.surge, best.yaw),
+          families_in_words(alternative.surge, alternative.yaw), gain, name, apart,
+          families_in_words(best.surge, best.yaw))};
 }
 
 Finding not_compared(const std::string& file, const FamilyFit& first) {
@@ -213,7 +213,7 @@ struct Contender {
   Family yaw;
 };
 
-/// The other families of surge for this yaw, or of yaw for this surge.
+/// The other families of surge with this family of yaw, or of yaw with this family of surge.
 std::vector<Contender> contenders(const FamilyFit& first, bool of_yaw) {
   std::vector<Contender> found;
   for (const Family family : values_in(kFamilyNames)) {
@@ -224,8 +224,8 @@ std::vector<Contender> contenders(const FamilyFit& first, bool of_yaw) {
   return found;
 }
 
-/// Fits the contenders and leaves the best of them and of `result.best` there; the fit of the first
-/// families is the result. A better alternative is a possible starting point for these.
+/// Fits the contenders and stores the best fit in `result.best`. Returns the fit of the first
+/// families, which is repeated from a better alternative.
 LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                const std::vector<Contender>& others, double lead, BestFamily& result) {
   FamilyFit first = std::move(result.best);
@@ -260,8 +260,8 @@ LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_l
   return of_first;
 }
 
-/// Gives the best families delays, lags and errors of the commands of their own, where those that they
-/// took over from other families do worse: a wrong resistance hides behind them, and hides them.
+/// Searches delays, lags and command errors again for the best families, because those adopted from
+/// other families can compensate a wrong resistance. Keeps them if they are better.
 void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         BestFamily& result) {
   FamilyFit& best = result.best;
@@ -278,8 +278,9 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
   if (aic_lead(own.fit, best.fit) > 0.0) best = std::move(own);
 }
 
-/// Families of an axis that lost to `winner` by less than the fit has improved since, by families of the
-/// other axis and by terms: errors of that size may have decided. They leave `others`.
+/// Removes from `others` and returns the families of an axis that were worse than `winner` by less
+/// than the later improvement of the fit (other axis, terms): these errors can have affected the
+/// selection.
 std::vector<Contender> close_losers(const LogFit& winner, bool of_yaw, const FamilyFit& best,
                                     std::vector<FamilyFit>& others) {
   const double improved = aic_lead(best.fit, winner);
@@ -293,7 +294,7 @@ std::vector<Contender> close_losers(const LogFit& winner, bool of_yaw, const Fam
   return close;
 }
 
-/// Whether other families of yaw, or of surge, are fitted against the first one.
+/// True if other families of yaw, or of surge, are to be fitted.
 bool is_contested(const LogFitOptions& power_law, const FamilyFit& first,
                   const FamilyContest& contest, bool of_yaw) {
   if (!(of_yaw ? contest.yaw : contest.surge)) return false;
@@ -370,14 +371,15 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
                        FamilyFit first, const FamilyContest& contest) {
   const bool surge = is_contested(power_law, first, contest, false);
   const bool yaw = is_contested(power_law, first, contest, true);
-  // A wrong law of one axis leaves errors in the other, whose families are then slow to fit.
+  // A wrong law of one axis causes errors in the other, whose families are then slow to fit.
   const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
                          largest_gain(first.fit, power_law.candidate_terms, false);
   LogFit power_fit = first.fit;
   const auto [first_surge, first_yaw] = std::pair(first.surge, first.yaw);
   BestFamily result;
   result.best = std::move(first);
-  std::optional<std::pair<bool, LogFit>> first_winner;  // of which axis, without terms of its own
+  std::optional<std::pair<bool, LogFit>> first_winner;  // its axis, and the fit without terms of
+                                                        // its own
   const auto contest_axis = [&](bool of_yaw, const std::vector<Contender>& others) {
     const auto before = std::pair(result.best.surge, result.best.yaw);
     LogFit of_first = compete(logs, power_law, others, contest.lead, result);

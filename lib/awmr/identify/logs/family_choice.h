@@ -1,4 +1,4 @@
-/// The families of resistance that a fit of logs may have. Private to identify/.
+/// Selection of the resistance families of a log fit. Private to identify/.
 #pragma once
 
 #include <optional>
@@ -12,37 +12,40 @@ namespace awmr {
 struct FamilyFit {
   Family surge = Family::kPower;
   Family yaw = Family::kPower;
-  LogFitOptions options;  ///< with the terms of the families
+  LogFitOptions options;  ///< with the terms of the families free
   LogFit fit;
 };
 
-/// True once the limit of effort or of time is reached: no further model is tried.
+/// True if the limit of effort or time is reached; no further model is then fitted.
 bool is_over(const LogFitOptions& options);
 
-/// The options with the optimum of `fit` as the only place to search from, with its delays and no
-/// others, and nothing suspected.
+/// The options with the optimum of `fit` as the only start, with its delays and no others, and
+/// without candidate terms.
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
-/// The fit with the families' terms free. `power_law`: the options for a power law in both motions.
+/// Fits with the terms of the families free. `power_law`: the options for a power law in both
+/// motions.
 FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                      Family surge, Family yaw);
 
-/// The fit of families from the optimum of `inner`, if it has one: from its nearest curves, and with
-/// its own numbers and none of each term that it lacks.
+/// Fits families from the optimum of `inner`, if it has one. Starts: the curves nearest to those of
+/// `inner`, and the values of `inner` with 0 for terms that it lacks.
 FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const FamilyFit& inner, Family surge, Family yaw);
 
-/// Returns `first`, or, if `alternative` is better, the result of another search for the families of
-/// `first` from its optimum: a family must not win because another search failed.
+/// Returns `first`. If `alternative` is better, first repeats the search for the families of
+/// `first` from the optimum of `alternative`, so that no family is selected only because another
+/// search failed.
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& alternative);
 
 /// Options of the comparison of families.
 struct FamilyContest {
-  bool surge = true;  ///< every family of surge resistance, otherwise power
-  bool yaw = false;   ///< and of yaw resistance, given the best of surge
-  double lead = 0.0;  ///< by which a family's AIC has to be below the power law's to be taken
-  bool only_suspects = true;  ///< if no term improves the power law, it has no alternatives
+  bool surge = true;  ///< compares all families of surge resistance; false: power law
+  bool yaw = false;   ///< compares all families of yaw resistance, given the best one of surge
+  double lead = 0.0;  ///< a family replaces the power law if its AIC is lower by this
+  bool only_suspects = true;  ///< if no candidate term improves the power law, no other family is
+                              ///< fitted
 };
 
 struct BestFamily {
@@ -50,24 +53,24 @@ struct BestFamily {
   std::vector<FamilyFit> others;
   std::vector<Finding>
       findings;  ///< `power-law-inadequate`, `family-undecided`, `families-not-compared`
-  bool is_out_of_time = false;  ///< the limit was reached before every comparison was made
+  bool is_out_of_time = false;  ///< the limit was reached before all comparisons
 };
 
-/// Their reports, with the AIC of each under the noise of `reference`.
+/// Reports of the fits, each with its AIC under the noise of `reference`.
 std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference);
 
-/// Number of fits of other families that best_family() makes, unless it reaches its limit.
+/// Number of fits of other families by best_family(), unless it reaches its limit.
 std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
                             const FamilyContest& contest);
 
-/// The families in turn, each from the optimum of the best so far, so that a richer one does not end
-/// above what it holds: the best of those that converged, compared as family_score.h says. `first`: the power law's fit, or that
-/// of the families to begin with.
+/// Fits the families in turn and returns the best converged one (family_score.h). Each starts from
+/// the best optimum so far, so that a family is not worse than one that it contains. `first`: the
+/// fit of the power law, or of other families to begin with.
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest);
 
-/// "coulomb-linear", or "power, yaw coulomb-linear" where yaw has one of its own.
+/// "coulomb-linear", or "power, yaw coulomb-linear" if yaw has a different family.
 std::string families_in_words(Family surge, Family yaw);
 
 }  // namespace awmr

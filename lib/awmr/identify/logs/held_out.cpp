@@ -27,8 +27,8 @@ LogProblem problem_of(const std::vector<DrivingLog>& rows, const LogFit& fit,
   return problem;
 }
 
-/// The initial states of all windows at these coordinates: Gauss-Newton steps from what was
-/// measured. The motion is nearly linear in them, but for a servo at its largest rate.
+/// The initial states of all windows at these coordinates, by Gauss-Newton steps from the measured
+/// ones. The motion is nearly linear in them, except for a servo at its rate limit.
 SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> coordinates) {
   constexpr int kSteps = 10;
   const Eigen::Index n = rows_of(coordinates);
@@ -47,7 +47,7 @@ SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> c
   return point;
 }
 
-/// The coordinates that are compared, and the biases, which may differ between the parts of a log.
+/// The compared coordinates, and the biases, which can differ between the parts of a log.
 struct Places {
   std::vector<Eigen::Index> compared;
   std::vector<Eigen::Index> biases;
@@ -64,8 +64,8 @@ Places places_of(const LogProblem& problem, const std::vector<double>& coordinat
   return places;
 }
 
-/// Evidence about the compared coordinates over their large changes. The biases are eliminated:
-/// H_cc - H_cb H_bb^-1 H_bc and S_c - H_cb H_bb^-1 S_b.
+/// Information on the compared coordinates, divided by their large changes, after elimination of
+/// the biases: H_cc - H_cb H_bb^-1 H_bc and S_c - H_cb H_bb^-1 S_b.
 FitEvidence scaled_evidence(const std::vector<WindowSums>& sums, const Eigen::VectorXd& scale,
                             const Places& places) {
   const FitEvidence all = fit_evidence(sums, scale.size());
@@ -78,7 +78,8 @@ FitEvidence scaled_evidence(const std::vector<WindowSums>& sums, const Eigen::Ve
   return {h(c, c) - by_bias * h(b, c), s(c) - by_bias * s(b)};
 }
 
-/// The change of the compared coordinates, over their large changes, in `directions` directions.
+/// The change of the compared coordinates, divided by their large changes, in `directions`
+/// directions.
 struct Change {
   Eigen::VectorXd size;
   Eigen::MatrixXd covariance;
@@ -86,7 +87,7 @@ struct Change {
   Eigen::Index directions = 0;
 };
 
-/// d, cov d and X^2 of held_out.h. `c`: C.
+/// Computes d, cov d and X^2 of held_out.h. `c`: C.
 Change change_of(const FitEvidence& rows, const Eigen::MatrixXd& c, double f) {
   constexpr double kShown = 1.0 / (kUnknown * kUnknown);
   const SymmetricEigen eigen = symmetric_eigen(rows.information);

@@ -16,23 +16,25 @@
 namespace awmr {
 namespace {
 
-/// The standard error of a quantity, over its large change, from which on it is not shown. The sway
-/// resistance acts by its reciprocal, v ~ m' r u / a_s, and a vehicle that hardly slides has 1/a_s near
-/// 0: where chance makes 1/a_s large, its logarithm looks well known, as d(ln a_s) = a_s d(1/a_s), and
-/// only these logs would show a value. 1/a_s has to be 4 standard errors from 0.
+/// Standard error of a quantity, relative to its large change, from which it is not identified. For
+/// the sway resistance the limit is lower: it acts by its reciprocal, v ~ m' r u / a_s, and 1/a_s
+/// of a vehicle that hardly slides is near 0. If noise makes 1/a_s large, ln a_s appears precise,
+/// as d(ln a_s) = a_s d(1/a_s), and the estimates would be selected for large values. So 1/a_s has
+/// to be 4 standard errors from 0.
 double unknown_from(const FreeQuantity& q) {
   constexpr double kUnknownReciprocal = 0.25;
   return q.is(ParameterId::kSwayAlpha) ? kUnknownReciprocal : kUnknown;
 }
 
-/// In words, how little is known of a quantity; `std` is its standard error over its large change, which
-/// would be of use up to `unknown`.
+/// Describes why a quantity is not identified. `std`: its standard error relative to its large
+/// change, which is useful up to `unknown`.
 std::string how_open(double std, double unknown = kUnknown) {
   if (!std::isfinite(std) || std > 1e3) return "no measurement depends on it";
   return fmt::format("its standard error is {:.2g} times the useful limit", std / unknown);
 }
 
-/// Says of every quantity with a part in an open direction (of length 1) why it is open.
+/// Sets the reason for every quantity with a part in a direction (of length 1) that the logs do not
+/// determine.
 void refuse_direction(const Eigen::VectorXd& direction, double std,
                       const std::vector<FreeQuantity>& quantities,
                       std::vector<std::string>& why_not) {
@@ -58,7 +60,7 @@ std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities,
   return at(found - quantities.begin());
 }
 
-/// A delay, a lag and a family's term may be zero, the end of their range.
+/// True for delays, lags and terms of a family, which can be 0, the end of their range.
 bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
   if (q.may_be_zero()) return coordinate >= bounds.hi;
   const bool term = q.kind == FreeQuantity::Kind::kParameter && info(q.id).term;
@@ -76,8 +78,7 @@ Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
   return m / (m - 1.0) * variances;
 }
 
-/// Notes the factor that the scatter of these parts demands, where it is above what chance allows
-/// and above what is noted already.
+/// Raises the factor to that of the scatter of these parts, if it is significant and larger.
 void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
                   Identifiability& found) {
   if (scores.size() < 2) return;
@@ -105,7 +106,7 @@ void widen(const Scores& scores, Identifiability& found) {
   found.covariance = factor.asDiagonal() * found.covariance * factor.asDiagonal();
 }
 
-/// Refuses coordinates that are correlated with a refused coordinate that was stopped.
+/// Refuses coordinates that are correlated with a coordinate at a bound.
 void refuse_what_hangs_on(Eigen::Index stopped, const std::vector<FreeQuantity>& quantities,
                           Identifiability& found) {
   constexpr double kHangs = 0.3;  // of a correlation
@@ -132,7 +133,7 @@ std::string why_stopped(const FreeQuantity& q, double coordinate) {
 
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities) {
-  // The prior of the search: a coordinate is within ten large changes of its initial guess.
+  // The prior of the search: a standard deviation of ten large changes about the initial guess.
   constexpr double kPrior = 1.0 / (kPriorStd * kPriorStd);
   constexpr double kNull = 1e-12;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -1,4 +1,5 @@
-/// Which quantities the logs show, how well, and why not the others. Private to identify/.
+/// Covariance of the quantities of a log fit, and the quantities that the logs do not identify.
+/// Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +12,8 @@
 
 namespace awmr {
 
-/// A coordinate whose standard error is this share of its large change is not shown by the data: a
-/// factor of 2.7 either way at 95 % for a logarithm, 1 for an exponent.
+/// A coordinate whose standard error reaches this share of its large change is not identified: at
+/// 95 % a factor of 2.7 in either direction for a logarithm, +-1 for an exponent.
 inline constexpr double kUnknown = 0.5;
 
 struct Identifiability {
@@ -20,31 +21,32 @@ struct Identifiability {
   /// propagates to all correlated coordinates.
   Eigen::MatrixXd covariance;
   std::vector<double> degrees_of_freedom;  ///< of the standard errors, by quantity
-  std::vector<std::string> why_not;        ///< by quantity; empty where the logs show it
-  int rank = 0;                            ///< directions that the logs show
+  std::vector<std::string> why_not;        ///< by quantity; empty if it is identified
+  int rank = 0;                            ///< number of directions that the logs determine
   double condition_number = 0.0;  ///< of the Jacobian, coordinates over their large changes
-  /// By quantity: the factor on the standard error by which blocks of residuals scatter more than
-  /// their noise model says; 1: they do not.
+  /// By quantity: factor on the standard error, from the scatter of blocks of residuals relative to
+  /// their noise model; >= 1.
   std::vector<double> factor;
 
   double widened() const { return factor.empty() ? 1.0 : std::ranges::max(factor); }
 };
 
-/// The covariance from the information H (n x n) and, as a check of its noise model, the scores s_b
-/// of m parts of the logs. With coordinates over their large changes and a weak prior P,
+/// Computes the covariance from the information H (n x n) and, to allow for errors of the noise
+/// model, from the scores s_b of m parts of the logs. With coordinates divided by their large
+/// changes and a weak prior P,
 ///
 ///     C = (H + P)^-1,   V = m/(m - 1) C (sum s_b s_b^T) C,   covariance = D C D,
 ///     D_ii^2 = max(1, V_ii / C_ii)
 ///
-/// The parts are blocks; and whole logs where there are three or more and these scatter more than
-/// chance would have them at 5 %, as they do where the model errs in every log in another way.
-/// A quantity is refused where its standard error is half its large change or more, or where it has
-/// a tenth or more of the squared length of a direction that the logs leave open.
+/// The parts are blocks. With three or more logs, the parts are also whole logs, if these scatter
+/// significantly more (5 %), as with a model error that differs between logs. A quantity is refused
+/// if its standard error reaches half of its large change, or if it has a tenth or more of the
+/// squared length of a direction that the logs do not determine.
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities);
 
-/// Refuses a coordinate that the search left at an end of its range: it was stopped there, not
-/// found. Coordinates correlated with it are refused too, and an exponent without its factor.
+/// Refuses a coordinate that the search left at an end of its range, which is not an estimate. Also
+/// refuses coordinates correlated with it, and an exponent without its factor.
 Identifiability without_stopped(Identifiability found, const LogProblem& problem,
                                 const std::vector<double>& coordinates);
 

@@ -14,10 +14,11 @@
 namespace awmr {
 namespace {
 
-/// The unit of a speed that nothing was compared with and that would explain I'z/m'; empty for none.
-/// With a speed that reads k times the true one, m' is 1/k of the true one, and I'z/m' k times.
+/// A unit of the speed that would explain I'z/m', if no other channel checks the speed; else empty.
+/// If the speed is k times the true one, m' is 1/k of the true one, and I'z/m' is k times the true
+/// one.
 std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_over_box) {
-  constexpr Interval kUsual{0.3, 2.0};  // I'z/m' of vehicles, over that of their box
+  constexpr Interval kUsual{0.3, 2.0};  // I'z/m' of vehicles relative to that of their box
   const bool is_compared = std::ranges::all_of(
       logs, [](const DrivingLog& log) { return log[LogChannel::kX] || !log[LogChannel::kSpeed]; });
   if (is_compared || inertia_over_box < kInertiaOverBox.hi) return "";
@@ -33,7 +34,7 @@ std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_
   return " (speed_mps may be a rate of rotation of the wheels: multiply it by their radius)";
 }
 
-/// Why I'z as fitted cannot be the vehicle's; empty where it can.
+/// Reason why the fitted I'z is impossible; empty if it is plausible.
 std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                            const Model& model, const LogStage& stage) {
   const auto estimate_of = [&](ParameterId id) -> const Estimate* {
@@ -58,8 +59,8 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
   if (most > kInertiaOverBox.lo && least < kInertiaOverBox.hi) return {};
   const double times = *inertia->value / *mass->value / box;
   return fmt::format(
-      "I'z/m' as fitted is {:.3g} times Iz/m of the vehicle, which no distribution of its mass "
-      "makes: a unit or a sign is wrong{}, or something else turns it",
+      "the fitted I'z/m' is {:.3g} times Iz/m of the vehicle, impossible for any distribution of "
+      "its mass: a unit or a sign is wrong{}, or another moment turns it",
       times, speed_unit_hint(logs, times));
 }
 

@@ -1,4 +1,4 @@
-/// I'z of a fit of logs against m' and the vehicle's size. Private to identify/.
+/// Plausibility of I'z of a log fit, given m' and the vehicle's size. Private to identify/.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace awmr {
 
-/// Refuses an I'z that the vehicle cannot have. Where m' may be the wrong one of the two, as with a speed
-/// in another unit, no interval is left (`inertia-mismatch`).
+/// Refuses an impossible I'z (`inertia-mismatch`). If m' can be the wrong one of the two, as with a
+/// wrong unit of the speed, all intervals are withdrawn.
 void check_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, const Model& model,
                    LogStage& stage);
 

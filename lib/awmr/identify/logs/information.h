@@ -8,8 +8,9 @@
 
 namespace awmr {
 
-/// Evidence of the logs about the n coordinates, each window's initial state eliminated. With the
-/// Jacobian's parts J_t by coordinate and J_s by initial state, and the gradients g = J^T r:
+/// Information of the logs about the n coordinates, after elimination of the initial state of each
+/// window. With the Jacobian's parts J_t by coordinate and J_s by initial state, and the gradients
+/// g = J^T r:
 ///
 ///     H = J_t^T J_t - J_t^T J_s (J_s^T J_s)^-1 J_s^T J_t
 ///     S = g_t       - J_t^T J_s (J_s^T J_s)^-1 g_s
@@ -27,15 +28,15 @@ struct Scores {
   std::vector<Eigen::VectorXd> logs;    ///< whole logs: the sums of their blocks
 };
 
-/// The scores of the blocks that were summed up, and of the logs that they make.
+/// Scores of the blocks, and of whole logs as sums of their blocks.
 Scores scores_of(const std::vector<FitWindow>& windows, const std::vector<WindowSums>& sums,
                  Eigen::Index n);
 
-/// Long enough for the blocks to be nearly independent: five times the longest correlation, within
-/// a window.
+/// Block length for nearly independent blocks: five times the longest correlation, at most a
+/// window.
 double block_length_s(const NoiseLevels& noise);
 
-/// Akaike's criterion, -2 ln L + 2 (n + numbers of the noise), but for a constant of the logs.
+/// AIC: -2 ln L + 2 (n + parameters of the noise), up to a constant of the logs.
 double akaike(const NoiseLevels& noise, Eigen::Index n);
 
 }  // namespace awmr

@@ -9,9 +9,9 @@
 
 namespace awmr {
 
-/// Orders of magnitude from the logs themselves: resistance balances the mean thrust at the mean
-/// speed, inertia makes time constants of a third of a second. Terms that only some families have
-/// are zero.
+/// Orders of magnitude from the logs: resistances that balance the mean thrust at the mean speed,
+/// and inertias for time constants of a third of a second. Terms that only some families have are
+/// 0.
 ParameterValues<double> guess_from_logs(const std::vector<DrivingLog>& logs,
                                         const Vehicle& vehicle);
 

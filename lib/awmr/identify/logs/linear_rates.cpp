@@ -20,7 +20,8 @@ WheelForce wheel_force(double command, double zone) {
   return {0.0, 0.0, 0.0};
 }
 
-/// The rates of u, v and r by the sum of the forces, and of r by their difference, right less left.
+/// Derivatives of the rates of u, v and r by the sum of the forces, and of r by their difference,
+/// right minus left.
 struct ByForces {
   DrivenSlopes sum;
   double difference;
@@ -32,7 +33,7 @@ struct ByForces {
   }
 };
 
-/// Servo: d_r_dot = sat((target - d_r)/T, d_rate_max), flat where a limit holds.
+/// Servo: d_r_dot = sat((target - d_r)/T, d_rate_max); derivatives are 0 at a limit.
 void add_servo(const LinearPlant& plant, const State<double>& s, double command_rad,
                LinearRates& out) {
   const Plant<double>& p = plant.plant;
@@ -81,8 +82,8 @@ void add_product(double share, const Vector3& a, const Vector3& b, std::array<Ve
   }
 }
 
-/// Damping matrix of back-EMF. A wheel rolls at w = J (u, v, r) and pushes with J^T F', and loses
-/// k_e w of its force:
+/// Damping matrix of back-EMF. A wheel rolls at w = J (u, v, r), its force acts as J^T F', and
+/// back-EMF reduces the force by k_e w:
 ///     (X, Y, N) -= k_e D (u, v, r),   D = sum J^T J over the wheels whose motor is on
 ///     J_rear = (1, 0, -+d),   J_front = (cos d_r, sin d_r, l_f sin d_r -+ d cos d_r)
 struct Braking {
@@ -100,7 +101,7 @@ void add_side(const Plant<double>& p, double left_m, double sin_d, double cos_d,
   add_product(1.0, front, turned, braking.by_steering);
 }
 
-/// Takes off the rates what back-EMF brakes, after everything else is in `out`.
+/// Subtracts the deceleration by back-EMF, after all other terms are in `out`.
 void add_back_emf(const LinearPlant& plant, const State<double>& s, bool left_on, bool right_on,
                   double sin_d, double cos_d, LinearRates& out) {
   const Plant<double>& p = plant.plant;

@@ -1,8 +1,8 @@
 /// The rates of the state with their partial derivatives. Private to identify/.
 ///
 /// The equations are those of model/dynamics.h for left and right wheel forces; here they are
-/// differentiated by hand, which costs a tenth of what a number with derivatives costs. A test
-/// holds both together.
+/// differentiated by hand, which takes a tenth of the time of automatic differentiation. A test
+/// compares both.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct ResistanceSlopes {
   double by_quadratic = 0.0;
 };
 
-/// A resistance with what its chord at rest is made of.
+/// A resistance with the precomputed chord through rest.
 class LinearResistance {
  public:
   explicit LinearResistance(const Resistance<double>& law);
@@ -32,8 +32,8 @@ class LinearResistance {
   ///
   ///     g = c + alpha e^(beta L) + q w^2,   dg/dw = (alpha beta e^(beta L))/|w| + 2 q |w|
   ///
-  /// and below the law's rest_speed, at rest too, the chord: all of it at rest_speed, times
-  /// w/rest_speed. Where a chord begins is a matter of the steps and has no derivative.
+  /// and below the law's rest_speed the chord: g and its derivatives at rest_speed, times
+  /// w/rest_speed. rest_speed depends on the step length and has no derivative.
   ResistanceSlopes operator()(double speed) const;
 
  private:
@@ -42,11 +42,11 @@ class LinearResistance {
   ResistanceSlopes at_rest_speed_;
 };
 
-/// A plant with precomputed reciprocals for repeated evaluation of its rates. Coulomb friction is
-/// no part of its rates: add_friction().
+/// A plant with precomputed reciprocals for repeated evaluation of its rates. Its rates exclude
+/// Coulomb friction, which add_friction() adds.
 struct LinearPlant {
-  /// `by_back_emf`: its derivatives are computed even if the motors have none. `longest_step_s`: of
-  /// the Runge-Kutta steps to come; 0: short enough for sway.
+  /// `by_back_emf`: computes the derivatives by k_e even if k_e is 0. `longest_step_s`: of the
+  /// Runge-Kutta steps to come; 0: short enough for sway.
   explicit LinearPlant(const Plant<double>& p, bool by_back_emf = false,
                        double longest_step_s = 0.0)
       : plant(without_friction(p)),
@@ -70,13 +70,14 @@ struct LinearPlant {
   bool has_back_emf;
 };
 
-/// Forces and steering at a moment.
+/// Forces and steering at one time.
 struct HeldCommand {
   SideForces<double> force{};
   double steering_rad = 0.0;
 };
 
-/// Partial derivatives of the rates by the state, those that are not 0: `u_psi` would be d u_dot / d psi.
+/// Partial derivatives of the rates by the state, those that are not 0: `u_psi` would be d u_dot /
+/// d psi.
 /// Also psi_r = 1.
 struct StateSlopes {
   double x_psi, x_u, x_v;
@@ -104,12 +105,13 @@ struct LinearRates {
   double steering_by_command = 0.0;
 };
 
-/// The rates at `s`. What is 0 at all times stays as it is in `out`: it begins as LinearRates{}.
+/// Computes the rates at `s`. `out` must begin as LinearRates{}: entries that are always 0 are not
+/// written.
 void linear_rates(const LinearPlant& p, const State<double>& s, const HeldCommand& command,
                   LinearRates& out);
 
-/// Adds Coulomb friction to rates: it brakes what slides, and where it holds the vehicle no rate and no
-/// derivative is left.
+/// Adds Coulomb friction: it brakes a moving vehicle; if it holds the vehicle at rest, rate and
+/// derivatives are set to 0.
 void add_friction(const LinearPlant& p, const Sliding& way, LinearRates& out);
 
 }  // namespace awmr

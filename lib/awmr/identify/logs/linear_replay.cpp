@@ -12,7 +12,7 @@ struct RateOfParameter {
   double DrivenSlopes::*rate;
 };
 
-/// Which rates a parameter acts on.
+/// The rates on which a parameter acts.
 constexpr RateOfParameter kActs[] = {
     {ParameterId::kSurgeAlpha, &DrivenSlopes::u},
     {ParameterId::kSurgeBeta, &DrivenSlopes::u},
@@ -38,7 +38,7 @@ constexpr RateOfParameter kActs[] = {
 constexpr double DrivenSlopes::*kDriven[kDrivenSize] = {&DrivenSlopes::u, &DrivenSlopes::v,
                                                         &DrivenSlopes::r, &DrivenSlopes::steering};
 
-/// The place of a component of State among those of its derivatives.
+/// Index of a component of State among its derivatives.
 std::size_t place_of(LogChannel channel) {
   switch (channel) {
     case LogChannel::kX:
@@ -83,7 +83,7 @@ std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double
 
 }  // namespace
 
-LateColumns columns_of(const CommandPath& path) {
+CommandColumns columns_of(const CommandPath& path) {
   const auto column = [](const auto& term) {
     return term ? std::optional(term->column) : std::nullopt;
   };
@@ -100,14 +100,14 @@ double* LinearMotion::row(LogChannel channel, std::size_t columns) {
 
 LinearStepper::LinearStepper(const Plant<double>& plant, std::size_t columns,
                              const std::vector<ParameterColumn>& parameters,
-                             const LateColumns& latency, double longest_step_s)
+                             const CommandColumns& command_columns, double longest_step_s)
     : plant_(
           plant,
           std::ranges::any_of(
               parameters, [](const ParameterColumn& p) { return p.id == ParameterId::kBackEmf; }),
           longest_step_s),
       columns_(columns),
-      late_(latency),
+      command_columns_(command_columns),
       driven_(kStages * kDrivenSize * columns, 0.0) {
   if (columns == 0) return;
   for (const ParameterColumn& p : parameters) {
@@ -124,15 +124,15 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
   for (const Term& t : terms_) {
     driven[t.place] = rates_.by_parameter[t.parameter].*t.rate * t.factor;
   }
-  if (late_.delay) note_late(command.by_delay, *late_.delay, driven);
-  if (late_.lag) note_late({command.by_lag, 0.0}, *late_.lag, driven);
-  if (late_.steering_delay)
-    note_late({{}, command.steering_by_delay}, *late_.steering_delay, driven);
-  if (late_.steering_trim) note_late({{}, command.steering_by_trim}, *late_.steering_trim, driven);
-  if (late_.imbalance) note_late({command.by_imbalance, 0.0}, *late_.imbalance, driven);
+  const CommandColumns& c = command_columns_;
+  if (c.delay) set_column(command.by_delay, *c.delay, driven);
+  if (c.lag) set_column({command.by_lag, 0.0}, *c.lag, driven);
+  if (c.steering_delay) set_column({{}, command.steering_by_delay}, *c.steering_delay, driven);
+  if (c.steering_trim) set_column({{}, command.steering_by_trim}, *c.steering_trim, driven);
+  if (c.imbalance) set_column({command.by_imbalance, 0.0}, *c.imbalance, driven);
 }
 
-void LinearStepper::note_late(const HeldCommand& by, std::size_t column, double* driven) const {
+void LinearStepper::set_column(const HeldCommand& by, std::size_t column, double* driven) const {
   for (std::size_t i = 0; i < kDrivenSize; ++i) {
     const auto rate = kDriven[i];
     driven[i * columns_ + column] =
@@ -185,8 +185,9 @@ void LinearStepper::move_to(const State<double>& next, double h, LinearMotion& m
 }
 
 void LinearStepper::stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion) {
-  // A change of the speed S before the stop moves the stop by -S/w_dot before it, and the speed after
-  // it by that time at the difference of the rates: S after = S before (w_dot after)/(w_dot before).
+  // A change S of the speed before the stop shifts the time of the stop by -S/w_dot. The speed
+  // after it changes by that time times the difference of the rates: S after = S before (w_dot
+  // after)/(w_dot before).
   find_rates(command, motion.state);
   const double before = channel_of(rates_.rates, speed);
   channel_of(motion.state, speed) = 0.0;
@@ -234,7 +235,7 @@ State<double> LinearStepper::rates(const DelayedCommand& command, LinearMotion& 
 
 namespace {
 
-/// The forces of motors that are off as soon as their command is 0: none, and no derivatives.
+/// Motors that are off as soon as their command is 0 then have no force and no derivatives.
 void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
   const auto off = [&](double SideForces<double>::*side) {
     if (command.*side != 0.0) return;
@@ -263,9 +264,9 @@ DelayedCommand intended_command(const LogSignals& signals, std::size_t row, doub
                          slope_by_delay(signals.right, t_s, h_s, d)};
   }
   if (path.delay || path.steering_delay) {
-    const double late_s = d + (path.steering_delay ? path.steering_delay->delay_s : 0.0);
-    at.command.steering_rad = delayed_mean(signals.steering, t_s, h_s, late_s);
-    at.by_delay.steering_rad = slope_by_delay(signals.steering, t_s, h_s, late_s);
+    const double latency_s = d + (path.steering_delay ? path.steering_delay->delay_s : 0.0);
+    at.command.steering_rad = delayed_mean(signals.steering, t_s, h_s, latency_s);
+    at.by_delay.steering_rad = slope_by_delay(signals.steering, t_s, h_s, latency_s);
     at.steering_by_delay = at.by_delay.steering_rad;
   }
   if (!path.lag) return at;
@@ -322,7 +323,7 @@ LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
     for (int i = 0; i < steps; ++i) stepper.step(command, span_s / steps, motion);
     rates = stepper.rates(command, motion);
   }
-  // A longer delay looks at an earlier moment.
+  // A longer delay selects an earlier time.
   if (stepper.columns() == 0) return motion;
   for (const LogChannel channel : kChannels) {
     motion.row(channel, stepper.columns())[delay.column] -= channel_of(rates, channel);

@@ -1,4 +1,5 @@
-/// replay() with the derivatives of the motion by the free numbers of a fit. Private to identify/.
+/// replay() with the derivatives of the motion by the free quantities of a fit. Private to
+/// identify/.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 
 namespace awmr {
 
-/// The state at a moment and its derivatives by the columns of a fit, [kStateSize][columns]; none
+/// The state at one time and its derivatives by the columns of a fit, [kStateSize][columns]; empty
 /// if only the state is requested.
 struct LinearMotion {
   State<double> state{};
@@ -42,13 +43,13 @@ struct OffsetColumn {
   std::size_t column;
 };
 
-/// Path of the logged commands to the wheels: direct, delayed, through motor lag, or with a constant
-/// error.
+/// Path of the logged commands to the wheels: direct, delayed, through motor lag, or with a
+/// constant error.
 struct CommandPath {
   std::optional<DelayColumn> delay = {};  ///< of all commands; negative: their time stamps are late
   std::optional<DelayColumn> steering_delay = {};  ///< of the steering, on top of that
   std::optional<LaggedForces> lag = {};
-  std::optional<std::size_t> lag_column = {};      ///< where the lag is free
+  std::optional<std::size_t> lag_column = {};      ///< present if the lag is free
   std::optional<OffsetColumn> steering_trim = {};  ///< rad, added to command or logged angle
   std::optional<OffsetColumn> imbalance = {};  ///< e: left forces times 1 - e, right times 1 + e
   /// A motor is off as soon as its command is 0, whatever its lag: true for motors with back-EMF.
@@ -56,14 +57,14 @@ struct CommandPath {
 };
 
 /// Columns of the free quantities of a command path.
-struct LateColumns {
+struct CommandColumns {
   std::optional<std::size_t> delay = {};
   std::optional<std::size_t> steering_delay = {};
   std::optional<std::size_t> lag = {};
   std::optional<std::size_t> steering_trim = {};
   std::optional<std::size_t> imbalance = {};
 };
-LateColumns columns_of(const CommandPath& path);
+CommandColumns columns_of(const CommandPath& path);
 
 /// The commands as they reach the wheels, and their derivatives with respect to the free quantities
 /// of their path.
@@ -76,25 +77,25 @@ struct DelayedCommand {
   double steering_by_trim = 0.0;  ///< 1 with a trim, of a logged angle too
 };
 
-/// Moves the state and its derivatives on.
+/// Integrates the state and its derivatives.
 class LinearStepper {
  public:
-  /// `columns`: 0 for the state alone. `latency`: columns_of() the command path. `longest_step_s`:
+  /// `columns`: 0 for the state alone. `command_columns`: columns_of() the command path. `longest_step_s`:
   /// as for LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
-                const std::vector<ParameterColumn>& parameters, const LateColumns& latency,
-                double longest_step_s = 0.0);
+                const std::vector<ParameterColumn>& parameters,
+                const CommandColumns& command_columns, double longest_step_s = 0.0);
   /// One classical Runge-Kutta step of h seconds with friction, as rk4_step_with_friction().
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// Makes one step along the rates at the present state, which are returned; h of either sign.
   State<double> step_along_tangent(const DelayedCommand& command, double h_s, LinearMotion& motion);
-  /// The state's rates there.
+  /// The rates of the state.
   State<double> rates(const DelayedCommand& command, LinearMotion& motion);
 
   std::size_t columns() const { return columns_; }
 
  private:
-  /// A derivative of rates_ that counts, and where it goes.
+  /// A nonzero derivative of rates_ and its destination.
   struct Term {
     std::size_t parameter;
     double DrivenSlopes::*rate;
@@ -103,7 +104,7 @@ class LinearStepper {
   };
   void note_driven(const DelayedCommand& command, double* driven) const;
   /// Fills a column by the derivatives of the commands.
-  void note_late(const HeldCommand& by, std::size_t column, double* driven) const;
+  void set_column(const HeldCommand& by, std::size_t column, double* driven) const;
   /// The rates and their derivatives at `s`, friction included.
   void find_rates(const DelayedCommand& command, const State<double>& s);
   /// Sets the direction in which each speed of `motion` moves from here on. A speed held at 0 by
@@ -118,7 +119,7 @@ class LinearStepper {
 
   LinearPlant plant_;
   std::size_t columns_;
-  LateColumns late_;
+  CommandColumns command_columns_;
   std::vector<Term> terms_;
   Sliding way_;
   LinearRates rates_;
@@ -130,8 +131,8 @@ class LinearStepper {
 DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s, double h_s,
                           const CommandPath& path);
 
-/// Runs the model over rows [begin, end) from `motion` and calls visit(row, motion) at every row, as
-/// replay() does.
+/// Runs the model over rows [begin, end) from `motion` and calls visit(row, motion) at every row,
+/// as replay() does.
 template <class Visit>
 void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end,
                    const CommandPath& path, LinearStepper& stepper, double longest_step_s,
@@ -168,9 +169,9 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
   }
 }
 
-/// The motion delay.delay_s >= 0 before the last of `motions`, the motions at the rows from `begin`
-/// on: so many Runge-Kutta steps from the row before. Before the first row the rates there hold.
-/// `errors`: its constant errors apply to the commands, not its delays.
+/// The motion at delay.delay_s >= 0 before the last of `motions`, which are the motions at the rows
+/// from `begin` on. Integrated by Runge-Kutta steps from the preceding row. Before the first row,
+/// its rates are extrapolated. `errors`: its constant errors apply to the commands, not its delays.
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
                             const DelayColumn& delay, double longest_step_s,

@@ -19,9 +19,9 @@
 namespace awmr {
 namespace {
 
-/// The last search ends where a step changes the cost by less than this share. The cost is about
-/// half the number of samples, and a step of d standard errors changes it by d^2/2: with 100 000
-/// samples, the last step is shorter than a hundredth of a standard error.
+/// Relative change of the cost at which the last search ends. The cost is about half the number of
+/// samples, and a step of d standard errors changes it by d^2/2. With 100 000 samples, the last
+/// step is shorter than 0.01 standard errors.
 constexpr double kFine = 1e-9;
 
 /// Maximum number of optima of the rough searches to refine, until the logs can be replayed at the
@@ -43,13 +43,13 @@ std::vector<double> suspect_gains(const LogProblem& problem, const SearchPoint& 
   for (const ParameterId id : candidate_terms) terms.push_back(free_parameter(id));
   std::vector<double> gains;
   for (const ScoreTest& test : score_test(problem, point, terms)) {
-    // A term is not negative: where it would have to be, it brings nothing.
+    // A term is not negative: no gain if the estimate is below 0.
     gains.push_back(test.value > 0.0 ? test.gain : 0.0);
   }
   return gains;
 }
 
-/// Returns the fit at the end of a search, `solved`; `sums` are those there, all finite.
+/// Returns the fit at `solved`, the end of a search, with its `sums`, which are finite.
 LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector<WindowSums>& sums,
               const LogFitOptions& options) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
@@ -73,8 +73,7 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .usable = solved.usable && solved.converged};
 }
 
-/// The fit that a search from these coordinates leads to; none where the logs cannot be replayed at
-/// its end.
+/// The fit by a search from these coordinates; empty if the logs cannot be replayed at its end.
 std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double>& coordinates,
                                const LogFitOptions& options) {
   LogProblem problem = guess;
@@ -100,10 +99,9 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   for (const auto& [channel, noise] : guess.model.noise) readings += noise.count;
   if (readings <= static_cast<int>(guess.unknowns())) {
     return without_solution(
-        fmt::format(
-            "{} readings are too few for {} free numbers, the state at the beginning of each "
-            "10 s among them: log faster or more channels",
-            readings, guess.unknowns()),
+        fmt::format("{} readings are too few for {} free numbers, including the initial state of "
+                    "every 10 s: log at a higher rate or more channels",
+                    readings, guess.unknowns()),
         {});
   }
   Multistart search = multistart(guess, options);

@@ -1,8 +1,8 @@
 /// Output-error fit of the whole model to driving logs. Private to identify/.
 ///
-/// The model is driven by the logged commands and compared with everything that was measured, in
-/// windows that each have their own initial state. The noise of each channel is estimated from its
-/// residuals, and errors that are correlated in time are whitened.
+/// The model is simulated with the logged commands and compared with all measurements, in windows
+/// with separate initial states. The noise of each channel is estimated from its residuals, and
+/// errors that are correlated in time are whitened.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,15 +30,15 @@ struct LogFit {
 };
 
 /// Precondition: an initial guess for every parameter.
-/// Where nothing is measured, nothing is free or no search leads anywhere, the fit is not usable,
-/// has no quantities, and its report says why.
+/// Without measurements or free quantities, or if all searches fail, the fit is not usable and has
+/// no quantities; its report has the reason.
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
-/// The options with the terms of the fit free and no others, from where it found them; as they are
-/// where the fit has no quantities.
+/// The options with exactly the terms of the fit free, starting at its optimum; unchanged if the
+/// fit has no quantities.
 LogFitOptions with_terms_of(const LogFit& fit, LogFitOptions options);
 
-/// All parameters as the fit leaves them: the free ones fitted, the rest as they were held.
+/// All parameters after the fit: fitted or fixed.
 ParameterValues<double> fitted_values(const LogFitOptions& options, const LogFit& fit);
 
 }  // namespace awmr

@@ -16,8 +16,8 @@
 
 namespace awmr {
 
-/// Work of all searches of one identification: numbers integrated, each state and each derivative
-/// at each step. Unlike a time, it does not depend on the machine or its load.
+/// Work of all searches of one identification: number of integrated states and derivatives, summed
+/// over the steps. Unlike a time, it does not depend on the machine or its load.
 class Effort {
  public:
   explicit Effort(std::int64_t limit) : limit_(limit) {}
@@ -33,32 +33,32 @@ class Effort {
 
 struct LogFitOptions {
   Vehicle vehicle;
-  /// By ParameterId: where the search begins, and what a parameter that is not free is held at.
+  /// By ParameterId: initial guess of a free parameter, value of a fixed one.
   ParameterValues<double> initial_guess{};
-  /// Free parameters whose initial guess is an order of magnitude: the multistart draws these anew.
-  /// Empty where other trials gave every initial guess, and one search is enough.
+  /// Free parameters whose initial guess is only an order of magnitude; the multistart varies them.
+  /// Empty if other trials gave every initial guess, so that one search suffices.
   std::vector<ParameterId> guessed;
   std::vector<ParameterId> free;
-  /// Terms held at 0 whose worth the fit estimates without freeing them.
+  /// Terms fixed at 0, for which the fit computes a score test.
   std::vector<ParameterId> candidate_terms;
-  /// Delays, lags and errors that are free. No lag of the motors where the vehicle file gives it: it is
-  /// held there then.
+  /// Free delays, lags and command errors. Excludes a motor lag from the vehicle file, which is
+  /// fixed.
   std::vector<FreeTerm> terms;
   std::vector<LogChannel> biases;  ///< channels whose constant offset is free
-  bool finds_delays = true;        ///< the fit adds the terms that its residuals show
-  /// Time of the rows that are fitted, s; the commands before them act on them all the same,
-  /// through latency and lags. Absent: all rows.
+  bool finds_delays = true;        ///< the fit adds significant terms (delays.h)
+  /// Time of the fitted rows, s. Commands before it act on them through latency and lags. Absent:
+  /// all rows.
   std::optional<Interval> only_s;
-  /// Further initial guesses: the optimum of a family inside this one.
+  /// Further initial guesses, such as the optimum of a family that this one contains.
   std::vector<ParameterValues<double>> also_from;
-  Loss loss = Loss::kSquared;  ///< a robust one where a sensor has outliers
+  Loss loss = Loss::kSquared;  ///< robust if a sensor has outliers
   std::uint64_t seed = 1;      ///< of the multistart and of the bootstrap
   int multistart = 6;          ///< random initial guesses in addition to the given one
   int bootstrap = 0;           ///< resamples of the block bootstrap; 0: none
   int threads = 0;             ///< 0: every core; the result does not depend on it
-  /// Counts the work of the searches; once it is over, no further model is tried. Absent: no limit.
+  /// Counts the work of the searches. At its limit no further model is fitted. Absent: no limit.
   std::shared_ptr<Effort> effort;
-  /// When every search stops where it is.
+  /// Time at which all searches stop.
   std::optional<std::chrono::steady_clock::time_point> deadline;
 };
 

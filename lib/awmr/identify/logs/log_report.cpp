@@ -32,7 +32,7 @@ std::string in_words(const NoiseLevels& levels) {
   return text;
 }
 
-/// The i-th quantity with its interval: the bootstrap's where there is one, else normal in the
+/// The i-th quantity with its interval: that of the bootstrap if available, else normal in the
 /// coordinate.
 EstimatorParameter parameter_of(const LogReportInput& input, std::size_t i) {
   const FreeQuantity& q = input.problem.model.quantities[i];

@@ -45,8 +45,8 @@ bool any_has(const std::vector<DrivingLog>& logs, std::initializer_list<LogChann
   });
 }
 
-/// Why no channel or command of the logs could show a parameter, before any search; empty: one
-/// might. What is merely coupled to a channel, as yaw is to speed, is not shown by it.
+/// Reason why no channel or command of the logs can identify a parameter, checked before any
+/// search; empty if one can. Coupling, as of yaw and speed, does not count.
 std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
   switch (id) {
     case ParameterId::kSteeringTimeConstant: {
@@ -90,8 +90,8 @@ bool turns(const std::vector<DrivingLog>& logs) {
   });
 }
 
-/// Channels with an offset: the requested ones, a yaw rate whose bias the heading shows, and a
-/// heading that the course over ground shows to be turned.
+/// Channels with a free offset: the requested ones; a yaw rate, if the heading determines its bias;
+/// a heading, if the course over ground determines its offset.
 std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
                                         std::vector<LogChannel> requested) {
   const auto add = [&](LogChannel channel, bool is_biased) {
@@ -105,8 +105,8 @@ std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
   return requested;
 }
 
-/// Numbers integrated by all searches: about half a minute on a processor of 2023, and more for long
-/// logs. A log that the model describes takes a tenth.
+/// Limit of the integrated numbers in all searches: about half a minute on a processor of 2023, and
+/// more for long logs. A log that the model describes needs a tenth.
 std::int64_t effort_limit(const std::vector<DrivingLog>& logs) {
   constexpr double kLeast = 6e8;
   constexpr double kPerSecond = 1e6;  // of log
@@ -138,8 +138,8 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
   return fit;
 }
 
-/// Frees the parameters that are requested or have no value; these have to be guessed. Reasons: of
-/// those that the logs cannot show.
+/// Frees the parameters that are requested or have no value, and guesses the latter. Stores the
+/// reasons for those that the logs cannot identify.
 void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
                      const std::vector<ParameterId>& requested, const Model& model,
                      std::map<ParameterId, std::string>& reasons) {
@@ -152,7 +152,7 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
     if (!can_be_requested(parameter) || !wanted) continue;
     const std::string why = cannot_show(logs, parameter.id);
     if (!why.empty()) reasons[parameter.id] = why;
-    // In a turn, parameters that are not identified affect those that are: they stay free, and are
+    // In a turn, parameters that are not identified affect the others: they remain free, and are
     // refused.
     if (!why.empty() && (!turning || back_emf)) continue;
     fit.free.push_back(parameter.id);
@@ -181,11 +181,11 @@ void report(const IdentifyOptions& options, std::string_view what) {
 /// Returns the requested families, or the best ones.
 struct Chosen {
   BestFamily found;
-  bool may_have_back_emf = false;  ///< by the fit of the first family
+  bool may_have_back_emf = false;  ///< according to the fit of the first family
 };
 
-/// Reports why the work to come may take more than ten seconds of one processor. `numbers`: that it
-/// integrates, about.
+/// Reports the reason if the next step can take more than 10 s of one processor. `numbers`:
+/// approximate number of integrated values.
 void announce(const IdentifyOptions& options, double numbers, const std::string& what) {
   constexpr double kNumbersPerSecond = 2e7;  // a processor of 2023
   constexpr double kLong_s = 10.0;
@@ -196,8 +196,8 @@ void announce(const IdentifyOptions& options, double numbers, const std::string&
       about_s, option_text("from S")));
 }
 
-/// Work of the first fit: an evaluation integrates each row in a step or more, the state and a
-/// derivative by each free number and initial component.
+/// Work of the first fit: each evaluation integrates, in at least one step per row, the state and
+/// its derivatives by each free quantity and initial component.
 double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
   constexpr double kEvaluations = 40.0;
   constexpr double kStepsOfRow = 2.0;
@@ -208,7 +208,7 @@ double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOpt
   return kEvaluations * kStepsOfRow * rows * (1.0 + derivatives);
 }
 
-/// The fit of the requested families, a power law where none is.
+/// Fits the requested families; default: power law.
 FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            const IdentifyOptions& options) {
   report(options, "fitting the logs");
@@ -217,7 +217,7 @@ FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOpti
                     options.yaw_family.family.value_or(Family::kPower));
 }
 
-/// `first`: of fit_first_family().
+/// `first`: the result of fit_first_family().
 Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const IdentifyOptions& options, FamilyFit first) {
   const FamilyChoice& surge = options.surge_family;
@@ -254,8 +254,9 @@ std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs) {
   return logs;
 }
 
-/// Whether the steering command of every log is the measured angle: `first` has a servo without lag,
-/// and the vehicle follows the column itself, interpolated between the rows, significantly better.
+/// True if the steering command of every log is the measured angle: `first` has a servo without
+/// lag, and the fit with the column as the angle, interpolated between the rows, is significantly
+/// better.
 bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                           const FamilyFit& first, const IdentifyOptions& options) {
   constexpr double kOfRow = 0.5;
@@ -282,7 +283,7 @@ Finding measured_steering_finding(const std::string& file) {
   return {file, 0, Severity::kWarning, "steering-measured",
           fmt::format("the vehicle turns with steering_cmd_deg without the lag of a servo: the "
                       "column is the measured angle and is used as such. Map it by {}, or log the "
-                      "command, which shows the servo's lag",
+                      "command, from which the servo's lag is identified",
                       option_text(R"(column 'steering_deg="steering_cmd_deg"')"))};
 }
 
@@ -318,7 +319,7 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
   return braked;
 }
 
-/// Fits the requested or the best families, with back-EMF if the logs show it. Also fits the
+/// Fits the requested or the best families, with back-EMF if it is significant. Also fits the
 /// alternatives for the report.
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                        const IdentifyOptions& options, FamilyFit first, LogStage& stage) {
@@ -336,7 +337,7 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   append(stage.findings, autocorrelation_findings(chosen.fit, logs.front().file));
   report(options, "checking the fit");
   const bool try_families = surge.requested && surge.family == Family::kPower;
-  const Adequacy adequacy = judge_adequacy(logs, power_law, chosen, try_families);
+  const Adequacy adequacy = check_adequacy(logs, power_law, chosen, try_families);
   append(stage.reports, adequacy.alternatives);
   append(stage.findings, adequacy.findings);
   stage.withdraws_intervals = adequacy.withdraws_intervals || found.is_out_of_time;
@@ -352,7 +353,7 @@ void refuse_all(const FamilyFit& chosen, const std::string& file, LogStage& stag
   }
 }
 
-/// `logs-disagree` for everything that is not the same in every log.
+/// `logs-disagree` for every quantity that differs between logs.
 std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements) {
   std::vector<Finding> findings;
   for (const LogDisagreement& one : disagreements) {
@@ -365,11 +366,12 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements)
          fmt::format("the logs disagree on {}: {} (p = {:.2g} for one vehicle, surface and "
                      "battery); {}",
                      one.name, each, one.p_value,
-                     one.withdraws ? "the fit takes one value for all of them. The intervals are "
-                                     "withdrawn; identify each log by itself"
-                     : one.refuses ? "widened for it, the interval would say nothing: it is refused"
-                                   : "its interval is widened and covers the mean over such logs, "
-                                     "not an individual log")});
+                     one.withdraws ? "the fit uses one value for all of them, so the intervals are "
+                                     "withdrawn; identify each log separately"
+                     : one.refuses
+                         ? "an interval that covers them would be too wide, so it is refused"
+                         : "its interval is widened and covers the mean over such logs, "
+                           "not an individual log")});
   }
   return findings;
 }
@@ -386,7 +388,7 @@ Finding in_words(const HeldOut& missed, const std::string& file) {
                   option_text("from S"), option_text("until S"))};
 }
 
-/// Fills the parameters that the fit shows and that no other trial gave, unless overruled.
+/// Sets the parameters that the fit identifies; those from other trials only if `overrule`.
 void take(const LogFit& fit, const Model& model, bool overrule, const std::string& file,
           LogStage& stage) {
   stage.block = fit.covariance;
@@ -415,9 +417,9 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
   }
 }
 
-/// `speed-controlled`, a warning: resistance that is linear in surge and yaw, and in yaw by d^2 of
-/// that in surge, is what every wheel by itself makes of its command: the drag of its motor, or a
-/// speed loop whose set-point was logged instead of the force.
+/// `speed-controlled`, a warning: both resistances are linear, and that of yaw is d^2 times that of
+/// surge. Then each wheel rolls at a speed proportional to its command, due to the drag of its
+/// motor or a speed loop whose set-point was logged in place of the force.
 ///
 ///     tau_speed = a1 u,   tau_turn = a3 r = d^2 a1 r
 std::vector<Finding> speed_findings(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,

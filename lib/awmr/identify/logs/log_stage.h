@@ -1,5 +1,5 @@
-/// Fit of driving logs into a model: the parameters that they fill, and the comparison with those
-/// of other trials. Private to identify/.
+/// Identification of model parameters from driving logs, and their comparison with those of other
+/// trials. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 namespace awmr {
 
 struct LogStage {
-  /// A parameter that the logs fill.
+  /// A parameter that the logs set.
   struct Main {
     ParameterId id;
     Estimate estimate;
@@ -25,21 +25,21 @@ struct LogStage {
   Family yaw_family = Family::kPower;
   Eigen::MatrixXd block;                       ///< covariance of the fit's coordinates
   std::map<ParameterId, std::string> reasons;  ///< free in the fit, but not identifiable
-  /// k_e was free in the fit and is not identifiable: no value would go with the others.
+  /// k_e was free in the fit and is not identifiable: a model without k_e would be inconsistent.
   bool is_back_emf_open = false;
-  std::vector<EstimatorReport> reports;  ///< of every family that was tried
-  std::size_t chosen_report = 0;         ///< in `reports`: of the fit that fills `main`
+  std::vector<EstimatorReport> reports;  ///< of all fitted families
+  std::size_t chosen_report = 0;         ///< in `reports`: index of the fit that sets `main`
   std::vector<Finding> findings;
-  bool withdraws_intervals = false;  ///< the values are shown without standard errors and intervals
+  bool withdraws_intervals = false;  ///< the values have no standard errors and intervals
 };
 
-/// Fits the logs from the model's values so far. All of `requested` are free; others are held at their
-/// value, or free as well where they have none. `overrule`: the logs also fill what other trials
-/// did.
-/// Findings: `estimates-disagree` (logs against tables, p < 0.01), `coloured-residuals`,
-/// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `back-emf`, `sensor-delay`, `logs-disagree`, `not-identifiable`, `not-converged`, `held-out-misses`, `inertia-mismatch`, `held-out-log`
-/// (each log predicted by the others), `families-not-compared` (the time limit ended).
-/// Errors (input): a given time constant is too fast for a log.
+/// Fits the logs, starting from the model's values. All of `requested` are free; the others are
+/// fixed at their value, or free without one. `overrule`: the logs also replace values of other
+/// trials. Findings: `estimates-disagree` (logs against tables, p < 0.01), `coloured-residuals`,
+/// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `back-emf`, `sensor-delay`,
+/// `logs-disagree`, `not-identifiable`, `not-converged`, `held-out-misses`, `inertia-mismatch`,
+/// `held-out-log` (each log predicted by the others), `families-not-compared` (the time limit
+/// ended). Errors (input): a given time constant is too small for a log.
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                                const IdentifyOptions& options,
                                const std::vector<ParameterId>& requested, const Model& model,

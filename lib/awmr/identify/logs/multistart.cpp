@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// `count` of them or all, spread evenly.
+/// `count` of them, evenly spaced, or all.
 std::vector<FitWindow> spread(const std::vector<FitWindow>& windows, std::size_t count) {
   std::vector<FitWindow> some;
   count = std::min(count, windows.size());
@@ -24,7 +24,7 @@ LogProblem rough_problem(const LogProblem& problem) {
   constexpr double kPart_s = 2.5;
   LogProblem rough = problem;
   rough.model.longest_step_s = kRoughStep * problem.model.longest_step_s;
-  rough.threads = 1;  // the searches run side by side
+  rough.threads = 1;  // the searches run in parallel
   rough.ends_at_limit = false;
   std::vector<FitWindow> parts;
   for (const FitWindow& window : spread(problem.windows, kParts)) {
@@ -35,8 +35,8 @@ LogProblem rough_problem(const LogProblem& problem) {
 }
 
 /// Random start of the search: each guessed quantity is multiplied by a factor in [e^-2, e^2]; an
-/// exponent is drawn from [0.3, 1.3]; the terms of a family stay. Uses one random number per
-/// quantity, even if the quantity is not drawn.
+/// exponent is drawn from [0.3, 1.3]; the terms of a family are unchanged. Uses one random number
+/// per quantity, even if the quantity is not drawn.
 std::vector<double> drawn(const LogProblem& problem, const std::vector<ParameterId>& guessed,
                           Random& random) {
   std::vector<double> coordinates = problem.initial;
@@ -55,7 +55,7 @@ std::vector<double> drawn(const LogProblem& problem, const std::vector<Parameter
   return coordinates;
 }
 
-/// The initial guess, the other places given, then the random ones, as coordinates.
+/// The initial guess, the other given ones, then the random ones, as coordinates.
 std::vector<std::vector<double>> places(const LogProblem& problem, const LogFitOptions& options) {
   std::vector<std::vector<double>> from{problem.initial};
   for (const ParameterValues<double>& values : options.also_from) {

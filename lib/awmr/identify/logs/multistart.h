@@ -1,4 +1,4 @@
-/// The search for a good point to begin the fit from. Private to identify/.
+/// Multistart search for initial guesses. Private to identify/.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@ namespace awmr {
 struct Multistart {
   /// Coordinates at the ends of the searches with a usable solution, smallest cost first.
   std::vector<std::vector<double>> ends;
-  std::vector<SearchStart> starts;  ///< the initial guess, the other places, the random ones
+  std::vector<SearchStart> starts;  ///< the initial guess, the other ones, the random ones
 };
 
-/// Returns the initial guess if other trials gave all of it and no other place is given. Otherwise
-/// makes a rough search from the guess, from each other place and, where some of the guess is an
-/// order of magnitude, from several random ones. The searches use short parts of some of the
-/// windows: over a long part the effect of a wrong guess accumulates, and the search ends where the
-/// motion is nothing like the log.
+/// Returns the initial guess if it is complete from other trials and no other one is given.
+/// Otherwise runs rough searches from the guess, from each other one and, if some of the guess is
+/// only an order of magnitude, from several random ones. The searches use short parts of some of
+/// the windows, because over a long part the effect of a wrong guess accumulates and the search
+/// ends in a wrong optimum.
 Multistart multistart(const LogProblem& problem, const LogFitOptions& options);
 
 }  // namespace awmr

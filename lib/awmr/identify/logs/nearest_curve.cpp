@@ -14,7 +14,8 @@ struct Nearest {
   double squares = std::numeric_limits<double>::infinity();
 };
 
-/// With beta, and a quadratic term or none; the constant is free, or held at `least`.
+/// Fit for a given beta, with or without a quadratic term; the constant is free, or fixed at
+/// `least`.
 Nearest fitted(const Values& speed, const Values& force, double beta, bool quadratic,
                bool free_constant, double least) {
   Eigen::Matrix<double, kSpeeds, Eigen::Dynamic> columns(kSpeeds, 1 + quadratic + free_constant);

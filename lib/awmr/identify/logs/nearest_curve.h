@@ -6,10 +6,10 @@
 
 namespace awmr {
 
-/// The curve of a family nearest to another: least squares over speeds spread evenly up to `fastest`,
-/// in m/s or rad/s, > 0. A constant term that the family has, of Coulomb friction or of a dead zone, is
-/// at least a tenth of the resistance at half of that: from 0 no search finds its way. It stands under
-/// `coulomb` for both.
+/// Returns the curve of a family nearest to another curve, by least squares at equidistant speeds
+/// up to `fastest`, in m/s or rad/s, > 0. A constant term of the family (Coulomb friction or dead
+/// zone) is at least a tenth of the resistance at half of `fastest`, because a search cannot leave
+/// 0. Both are returned as `coulomb`.
 Resistance<double> nearest_curve(const Resistance<double>& curve, const FamilyTerms& terms,
                                  double fastest);
 

@@ -30,8 +30,8 @@ ErrorsByChannel by_channel(const std::vector<FitWindow>& windows,
   return channels;
 }
 
-/// Under a robust loss an error counts up to three standard deviations, by the median: outliers
-/// shall not pass for noise.
+/// Under a robust loss, errors are clipped at three standard deviations (by the median), so that
+/// outliers do not increase the noise.
 void clip(std::vector<ErrorSeries>& channel) {
   std::vector<double> all;
   for (const ErrorSeries& part : channel) {
@@ -74,8 +74,8 @@ NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErro
   return levels;
 }
 
-/// The largest change of a level, over the channel's standard deviation, or of the memory of a drift
-/// that counts, relative.
+/// The largest change of a level, relative to the channel's standard deviation, or of the memory of
+/// a relevant drift, relative to itself.
 double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
   double change = 0.0;
   for (const auto& [channel, noise] : after) {
@@ -90,8 +90,8 @@ double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
   return change;
 }
 
-/// The square root of a loss's weight at a standardised residual r. The constants keep 95 % of the
-/// efficiency where the errors are normal:
+/// Square root of a loss's weight at a standardised residual r. The constants give 95 % efficiency
+/// for normal errors:
 ///
 ///     Huber 1 for |r| <= 1.345, else 1.345/|r|;   Cauchy 1/(1 + (r/2.385)^2);
 ///     Tukey (1 - (r/4.685)^2)^2 for |r| < 4.685, else 0

@@ -1,4 +1,4 @@
-/// The fit and its noise levels, each from the other. Private to identify/.
+/// Alternating estimation of the fit and of its noise levels. Private to identify/.
 #pragma once
 
 #include "awmr/identify/logs/log_problem.h"
@@ -10,12 +10,13 @@ struct NoiseIteration {
   SearchPoint point;
 };
 
-/// The raw errors at a point, clipped under a robust loss: outliers shall not pass for noise.
+/// The raw errors at a point; under a robust loss they are clipped, so that outliers do not
+/// increase the noise.
 ErrorsByChannel errors_by_channel(const LogProblem& problem,
                                   const std::vector<WindowErrors>& errors, Loss loss);
 
-/// Fits, takes the noise of every channel from its residuals, fits again: until no level changes by
-/// more than a hundredth, `rounds` at most. One round ranks models: it integrates with longer steps.
+/// Alternates fits and noise estimates from the residuals, until no level changes by more than 1 %,
+/// at most `rounds` times. A single round, for ranking models, integrates with longer steps.
 inline constexpr int kNoiseRounds = 6;
 NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss,
                             int rounds = kNoiseRounds);

@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kWaiting = 32;  // rows summed up together
+constexpr std::size_t kWaiting = 32;  // buffered rows
 
 }  // namespace
 

@@ -11,32 +11,32 @@ namespace awmr {
 class ProductSums {
  public:
   explicit ProductSums(std::size_t size);
-  /// The length of a row as it is added: `size` and zeros up to a whole number of vectors.
+  /// Padded length of a row: `size` rounded up to whole vectors; the rest is 0.
   std::size_t columns() const { return columns_; }
   void add(const double* row);
   /// J^T r of the rows since the last call.
   Eigen::VectorXd take_gradient();
-  /// M^T M, both halves of it.
+  /// M^T M, both triangles.
   Eigen::MatrixXd products();
 
  private:
   void flush();
   std::size_t size_;
   std::size_t columns_;
-  std::size_t waiting_ = 0;   ///< rows
-  std::vector<double> rows_;  ///< of them, [kWaiting][columns]
+  std::size_t waiting_ = 0;   ///< number of buffered rows
+  std::vector<double> rows_;  ///< buffer, [kWaiting][columns]
   std::vector<double> sums_;  ///< [columns][columns]
-  Eigen::VectorXd gradient_;  ///< J^T r when it was last taken
+  Eigen::VectorXd gradient_;  ///< J^T r at the last call
 };
 
-/// Few rows in place of many: [R z; 0 rest] has the same M^T M, so that for a search it is the same.
+/// Equivalent of the rows for least squares: [R z; 0 rest] has the same M^T M.
 struct Triangle {
   Eigen::MatrixXd r;
   Eigen::VectorXd z;
-  double rest = 0.0;  ///< norm of the residual that no step removes
+  double rest = 0.0;  ///< norm of the residual that no step reduces
 };
-/// By L D L^T with pivots of the products, columns scaled to 1; a pivot below 1e-14 is a direction that
-/// the rows do not show.
+/// By L D L^T with pivots of the products, columns scaled to 1; a pivot below 1e-14 is a direction
+/// that the rows do not determine.
 Triangle triangle_of(const Eigen::MatrixXd& products);
 
 }  // namespace awmr

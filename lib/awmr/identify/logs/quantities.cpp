@@ -32,8 +32,8 @@ Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& 
     return {vehicle.yaw_beta_range.lo, vehicle.yaw_beta_range.hi};
   }
   if (quantity.scale == Scale::kLinear) return {0.0, 1e6};
-  // A servo is not slower than kSlowestServo_s. Servo and yaw (I'z/g3') are two lags in a row: without an
-  // end, a search may exchange them.
+  // The servo's time constant is at most kSlowestServo_s. Servo and yaw (I'z/g3') are two lags in
+  // series, which a search could otherwise exchange.
   const double most = quantity.is(ParameterId::kSteeringTimeConstant)
                           ? to_coordinate(quantity.scale, kSlowestServo_s)
                           : initial + 10.0;
@@ -73,7 +73,7 @@ double FreeQuantity::jacobian(double coordinate) const {
 }
 
 FreeQuantity free_parameter(ParameterId id) {
-  // A term is measured against the force that it is a part of.
+  // The large change of a term is relative to the whole force.
   return {.id = id, .scale = scale_of(id), .large_change = info(id).term ? 0.2 : 1.0};
 }
 

@@ -1,5 +1,4 @@
-/// The free numbers of a fit of logs: parameters, delays, errors of the commands, biases. Private to
-/// identify/.
+/// Free quantities of a log fit: parameters, delays, command errors, biases. Private to identify/.
 #pragma once
 
 #include <string>
@@ -15,11 +14,14 @@ namespace awmr {
 
 struct LogFitOptions;
 
-/// One free number. The search moves its coordinate, which is the value or its logarithm.
+/// One free quantity. The search changes its coordinate, which is the value or its logarithm.
 struct FreeQuantity {
-  /// kDelay: of all commands; kSteeringDelay: of the steering alone, on top of that; kMotorLag: the time
-  /// constant of the motors; kSensorLag: that of a filter which smooths a channel; kSteeringTrim: the
-  /// steering angle at a command of 0; kForceImbalance: half the relative difference of right and left.
+  /// kDelay: of all commands; kSteeringDelay: of the steering alone, on top of that; kMotorLag: the
+  /// time
+  /// constant of the motors; kSensorLag: that of a filter which smooths a channel; kSteeringTrim:
+  /// the
+  /// steering angle at a command of 0; kForceImbalance: half the relative difference of right and
+  /// left.
   /// The order is that of the columns of a fit.
   enum class Kind {
     kParameter,
@@ -37,11 +39,11 @@ struct FreeQuantity {
   LogChannel channel =
       LogChannel::kX;  ///< of kSensorDelay (kX: of the position), kSensorLag, kBias
   Scale scale = Scale::kLinear;
-  /// A change of the coordinate that would be large: a factor e for a logarithm, 1 for an exponent.
+  /// A typical large change of the coordinate: 1 for a logarithm (a factor e) or an exponent.
   double large_change = 1.0;
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
-  /// A time that is not negative.
+  /// True for a time that cannot be negative.
   bool may_be_zero() const {
     return kind == Kind::kSteeringDelay || kind == Kind::kMotorLag || kind == Kind::kSensorDelay ||
            kind == Kind::kSensorLag;
@@ -57,7 +59,8 @@ FreeQuantity free_parameter(ParameterId id);
 /// Latency of all commands, s; negative: their time stamps are late.
 FreeQuantity input_delay();
 
-/// The time by which the steering acts later than the forces, s: a servo's frame, a slower bus.
+/// Additional delay of the steering relative to the forces, s, e.g. a servo's frame or a slower
+/// bus.
 FreeQuantity steering_delay();
 
 /// The time constant of the motors, s.
@@ -75,7 +78,7 @@ FreeQuantity sensor_lag_of(LogChannel channel);
 /// Latency of a channel, s.
 FreeQuantity sensor_delay_of(LogChannel channel);
 
-/// A free delay, lag or error of commands or sensors, with where its search begins.
+/// A free delay, lag or error of commands or sensors, with its initial guess.
 struct FreeTerm {
   FreeQuantity quantity;
   double begin;
@@ -83,14 +86,14 @@ struct FreeTerm {
 
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind);
 
-/// Free quantities of a fit, by kind: the parameters, the terms of the commands, the biases, those of
-/// the sensors.
+/// Free quantities of a fit, by kind: the parameters, the terms of the commands, the biases, those
+/// of the sensors.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);
 
-/// By quantity: the coordinate where the search begins; 0 for a bias.
+/// By quantity: the coordinate of the initial guess; 0 for a bias.
 std::vector<double> initial_coordinates(const LogFitOptions& options);
 
-/// By quantity: where the search may move the coordinate from its initial guess.
+/// By quantity: bounds of the coordinate, given its initial guess.
 std::vector<Interval> coordinate_bounds(const std::vector<FreeQuantity>& quantities,
                                         const std::vector<double>& initial, const Vehicle& vehicle);
 

@@ -16,7 +16,7 @@
 namespace awmr {
 namespace {
 
-/// The numbers of one evaluation, and the columns of those that are free.
+/// The values of one evaluation, and the columns of the free quantities.
 struct Unpacked {
   Plant<double> plant;
   std::vector<ParameterColumn> parameters;
@@ -32,8 +32,8 @@ struct Unpacked {
   }
 };
 
-/// The servo no faster than Runge-Kutta steps of h seconds can follow: a search along what no channel
-/// shows would end where the steps blow up.
+/// Limits the servo's time constant to what Runge-Kutta steps of h seconds resolve; otherwise a
+/// search for an unidentifiable time constant would end where the integration diverges.
 void slow_servo(double h, std::vector<ParameterColumn>& parameters, Plant<double>& plant) {
   if (!(plant.steering_time_constant_s < 0.5 * h)) return;
   plant.steering_time_constant_s = 0.5 * h;
@@ -90,7 +90,7 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
   u.path.switches_off = values[at(ParameterId::kBackEmf)] > 0.0;
   u.plant = resolved_beside_friction(plant_of(model.vehicle, values), model.longest_step_s);
   slow_servo(model.longest_step_s, u.parameters, u.plant);
-  // A logged angle is what it is: no stop, no lag.
+  // A logged angle is used directly, without limit or lag.
   if (!window.rows.log->steering_command_rad) u.plant.steering_max_rad = 10.0;
   u.initial = window.measured;
   for (std::size_t i = 0; i < model.initial.size(); ++i) {
@@ -100,8 +100,8 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
   return u;
 }
 
-/// The initial motion. Derivatives: 1 by a free component of the state itself, and of the steering angle
-/// by its trim.
+/// The initial motion. Derivatives are 1 by the free components of the state, and of the steering
+/// angle by its trim.
 LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t columns) {
   LinearMotion motion{u.initial, std::vector<double>(kStateSize * columns, 0.0)};
   for (std::size_t i = 0; columns > 0 && i < model.initial.size(); ++i) {
@@ -113,7 +113,7 @@ LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t 
   return motion;
 }
 
-/// Simulated sensor filters of a window; none for channels without a filter.
+/// Simulated sensor filters of a window; empty for channels without a filter.
 using SmoothedChannels = std::array<std::optional<SmoothedChannel>, kChannelCount>;
 
 SmoothedChannels smoothed_channels(const FitWindow& window, const Unpacked& u,
@@ -127,18 +127,19 @@ SmoothedChannels smoothed_channels(const FitWindow& window, const Unpacked& u,
   return smoothed;
 }
 
-/// Calls visit(i, error, row) for every sample, in order: model + bias - measured, and its
-/// derivatives by column, a vector for the visitor to use; empty without columns. A sensor with
-/// latency is compared with the state one delay earlier, a filtered one with the filter's output.
+/// Calls visit(i, error, row) for every sample in order, with error = model + bias - measured and
+/// its derivatives by column, which the visitor may overwrite; `row` is empty without columns. A
+/// sensor with latency is compared with the state one delay earlier, a filtered one with the
+/// filter's output.
 template <class Visit>
 void for_each_error(const LogModel& model, const FitWindow& window, const Unpacked& u,
                     std::size_t columns, Visit visit) {
   const DrivingLog& log = *window.rows.log;
   const std::vector<Sample>& samples = window.samples();
   const double h = model.longest_step_s;
-  const LateColumns late_columns = columns_of(u.path);
-  LinearStepper stepper(u.plant, columns, u.parameters, late_columns, h);
-  LinearStepper back(u.plant, columns, u.parameters, late_columns, h);
+  const CommandColumns command_columns = columns_of(u.path);
+  LinearStepper stepper(u.plant, columns, u.parameters, command_columns, h);
+  LinearStepper back(u.plant, columns, u.parameters, command_columns, h);
   const bool any_late = u.any_late();
   std::vector<LinearMotion> motions;  // by row, if a sensor has latency
   std::vector<double> row(columns);
@@ -184,12 +185,12 @@ double pull(const InitialComponent& component, const FitWindow& window, double i
   return (initial - channel_of(window.measured, component.channel)) / component.prior_std;
 }
 
-/// The filter of one channel's rows: of the errors and of each of their derivatives.
+/// Whitening filter of one channel: for the errors and each of their derivatives.
 struct RowWhitener {
   RowWhitener(const ChannelNoise& noise, std::size_t columns)
       : gains(noise), states(noise.drift_std > 0.0 ? columns : 0) {}
 
-  /// The row's innovation over its standard deviation, times `weight`; in place.
+  /// Replaces the row by its innovation over the standard deviation, times `weight`.
   void next(double since_s, double weight, std::vector<double>& row) {
     const WhitenerGains::Step& step = gains.next(since_s);
     const double scale = weight / std::sqrt(step.variance);
@@ -201,7 +202,7 @@ struct RowWhitener {
   std::vector<WhitenerState> states;
 };
 
-/// Ends a block of samples where it is about `block_s` long.
+/// Ends a block of samples after about `block_s`.
 class Blocks {
  public:
   Blocks(const FitWindow& window, double block_s)

@@ -1,9 +1,8 @@
-/// Residuals of one window of a log, and the derivatives that a search needs. Private to
-/// identify/.
+/// Residuals of one window of a log, and their derivatives. Private to identify/.
 ///
-/// The model is driven by the logged commands and compared with everything that was measured. Where
-/// a channel's errors are correlated, they are whitened. The Jacobian, which has a row for every
-/// sample, is summed up as it is made: memory does not grow with it.
+/// The model is simulated with the logged commands and compared with all measurements. Correlated
+/// errors of a channel are whitened. The Jacobian has a row per sample; it is accumulated as J^T J,
+/// so memory does not grow with the samples.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,36 +20,36 @@ struct LogModel {
   std::vector<FreeQuantity> quantities;
   std::vector<InitialComponent> initial;
   NoiseLevels noise;
-  double row_spacing_s = 0.02;   ///< the shortest of the logs'
+  double row_spacing_s = 0.02;   ///< shortest row spacing of the logs
   double longest_step_s = 0.01;  ///< of the integration
 };
 
 /// The errors of a window's n samples.
 struct WindowErrors {
   Eigen::VectorXd raw;           ///< n: model + bias - measured, SI
-  Eigen::VectorXd standardised;  ///< n: whitened, over their standard deviation, and weighed
-  bool finite = false;           ///< false where the model leaves the finite numbers
+  Eigen::VectorXd standardised;  ///< n: whitened, divided by the standard deviation, and weighted
+  bool finite = false;           ///< false if the simulation is not finite
 };
 
-/// The errors of one window. `coordinates` has a number for each free quantity, `initial_state` one
-/// for each free component.
+/// The errors of one window. `coordinates`: by free quantity. `initial_state`: by free component.
 WindowErrors errors_of(const LogModel& model, const FitWindow& window, const double* coordinates,
                        const double* initial_state);
 
-/// A window's residuals r, the standardised errors and then the pulls of its initial state to what
-/// was measured, and their Jacobian J, summed over all rows. Columns: the q quantities, then the k
+/// Sums over the rows of a window. The residuals r are the standardised errors and the prior of the
+/// initial state at its measurement; J is their Jacobian. Columns: the q quantities, then the k
 /// components of the initial state.
 struct WindowSums {
   Eigen::MatrixXd products;  ///< (q + k + 1) square: [J r]^T [J r]
-  /// q + k each: J^T r of the samples of each block, without the pulls; none unless requested.
+  /// Vectors of length q + k: J^T r of the samples of each block, without the prior; empty unless
+  /// requested.
   std::vector<Eigen::VectorXd> block_gradients;
-  bool finite = false;  ///< false where the model or its derivatives leave the finite numbers
+  bool finite = false;  ///< false if the simulation or its derivatives are not finite
 
   /// Half the sum of squares.
   double cost() const { return 0.5 * products(products.rows() - 1, products.rows() - 1); }
 };
 
-/// The sums of one window, with blocks of about `block_s` where that is above 0.
+/// The sums of one window. With `block_s` > 0, also those of blocks of about this length.
 WindowSums sums_of(const LogModel& model, const FitWindow& window, const double* coordinates,
                    const double* initial_state, double block_s = 0.0);
 

@@ -8,14 +8,16 @@
 namespace awmr {
 
 struct ScoreTest {
-  double value = 0.0;      ///< where one step of Gauss-Newton from 0 would put it
-  double std_error = 0.0;  ///< of the value, by the noise model or the blocks' scatter: the larger
+  double value = 0.0;      ///< estimate by one Gauss-Newton step from 0
+  double std_error = 0.0;  ///< of the value: the larger of that by the noise model and that by the
+                           ///< blocks' scatter
   double noise_error = 0.0;  ///< of the value, by the noise model alone
-  double gain = 0.0;         ///< of -2 ln L: (value / std_error)^2
+  double gain = 0.0;         ///< decrease of -2 ln L: (value / std_error)^2
 };
 
-/// Rao's score test of each candidate at 0, all others of the problem free and the other candidates
-/// held at 0. With the information H and the scores g of the coordinates t and a candidate c,
+/// Rao's score test of each candidate at 0, with all quantities of the problem free and the other
+/// candidates fixed at 0. With the information H and the scores g of the coordinates t and a
+/// candidate c,
 ///
 ///     value = -(g_c - H_ct H_tt^-1 g_t) / (H_cc - H_ct H_tt^-1 H_tc)
 ///
@@ -25,11 +27,11 @@ struct ScoreTest {
 std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& point,
                                   const std::vector<FreeQuantity>& candidates);
 
-/// The problem with every channel's noise white, of the same standard deviation: for a search that is
-/// to explain what passed for a drift.
+/// The problem with white noise of the same standard deviation in every channel, so that the model
+/// has to explain the drift.
 LogProblem with_white_noise(LogProblem problem);
 
-/// The problem with further free quantities, where they begin, and the point with them there.
+/// The problem and the point with further free quantities at their initial values.
 struct Extended {
   LogProblem problem;
   SearchPoint point;

@@ -3,14 +3,14 @@
 namespace awmr {
 namespace {
 
-// Within a function for an instruction set, everything is compiled for that set only if it is inlined.
+// Code in a function for an instruction set is compiled for that set only if it is inlined.
 #if defined(__GNUC__)
 #define AWMR_INLINE inline __attribute__((always_inline))
 #else
 #define AWMR_INLINE inline
 #endif
 
-// No column reads what another writes, which the compiler cannot see.
+// The columns are independent, which the compiler cannot prove.
 #if defined(__GNUC__) && !defined(__clang__)
 #define AWMR_INDEPENDENT_COLUMNS _Pragma("GCC ivdep")
 #else

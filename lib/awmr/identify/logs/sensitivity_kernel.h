@@ -1,5 +1,4 @@
-/// The two inner loops of a fit of logs, over columns that do not depend on each other. Private to
-/// identify/.
+/// The two inner loops of a log fit, over independent columns. Private to identify/.
 ///
 /// Compiled for several instruction sets; the best one of the processor is selected at run time.
 /// None uses fused multiply-add, and every column is summed in the same order, so all give the same
@@ -15,7 +14,7 @@ namespace awmr {
 
 /// Components of State, in its order.
 inline constexpr std::size_t kStateSize = 7;
-/// Rates with derivatives by a parameter: of u, v, r and the steering angle.
+/// Number of rates that depend on parameters: of u, v, r and the steering angle.
 inline constexpr std::size_t kDrivenSize = 4;
 /// Stages of the Runge-Kutta method.
 inline constexpr std::size_t kStages = 4;
@@ -24,12 +23,12 @@ inline constexpr std::size_t kStages = 4;
 ///
 ///     S_dot = A S + B
 ///
-/// `stages`: A at each stage. `driven`: B at each stage, [kStages][kDrivenSize][columns], of the rates
-/// of u, v, r and the steering angle. `s`: [kStateSize][columns], in and out.
+/// `stages`: A at each stage. `driven`: B at each stage, [kStages][kDrivenSize][columns], of the
+/// rates of u, v, r and the steering angle. `s`: [kStateSize][columns], in and out.
 void step_sensitivities(const std::array<StateSlopes, kStages>& stages, const double* driven,
                         double h_s, std::size_t columns, double* s);
 
-/// Rows to sum up come in whole vectors of so many columns.
+/// The number of columns of a row is a multiple of this.
 inline constexpr std::size_t kRowVector = 4;
 
 /// sums += rows^T rows, on and above the diagonal. `rows`: [count][columns]; `sums`:

@@ -1,4 +1,4 @@
-/// A channel that a filter smooths before it is logged. Private to identify/.
+/// Simulation of a sensor's low-pass filter. Private to identify/.
 #pragma once
 
 #include <cstddef>
@@ -8,19 +8,19 @@
 
 namespace awmr {
 
-/// A channel as a first-order filter of the time constant T shows the motion, with its derivatives by
-/// column: T dy/dt = u - y. With u linear from row to row and e = exp(-h/T), q = (T/h)(1 - e),
+/// Output y of a first-order filter with the time constant T, and its derivatives by column: T
+/// dy/dt = u - y. With u linear between rows and e = exp(-h/T), q = (T/h)(1 - e),
 ///
 ///     y(t + h) = u(t + h) - q (u(t + h) - u(t)) + e (y(t) - u(t))
 ///
-/// It begins at the first reading of the window, whose noise is forgotten with the time constant.
+/// It starts at the first reading of the window, whose noise decays with the time constant.
 class SmoothedChannel {
  public:
-  /// `first`: the first reading. `columns`: 0 for the values alone.
+  /// `first`: the first reading. `columns`: 0 for values without derivatives.
   SmoothedChannel(LogChannel channel, const DelayColumn& lag, double first, std::size_t columns)
       : channel_(channel), lag_(lag), y_(first), by_column_(columns, 0.0) {}
 
-  /// To the motion `now`, h seconds after the one before.
+  /// Advances to the motion `now`, h seconds after the previous one.
   void next(const LinearMotion& now, double h_s, std::size_t columns);
   double value() const { return y_; }
   const std::vector<double>& by_column() const { return by_column_; }

@@ -56,8 +56,8 @@ struct DriftStep {
 ///     x = F x,   P = F P F^T + sigma_d^2 (I - F F^T)
 ///     nu = e - x_0,   S = P_00 + sigma_w^2,   x += (P_.0/S) nu,   P -= P_.0 P_.0^T/S
 ///
-/// so that the nu/sqrt(S) are white where e is as ChannelNoise says. F, S and the gains P_.0/S depend
-/// on the times alone: this is what they are.
+/// so that the nu/sqrt(S) are white if e follows ChannelNoise. This class computes F, S and the
+/// gains P_.0/S, which depend only on the times.
 class WhitenerGains {
  public:
   /// `noise` must outlive it.
@@ -65,13 +65,13 @@ class WhitenerGains {
       : noise_(noise), p00_(noise.drift_std * noise.drift_std), p11_(p00_) {}
 
   struct Step {
-    bool predicts = false;  ///< x = F x comes first
+    bool predicts = false;  ///< apply x = F x first
     double gain0 = 0.0;
     double gain1 = 0.0;
     double variance = 0.0;  ///< S
   };
-  /// For the next error, `since_s` after the one before it; 0 for the first. Errors at even times soon
-  /// have the gains of the one before them, up to rounding: these are kept then.
+  /// Advances to the next error, `since_s` after the previous one; 0 for the first. At a constant
+  /// interval the gains converge and are then reused.
   const Step& next(double since_s) {
     if (settled_ && same_step(since_s)) return last_;
     const double white = noise_.white_std * noise_.white_std;
@@ -135,7 +135,7 @@ class WhitenerGains {
   bool settled_ = false;
 };
 
-/// The filter's state of one number: of an error, or of one of its derivatives.
+/// Filter state of one number: an error, or one of its derivatives.
 struct WhitenerState {
   double x0 = 0.0;
   double x1 = 0.0;
@@ -156,7 +156,7 @@ struct WhitenerState {
   }
 };
 
-/// The errors of one channel, one after the other.
+/// Whitens the errors of one channel in sequence.
 class Whitener {
  public:
   /// `noise` must outlive it.
@@ -166,7 +166,7 @@ class Whitener {
     double value;     ///< nu
     double variance;  ///< S
   };
-  /// The next error, `since_s` after the one before it; 0 for the first.
+  /// Processes the next error, `since_s` after the previous one; 0 for the first.
   Innovation next(double error, double since_s) {
     const WhitenerGains::Step& step = gains_.next(since_s);
     if (!gains_.has_drift()) return {error, step.variance};

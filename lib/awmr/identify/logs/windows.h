@@ -1,6 +1,6 @@
-/// The logs cut into windows, each with its samples and its own initial state (multiple shooting;
-/// the windows are not tied to each other, so that a disturbance spoils one window and not the
-/// rest). Private to identify/.
+/// Division of the logs into windows, each with its samples and its own initial state (multiple
+/// shooting without continuity constraints, so that a disturbance affects one window only). Private
+/// to identify/.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@
 
 namespace awmr {
 
-/// The length of a window.
+/// Length of a window.
 inline constexpr double kWindow_s = 10.0;
 
-/// Position of one measured value. Long logs have millions.
+/// Position of one measured value. Kept small, because long logs have millions.
 struct Sample {
   std::uint32_t row;
   LogChannel channel;
@@ -28,30 +28,32 @@ struct FitWindow {
   std::shared_ptr<const LogSignals> signals;               ///< the log's commands
   std::shared_ptr<const std::vector<Sample>> all_samples;  ///< in order of rows, never empty
   State<double> measured{};     ///< the initial state, as far as it was measured
-  std::vector<double> weights;  ///< by sample, square roots of a robust loss's; empty: all are 1
+  std::vector<double> weights;  ///< by sample: square roots of the weights of a robust loss; empty:
+                                ///< all 1
 
   const std::vector<Sample>& samples() const { return *all_samples; }
   double weight(std::size_t sample) const { return weights.empty() ? 1.0 : weights[sample]; }
 };
 
-/// The windows of all logs, which must outlive them, within `only_s` if that is given; those
-/// without a sample are left out.
+/// The windows of all logs, within `only_s` if given, without those that have no sample. The logs
+/// must outlive them.
 std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
                                    const std::optional<Interval>& only_s = {});
 
-/// The window in equal parts of at most `longest_s`, each with an initial state of its own.
+/// Divides the window into equal parts of at most `longest_s`, each with its own initial state.
 std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s);
 
-/// A component of the initial state that is free in every window, by the channel that reads it.
+/// A component of the initial state that is free in every window, with the channel that measures
+/// it.
 struct InitialComponent {
   LogChannel channel;
-  double prior_std;  ///< of a weak pull to the measured or assumed initial state, SI
+  double prior_std;  ///< of the weak prior at the measured or assumed initial state, SI
 };
 
-/// The components of the initial state that anything measured depends on.
+/// The components of the initial state that affect any measurement.
 std::vector<InitialComponent> initial_components(const std::vector<DrivingLog>& logs);
 
-/// By window, then by component: the initial states as measured.
+/// By window, then by component: the measured initial states.
 std::vector<double> measured_initial_states(const std::vector<FitWindow>& windows,
                                             const std::vector<InitialComponent>& components);
 

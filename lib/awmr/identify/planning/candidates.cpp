@@ -17,10 +17,10 @@ namespace {
 
 /// Logs and coast-downs are recorded at this rate.
 constexpr double kRate_hz = 100.0;
-/// A rate (m/s, rad/s) that represents rest, so that its logarithm exists.
+/// Smallest rate (m/s, rad/s), so that its logarithm exists at rest.
 constexpr double kAtRest = 1e-6;
 
-/// The scatter of the model's own rows of this kind, over their rate; 5 % where there are none.
+/// Relative scatter of the model's own rows of this kind; 5 % without rows.
 double relative_scatter(const Model& model, TrialKind kind) {
   double squares = 0.0;
   int count = 0;
@@ -34,7 +34,8 @@ double relative_scatter(const Model& model, TrialKind kind) {
   return count > 2 && squares > 0.0 ? std::sqrt(squares / (count - 2)) : kOtherwise;
 }
 
-/// Steady speed u under tau_speed: ln u, whose error is the relative scatter over sqrt(runs).
+/// Measures ln u of the steady speed u under tau_speed. Its error is the relative scatter over
+/// sqrt(runs).
 CandidateTrial surge_candidate(double tau, double wheel_force, double scatter, double runs) {
   return {
       .trial = {.kind = TrialKind::kSurge,
@@ -49,7 +50,7 @@ CandidateTrial surge_candidate(double tau, double wheel_force, double scatter, d
       }};
 }
 
-/// Steady yaw rate r under tau_turn = 2 l_f F' sin d_r: ln r, as for surge.
+/// Measures ln r of the steady yaw rate r under tau_turn = 2 l_f F' sin d_r, as for surge.
 CandidateTrial turning_candidate(double steering_rad, double wheel_force, double scatter,
                                  double runs) {
   return {.trial = {.kind = TrialKind::kTurning,
@@ -66,7 +67,7 @@ CandidateTrial turning_candidate(double steering_rad, double wheel_force, double
           }};
 }
 
-/// The same of a vehicle without steering, under tau_turn = 2 d (F'R - F'L).
+/// The same for a vehicle without steering, under tau_turn = 2 d (F'R - F'L).
 CandidateTrial sides_candidate(SideForces<double> force, double scatter, double runs) {
   return {.trial = {.kind = TrialKind::kTurning,
                     .settings = fmt::format("F'L = {:.3g}, F'R = {:.3g}, {:g} full turns",
@@ -83,7 +84,7 @@ CandidateTrial sides_candidate(SideForces<double> force, double scatter, double 
           }};
 }
 
-/// Every speed of the curve, from motors off to rest.
+/// Measures every speed of the curve, from motors off to rest.
 CandidateTrial coastdown_candidate(double from_mps, double duration_s, double noise_mps,
                                    double runs) {
   return {.trial = {.kind = TrialKind::kCoastdown,
@@ -103,7 +104,7 @@ CandidateTrial coastdown_candidate(double from_mps, double duration_s, double no
           }};
 }
 
-/// Every speed, yaw rate and heading of a log.
+/// Measures every speed, yaw rate and heading of a log.
 CandidateTrial log_candidate(const std::string& what, const Vehicle& vehicle, const DrivePlan& plan,
                              const SensorNoise& sensors) {
   return {.trial = {.kind = TrialKind::kLog,
@@ -192,7 +193,7 @@ void add_turning_runs(const Model& model, const SuggestOptions& options,
 
 std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptions& options) {
   std::vector<CandidateTrial> candidates;
-  // With back-EMF, steady runs show only the sum of its loss and resistance.
+  // With back-EMF, steady runs determine only the sum of its loss and the resistance.
   const bool tables = !(model[ParameterId::kBackEmf].value.value_or(0.0) > 0.0);
   if (tables && model.plant(Motion::kSteadySurge)) add_surge_runs(model, options, candidates);
   if (tables && model.plant(Motion::kSteadyTurn)) add_turning_runs(model, options, candidates);
@@ -205,8 +206,7 @@ std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptio
 
 namespace {
 
-/// The moment that differential turns may need in addition to g3, m: as the trials have it, or from
-/// nothing to tyres that slide.
+/// Range of the scrub moment, m: from the trials, or from 0 to that of sliding tyres.
 Interval possible_scrub_m(const Model& model, const Plant<double>& plant) {
   const double held_m = model.yaw_held_m.value_or(0.0);
   if (const auto& scrub = model.yaw_scrub) {
@@ -216,7 +216,7 @@ Interval possible_scrub_m(const Model& model, const Plant<double>& plant) {
   return {held_m, std::max(held_m, sliding_moment_m(plant))};
 }
 
-/// Forces about `straight` that make this moment, where the wheels reach them:
+/// Left and right forces with the mean `straight` and this moment; empty beyond the wheels' limits:
 ///   2 d (F'R - F'L) = moment                                                        [paper (41)]
 std::optional<SideForces<double>> forces_for(double moment_m, double straight,
                                              const Plant<double>& plant, const Interval& range) {
@@ -238,7 +238,7 @@ std::string steered_turns_instead(const Vehicle& vehicle) {
       stop / 3.0, 2.0 * stop / 3.0, stop, force);
 }
 
-/// Highest speed of the surge trials, > 0; none without.
+/// Highest speed of the surge trials, > 0; absent without trials.
 std::optional<double> fastest_surge_mps(const Model& model) {
   std::optional<double> fastest_mps;
   for (const TrialPoint& trial : model.record.trials) {
@@ -297,7 +297,8 @@ ScrubPlan scrub_plan(const Model& model) {
   return plan;
 }
 
-/// Rolling without slip about a centre on the rear axle's line, the wheelbase being 2 l_f (tyres.h):
+/// Rolling without slip about a centre on the rear axle's line, the wheelbase being 2 l_f
+/// (tyres.h):
 ///   r = u tan(d_r)/(2 l_f),   u r <= 0.2 g
 std::optional<CoastingTurn> coasting_turn(const Model& model) {
   const Vehicle& vehicle = model.vehicle;

@@ -10,25 +10,26 @@
 namespace awmr {
 
 struct CandidateTrial {
-  SuggestedTrial trial;  ///< kind, settings and numbers; its standard errors are still to be found
+  SuggestedTrial trial;  ///< kind, settings and numbers; its standard errors are not set
   /// Predicted measurements of the trial on a plant, each divided by the standard deviation of its
-  /// error. Their number is the same for every plant.
+  /// error. The number of measurements is the same for every plant.
   std::function<std::vector<double>(const Plant<double>&)> standardised;
 };
 
-/// Trials whose motion the model covers; for a model of straight motion the logs drive straight.
+/// Trials within the model's validity; for a model of straight motion the logs drive straight.
 std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptions& options);
 
 struct ScrubPlan {
   std::vector<ScrubTurn> turns;
   std::string about;
 };
-/// Differential turns at a third, two thirds and all of the highest measured yaw rate, about the
-/// force that drives straight at half the highest speed, within the limits of the wheel forces.
+/// Differential turns at 1/3, 2/3 and 1 times the highest measured yaw rate. The mean wheel force
+/// is that of straight driving at half the highest speed. Forces are within the limits of the
+/// wheels.
 ScrubPlan scrub_plan(const Model& model);
 
-/// At half of the fastest speed of the trials, or of the motors, and half of the steering's stop, less where
-/// tyres of little friction would slide.
+/// At half of the highest speed of the trials or the motors and half of the largest steering angle;
+/// less if tyres with little friction would slide.
 std::optional<CoastingTurn> coasting_turn(const Model& model);
 
 /// Description of the assumed measurement errors of the candidates.

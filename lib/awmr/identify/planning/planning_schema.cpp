@@ -1,4 +1,4 @@
-// recover.json and suggest.json as recovery_text() and suggestion_text() write them.
+// Schemas of recover.json and suggest.json.
 #include <limits>
 
 #include "awmr/core/json.h"

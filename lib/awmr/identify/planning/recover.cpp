@@ -1,4 +1,4 @@
-// The runs of a recovery: trials are simulated at the model's values and identified.
+// Runs of a recovery: simulate trials at the model's values and identify them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,13 +18,13 @@
 namespace awmr {
 namespace {
 
-/// Quantity that has the error according to the estimator under test.
+/// Quantity with the error, as assumed by the estimator under test.
 ErrorModel error_of(const IdentifyOptions& options) {
   if (options.method != Method::kNonlinear) return ErrorModel::kLogForce;
   return options.noise.value_or(ErrorModel::kTime);
 }
 
-/// The residual scatter that the model's own fit of this subject left, in the unit of the error.
+/// Residual standard deviation of the model's own fit of this subject, in the unit of the error.
 double scatter(const Model& model, FitSubject subject, ErrorModel error) {
   for (const EstimatorReport& report : model.record.reports) {
     if (report.subject == subject && report.noise == name_of(error) &&
@@ -44,7 +44,7 @@ SideForces<double> sides_for(const Vehicle& vehicle, double tau_turn_m) {
   return {left, left + difference};
 }
 
-/// The inputs of the model's own trials.
+/// The settings of the model's own trials.
 TablePlan plan_of(const Model& model) {
   TablePlan plan;
   double most_tau_turn_m = 0.0;
@@ -74,7 +74,7 @@ TablePlan plan_of(const Model& model) {
   return plan;
 }
 
-/// The fastest of the model's surge trials, m/s: a coast-down starts from it. At least 0.5.
+/// Initial speed of a coast-down, m/s: the highest of the model's surge trials, at least 0.5.
 double top_speed_mps(const Model& model) {
   double top = 0.5;
   for (const TrialPoint& trial : model.record.trials) {
@@ -101,7 +101,7 @@ struct Experiment {
   double coast_from_mps = 0.0;
 };
 
-/// The trials of run `index`: the seed and the index alone decide on the errors.
+/// The trials of run `index`. Their errors depend only on the seed and the index.
 TrialData simulated_trials(const Experiment& experiment, const RecoverOptions& options,
                            std::uint64_t index) {
   Random random(options.seed, index);
@@ -128,14 +128,14 @@ TrialData simulated_trials(const Experiment& experiment, const RecoverOptions& o
 /// Estimates and findings of one run.
 struct OneRun {
   RecoverRun found;
-  std::string why;             ///< the first of what was refused
-  std::optional<Error> error;  ///< why the run gave no model at all
+  std::string why;             ///< reason of the first refusal
+  std::optional<Error> error;  ///< why the run gave no model
 };
 
 /// Estimate of a fitted parameter with its interval; empty for all others.
 std::optional<RecoverEstimate> interval_of(const Estimate& estimate) {
   if (!estimate.value || !estimate.ci95 || estimate.source == Source::kGiven) return std::nullopt;
-  // An interval without an end is none, as in model.json.
+  // An unbounded interval counts as none, as in model.json.
   const auto fits = [](double number) { return std::abs(number) <= kLargestEstimate; };
   if (!fits(*estimate.value) || !fits(estimate.std_error.value_or(0.0)) ||
       !std::isfinite(estimate.ci95->lo) || !std::isfinite(estimate.ci95->hi)) {
@@ -193,7 +193,7 @@ std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOp
   return runs;
 }
 
-/// The parameters to evaluate: those requested, or all, where the model has a value.
+/// The parameters to evaluate: the requested ones or all, if the model has a value.
 std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<ParameterId>& requested) {
   std::vector<RecoverTruth> truths;
   for (const ParameterInfo& parameter : parameter_table()) {
@@ -204,7 +204,7 @@ std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<Parame
   return truths;
 }
 
-/// Puts the runs into the part, with the first reason for a refusal.
+/// Stores the runs in the part, with the first reason for a refusal.
 void put_runs(std::vector<OneRun> runs, RecoverPart& part) {
   if (std::ranges::all_of(runs, [](const OneRun& run) { return run.error.has_value(); })) {
     part.error = runs.front().error;
@@ -228,7 +228,7 @@ std::string noise_in_words(const RowNoise& rows, const RecoverOptions& options) 
                      name_of(rows.error), rows.surge, rows.turning, rows.stop_time_s, s.speed_mps);
 }
 
-/// A drive that has a row to fit to, and an end. Errors (input): it has not.
+/// Errors (input): the drive has too few or too many rows.
 Status check_drive(const DrivePlan& drive) {
   constexpr double kFewest = 20.0;
   constexpr double kMost = 1e6;
@@ -240,8 +240,8 @@ Status check_drive(const DrivePlan& drive) {
                                  drive.duration_s, drive.rate_hz, rows, kFewest, kMost));
 }
 
-/// A model that knows straight motion alone is driven straight, and requested what that shows.
-/// Back-EMF that was fitted is requested again.
+/// Adapts the options to the model. A model of straight motion is driven straight and only its
+/// parameters are requested. A fitted back-EMF is requested again.
 RecoverOptions options_for(const Model& model, RecoverOptions options) {
   const bool log = options.plan == RecoverPlan::kLog;
   if (log && options.identify.requested.empty() && !is_absent_term(model, ParameterId::kBackEmf) &&
@@ -262,7 +262,7 @@ RecoverOptions options_for(const Model& model, RecoverOptions options) {
   return options;
 }
 
-/// The vehicle of the runs. Errors (input): the model lacks a parameter that a trial needs.
+/// The plant of the runs. Errors (input): the model lacks a parameter that a trial needs.
 Result<Plant<double>> truth_of(const Model& model, RecoverPlan plan) {
   if (plan == RecoverPlan::kLog) return model.plant(model.simulated_motion());
   if (plan == RecoverPlan::kCurve) AWMR_RETURN_IF_ERROR(model.plant(Motion::kStraight));

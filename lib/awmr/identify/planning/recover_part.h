@@ -1,5 +1,4 @@
-/// A recovery in two steps, so that machines can share it: the results of the runs of a part, and
-/// the statistics of all runs.
+/// Recovery in two steps, for several machines: the runs of a part, and the statistics of all runs.
 #pragma once
 
 #include <functional>
@@ -14,7 +13,7 @@
 
 namespace awmr {
 
-/// A parameter and the value that it was simulated with, in its unit.
+/// A parameter and its simulated value, in its unit.
 struct RecoverTruth {
   ParameterId id = ParameterId::kMassNorm;
   double value = 0.0;
@@ -31,36 +30,36 @@ struct RecoverEstimate {
 
 /// One simulated data set, identified.
 struct RecoverRun {
-  int index = 0;         ///< of all runs, from 0: with the seed it decides on the errors
-  bool refused = false;  ///< something requested was refused
-  /// By RecoverPart::truths; absent where the run gave no interval.
+  int index = 0;         ///< number among all runs, from 0; with the seed it determines the errors
+  bool refused = false;  ///< a requested parameter was refused
+  /// By RecoverPart::truths; absent without an interval.
   std::vector<std::optional<RecoverEstimate>> estimates;
 };
 
-/// The first run with a reason for a refusal.
+/// The first run that was refused, with the reason.
 struct RecoverRefusal {
   int run = 0;
   std::string message;
 };
 
-/// Some of the runs of a recovery, or all of them.
+/// Some or all of the runs of a recovery.
 struct RecoverPart {
-  int all_runs = 0;                    ///< of all parts
+  int all_runs = 0;                    ///< number in all parts
   std::string noise_text;              ///< as simulated
   std::vector<ParameterId> requested;  ///< empty: all that the trials identify
   std::vector<RecoverTruth> truths;    ///< of the evaluated parameters
   std::vector<RecoverRun> runs;        ///< by index
   std::optional<RecoverRefusal> refusal;
-  std::optional<Error> error;  ///< why no run gave a model at all: that of the first
+  std::optional<Error> error;  ///< error of the first run, if no run gave a model
 };
 
-/// The runs of a part: those of `shard`. `progress` and errors as in recover(), but that a part whose
-/// runs give nothing is a part all the same: others may give something. Errors (input) also: there is
-/// no such part, or it would be empty.
+/// Runs the part `shard`. `progress` and errors as in recover(), except that a part without any
+/// result is not an error, because other parts can have results. Errors (input): also a part that
+/// does not exist or is empty.
 Result<RecoverPart> recover_part(const Model& model, const RecoverOptions& options,
                                  const Shard& shard, const std::function<void(int)>& progress);
 
-/// Computes the statistics of the runs. Precondition: `whole` has all of them. Errors: that of the
+/// Computes the statistics of the runs. Precondition: `whole` has all runs. Errors: that of the
 /// first run, if all have one; (refused) no run gives one of the requested parameters, or any.
 Result<Recovery> recovery_of(const RecoverPart& whole);
 

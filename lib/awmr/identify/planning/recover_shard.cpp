@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-/// Runs of a recovery at the most, and how far from 1 a true value may lie.
+/// Largest number of runs, and limits of a true value.
 constexpr long kMaxRecoverRuns = std::numeric_limits<int>::max();
 constexpr double kLargestTruth = 1e100;
 constexpr double kSmallestTruth = 1e-100;
@@ -48,7 +48,7 @@ Error read_error(JsonObject json) {
   return error;
 }
 
-/// None, with a fault, where no parameter has this name.
+/// Empty, with a fault, if no parameter has this name.
 std::optional<ParameterId> read_parameter(JsonObject& json, const std::string& key,
                                           const std::string& name) {
   const auto id = parameter_by_name(name);
@@ -119,8 +119,8 @@ Result<std::vector<RecoverRun>> read_runs(const Part& part, const RecoverPart& p
   return runs;
 }
 
-/// Adds a part's reasons to those of the whole: the refusal of the smallest run, and an error only if
-/// all parts have one, that of the first part, which has the first run.
+/// Merges the reasons of a part: keeps the refusal of the smallest run. Keeps an error only if all
+/// parts have one: that of the first run.
 void take_reasons(const RecoverPart& part, RecoverPart& whole) {
   if (part.refusal && (!whole.refusal || part.refusal->run < whole.refusal->run)) {
     whole.refusal = part.refusal;

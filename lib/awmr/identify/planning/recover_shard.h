@@ -1,5 +1,5 @@
-/// A recovery in parts, for several machines: each has some of the runs, and merge_recover_shards()
-/// puts them together to the bytes of a single run.
+/// Recovery on several machines, each of which does some of the runs. merge_recover_shards()
+/// combines the parts to the output of a single recovery, byte for byte.
 #pragma once
 
 #include <filesystem>
@@ -12,21 +12,21 @@
 
 namespace awmr {
 
-/// Parts of a recovery: recovery.csv has a row for each run.
+/// Files of a part: recovery.csv has a row per run.
 const ShardKind& recover_shards();
 
-/// The part of a recovery that `shard` is.
+/// The files of the part `shard`.
 PartText recover_part_text(const RecoverPart& part, const Shard& shard,
                            const Provenance& provenance);
 
-/// All runs, with what recover.json is written from.
+/// All runs, with the content of recover.json.
 struct MergedRecovery {
   RecoverPart whole;
   Provenance provenance;
 };
 
-/// Puts the parts in the directories together, in any order. Errors (input): as read_parts(); a row
-/// of another part, or missing.
+/// Combines the parts in these directories, in any order. Errors (input): as read_parts(); a row of
+/// another part, or a missing row.
 Result<MergedRecovery> merge_recover_shards(const std::vector<std::filesystem::path>& directories);
 
 }  // namespace awmr

@@ -19,7 +19,7 @@ std::string head_of(std::string_view parameter) {
   return fmt::format(",{0},{0}.std_error,{0}.ci95_lo,{0}.ci95_hi", parameter);
 }
 
-/// Which truths have columns: those that some run gave an estimate of.
+/// Truths with columns: those that at least one run estimated.
 std::vector<std::size_t> places_in(const RecoverPart& part) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < part.truths.size(); ++i) {
@@ -36,7 +36,7 @@ std::string cells_of(const std::optional<RecoverEstimate>& estimate) {
                      format_number(estimate->ci95.lo), format_number(estimate->ci95.hi));
 }
 
-/// The truths whose columns the head has, in its order; none where it is no head of such a table.
+/// The truths of the columns in the header, in order; empty if the header is invalid.
 std::optional<std::vector<std::size_t>> places_of(const std::vector<std::string>& head,
                                                   const std::vector<RecoverTruth>& truths) {
   std::string line;
@@ -52,7 +52,7 @@ std::optional<std::vector<std::size_t>> places_of(const std::vector<std::string>
   return line == expected ? std::optional(places) : std::nullopt;
 }
 
-/// Reads four cells that are not all empty; none if no run can have them.
+/// Reads four cells that are not all empty; empty if they are invalid.
 std::optional<RecoverEstimate> estimate_in(std::span<const std::string> cells) {
   const auto value = number_from_text(cells[0]);
   const auto std_error = number_from_text(cells[1].empty() ? "0" : cells[1]);
@@ -67,7 +67,7 @@ std::optional<RecoverEstimate> estimate_in(std::span<const std::string> cells) {
                          .ci95 = {*lo, *hi}};
 }
 
-/// A run's place; none where the cell holds no whole number.
+/// Index of a run; empty if the cell is not a whole number.
 std::optional<int> index_in(const std::string& cell) {
   int index = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), index);
@@ -124,7 +124,7 @@ Result<std::vector<RecoverRun>> recover_runs(std::string_view text, const std::s
     if (!run) {
       const auto line = 1 + std::count(before.begin(), before.end(), '\n');
       return input_error(ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line),
-                         "is no run of a recovery; run the part again");
+                         "is not a run of a recovery; run the part again");
     }
     runs.push_back(std::move(*run));
   }

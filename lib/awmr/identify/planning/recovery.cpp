@@ -10,8 +10,8 @@
 namespace awmr {
 namespace {
 
-/// Statistics of the `place`th true value. Sums are in the order of the runs, so they do not depend
-/// on threads or parts.
+/// Statistics of true value number `place`. Sums are in the order of the runs, so they do not
+/// depend on threads or parts.
 RecoveredParameter recovered_parameter(const RecoverTruth& truth, std::size_t place,
                                        const std::vector<RecoverRun>& runs) {
   RecoveredParameter p{.id = truth.id, .truth = truth.value};

@@ -24,7 +24,7 @@ std::string recovery_text(const Recovery& recovery, const Provenance& provenance
 }
 
 std::string recovery_table(const Recovery& recovery) {
-  std::string text = fmt::format("{} runs, {} of them with something refused; noise {}\n",
+  std::string text = fmt::format("{} runs, {} of them with a refused parameter; noise {}\n",
                                  recovery.runs, recovery.failed, recovery.noise_text);
   text += fmt::format("  {:<24} {:>10} {:>11} {:>10} {:>10} {:>9} {:>6}\n", "", "truth", "bias",
                       "rmse", "std error", "coverage", "runs");

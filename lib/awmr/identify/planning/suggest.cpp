@@ -16,7 +16,7 @@ namespace awmr {
 namespace {
 
 /// Assumed uncertainty of a parameter without a standard error: a factor of e^2, so that a trial
-/// which measures it is credited.
+/// that measures it has a benefit.
 constexpr double kUnknownStd = 2.0;
 
 /// The uncertain parameters: n of them in the coordinates z of model/transform.h, with
@@ -47,8 +47,8 @@ Uncertainty uncertainty_of(const Model& model) {
   for (std::size_t i = known.size(); i < ids.size(); ++i) {
     covariance(eigen_index(i), eigen_index(i)) = kUnknownStd * kUnknownStd;
   }
-  // From one coast-down, I'z is m' times a constant, and C would be singular. A small independent
-  // error of each keeps C invertible, and lets a trial that measures I'z separate the two.
+  // From one coast-down, I'z is m' times a constant, so C would be singular. A small independent
+  // error of each makes C invertible, so that a trial that measures I'z separates them.
   constexpr double kIndependentStd = 1e-4;
   covariance.diagonal().array() += kIndependentStd * kIndependentStd;
   return {std::move(ids), std::move(covariance)};
@@ -96,7 +96,7 @@ struct Target {
   Eigen::MatrixXd gradient;  ///< m x n
   double scale = 1.0;
   std::string name;       ///< SuggestedTrial::parameter
-  std::string criterion;  ///< in words
+  std::string criterion;  ///< description
 
   double std_error(const Eigen::MatrixXd& covariance) const {
     return scale * std::sqrt((gradient * covariance * gradient.transpose()).trace());
@@ -111,8 +111,8 @@ double whole_of(ParameterId id, const Plant<double>& plant) {
   return plant.surge(1.0) / (of_a_wheel ? 4.0 : 1.0);
 }
 
-/// A-optimality: all parameters alike. An error in a logarithm is relative already, that of an
-/// exponent counts as it is, that of a term relative to the whole resistance.
+/// A-optimality with equal weights. The error of a logarithm is relative already; that of an
+/// exponent is absolute; that of a term is relative to the whole resistance.
 Target all_parameters(const std::vector<ParameterId>& ids, const Plant<double>& plant) {
   Eigen::MatrixXd gradient = Eigen::MatrixXd::Identity(rows_of(ids), rows_of(ids));
   for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -167,8 +167,8 @@ double log_determinant(const Eigen::MatrixXd& covariance) {
   return symmetric_eigen(covariance).values.array().max(1e-300).log().sum();
 }
 
-/// C_after = (C^-1 + J^T J)^-1, J what the trial would measure by the coordinates, in units of its
-/// noise.
+/// C_after = (C^-1 + J^T J)^-1, J the derivatives of the measurements by the coordinates, in units
+/// of the noise.
 SuggestedTrial evaluate(const CandidateTrial& candidate, const Model& model,
                         const Uncertainty& uncertainty, const Target& target) {
   const Eigen::MatrixXd j = jacobian_of(model, uncertainty.parameters, candidate.standardised);
@@ -184,7 +184,7 @@ SuggestedTrial evaluate(const CandidateTrial& candidate, const Model& model,
   return trial;
 }
 
-/// Best first; a tie in the target goes to the larger gain of information.
+/// Best first; ties in the target by the larger gain of information.
 void sort_by_promise(std::vector<SuggestedTrial>& trials) {
   std::stable_sort(trials.begin(), trials.end(),
                    [](const SuggestedTrial& a, const SuggestedTrial& b) {

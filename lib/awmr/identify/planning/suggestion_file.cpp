@@ -1,4 +1,4 @@
-// suggest.json and the sheet for the field.
+// Writes suggest.json and the field sheet.
 
 #include <fmt/format.h>
 
@@ -46,7 +46,7 @@ std::string suggestion_text(const Suggestion& suggestion, const Provenance& prov
 
 namespace {
 
-/// The trials that the model has not had, each with the parameters that it shows.
+/// Missing trials, each with the parameters that it measures.
 std::string missing_sheet(const std::vector<MissingParameter>& missing) {
   std::string text;
   for (auto one = missing.begin(); one != missing.end(); ++one) {
@@ -67,7 +67,7 @@ std::string missing_sheet(const std::vector<MissingParameter>& missing) {
   return text;
 }
 
-/// Turns that decide between differential and steering mode.
+/// Differential turns that measure the scrub.
 std::string scrub_sheet(const Suggestion& suggestion) {
   if (suggestion.about_scrub.empty()) return {};
   std::string text =
@@ -87,7 +87,7 @@ std::string scrub_sheet(const Suggestion& suggestion) {
   return text;
 }
 
-/// The turn that shows which plant of compare is right.
+/// The turn that discriminates between the plants of compare.
 std::string coasting_sheet(const Suggestion& suggestion) {
   const auto& coasting = suggestion.coasting;
   if (!coasting) return {};

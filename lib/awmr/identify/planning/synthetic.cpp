@@ -34,7 +34,7 @@ class NoiseSource {
   bool first_ = true;
 };
 
-/// A row's force and rate with the error where it lies. The time is that of `travel`.
+/// Force and rate of a row, one of them with the error. The time is that of `travel`.
 struct NoisyRow {
   double force;
   double rate;
@@ -64,7 +64,7 @@ NoisyRow noisy(double force, double rate, double travel, ErrorModel error, doubl
   return row;
 }
 
-/// u with g1(u) = tau_speed, less what the dead zones of the driven wheels take.
+/// Solves g1(u) = tau_speed, after subtracting the dead zones of the driven wheels.
 TrialSet<SurgeRow> surge_rows(const Plant<double>& plant, const TablePlan& plan,
                               const RowNoise& noise, Random& random) {
   TrialSet<SurgeRow> set{"simulated surge", {}, 0};
@@ -79,7 +79,7 @@ TrialSet<SurgeRow> surge_rows(const Plant<double>& plant, const TablePlan& plan,
   return set;
 }
 
-/// r with g3(r) = 2 l_f F' sin d_r, F' less the dead zone of a wheel.
+/// Solves g3(r) = 2 l_f F' sin d_r for r, with F' reduced by the dead zone.
 TrialSet<TurningRow> turning_rows(const Plant<double>& plant, const TablePlan& plan,
                                   const RowNoise& noise, Random& random) {
   TrialSet<TurningRow> set{"simulated turning", {}, 0};
@@ -102,7 +102,7 @@ TrialSet<TurningRow> turning_rows(const Plant<double>& plant, const TablePlan& p
   return set;
 }
 
-/// r with g3(r) = 2 d (F'R - F'L), each F' less the dead zone of a wheel.
+/// Solves g3(r) = 2 d (F'R - F'L) for r, with each F' reduced by the dead zone.
 TrialSet<TurningRow> sides_turning_rows(const Plant<double>& plant, const TablePlan& plan,
                                         const RowNoise& noise, Random& random) {
   TrialSet<TurningRow> set{"simulated turning", {}, 0};
@@ -189,7 +189,7 @@ void command_drive(const Vehicle& vehicle, const DrivePlan& plan, DrivingLog& lo
   log.steering_command_rad.emplace();
   for (int i = 0; i <= rows; ++i) {
     if (i % hold == 0) {
-      // One change in four lets it coast.
+      // One change in four is to coasting.
       const double level = random.uniform() < 0.25 ? 0.0 : most * (0.15 + 0.65 * random.uniform());
       const double apart = turn * (random.uniform() - 0.5) * 0.4 * level;
       steering = turn * radians(vehicle.steering_max_deg) * (1.6 * random.uniform() - 0.8);
@@ -222,7 +222,7 @@ double std_of(const SensorNoise& noise, LogChannel channel) {
   return 0.002;  // rad of a measured servo
 }
 
-/// The channel's truth with noise in every `stride`-th row, held between.
+/// The true values of a channel with noise, sampled every `stride` rows and held in between.
 Measured measured(const std::vector<State<double>>& truth, LogChannel channel, std::size_t stride,
                   NoiseSource source, Random& random) {
   Measured result{std::vector<double>(truth.size()), std::vector<bool>(truth.size(), false), 0,

@@ -12,12 +12,12 @@
 namespace awmr {
 namespace {
 
-/// Above this number of runs the profile interval equals the curvature interval, and its some
-/// hundred fits are skipped.
+/// Above this number of runs the profile interval equals the curvature interval, so its hundred or
+/// so fits are skipped.
 constexpr Eigen::Index kMaximumProfileRows = kExactRows;
 
-/// The profile's interval of every coordinate that has a standard error, in the parameter's scale. An
-/// interval that the data leave open at one end does not exist.
+/// Profile interval of every coordinate with a standard error, in the parameter's scale. Absent if
+/// the data do not bound it at both ends.
 void add_profiles(FamilyCandidate& candidate) {
   const std::vector<TransformedParameter> coordinates = coordinates_of(candidate.problem.family);
   for (std::size_t i = 0; i < candidate.report.parameters.size(); ++i) {
@@ -49,7 +49,7 @@ FamilyCandidate candidate_from(const Subject& subject, const SteadyProblem& prob
   return candidate;
 }
 
-/// The families and noise models to be tried, in the order of the reports.
+/// The families and noise models to fit, in the order of the reports.
 std::vector<std::pair<Family, ErrorModel>> plan(const Subject& subject,
                                                 const SubjectOptions& options, ErrorModel wanted) {
   std::vector<std::pair<Family, ErrorModel>> fits;

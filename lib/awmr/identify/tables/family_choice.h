@@ -1,4 +1,4 @@
-/// The nonlinear fits side by side, and which of them is used. Private to identify/.
+/// Nonlinear fits of all families and noise models, and the selection of one. Private to identify/.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,14 @@ namespace awmr {
 
 struct SubjectOptions {
   Method method = Method::kLogLinear;
-  /// None: time where every run was timed, else speed.
+  /// Absent: time if every run was timed, else speed.
   std::optional<ErrorModel> noise;
-  /// A nonlinear fit was requested with this noise: that is where the error lies. Else it is one of
-  /// several places.
+  /// The user requested a nonlinear fit with this noise. If false, the noise model is uncertain.
   bool knows_noise = false;
   FamilyChoice family;
   Loss loss = Loss::kSquared;
-  bool side_by_side = true;     ///< false: the requested fit alone, without alternatives
-  bool keeps_outliers = false;  ///< a run far off the others' curve is fitted with them
+  bool side_by_side = true;     ///< false: only the requested fit
+  bool keeps_outliers = false;  ///< gross outliers are fitted with the other runs
 };
 
 /// A nonlinear fit of one family under one noise model, and its entry of /estimates.
@@ -33,18 +32,18 @@ bool all_timed(const std::vector<SteadyPoint>& points);
 /// Quantity with the error in the nonlinear fit.
 ErrorModel wanted_noise(const Subject& subject, const SubjectOptions& options);
 
-/// Side by side: the power law under every noise model, the other families under the wanted one.
-/// Else only what may be chosen. Families with more numbers than there are runs are left out.
-/// `line`: the fit of the power law through the logarithms, their initial guess.
+/// With side_by_side: fits of the power law under every noise model and of the other families under
+/// the chosen one. Otherwise only the fits that can be selected. Excludes families with more
+/// parameters than runs. `line`: the log-linear fit of the power law, used as initial guess.
 std::vector<FamilyCandidate> fit_candidates(const Subject& subject, const SubjectOptions& options,
                                             ErrorModel wanted, const SteadyFit& line);
 
-/// The fit of a family under a noise model; null where there is none.
+/// The fit of a family under a noise model; null if there is none.
 const FamilyCandidate* candidate_of(const std::vector<FamilyCandidate>& candidates, Family family,
                                     ErrorModel noise);
 
-/// Minimum AICc among the fits that converged; the family with fewer terms where two are equal.
-/// Null where no fit has one.
+/// The converged fit with the minimum AICc; of equal ones, the family with fewer terms. Null if no
+/// fit has an AICc.
 const FamilyCandidate* best_candidate(const std::vector<FamilyCandidate>& candidates,
                                       ErrorModel noise);
 

@@ -77,8 +77,8 @@ std::optional<GrossOutlier> gross_outlier(const Subject& subject, const SubjectO
 
 Finding set_aside(const Subject& subject, const GrossOutlier& outlier) {
   return {subject.file, subject.points[outlier.point].line, Severity::kWarning, "outlier",
-          fmt::format("this run lies {:.3g} standard deviations off the curve of the others and is "
-                      "set aside; correct it, or keep it with {}",
+          fmt::format("this run deviates by {:.3g} standard deviations from the curve of the "
+                      "others and is set aside; correct it, or keep it with {}",
                       outlier.deviations, option_text("as-is"))};
 }
 

@@ -1,4 +1,4 @@
-/// A run so far off that it would take the fit. Private to identify/.
+/// Detection of a gross outlier, which would dominate the fit. Private to identify/.
 #pragma once
 
 #include <cstddef>
@@ -9,18 +9,18 @@
 namespace awmr {
 
 struct GrossOutlier {
-  std::size_t point = 0;    ///< of the subject's points
-  double deviations = 0.0;  ///< from the power law of the others, in their standard deviations
+  std::size_t point = 0;    ///< index in the subject's points
+  double deviations = 0.0;  ///< distance from the power law of the others, in standard deviations
 };
 
-/// The run farthest off the power law of the others, where it lies more than ten of their standard
-/// deviations off (by Student's t less likely than 1 in 1,000 for the whole table), and no family
-/// describes all runs even a third as closely as the power law describes the others. Timed runs have
-/// to lie as far off in their time: the shortest have the largest errors of their logarithm. None
-/// otherwise: a low speed off a power law may be Coulomb friction.
+/// The run farthest from the power law of the others, if two conditions hold. (1) Its distance is
+/// more than ten standard deviations, and p < 0.001 by Student's t for the whole table; the time of a
+/// timed run has to deviate as much, because the shortest times have the largest errors of their
+/// logarithm. (2) No family fits all runs with a residual of less than three times that of the
+/// others' power law: a low speed off a power law can be due to Coulomb friction.
 std::optional<GrossOutlier> gross_outlier(const Subject& subject, const SubjectOptions& options);
 
-/// `outlier`: the run is set aside.
+/// `outlier`: the run is excluded.
 Finding set_aside(const Subject& subject, const GrossOutlier& outlier);
 
 }  // namespace awmr

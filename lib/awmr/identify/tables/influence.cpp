@@ -12,10 +12,10 @@
 namespace awmr {
 namespace {
 
-/// A row is influential where leaving it out moves a parameter by this many standard errors.
+/// A row is influential if leaving it out changes a parameter by this many standard errors.
 constexpr double kInfluential = 1.0;
 
-/// Theta of the rest; empty if the rest shows no curve.
+/// Theta without the run; empty if the other runs do not determine a curve.
 std::optional<TransformedParameters> refit_without(std::size_t row, const Subject& subject,
                                                    const SteadyProblem& problem, bool log_linear,
                                                    const SteadyFit& fit) {
@@ -34,7 +34,7 @@ std::optional<TransformedParameters> refit_without(std::size_t row, const Subjec
   return without.theta;
 }
 
-/// Theta without each run in turn, by one Gauss-Newton step from the whole fit:
+/// Theta without each run in turn, by one Gauss-Newton step from the fit of all runs:
 ///   theta_(i) = theta + (J^T J)^-1 j_i e_i/(1 - h_i),   e = curve - measured
 /// which is exact where the curve is linear in theta, as in the logarithms.    [Cook 1977]
 class OneStep {
@@ -42,7 +42,7 @@ class OneStep {
   OneStep(const SteadyProblem& problem, bool log_linear, const SteadyFit& fit)
       : problem_(problem), fit_(fit) {
     const double variance = fit.residual_std * fit.residual_std;
-    // A robust loss weighs the runs, which this step does not know.
+    // Not for a robust loss, whose weights this step does not include.
     if (!fit.has_covariance() || !(variance > 0.0) || problem.loss != Loss::kSquared) return;
     inverse_ = fit.covariance / variance;
     if (log_linear) {
@@ -55,7 +55,7 @@ class OneStep {
     }
   }
 
-  /// Empty if the run alone shows a parameter, or nothing is known of the fit.
+  /// Empty if a parameter depends on this run alone, or if the fit has no Jacobian.
   std::optional<TransformedParameters> without(std::size_t row) const {
     constexpr double kAlone = 1e-12;
     const Eigen::Index i = eigen_index(row);
@@ -75,10 +75,10 @@ class OneStep {
   const SteadyProblem& problem_;
   const SteadyFit& fit_;
   Eigen::MatrixXd inverse_;   ///< (J^T J)^-1, free x free
-  Eigen::MatrixXd jacobian_;  ///< runs x free; empty where nothing is known
+  Eigen::MatrixXd jacobian_;  ///< runs x free; empty if not available
 };
 
-/// "surge.alpha becomes 0.3 (from 0.25), ..."; empty where nothing moves by much.
+/// "surge.alpha becomes 0.3 (from 0.25), ..."; empty without a large change.
 std::string what_moves(const Subject& subject, const std::vector<TransformedParameter>& coordinates,
                        const TransformedParameters& without, const SteadyFit& fit) {
   std::string moved;

@@ -8,18 +8,18 @@
 namespace awmr {
 
 struct Influence {
-  std::vector<LeaveOneOut> without;  ///< by run; those whose rest shows no curve are left out
-  std::vector<Finding> findings;     ///< `influential-row`: a parameter moves by a standard error
+  std::vector<LeaveOneOut> without;  ///< by run; without runs whose removal leaves no curve
+  std::vector<Finding> findings;     ///< `influential-row`: a parameter changes by a standard error
 };
 
-/// Every run left out once, the curve fitted to the others by the same method: through the
-/// logarithms where `log_linear`, else as `problem` from the whole fit. Above kExactRows by one step
-/// from the whole fit, exact for a log-linear one; there not under a robust loss.
-/// Precondition: two degrees of freedom, so that the others have one.
+/// Fits the curve without each run in turn, by the same method: log-linear if `log_linear`, else
+/// `problem` from the optimum of all runs. With more than kExactRows rows, by one step from that
+/// optimum, which is exact for log-linear fits; then not available under a robust loss.
+/// Precondition: two degrees of freedom, so that one remains without a run.
 Influence leave_one_out(const Subject& subject, const SteadyProblem& problem, bool log_linear,
                         const SteadyFit& fit);
 
-/// A curve needs two different forces: repeats of one show scatter, no shape.
+/// True if the runs have two different forces, without which no curve can be fitted.
 bool has_two_forces(const std::vector<SteadyPoint>& points);
 
 }  // namespace awmr

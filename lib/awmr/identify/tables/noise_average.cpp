@@ -29,7 +29,7 @@ double residual_by_log_rate(ErrorModel noise, const SteadyFit& fit, const Steady
   return w;
 }
 
-/// ln w_k but for a constant.
+/// ln w_k up to a constant.
 double log_evidence(const std::vector<SteadyPoint>& points, ErrorModel noise,
                     const SteadyFit& fit) {
   double sum = -static_cast<double>(points.size()) * std::log(fit.residual_std) +
@@ -44,8 +44,8 @@ bool has_evidence(const SteadyFit& fit) {
   return fit.usable && fit.has_covariance() && fit.residual_std > 0.0;
 }
 
-/// From logarithms to probabilities, the first at least kLeastOwnWeight. Those that came out as
-/// nothing are left out.
+/// Converts logarithms to probabilities, of which the first is at least kLeastOwnWeight. Drops
+/// alternatives with probability 0.
 void normalise(std::vector<NoiseAlternative>& alternatives, const std::vector<double>& logarithms) {
   const double largest = *std::max_element(logarithms.begin(), logarithms.end());
   double others = 0.0;

@@ -17,8 +17,8 @@ struct Place {
   double zeta = 0.0;
 };
 
-/// zeta(x) = sqrt(profile(x) - minimum)/s is |x - x0|/std_error where the model is linear: a secant
-/// on it needs few steps.
+/// zeta(x) = sqrt(profile(x) - minimum)/s equals |x - x0|/std_error for a linear model, so a secant
+/// method converges in few steps.
 struct Profile {
   const SteadyProblem& problem;
   const SteadyFit& fit;
@@ -34,7 +34,7 @@ struct Profile {
 /// Solves zeta(x) = t between `near`, where zeta is below t, and `far`, where it is above.
 double crossing(const Profile& profile, Place near, Place far, double t, double std_error) {
   for (int i = 0; i < 60 && std::abs(far.x - near.x) > 1e-9 * std_error; ++i) {
-    // Regula falsi kept away from the ends, so that the bracket always shrinks.
+    // Regula falsi with a minimum distance from the ends, so that the bracket always shrinks.
     const double share = std::isfinite(far.zeta) ? (t - near.zeta) / (far.zeta - near.zeta) : 0.5;
     const double x = near.x + std::clamp(share, 0.02, 0.98) * (far.x - near.x);
     const Place middle = profile.at(x);

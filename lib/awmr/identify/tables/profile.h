@@ -1,5 +1,4 @@
-/// Intervals from the profile of the sum of squares, and the criterion that compares families.
-/// Private to identify/.
+/// Profile-likelihood intervals, and AICc of a fit. Private to identify/.
 #pragma once
 
 #include <optional>
@@ -8,17 +7,17 @@
 
 namespace awmr {
 
-/// The minimum sum of squares with one coordinate held. Infinite where the search fails.
+/// The minimum sum of squares with one coordinate fixed. Infinite if the search fails.
 double profile_cost(const SteadyProblem& problem, const TransformedParameters& initial_guess,
                     TransformedParameter held, double value);
 
-/// Profile-likelihood interval of a coordinate: the profile of the sum of squares rises by t^2 s^2
-/// on either side; an end that a bound cuts off lies on the bound. Precondition: squared loss,
-/// degrees of freedom, `c` free.
+/// Profile-likelihood interval of a coordinate: at each end the profile of the sum of squares is
+/// t^2 s^2 above its minimum. An end beyond a bound is set to the bound. Precondition: squared
+/// loss, degrees of freedom, `c` free.
 Interval profile_interval(const SteadyProblem& problem, const SteadyFit& fit,
                           TransformedParameter c);
 
-/// AICc over the free coordinates, and the exponent where a bound holds it.
+/// AICc; counts the free coordinates, and the exponent if it is at a bound.
 std::optional<double> aicc(const SteadyFit& fit);
 
 }  // namespace awmr

@@ -92,8 +92,8 @@ std::vector<Finding> outlier_findings(const Subject& subject, const SteadyProble
     if (p > kOutlierLevel) continue;
     findings.push_back(
         {subject.file, subject.points[at(i)].line, Severity::kWarning, "outlier",
-         fmt::format("this run lies {:.1f} standard deviations off the curve of the others (chance "
-                     "of one such run in {}: {:.2g}); check it, or use a robust loss ({})",
+         fmt::format("this run deviates by {:.1f} standard deviations from the curve of the others "
+                     "(p for one such run in {}: {:.2g}); check it, or use a robust loss ({})",
                      std::abs(t(i)), t.size(), p, option_text("loss huber"))});
   }
   return findings;

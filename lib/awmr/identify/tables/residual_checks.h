@@ -9,19 +9,19 @@
 namespace awmr {
 
 /// `no-degrees-of-freedom`, `exponent-at-bound`, `term-at-zero`.
-/// Why a fit whose exponent was held at the end of its range gives no value, and the range to give:
-/// `exponent-at-bound`, an error.
+/// Error `exponent-at-bound`: why a fit with its exponent at a bound gives no value, and the range
+/// to set.
 Finding held_exponent(const Subject& subject, const SteadyFit& fit);
 
 std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit, Family family);
 
-/// Normality, curvature and lack of fit of the residuals, those that the number of runs allows.
-/// Precondition: degrees of freedom.
+/// Tests of the residuals for normality, curvature and lack of fit, as far as the number of runs
+/// allows. Precondition: degrees of freedom.
 std::vector<Diagnostic> residual_tests(const Subject& subject, const SteadyFit& fit);
 
-/// `outlier`: runs off the curve of the others, by Student's t at 5 % for the whole table
-/// (Bonferroni). Timed runs have to be off in their time as well: equal errors of a stop-watch are
-/// unequal shares of the speed, so that the fastest run looks like an outlier.
+/// `outlier`: runs that deviate from the curve of the others, by Student's t at 5 % for the whole
+/// table (Bonferroni). The times of timed runs have to deviate as well: equal errors of a stop-watch
+/// are unequal shares of the speed, so that the fastest run looks like an outlier.
 std::vector<Finding> outlier_findings(const Subject& subject, const SteadyProblem& problem,
                                       const SteadyFit& fit);
 

@@ -14,11 +14,10 @@ namespace awmr {
 /// (Huber 1.345, Cauchy 2.385, Tukey 4.685 standard deviations). Null for Loss::kSquared.
 std::unique_ptr<ceres::LossFunction> make_loss(Loss loss, double scale);
 
-/// 1.4826 median |e|: the standard deviation of normal residuals, untouched by a minority of
-/// outliers.
+/// 1.4826 median |e|: robust estimate of the standard deviation of normal residuals.
 double median_scale(const Eigen::VectorXd& residuals);
 
-/// The factor that takes (J^T J)^-1 to the covariance of an M-estimate:
+/// Factor between (J^T J)^-1 and the covariance of an M-estimate:
 ///   kappa^2 [sum psi^2/(n - p)] / [mean psi']^2,  kappa = 1 + (p/n) var(psi')/mean(psi')^2  [Huber
 ///   1981, 7.6]
 double m_estimate_variance(const ceres::LossFunction& loss, const Eigen::VectorXd& residuals,

@@ -18,7 +18,7 @@
 namespace awmr {
 namespace {
 
-/// Degrees of freedom of the yaw fit; those of a long record where logs fitted it.
+/// Degrees of freedom of the yaw fit; those of a long record if g3 is from logs.
 double degrees_of_law(const Model& model) {
   constexpr double kOfALog = 1e4;
   for (const EstimatorReport& report : model.record.reports) {
@@ -34,7 +34,7 @@ Interval range_of(const std::vector<double>& values) {
   return {*least, *most};
 }
 
-/// The rates that g3 was fitted to, rad/s; none where logs alone show it.
+/// The rates that g3 was fitted to, rad/s; absent if g3 is from logs only.
 std::optional<Interval> fitted_rates(const TrialSet<TurningRow>& turning) {
   if (turning.rows.empty()) return std::nullopt;
   std::vector<double> rates;
@@ -71,8 +71,8 @@ StraightLine line_through(const std::vector<double>& x, const std::vector<double
   return line;
 }
 
-/// Whether moments y_i at x_i are sloped over x, at 95 %, where they are compared with g3(r_i), whose
-/// own error is in the slope as well:
+/// Tests at 95 % whether the moments y_i change with x_i. The test includes the error of g3(r_i),
+/// from which the moments are computed:
 ///   slope = sum_i w_i y_i,  w_i = (x_i - mean x)/sum (x - mean x)^2
 bool is_sloped(const std::vector<double>& x, const std::vector<double>& y,
                const std::vector<double>& rates_radps, const Model& model) {
@@ -102,7 +102,7 @@ ScrubMoments met_by(const std::vector<SteadyPoint>& turns, const Resistance<doub
   return met;
 }
 
-/// The mean of the c_i; absent where nothing scatters and nothing is open.
+/// The mean of the c_i; absent if its variance is 0.
 std::optional<YawScrub> mean_scrub(const ScrubMoments& met, double of_law, double degrees_of_law) {
   const auto n = static_cast<double>(met.moments_m.size());
   const double mean = std::accumulate(met.moments_m.begin(), met.moments_m.end(), 0.0) / n;
@@ -124,8 +124,8 @@ std::optional<YawScrub> mean_scrub(const ScrubMoments& met, double of_law, doubl
 }
 
 /// Range of the c_i between the slowest and the fastest turn if they change with the rate: it spans
-/// the 95 % intervals of a straight line at both ends. Noise of r alone makes c fall with r, and
-/// noise of tau alone makes it rise with tau; only a change shows over both.
+/// the 95 % intervals of a straight line at both ends. Noise of r makes c fall with r, and noise of
+/// tau makes it rise with tau; a real change shows over both.
 std::optional<Interval> changing_scrub(const ScrubMoments& met, const Model& model) {
   for (const auto* over : {&met.rates_radps, &met.applied_m}) {
     if (!is_sloped(*over, met.moments_m, met.rates_radps, model)) return std::nullopt;
@@ -176,7 +176,8 @@ void note_standing(Model& model, const TrialSet<TurningRow>& turning,
                    standing.size() == 1 ? "" : "s", lines, *model.yaw_held_m));
 }
 
-/// Findings on turns beyond the rates that g3 was fitted to, and on scrub that changes with rate.
+/// Findings on turns outside the rates that g3 was fitted to, and on scrub that changes with the
+/// rate.
 void note_limits(Model& model, const TrialSet<TurningRow>& turning, const ScrubMoments& met) {
   const YawScrub& scrub = *model.yaw_scrub;
   const Interval rates = scrub.yaw_rate_radps;

@@ -6,8 +6,9 @@
 ///
 ///     c_i = tau_i - g3(r_i),    c = mean c_i,    var c = s^2/n + h' C h
 ///
-/// with s the scatter of the c_i, C the covariance of g3 and h the mean gradient of g3 by what it has.
-/// The interval is Student's t with the degrees of freedom of Welch and Satterthwaite.
+/// with s the standard deviation of the c_i, C the covariance of the parameters of g3 and h the
+/// mean gradient of g3 by them. The interval is Student's t with the degrees of freedom of Welch
+/// and Satterthwaite.
 #pragma once
 
 #include <vector>
@@ -17,7 +18,7 @@
 
 namespace awmr {
 
-/// Fewer differential turns give no estimate of scatter.
+/// Smallest number of differential turns, from which a scatter can be estimated.
 inline constexpr std::size_t kFewestScrubRows = 3;
 
 /// Sets model.yaw_held_m, the largest moment at which the vehicle did not turn (`scrub-holds`), and

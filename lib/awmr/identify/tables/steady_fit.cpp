@@ -27,8 +27,8 @@ double condition_of(const Eigen::MatrixXd& jacobian) {
   return least > 0.0 ? singular(0) / least : std::numeric_limits<double>::infinity();
 }
 
-/// Residuals and Jacobian at the solution -> rank, condition, leverages, covariance. False where
-/// one of them is not finite.
+/// Sets rank, condition, leverages and covariance from residuals and Jacobian at the solution.
+/// False if one of them is not finite.
 bool add_uncertainty(const SteadyProblem& problem, SteadySearch& search, SteadyFit& fit) {
   const Eigen::Index n = rows_of(problem.points);
   fit.condition_number = std::numeric_limits<double>::infinity();
@@ -56,7 +56,7 @@ bool add_uncertainty(const SteadyProblem& problem, SteadySearch& search, SteadyF
   return std::isfinite(variance) && fit.covariance.allFinite() && fit.leverages.allFinite();
 }
 
-/// The families that are this one with a term at 0 or the exponent at 1.
+/// The families that are special cases of this one: a term is 0 or the exponent is 1.
 std::vector<Family> families_inside(Family family) {
   switch (family) {
     case Family::kPower:
@@ -72,7 +72,8 @@ std::vector<Family> families_inside(Family family) {
   return {};
 }
 
-/// Without another fit: the power law by QR, then a share of the minimum force for each new term.
+/// Initial guess without another fit: the power law by QR, and a share of the minimum force for
+/// each further term.
 TransformedParameters initial_guess_of(const SteadyProblem& problem) {
   const SteadyFit line = fit_log_linear(problem.points);
   TransformedParameters guess{line[TransformedParameter::kLogAlpha], 1.0, 0.0, 0.0, 0.0};

@@ -1,5 +1,5 @@
-/// Fits of a resistance curve to steady runs: force that was set, rate that was measured. Private
-/// to identify/.
+/// Fits of a resistance curve to steady runs with a set force and a measured rate. Private to
+/// identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,13 +21,14 @@ namespace awmr {
 struct SteadyPoint {
   double force = 0.0;               ///< f: tau_speed, 1, or tau_turn, m; > 0
   double rate = 0.0;                ///< w: speed, m/s, or yaw rate, rad/s; > 0
-  std::optional<double> travel;     ///< distance, m, or angle, rad, where the run was timed; > 0
+  std::optional<double> travel;     ///< distance, m, or angle, rad, of a timed run; > 0
   std::optional<double> elapsed_s;  ///< with `travel`; > 0
   int line = 0;                     ///< of the file
 };
 
-/// Tables of more rows are fitted in time and memory that grow with the rows alone: leaving one out
-/// is then one step of the fit, not another fit, and an interval comes from the standard error.
+/// Largest number of rows for exact diagnostics. Larger tables are fitted in time and memory
+/// proportional to the rows: leaving a row out is one step of the fit instead of a new fit, and
+/// intervals are from the standard error.
 inline constexpr Eigen::Index kExactRows = 200;
 
 /// Input of a fit: the points, the family of the curve, and the quantity with the error.
@@ -41,19 +42,19 @@ struct SteadyProblem {
 
 /// A fitted curve. Unit of the noise: that of force, rate or time, or 1 for the log force.
 struct SteadyFit {
-  TransformedParameters theta{};  ///< those that the family does not free are 0, beta 1
-  /// In the family. A term that came out as 0, the end of its range, is among them: the others are
-  /// no better known than if it had come out as a little more. An exponent at the end of its range
-  /// is not.
+  TransformedParameters theta{};  ///< those that are not in the family are 0 (beta: 1)
+  /// Free coordinates of the family. A term with the value 0, the end of its range, is included, so
+  /// that it contributes to the uncertainty of the others. An exponent at the end of its range is
+  /// not included.
   std::vector<TransformedParameter> free;
   std::vector<TransformedParameter> at_bound;
   Eigen::MatrixXd covariance;  ///< free x free, positive definite; 0 x 0 without degrees of freedom
   Eigen::VectorXd residuals;   ///< curve - measured, by point, in the unit of the noise
-  Eigen::VectorXd leverages;   ///< by point, in [0, 1]; empty where rank is lacking
+  Eigen::VectorXd leverages;   ///< by point, in [0, 1]; empty without full rank
   double residual_std = 0.0;   ///< in the unit of the noise; 0 without degrees of freedom
   int degrees_of_freedom = 0;  ///< points - free; may be negative
   int rank = 0;                ///< of the jacobian over `free`
-  double condition_number = 0.0;  ///< of the jacobian over the family; infinite where rank lacks
+  double condition_number = 0.0;  ///< of the jacobian over the family; infinite without full rank
   std::string stop_reason;
   bool usable = false;  ///< the search converged, the rank is full
 
@@ -61,38 +62,38 @@ struct SteadyFit {
   double& operator[](TransformedParameter c) { return theta[at(c)]; }
   bool has_covariance() const { return covariance.size() > 0; }
   bool held_by_bound(TransformedParameter c) const;
-  /// The standard error of a coordinate; none without degrees of freedom or for a held exponent.
+  /// The standard error of a coordinate; empty without degrees of freedom or for a fixed exponent.
   std::optional<double> std_error(TransformedParameter c) const;
   /// The curve without the dead zone, which belongs to the command.
   Resistance<double> law() const;
 };
 
 /// ln f = ln alpha + beta ln w + error, by QR.                                    [paper (48)-(54)]
-/// Precondition: at least one point. Rank 1 where all rates are equal.
+/// Precondition: at least one point. Rank 1 if all rates are equal.
 SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points);
 
-/// The curve with the error where the noise says:
+/// Fits the curve with the error of the noise model:
 ///   log force:  ln f = ln (g(w) + z) + error
 ///   force:      f = g(w) + z + error
 ///   speed:      w = g^-1(f - z) + error
 ///   time:       t = travel/g^-1(f - z) + error
 /// beta is kept in its range, c, q and z at 0 or more. A robust loss takes its scale from the
-/// median absolute residual. Precondition: every point is timed where the noise is kTime.
+/// median absolute residual. Precondition: every point is timed if the noise is kTime.
 SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& initial_guess);
-/// The same from initial guesses that are worked out of the points alone: one of the family's own, and
-/// the optimum of each family inside this one, so that a richer family never fits worse. `known`
-/// holds optima of the same points, noise and loss by family; those that lack are added.
+/// The same from initial guesses computed from the points: one of the family's own, and the optimum
+/// of each family that this one contains, so that a richer family never fits worse. `known`: optima
+/// of the same points, noise and loss, by family; missing ones are added.
 SteadyFit fit_steady(const SteadyProblem& problem, std::map<Family, TransformedParameters>& known);
 
 /// The same curve with the error on the time that the rate took for the travel, travel/w, from the
-/// initial guess. Empty where a run was not timed, or the fit failed.
+/// initial guess. Empty if a run was not timed, or the fit failed.
 std::optional<SteadyFit> fit_by_time(SteadyProblem problem,
                                      const TransformedParameters& initial_guess);
 
-/// Every number of the law is finite, and alpha is more than nothing.
+/// True if every coordinate is finite and alpha > 0.
 bool is_physical(const Resistance<double>& law);
 
-/// Residuals, unweighted, and their derivatives by the coordinates named, anywhere.
+/// Unweighted residuals and their derivatives by some coordinates, at any point.
 struct SteadyRows {
   Eigen::VectorXd residuals;  ///< by point
   Eigen::MatrixXd jacobian;   ///< points x coordinates
@@ -102,7 +103,7 @@ std::optional<SteadyRows> steady_rows(const SteadyProblem& problem,
                                       const TransformedParameters& theta,
                                       const std::vector<TransformedParameter>& by);
 
-/// The bounds of a search over one coordinate; infinite where there is none.
+/// The bounds of a search over one coordinate; infinite without a bound.
 Interval bounds_of(const SteadyProblem& problem, TransformedParameter c);
 
 }  // namespace awmr

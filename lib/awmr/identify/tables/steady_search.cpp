@@ -15,11 +15,11 @@
 namespace awmr {
 namespace {
 
-/// beta has to stay above 0 where the curve is inverted.
+/// Smallest beta with which the curve can be inverted.
 constexpr double kMinimumInvertibleBeta = 1e-3;
 
 /// g^-1(force) with its derivatives; 0 where the force does not overcome Coulomb friction. One
-/// Newton step from the root in double carries the derivatives of an implicit function exactly.
+/// Newton step from the root in double gives the exact derivatives of the implicit function.
 template <class T>
 T inverse(const Resistance<T>& law, const T& force) {
   const Resistance<double> plain = value_of(law);
@@ -56,7 +56,7 @@ struct SteadyResidual {
       residual[0] = rate - point.rate;
       return true;
     }
-    if (!(rate > T(0.0))) return false;  // no motion takes forever: not a point to step to
+    if (!(rate > T(0.0))) return false;  // without motion the time is infinite: rejects this point
     residual[0] = *point.travel / rate - *point.elapsed_s;
     return true;
   }
@@ -64,7 +64,7 @@ struct SteadyResidual {
 
 using SteadyCost = ceres::AutoDiffCostFunction<SteadyResidual, 1, 1, 1, 1, 1, 1>;
 
-/// Ends a search in which the same coordinates have been at their bounds for some iterations.
+/// Ends a search if the same coordinates have been at their bounds for some iterations.
 class StopAtBound : public ceres::IterationCallback {
  public:
   explicit StopAtBound(std::function<std::vector<TransformedParameter>()> at_bound)
@@ -77,7 +77,7 @@ class StopAtBound : public ceres::IterationCallback {
     return iterations_ < kIterations ? ceres::SOLVER_CONTINUE
                                      : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
-  /// The coordinates for which it ended the search; none where it did not.
+  /// The coordinates for which it ended the search; empty if it did not.
   std::vector<TransformedParameter> held() const {
     return iterations_ < kIterations ? std::vector<TransformedParameter>() : held_;
   }
@@ -154,7 +154,7 @@ std::vector<TransformedParameter> SteadySearch::search_until_at_bound() {
   return stop.held();
 }
 
-/// Whether the cost falls from the bound into the interval, so that the bound does not hold it.
+/// True if the cost decreases from the bound into the interval: the bound is then not active.
 bool SteadySearch::falls_inwards(TransformedParameter c) {
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = {block(c)};
@@ -163,9 +163,9 @@ bool SteadySearch::falls_inwards(TransformedParameter c) {
   return theta_[at(c)] <= bounds_of(problem_, c).lo ? gradient[0] < 0.0 : gradient[0] > 0.0;
 }
 
-// Least squares alone point beyond a bound in every step, and what is cut off there keeps the other
-// coordinates from their optimum: with the bound they come nearer by a third at a time. Held at the
-// bound for good, the rest of the search is one without bounds.
+// A least-squares step beyond a bound is cut, which also shortens the step of the other
+// coordinates, so convergence is slow. With the coordinate fixed at the bound, the rest of the
+// search is unbounded.
 void SteadySearch::solve() {
   const std::vector<TransformedParameter> held = search_until_at_bound();
   if (held.empty()) return;
@@ -180,9 +180,9 @@ void SteadySearch::solve() {
 void SteadySearch::solve_robustly() {
   for (int round = 0; round < 20; ++round) {
     const std::optional<Eigen::VectorXd> e = residuals();
-    if (!e) return;  // the search failed, its summary says why
+    if (!e) return;  // the search failed; the summary has the reason
     const double scale = median_scale(*e);
-    if (!(scale > 0.0)) return;  // over half of the points fit exactly: nothing to weigh down
+    if (!(scale > 0.0)) return;  // more than half of the points fit exactly: the loss has no scale
     loss_.Reset(make_loss(problem_.loss, scale).release(), ceres::TAKE_OWNERSHIP);
     const TransformedParameters before = theta_;
     solve();

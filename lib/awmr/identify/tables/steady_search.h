@@ -1,4 +1,4 @@
-/// The search behind fit_steady(), for fits and profiles. Private to identify/tables/.
+/// Search of fit_steady() and of profiles. Private to identify/tables/.
 #pragma once
 
 #include <ceres/ceres.h>
@@ -12,9 +12,8 @@
 
 namespace awmr {
 
-/// The Ceres problem over five blocks of one number, those not free held constant: the family's
-/// coordinates less the one that is `held`. The initial guess is moved into the bounds.
-/// `problem` has to outlive the search, which points into itself: it stays where it was made.
+/// Ceres problem with one block per coordinate. Variable are the coordinates of the family except
+/// `held`. The initial guess is clamped to the bounds. Not movable. `problem` must outlive it.
 class SteadySearch {
  public:
   SteadySearch(const SteadyProblem& problem, const TransformedParameters& initial_guess,
@@ -46,7 +45,7 @@ class SteadySearch {
 
   const SteadyProblem& problem_;
   TransformedParameters theta_;
-  std::vector<TransformedParameter> free_;  ///< the coordinates searched for
+  std::vector<TransformedParameter> free_;  ///< the variable coordinates
   ceres::LossFunctionWrapper loss_{nullptr, ceres::TAKE_OWNERSHIP};
   std::unique_ptr<ceres::Problem> ceres_;
   ceres::Solver::Summary summary_;

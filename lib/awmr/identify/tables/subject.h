@@ -13,26 +13,27 @@
 
 namespace awmr {
 
-/// One resistance law, the names of its parameters and the runs that show it.
+/// One resistance law, the names of its parameters and the runs that measure it.
 struct Subject {
   FitSubject name = FitSubject::kSurge;  ///< surge or yaw
   ParameterId alpha = ParameterId::kSurgeAlpha;
   ParameterId beta = ParameterId::kSurgeBeta;
   ParameterId coulomb = ParameterId::kSurgeCoulomb;
   ParameterId quadratic = ParameterId::kSurgeQuadratic;
-  std::vector<Family> families;  ///< that make sense for it; the first is the power law
-  Interval beta_range;           ///< accepted exponents; a fit is kept inside
+  std::vector<Family> families;  ///< applicable ones; the first is the power law
+  Interval beta_range;           ///< accepted exponents; bounds of a fit
   std::string file;              ///< of the runs, for findings
   std::vector<SteadyPoint> points;
 };
 
 /// g1: tau_speed = g1(u), from the surge runs.                                  [paper (45)-(54)]
 Subject surge_subject(const Vehicle& vehicle, const TrialSet<SurgeRow>& runs);
-/// g3: tau_turn = g3(r), from the turning runs less the wheels' dead zone F'0.  [paper (61)-(63)]
+/// g3: tau_turn = g3(r), from the turning runs after subtracting the wheels' dead zone F'0.
+///                                                                              [paper (61)-(63)]
 Subject yaw_subject(const Vehicle& vehicle, const TrialSet<TurningRow>& runs, double dead_zone);
 
-/// Subtracts the dead zone F'0 from each F', and the same share from tau_turn. Rows within it are
-/// left out.
+/// Subtracts the dead zone F'0 from each F', and reduces tau_turn by the same factor. Rows within
+/// the dead zone are left out.
 std::vector<SteadyPoint> turning_points(const std::vector<TurningRow>& rows, double dead_zone);
 
 /// The parameter of the model that a coordinate of the fit belongs to.

@@ -16,15 +16,14 @@
 namespace awmr {
 namespace {
 
-/// Another family is significantly better from this difference of AICc on: the power law then has less
-/// than e^-5 of its support.
+/// Difference of AICc from which another family is significantly better: a likelihood ratio of e^5.
 constexpr double kTablesPlainlyBetter = 10.0;
 
-/// AICc divides by n - k - 2, with k free numbers in addition to the scatter: two in the smallest
-/// families.
+/// AICc divides by n - k - 2, with k free parameters in addition to the scatter: two in the
+/// smallest families.
 constexpr std::size_t kFewestToCompare = 5;
 
-/// Which fit is used, and its entry among the reports; no fit where none will do.
+/// The chosen fit and its index in the reports; no fit if none is accepted.
 struct Choice {
   std::optional<SteadyFit> fit;
   SteadyProblem problem;
@@ -50,16 +49,16 @@ Choice choose_log_linear(const Subject& subject, const SubjectOptions& options,
           {}};
 }
 
-/// The power law was taken without a comparison.
+/// Finding: the power law was selected without a comparison.
 Finding not_compared(const Subject& subject) {
   return about(subject, Severity::kWarning, "families-not-compared",
-               fmt::format("{} rows of {} are too few to compare families by AICc, which takes {}: "
-                           "the power law is taken; record another run",
+               fmt::format("{} rows of {} are too few to compare families by AICc, which needs {}: "
+                           "the power law is used; record another run",
                            subject.points.size(), name_in(kFitSubjectNames, subject.name),
                            kFewestToCompare));
 }
 
-/// Why there is no fit to choose; `tried`: there were fits.
+/// Reason why there is no fit to choose; `tried`: there were fits.
 Finding nothing_to_choose(const Subject& subject, bool tried) {
   if (!tried) {
     return about(
@@ -67,11 +66,11 @@ Finding nothing_to_choose(const Subject& subject, bool tried) {
         fmt::format("{} rows are too few for the requested family", subject.points.size()));
   }
   return about(subject, Severity::kError, "not-converged",
-               fmt::format("no family's fit of {} converged with more runs than its numbers",
+               fmt::format("no family's fit of {} converged with more runs than parameters",
                            name_in(kFitSubjectNames, subject.name)));
 }
 
-/// The family requested, or the one of minimum AICc.
+/// Selects the requested family, or the one with the minimum AICc.
 Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, ErrorModel wanted,
                         const std::vector<FamilyCandidate>& candidates) {
   Choice choice;
@@ -81,7 +80,7 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
   const bool tried = std::ranges::any_of(
       candidates, [&](const FamilyCandidate& c) { return c.problem.noise == wanted; });
   if (!chosen && !options.family.family && subject.points.size() < kFewestToCompare) {
-    // Two free numbers, and no other family with fewer.
+    // Two free parameters; no other family has fewer.
     chosen = candidate_of(candidates, Family::kPower, wanted);
     choice.findings.push_back(not_compared(subject));
   }
@@ -107,7 +106,7 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
   return choice;
 }
 
-/// `power-law-inadequate`, where another family has significantly less AICc.
+/// `power-law-inadequate` if another family has a significantly lower AICc.
 std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wanted,
                                         const std::vector<FamilyCandidate>& candidates,
                                         Family used) {
@@ -128,7 +127,7 @@ std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wante
 }
 
 /// Adds residual tests, outliers and influential runs to the chosen report and the findings.
-void judge(const Subject& subject, std::size_t report, SubjectFit& result) {
+void add_diagnostics(const Subject& subject, std::size_t report, SubjectFit& result) {
   const SteadyFit& fit = *result.chosen;
   EstimatorReport& chosen = result.reports[report];
   if (fit.degrees_of_freedom >= 1) {
@@ -147,7 +146,7 @@ void judge(const Subject& subject, std::size_t report, SubjectFit& result) {
   }
 }
 
-/// Obstacles to any fit although the rows show a law.
+/// Reason against any fit although the rows determine a law.
 std::optional<Finding> obstacle(const Subject& subject, const SubjectOptions& options,
                                 ErrorModel wanted, const SteadyFit& line) {
   if (!line.usable) {
@@ -175,7 +174,7 @@ void take(const Subject& subject, Choice choice, SubjectFit& result) {
   append(bound_findings(subject, *result.chosen, result.problem.family), result.findings);
 }
 
-/// Takes the gross outliers out of the subject.
+/// Removes the gross outliers from the subject.
 std::vector<Finding> set_outliers_aside(Subject& subject, const SubjectOptions& options) {
   constexpr std::size_t kOneIn = 10;
   std::vector<Finding> findings;
@@ -190,7 +189,7 @@ std::vector<Finding> set_outliers_aside(Subject& subject, const SubjectOptions& 
   return findings;
 }
 
-/// The probability of each alternative goes into its report, if there is one.
+/// Writes the probability of each alternative into its report, if there is one.
 void put_weights(std::size_t chosen_report, SubjectFit& result) {
   if (result.alternatives.size() < 2) return;
   const std::string family(name_of(result.problem.family));
@@ -231,7 +230,7 @@ SubjectFit fit_rows(const Subject& subject, const SubjectOptions& options) {
       noise_alternatives(subject, options, result.problem, *result.chosen, candidates);
   put_weights(report, result);
   if (!options.side_by_side) return result;
-  judge(subject, report, result);
+  add_diagnostics(subject, report, result);
   if (options.loss == Loss::kSquared) {
     append(power_law_findings(subject, wanted, candidates, result.problem.family), result.findings);
   }

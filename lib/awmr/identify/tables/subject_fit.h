@@ -1,4 +1,4 @@
-/// One resistance, surge or yaw, through every estimator. Private to identify/.
+/// Fits of one resistance, surge or yaw, by all estimators. Private to identify/.
 #pragma once
 
 #include <optional>
@@ -10,21 +10,24 @@
 namespace awmr {
 
 struct SubjectFit {
-  std::optional<SteadyFit> chosen;  ///< none: the rows cannot show the law, or no fit will do
-  std::string why_not;              ///< why none will do; empty where the rows cannot show the law
+  std::optional<SteadyFit> chosen;  ///< absent: the rows cannot determine the law, or no fit is
+                                    ///< accepted
+  std::string why_not;              ///< why no fit is accepted; empty if the rows cannot determine
+                                    ///< the law
   SteadyProblem problem;            ///< of the chosen fit
-  bool log_linear = false;          ///< how it was made
+  bool log_linear = false;          ///< the chosen fit is log-linear
   std::string method;               ///< as text
-  /// The chosen fit first, then the others that the runs' errors allow; empty without a chosen one.
+  /// The chosen fit, then those under the other noise models (noise_average.h); empty without a
+  /// chosen one.
   std::vector<NoiseAlternative> alternatives;
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
 };
 
-/// All estimators side by side, the chosen one with its diagnostics, outliers (`outlier`),
-/// influence of single rows (`influential-row`) and the verdict on the power law
-/// (`power-law-inadequate`). Under squared loss gross outliers are set aside before the fit, at most
-/// a tenth of the runs and at least one.
+/// Fits by all estimators. The chosen one has diagnostics, outliers (`outlier`), the influence of
+/// single rows (`influential-row`) and the test of the power law (`power-law-inadequate`). Under
+/// squared loss, gross outliers are excluded before the fit: at most a tenth of the runs, but at
+/// least one is allowed.
 SubjectFit fit_subject(Subject subject, const SubjectOptions& options);
 
 }  // namespace awmr

@@ -7,12 +7,12 @@
 namespace awmr {
 
 /// AIC threshold: another family replaces the power law without a request if its AIC is lower by
-/// this much. For correlated errors: twice what is commonly called decisive, since the chord at
-/// rest, an approximation of every family, costs some.
+/// this much. For correlated errors it is twice the common threshold, because the chord at rest, an
+/// approximation in every family, also changes the AIC.
 inline constexpr double kFamilyAicThreshold = 20.0;
 
-/// AICc of n normal errors of unknown deviation with the sum of squares SSE, `free` numbers fitted
-/// in addition to the deviation, k = free + 1:
+/// AICc of n normal errors with unknown standard deviation and the sum of squares SSE. `free`
+/// parameters are fitted in addition to the standard deviation, k = free + 1:
 ///
 ///     AICc = n ln(SSE/n) + 2 k + 2 k (k + 1)/(n - k - 1)
 ///

@@ -48,7 +48,7 @@ std::optional<Diagnostic> normality(std::span<const double> residuals) {
   const double size = static_cast<double>(n);
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    // Far in a tail the probability rounds to 0 or 1; its logarithm has to stay finite.
+    // In the tails the probability rounds to 0 or 1; clamped so that its logarithm is finite.
     const double tiny = 1e-300;
     const double below = std::max(tiny, normal_cdf((x[i] - mean) / sd));
     const double above = std::max(tiny, normal_tail((x[n - 1 - i] - mean) / sd));
@@ -147,7 +147,7 @@ Eigen::VectorXd studentised(const Eigen::VectorXd& residuals, const Eigen::Vecto
     const double free = 1.0 - leverages(i);
     const double e = residuals(i);
     const double without = (sse - e * e / free) / (degrees_of_freedom - 1.0);
-    // A point that alone decides a parameter has no residual to test.
+    // A point that determines a parameter alone has no residual to test.
     const double evaluated = free > 1e-12 && without > 0.0 ? e / std::sqrt(without * free) : 0.0;
     t(i) = std::isfinite(evaluated) ? evaluated : 0.0;
   }

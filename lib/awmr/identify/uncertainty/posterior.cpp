@@ -51,7 +51,7 @@ Eigen::MatrixXd Posterior::covariance() const {
 }
 
 double Posterior::quantile(Eigen::Index i, double p) const {
-  // It lies between the least and the largest of the alternatives' own.
+  // It is between the smallest and the largest quantile of the alternatives.
   Interval bracket;
   for (const Alternative& k : alternatives) {
     const double own = k.centre(i) + scale_of(k, i) * students_t_quantile(p, k.dof(i));
@@ -85,7 +85,7 @@ void set_uncertainty(const Posterior& posterior, Eigen::Index i, double slope,
   for (std::size_t q = 0; q < kQuantiles.size(); ++q) {
     quantiles[q] = to_value(posterior.quantile(i, kQuantiles[q].probability));
   }
-  // Rounding apart the value lies between them: METHODS.md, "Noise and intervals".
+  // Up to rounding, the value is between them: METHODS.md, "Noise and intervals".
   estimate.ci95 = Interval{std::min(quantiles.front(), *estimate.value),
                            std::max(quantiles.back(), *estimate.value)};
   estimate.quantiles = quantiles;

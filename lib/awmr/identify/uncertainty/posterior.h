@@ -10,8 +10,8 @@
 
 namespace awmr {
 
-/// A mixture of Student's t: under alternative k, of probability w_k, the numbers x have the centre
-/// m_k and the covariance C_k. Without alternatives nothing is known of the numbers' errors.
+/// Mixture of Student's t distributions: under alternative k, with probability w_k, the numbers x
+/// have the centre m_k and the covariance C_k. Without alternatives the errors are unknown.
 struct Posterior {
   struct Alternative {
     double weight = 1.0;         ///< w_k in (0, 1]; they add up to 1
@@ -22,7 +22,7 @@ struct Posterior {
   std::vector<Alternative> alternatives;
 
   bool empty() const { return alternatives.empty(); }
-  /// False where the centre, the variance or the degrees of freedom of x_i left the numbers.
+  /// False if the centre, the variance or the degrees of freedom of x_i are not finite.
   bool is_proper(Eigen::Index i) const;
   /// About the mean m = sum w_k m_k:
   ///   C = sum w_k (C_k + (m_k - m)(m_k - m)')
@@ -32,10 +32,10 @@ struct Posterior {
   double quantile(Eigen::Index i, double p) const;
 };
 
-/// Standard error, 95 % interval and quantiles of an estimate whose value is there already, from number
-/// `i` of a posterior. `to_value` is increasing, `slope` its derivative at the estimate's value. The
-/// interval reaches from the 2.5 % to the 97.5 % quantile. Where the posterior is not proper the error is
-/// infinite, without an interval.
+/// Sets standard error, 95 % interval (2.5 % to 97.5 % quantile) and quantiles of an estimate from
+/// number `i` of a posterior; the value is already set. `to_value` is increasing, `slope` its
+/// derivative at the value. If the posterior is not proper, the error is infinite and there is no
+/// interval.
 void set_uncertainty(const Posterior& posterior, Eigen::Index i, double slope,
                      const std::function<double(double)>& to_value, Estimate& estimate);
 

@@ -10,11 +10,12 @@
 
 namespace awmr {
 
-/// Columns panel, series (both counted from 0), name, x, y, low, high; a row each point.
-/// Errors (input): a number that is not finite; the message names the series and the figure.
+/// Columns panel, series (both counted from 0), name, x, y, low, high; one row per point. Errors
+/// (input): a number that is not finite; the message names the series and the figure.
 Result<std::string> figure_csv(const Figure& figure);
 
-/// figures.json: names, axes, panels, series with their shapes and roles; no numbers of the CSV files.
+/// figures.json: names, axes, panels, series with their shapes and roles; no numbers of the CSV
+/// files.
 std::string figures_text(const std::vector<Figure>& figures);
 
 }  // namespace awmr

@@ -28,7 +28,7 @@ Status add_from_file(void (*add)(const Json&, FiguresOfResults&), const std::str
   } catch (const Json::exception& error) {
     return input_error(
         ErrorCode::kBrokenFile, file,
-        std::string("is not as awmr writes it (") + error.what() + "); make it again");
+        std::string("does not have awmr's format (") + error.what() + "); make it again");
   }
   return {};
 }

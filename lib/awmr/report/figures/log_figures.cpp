@@ -41,8 +41,8 @@ Figure log_figure(const Json& log) {
   const std::string file = log.at("file");
   Figure figure{.name = figure_name("log", std::filesystem::path(file).stem().string()),
                 .meaning = "Measured channels of " + file +
-                           " and what the commands alone predict, "
-                           "restarted from the measurements at the start of every window",
+                           " and their prediction from the commands, restarted from the "
+                           "measurements at the start of every window",
                 .x = {"t", "s"},
                 .panels = {}};
   for (const auto& [name, channel] : log.at("channels").items()) {

@@ -112,7 +112,7 @@ Figure speed_figure(const ScenarioRuns& one) {
 }
 
 /// Waypoints, or the points of a line.
-Series points_of_course(const Json& scenario) {
+Series path_points(const Json& scenario) {
   Series points{.name = "", .shape = SeriesShape::kPoints, .role = Role::kReference};
   if (!scenario.contains("guidance")) return points;
   const Json& guidance = scenario["guidance"];
@@ -138,7 +138,7 @@ Figure path_figure(const ScenarioRuns& one) {
   for (const Json* run : one.runs) {
     figure.panels[0].series.push_back(line_of(*run, "x_m", "y_m"));
   }
-  Series points = points_of_course(one.scenario);
+  Series points = path_points(one.scenario);
   if (!points.x.empty()) figure.panels[0].series.push_back(std::move(points));
   if (!one.scenario.contains("obstacles")) return figure;
   for (const Json& o : one.scenario["obstacles"]) {
@@ -161,7 +161,7 @@ void add_run_figures(const Json& data, FiguresOfResults& all) {
     all.figures.push_back(figure_over_time(
         one, "forces", "Left and right wheel forces over F_max",
         {panel_of(one, "force_left", {"F′_{L}"}), panel_of(one, "force_right", {"F′_{R}"})}));
-    all.figures.push_back(figure_over_time(one, "steering", "Steering, as commanded and as it was",
+    all.figures.push_back(figure_over_time(one, "steering", "Steering angle, commanded and actual",
                                            {panel_of(one, "steering_cmd_deg", {"δ_{cmd}", "deg"}),
                                             panel_of(one, "steering_deg", {"δ", "deg"})}));
     all.figures.push_back(path_figure(one));

@@ -63,11 +63,11 @@ void add_tuning_figures(const Json& data, FiguresOfResults& all) {
                       .role = Role::kReference,
                       .x = {0.0, last},
                       .y = {1.0, 1.0}});
-  all.figures.push_back({.name = "tuning_history",
-                         .meaning = "The objective of the best gains that the search had met, "
-                                    "against its evaluations; 1 is the baseline's",
-                         .x = {"evaluation"},
-                         .panels = {{.y = {"objective, best so far"}, .series = searches}}});
+  all.figures.push_back(
+      {.name = "tuning_history",
+       .meaning = "Best objective of the search so far, by evaluation; the baseline's is 1",
+       .x = {"evaluation"},
+       .panels = {{.y = {"objective, best so far"}, .series = searches}}});
 }
 
 }  // namespace awmr

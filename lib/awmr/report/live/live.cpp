@@ -111,8 +111,8 @@ AWMR_EXPORT(live_begin) void live_begin() {
   visit_numbers(setup, [&](double& x) { x = numbers[next++]; });
 }
 
-/// mode: as YawMode. mass and friction: factors of the plant relative to the model, unknown to the
-/// controller; observer_radps: 0 without an observer. Returns true if the run was completed.
+/// mode: as YawMode. mass and friction: factors of the plant relative to the model of the
+/// controller. observer_radps: 0 without an observer. Returns true if the run was completed.
 AWMR_EXPORT(live_run)
 bool live_run(double lambda, double mu, double epsilon, double speed_mu, double speed_epsilon,
               double observer_radps, int mode, double sample_time_s, double mass, double friction,

@@ -1,4 +1,4 @@
-/// The kernels of the program, and which of them this processor runs. Private to simulate/.
+/// The kernels of the program that this processor can run. Private to simulate/.
 #pragma once
 
 #include <vector>
@@ -24,7 +24,7 @@ extern const awmr::lanes::Kernel awmr_lanes_neon;
 namespace awmr {
 namespace lanes {
 
-/// The kernels that this program has and this processor runs, the widest first. Empty: runs go one by one.
+/// The available kernels, the widest first. Empty: runs are simulated one at a time.
 std::vector<const Kernel*> supported_kernels();
 
 }  // namespace lanes

@@ -1,6 +1,6 @@
 /// pow, sin, cos, atan, atan2 and the wrap of an angle for lanes. Polynomials are Chebyshev fits on
-/// the reduced interval, their error below 1e-17 of the result. Where an argument is out of the range
-/// that a reduction is made for, its lane asks the C library. The worst errors, over these ranges:
+/// the reduced interval, their error below 1e-17 of the result. A lane whose argument is outside
+/// the range of a reduction uses the C library. Largest errors over these ranges:
 /// tests/simulate/lanes_test.cpp.
 #pragma once
 
@@ -15,7 +15,8 @@ namespace AWMR_LANES {
 
 using Bits = xsimd::batch<std::uint64_t, xsimd::AWMR_LANES_ARCH>;
 
-/// The same 64 bits a lane. xsimd 9 and later name the number in the cast, earlier ones the register.
+/// Reinterprets the 64 bits of each lane. xsimd 9 and later name the number in the cast, earlier
+/// ones the register.
 AWMR_LANE_INLINE Bits to_bits(const Register& x) {
 #if XSIMD_VERSION_MAJOR < 9
   return xsimd::bitwise_cast<Bits>(x);
@@ -31,12 +32,12 @@ AWMR_LANE_INLINE Register to_register(const Bits& x) {
 #endif
 }
 
-/// NaN where `in_range` does not hold.
+/// NaN if `in_range` is false.
 AWMR_LANE_INLINE Lanes only_where(const LaneMask& in_range, const Lanes& result) {
   return select(in_range, result, Lanes(__builtin_nan("")));
 }
 
-/// c[0] + c[1] x + ... by two of Horner's chains, of the even and of the odd powers.
+/// c[0] + c[1] x + ... by two Horner schemes, for the even and the odd powers.
 template <int N>
 AWMR_LANE_INLINE Lanes polynomial(const double (&c)[N], const Lanes& x) {
   const Lanes z = x * x;
@@ -51,7 +52,7 @@ AWMR_LANE_INLINE Lanes polynomial(const double (&c)[N], const Lanes& x) {
   return fma(last, x, before);
 }
 
-/// x + 1.5 2^52 has the whole number nearest to x in its last bits, for |x| < 2^51.
+/// x + 1.5 2^52 has the integer nearest to x in its last bits, for |x| < 2^51.
 constexpr double kRounder = 0x1.8p52;
 
 /// x = m 2^k, m in [sqrt(1/2), sqrt 2), for x in the normal range.
@@ -64,9 +65,9 @@ AWMR_LANE_INLINE Split split(const Lanes& x) {
   Split result;
   for (int i = 0; i < kRegisters; ++i) {
     const Bits bits = to_bits(x.part[i]);
-    // The biased exponent of x/sqrt(1/2), and below it what its mantissa would be.
+    // The biased exponent of x/sqrt(1/2), and below it its mantissa.
     const Bits biased = (bits + Bits(kOne - kRootHalf)) >> 52;
-    // A whole number n < 2^52 in the mantissa of 2^52 is 2^52 + n.
+    // An integer n < 2^52 in the mantissa of 2^52 gives 2^52 + n.
     result.k.part[i] =
         to_register(biased | Bits(0x4330000000000000ULL)) - Register(0x1p52 + 1023.0);
     result.m.part[i] = to_register(bits - ((biased << 52) - Bits(kOne)));
@@ -104,7 +105,7 @@ AWMR_LANE_INLINE Lanes exp2_of_normal(const Lanes& y) {
       p, rounded);
 }
 
-/// x^y for x in the normal range; what is below 2^-1000 counts as that, what is above 2^1000 is NaN.
+/// x^y for x in the normal range; results below 2^-1000 are 2^-1000, results above 2^1000 are NaN.
 AWMR_LANE_INLINE Lanes pow(const Lanes& x, const Lanes& y) {
   const Lanes power = y * log2_of_normal(x);
   const Lanes at_least = select(power < Lanes(-1000.0), Lanes(-1000.0), power);
@@ -133,8 +134,9 @@ AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
   const Lanes z = r * r;
   const Lanes s = fma(r * z, polynomial(kSin, z), r);
   const Lanes c = fma(z * z, polynomial(kCos, z), fma(z, Lanes(-0.5), Lanes(1.0)));
-  // Odd quadrants swap the two: their last bit is put where it makes the number 2. The second bit is
-  // the sign of the sine, and of the cosine one quadrant on: it is put where the sign is.
+  // Odd quadrants swap the two: their last bit is shifted so that it gives the number 2. The second
+  // bit is the sign of the sine, and one quadrant later that of the cosine: it is shifted to the
+  // sign bit.
   const LaneMask swapped = by_register<LaneMask>(
       [](const Register& whole) {
         const Bits odd = (to_bits(whole) & Bits(std::uint64_t{1})) << 62;
@@ -153,7 +155,7 @@ AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
   return {with_sign(select(swapped, c, s), 0), with_sign(select(swapped, s, c), 1)};
 }
 
-/// NaN beyond kLargestAngle either way.
+/// NaN for |x| > kLargestAngle.
 AWMR_LANE_INLINE Lanes sin(const Lanes& x) {
   return only_where(abs(x) < Lanes(kLargestAngle), sin_cos_in_range(x).sin);
 }

@@ -1,9 +1,9 @@
-/// A batch of doubles, a lane per trajectory: the scalar with which the templates of model/ and
-/// control/ run several vehicles at once. For kernel files alone: see kernel.h.
+/// A batch of doubles, one lane per trajectory: the scalar type with which the templates of model/
+/// and control/ simulate several vehicles at once. For kernel files only: see kernel.h.
 ///
 /// A kernel file defines AWMR_LANES, the name of its instruction set, before it includes this. The
-/// name is part of every type here and so of every template made with one: the linker takes the
-/// first of two functions of the same name, and that may be one for a newer processor.
+/// name is part of every type here, and so of every template instantiated with one. Otherwise the
+/// linker would merge functions of the same name, and could select one for a newer processor.
 #pragma once
 
 #include <xsimd/xsimd.hpp>
@@ -22,8 +22,8 @@ namespace AWMR_LANES {
 using Register = xsimd::batch<double, xsimd::AWMR_LANES_ARCH>;
 using RegisterMask = xsimd::batch_bool<double, xsimd::AWMR_LANES_ARCH>;
 
-/// Registers per batch. With two, one register computes while the other waits for its last result.
-/// That needs a processor with 32 registers.
+/// Registers per batch. With two, one register computes while the other waits for its result, which
+/// needs a processor with 32 registers.
 constexpr int kRegisters = AWMR_LANES_REGISTERS;
 
 /// Truth by lane.
@@ -56,7 +56,7 @@ struct Lanes {
   }
 };
 
-/// f of the registers of each place.
+/// Applies f to the registers at each position.
 template <class Result = Lanes, class F, class... Operands>
 AWMR_LANE_INLINE Result by_register(const F& f, const Operands&... operands) {
   Result result;
@@ -92,7 +92,7 @@ AWMR_LANES_OPERATOR(LaneMask, LaneMask, &&, &)
 AWMR_LANES_OPERATOR(LaneMask, LaneMask, ||, |)
 #undef AWMR_LANES_OPERATOR
 
-/// By the bit of the sign: xsimd 8 subtracts from 0 for AVX-512, which leaves 0 its sign.
+/// Flips the sign bit: xsimd 8 subtracts from 0 for AVX-512, which does not change the sign of 0.
 AWMR_LANE_INLINE Lanes operator-(const Lanes& a) {
   return by_register([](const Register& x) { return x ^ Register(-0.0); }, a);
 }

@@ -1,5 +1,5 @@
-/// A number of each of sixteen runs that are driven together. Plain data: the kernels are compiled for
-/// other instruction sets than the rest of the program, and share no code with it.
+/// One number of each of sixteen runs that are simulated together. Plain data, because the kernels
+/// are compiled for other instruction sets and share no code with the rest of the program.
 #pragma once
 
 namespace awmr {

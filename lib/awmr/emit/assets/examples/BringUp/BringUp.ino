@@ -189,12 +189,12 @@ void walk() {
   if (!SD.begin(awmr_board::kSdSelectPin)) end(F("7. no SD card"));
 #endif
   check_autopilot();
-  prompt(F("9. Next: wheels turn, the step hangs. The motors have to stop within a second and this sketch to begin anew."));
+  prompt(F("9. Next: wheels turn, the step hangs. The motors must stop within a second and this sketch must restart."));
   want(kForce, kForce, 0.0f);
   wait_ms(1000);
   shall_hang = true;
   delay(3000);
-  end(F("the watchdog did not bite"));
+  end(F("the watchdog did not reset"));
 }
 
 void setup() {
@@ -202,10 +202,10 @@ void setup() {
   awmr_board::begin_actuators();
   imu.begin();
   gps_port = &awmr_board::begin_gps_port();
-  const bool has_bitten = (awmr_board::reset_cause() & awmr_board::kWatchdog) != 0;
+  const bool was_reset = (awmr_board::reset_cause() & awmr_board::kWatchdog) != 0;
   if (awmr_init() != AWMR_FAULT_NONE) Serial.println(F("parameters damaged: flash again"));
   awmr_board::begin_steps(receive, step);
-  if (has_bitten) Serial.println(F("9. The watchdog works. Bring-up is done; once more from the start:"));
+  if (was_reset) Serial.println(F("9. The watchdog works. Bring-up is done; to repeat it:"));
   walk();
 }
 

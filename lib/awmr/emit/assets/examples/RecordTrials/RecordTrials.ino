@@ -168,9 +168,9 @@ void loop() {
     write_row(Serial);
     write_row(file);
   }
-  if (event == kNotSteady) Serial.println(F("not steady, or no GPS: a longer run-up, once more"));
-  if (event == kSensorLost) Serial.println(F("a sensor is not believed: once more"));
-  if (event == kLetGo) Serial.println(F("let go: once more"));
+  if (event == kNotSteady) Serial.println(F("not steady, or no GPS: repeat with a longer run-up"));
+  if (event == kSensorLost) Serial.println(F("a sensor reading was rejected: repeat"));
+  if (event == kLetGo) Serial.println(F("stopped: repeat"));
   if (event != kCurveRow) file.flush();
   has_pending = false;
   if (rows_lost > 0) Serial.println(F("the card was too slow for a row: record this run again"));

@@ -85,15 +85,15 @@ class Command {
   static void print(const Waiting& one) {
     if (one.what == kOk) return (void)Serial.println(F("ok"));
     if (one.what == kArmed) return (void)Serial.println(F("armed"));
-    Serial.print(one.what == kDisarmed ? F("disarmed") : F("refused: "));
+    Serial.print(one.what == kDisarmed ? F("disarmed") : F("refused:"));
     switch (one.what) {
-      case kUnknown: Serial.print(F("no such command or value")); break;
-      case kTooLong: Serial.print(F("line too long")); break;
-      case kDamaged: Serial.print(F("frame damaged")); break;
-      case kRepeated: Serial.print(F("sequence not new")); break;
-      case kTextLocked: Serial.print(F("frames and STOP only")); break;
-      case kOutOfRange: Serial.print(F("out of range")); break;
-      case kNotArmed: Serial.print(F("not armed")); break;
+      case kUnknown: Serial.print(F(" no such command or value")); break;
+      case kTooLong: Serial.print(F(" line too long")); break;
+      case kDamaged: Serial.print(F(" frame damaged")); break;
+      case kRepeated: Serial.print(F(" sequence not new")); break;
+      case kTextLocked: Serial.print(F(" frames and STOP only")); break;
+      case kOutOfRange: Serial.print(F(" out of range")); break;
+      case kNotArmed: Serial.print(F(" not armed")); break;
       default: break;
     }
     if (one.fault != 0 || one.cause != 0) {

@@ -61,7 +61,7 @@ class Imu {
   /* After awmr_step(): the yaw moment that is commanded until the next step, m; 0: the motors are off. */
   void note_moment(float tau_turn_m) { moment_m_ = tau_turn_m; }
 
-  /* In the step: integrates the gyroscope and leans on the magnetometer with a time constant of 2 s.
+  /* In the step: integrates the gyroscope; the magnetometer corrects it with a time constant of 2 s.
      The first second at rest calibrates the gyroscope. */
   void read(float dt_s) {
     const uint32_t now_ms = millis();
@@ -84,7 +84,7 @@ class Imu {
     check_.turn.take(static_cast<int16_t>(raw - check_.calibration.bias_word()), moment_m_);
     r_radps = kRadpsPerWord * raw - check_.calibration.bias_radps();
     psi_rad = awmr::float_math::wrapped(psi_rad + r_radps * dt_s);
-    if (has_field) lean(magnetic_rad, dt_s);
+    if (has_field) correct(magnetic_rad, dt_s);
     if (has_heading_ && check_.fault(now_ms) == awmr::kSensorGood) time_ms = now_ms;
   }
 
@@ -95,7 +95,7 @@ class Imu {
   static const uint8_t kRange = 0x08; /* +-500 deg/s */
   static const uint8_t kStepsPerCheck = 5;
   static constexpr float kRadpsPerWord = 500.0f / 32768.0f * 0.0174532925f;
-  static constexpr float kLean_s = 2.0f;
+  static constexpr float kCorrection_s = 2.0f;
   awmr::HeadingCheck check_;
   float sensitivity_[2] = {0.0f, 0.0f}; /* of the magnetometer's own x and y */
   bool has_heading_ = false;
@@ -128,12 +128,12 @@ class Imu {
         -(AWMR_COMPASS_AHEAD_LEFT * ahead + AWMR_COMPASS_LEFT_LEFT * left),
         AWMR_COMPASS_AHEAD_AHEAD * ahead + AWMR_COMPASS_AHEAD_LEFT * left);
   }
-  void lean(float measured_rad, float dt_s) {
+  void correct(float measured_rad, float dt_s) {
     if (!has_heading_) psi_rad = awmr::float_math::wrapped(measured_rad);
     has_heading_ = true;
     const float innovation = awmr::float_math::wrapped(measured_rad - psi_rad);
     check_.step.take(innovation, dt_s);
-    psi_rad = awmr::float_math::wrapped(psi_rad + dt_s / kLean_s * innovation);
+    psi_rad = awmr::float_math::wrapped(psi_rad + dt_s / kCorrection_s * innovation);
   }
   /* The maker's sensitivities: H_adjusted = H ((ASA - 128)/256 + 1). [AK8963 data sheet, 8.3.11] */
   void read_sensitivity() {

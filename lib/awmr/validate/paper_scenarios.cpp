@@ -1,11 +1,11 @@
-#include "awmr/validate/paper_courses.h"
+#include "awmr/validate/paper_scenarios.h"
 
 #include "awmr/core/units.h"
 
 namespace awmr {
 namespace {
 
-constexpr double kCourseSpeed_mps = 1.0;  ///< [paper 5.1]
+constexpr double kPathSpeed_mps = 1.0;  ///< [paper 5.1]
 /// Chosen here: the paper gives no acceptance radius, lane or Delta, and its figure of the
 /// obstacles is lost.
 constexpr double kAcceptance_m = 1.0;
@@ -36,14 +36,14 @@ Avoidance<double> avoidance() {
 }  // namespace
 
 Scenario waypoint_scenario() {
-  WaypointCourse course;
-  course.points_m = {{90, 20}, {80, 40}, {70, 20}, {80, 0}};  // E, F, G, H
-  course.acceptance_m = kAcceptance_m;
+  WaypointPath path;
+  path.points_m = {{90, 20}, {80, 40}, {70, 20}, {80, 0}};  // E, F, G, H
+  path.acceptance_m = kAcceptance_m;
   return {.name = "C8 waypoints by line of sight",
           .duration_s = 180.0,
           .initial = pose(80.0, 0.0, 0.0),
-          .speed_mps = kCourseSpeed_mps,
-          .guidance = course};
+          .speed_mps = kPathSpeed_mps,
+          .guidance = path};
 }
 
 Scenario line_scenario() {
@@ -51,8 +51,8 @@ Scenario line_scenario() {
       .name = "C9 line following",
       .duration_s = 120.0,
       .initial = pose(0.0, 10.0, 0.0),
-      .speed_mps = kCourseSpeed_mps,
-      .guidance = LineCourse{
+      .speed_mps = kPathSpeed_mps,
+      .guidance = LinePath{
           .points_m = {{0, 0}, {50, 25}}, .law = lane(5.0), .corner_m = 0.0, .slow_down_m = {}}};
 }
 
@@ -61,9 +61,9 @@ Scenario obstacle_on_line_scenario() {
       .name = "C10 obstacle on a line",
       .duration_s = 120.0,
       .initial = {},
-      .speed_mps = kCourseSpeed_mps,
+      .speed_mps = kPathSpeed_mps,
       .guidance =
-          LineCourse{
+          LinePath{
               .points_m = {{0, 0}, {60, 0}}, .law = lane(5.0), .corner_m = 0.0, .slow_down_m = {}},
       .obstacles = {{{30.0, 0.5}, 1.5}},
       .avoidance = avoidance()};
@@ -83,21 +83,21 @@ Scenario lissajous_scenario(bool closed_loop) {
       .duration_s = 628.0,  // one period: 2 pi/0.01 s
       .initial = pose(10.0, 0.0, 90.0),
       .speed_mps = 0.0,
-      .guidance = LissajousCourse{.path = {10.0, 10.0, 0.01, 0.03},
-                                  .closed_loop = closed_loop,
-                                  .position_gain_per_s = 0.5,
-                                  .tolerance_m = 1.0}};
+      .guidance = LissajousPath{.path = {10.0, 10.0, 0.01, 0.03},
+                                .closed_loop = closed_loop,
+                                .position_gain_per_s = 0.5,
+                                .tolerance_m = 1.0}};
 }
 
 Scenario polyline_scenario() {
   return {.name = "C12 polyline",
           .duration_s = 150.0,
           .initial = pose(80.0, 0.0, 0.0),
-          .speed_mps = kCourseSpeed_mps,
-          .guidance = LineCourse{.points_m = {{80, 0}, {90, 20}, {80, 40}, {70, 20}, {80, 0}},
-                                 .law = lane(3.0),
-                                 .corner_m = 2.0,
-                                 .slow_down_m = {}}};
+          .speed_mps = kPathSpeed_mps,
+          .guidance = LinePath{.points_m = {{80, 0}, {90, 20}, {80, 40}, {70, 20}, {80, 0}},
+                               .law = lane(3.0),
+                               .corner_m = 2.0,
+                               .slow_down_m = {}}};
 }
 
 }  // namespace awmr

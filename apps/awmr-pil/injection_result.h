@@ -1,0 +1,18 @@
+// Evaluation of a run with an injected fault.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "loop.h"
+#include "report.h"
+
+namespace awmr::pil {
+
+/// Samples before which the chip was restarted.
+std::vector<std::size_t> restarts_of(const std::vector<LoopRow>& rows);
+
+/// Compares the faults and commands of a run with those that its injection has to cause.
+Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows);
+
+}  // namespace awmr::pil

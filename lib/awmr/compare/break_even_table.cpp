@@ -1,0 +1,102 @@
+// Text of the break-even analysis for a terminal.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "awmr/compare/break_even.h"
+
+namespace awmr {
+namespace {
+
+/// Lines of the table: number of leads that the measured scrub ends. `all`: entries of one pair of
+/// modes.
+std::string decided(const std::vector<const BreakEven*>& all) {
+  std::map<Lead, int> count;
+  int at_other_rates = 0;
+  double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;
+  std::optional<int> turns;
+  for (const BreakEven* entry : all) {
+    ++count[*lead_of(*entry)];
+    if (entry->yaw_coulomb_m && turns_at_other_rates(*entry)) {
+      ++at_other_rates;
+      slowest = std::min(slowest, entry->fastest_degps);
+      fastest = std::max(fastest, entry->fastest_degps);
+    }
+    if (entry->turns_to_decide) {
+      turns = std::min(turns.value_or(*entry->turns_to_decide), *entry->turns_to_decide);
+    }
+  }
+  std::string text = fmt::format(
+      "    with the measured scrub: still ahead in {}, no longer in {}, undecided in "
+      "{}\n",
+      count[Lead::kKept], count[Lead::kLost], count[Lead::kOpen]);
+  if (at_other_rates > 0) {
+    const Interval rates = *all.front()->measured_degps;
+    text += fmt::format(
+        "    {} of the undecided results reach {:.3g} to {:.3g} deg/s; scrub was measured at "
+        "{:.3g} to "
+        "{:.3g}\n",
+        at_other_rates, slowest, fastest, rates.lo, rates.hi);
+  }
+  if (turns) {
+    text += fmt::format(
+        "    about {} differential turns in total would decide the first undecided result\n",
+        *turns);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string break_even_table(const std::vector<BreakEven>& entries) {
+  std::string text =
+      "break-even: tyre scrub (Coulomb yaw moment of a differential turn) at which a mode is no "
+      "longer ahead\n";
+  if (entries.empty())
+    return text +
+           "  neither differential nor combined is ahead of another "
+           "mode\n";
+  std::map<std::pair<YawMode, YawMode>, std::vector<const BreakEven*>> pairs;
+  for (const BreakEven& entry : entries) pairs[{entry.mode, entry.against}].push_back(&entry);
+  for (const auto& [modes, all] : pairs) {
+    const auto least = std::min_element(all.begin(), all.end(), [](const auto* a, const auto* b) {
+      return a->yaw_coulomb_m.value_or(a->most_m) < b->yaw_coulomb_m.value_or(b->most_m);
+    });
+    const auto lasting = std::count_if(all.begin(), all.end(), [](const BreakEven* entry) {
+      return !entry->yaw_coulomb_m.has_value();
+    });
+    text += fmt::format("  {} ahead of {} in {} scenario{}: ", name_of(modes.first),
+                        name_of(modes.second), all.size(), all.size() == 1 ? "" : "s");
+    if ((*least)->yaw_coulomb_m) {
+      text += fmt::format("until {:.3g} m ({})", *(*least)->yaw_coulomb_m, (*least)->scenario);
+    }
+    if (lasting > 0) {
+      text += fmt::format("{}in {} for any scrub up to {:.3g} m",
+                          (*least)->yaw_coulomb_m ? "; " : "", lasting, (*least)->most_m);
+    }
+    text += '\n';
+    if (all.front()->measured_m) text += decided(all);
+  }
+  text += fmt::format("  largest possible scrub at tyre friction 0.8: {:.3g} m; ",
+                      entries.front().sliding_m);
+  const BreakEven& first = entries.front();
+  if (first.measured_m && !first.measured_degps) {
+    return text + fmt::format(
+                      "yours: at least {:.3g} m, at which\n"
+                      "  the vehicle did not turn (awmr suggest lists forces to turn with)\n",
+                      first.measured_m->lo);
+  }
+  if (const auto& measured_m = first.measured_m) {
+    return text +
+           fmt::format("yours, measured: {:.3g} to {:.3g} m\n", measured_m->lo, measured_m->hi);
+  }
+  return text +
+         "yours: unknown.\n"
+         "  Record differential turns with straight wheels (awmr suggest lists them) in the "
+         "turning table\n";
+}
+
+}  // namespace awmr
