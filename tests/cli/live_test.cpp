@@ -262,7 +262,7 @@ TEST_F(Live, RefusesSourcesThatItCannotRecord) {
   // A second recording does not overwrite the first one.
   const ProcessResult again = shell(live("--log -") + " < " + kDrive);
   EXPECT_EQ(again.exit_code, 2);
-  EXPECT_THAT(again.err, HasSubstr("there is a recording already"));
+  EXPECT_THAT(again.err, HasSubstr("this recording already exists"));
 }
 
 TEST_F(Live, HostileStreamsEndWithinBounds) {

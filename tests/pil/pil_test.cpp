@@ -530,7 +530,7 @@ TEST_F(Pil, GivesTheSameRunOverALineThatFlipsBitsAndLosesBytes) {
 TEST_F(Pil, ReportsALineThatFlipsAHundredthOfTheBits) {
   const ProcessResult run = pil(kC13, "combined", "--link uart --line-noise 1e-2", "none.json");
   EXPECT_EQ(run.exit_code, 1) << run.out;
-  EXPECT_THAT(run.err, HasSubstr("the line too noisy"));
+  EXPECT_THAT(run.err, HasSubstr("the noise of the line"));
   EXPECT_FALSE(exists("none.json"));
   EXPECT_EQ(pil(kC13, "combined", "--line-noise 1e-3", "none.json").exit_code, 2);
   EXPECT_EQ(pil(kC13, "combined", "--link uart --line-noise nan", "none.json").exit_code, 2);
