@@ -9,7 +9,9 @@
 namespace awmr {
 
 /// Findings of an identified delay, lag or error: `sensor-delay`, `sensor-lag`, `steering-delay`,
-/// `steering-trim`, `force-imbalance`, `actuator-lag`, `late-commands`. `file`: the log they name.
-std::vector<Finding> command_and_sensor_findings(const LogFit& fit, const std::string& file);
+/// `steering-trim`, `force-imbalance`, `actuator-lag`, `late-commands`. `withdrawn`: no interval of
+/// the fit holds. `file`: the log they name.
+std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
+                                                 const std::string& file);
 
 }  // namespace awmr
