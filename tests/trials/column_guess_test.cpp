@@ -100,6 +100,12 @@ TEST(GuessColumns, GuessesUnitsFromTheValues) {
               ElementsAre("unsure force_left=(pwm_left - 1500)/500"));
 }
 
+TEST(GuessColumns, AServosPulseIsNoAngle) {
+  EXPECT_THAT(guesses_of("servo_us,gz_dps\n1500,-0.39\n1875,10\n"),
+              ElementsAre("likely yaw_rate_radps=gz_dps*0.01745329",
+                          "unsure steering_cmd_deg=(servo_us - 1500)/500*20"));
+}
+
 TEST(GuessColumns, TwoThatFitAreBothUnsure) {
   EXPECT_THAT(
       guesses_of("speed_kmh,gps_speed_mps\n1,2\n"),

@@ -490,6 +490,31 @@ TEST(LogConsistency, MirroredPositionsAreNamedByTheYawRateWithoutAHeading) {
   }
 }
 
+TEST(LogConsistency, MirroredPositionsAreNamedWhereTheVehicleReverses) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    DrivingLog log = sound_log(seed, {.heading = false});
+    double psi = 0.0, x = 0.0, y = 0.0;
+    for (std::size_t i = 0; i < log.rows(); ++i) {
+      double& speed = channel(log, LogChannel::kSpeed)[i];
+      if (i / 300 % 2 == 1) {
+        speed = -speed;
+        const double both = log.force_left[i] + log.force_right[i];
+        log.force_left[i] -= both;
+        log.force_right[i] -= both;
+        (*log.steering_command_rad)[i] *= -1.0;
+      }
+      channel(log, LogChannel::kX)[i] = x;
+      channel(log, LogChannel::kY)[i] = -y;
+      psi += kStep_s * channel(log, LogChannel::kYawRate)[i];
+      x += kStep_s * speed * std::cos(psi);
+      y += kStep_s * speed * std::sin(psi);
+    }
+    const auto found = contradictions(log, vehicle(), {});
+    ASSERT_EQ(found.size(), 1U) << seed;
+    EXPECT_EQ(found.front().column, "y_m") << seed;
+  }
+}
+
 TEST(LogConsistency, TheHeadingOfACompassBesideALatitudeIsTurnedToTheEast) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     DrivingLog log = sound_log(seed);

@@ -179,6 +179,9 @@ TEST(Log, ACourseAtRestIsSetAside) {
 TEST(Log, ACompassAtRestIsKept) {
   const auto compass = [](int) { return 90.0; };
   EXPECT_THAT(codes(accepted_log(with_rests(compass))), Not(Contains("course-at-rest")));
+  // turned on the spot until it drives
+  const auto spun = [](int i) { return i < 10 ? 9.0 * i : 90.0; };
+  EXPECT_THAT(codes(accepted_log(with_rests(spun))), Not(Contains("course-at-rest")));
   // turned by hand during the second rest
   const auto turned = [](int i) { return i < 10 ? 90.0 : 90.0 + 9.0 * (i - 30); };
   EXPECT_THAT(codes(accepted_log(with_rests(turned, 180.0))), Not(Contains("course-at-rest")));

@@ -178,6 +178,8 @@ void CsvParser::report_ragged() {
     message +=
         ": these look like decimal commas; write numbers with a point, or separate the cells "
         "by semicolons";
+  } else if (cells_.size() < header_.names.size() && cells_.back().text.end() == text_.end()) {
+    message += "; the file ends inside it: delete this row";
   }
   fault(ErrorCode::kBrokenFile, cell.line, cell.character, std::move(message));
 }

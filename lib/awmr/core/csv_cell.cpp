@@ -114,7 +114,9 @@ std::optional<double> number_with_minus_sign(std::string_view text) {
 
 tl::expected<double, std::string> number_from_text(std::string_view text) {
   text = trimmed(text);
-  if (text.empty()) return tl::unexpected(std::string("the cell is empty; expected a number"));
+  if (text.empty())
+    return tl::unexpected(std::string(
+        "the cell is empty; expected a number; leave out rows without a measured value"));
   std::string_view digits = text;
   if (digits.size() > 1 && digits[0] == '+' && (is_digit(digits[1]) || digits[1] == '.')) {
     digits.remove_prefix(1);

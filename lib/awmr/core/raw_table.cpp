@@ -210,9 +210,10 @@ void find_empty_cells(const ColumnSource& source, FaultList& faults) {
     const RawColumn& column = faults.raw.columns[index];
     for (std::size_t row = 0; row < column.value.size() && !faults.full(); ++row) {
       if (!is_empty(column.value[row])) continue;
-      faults.add(
-          ErrorCode::kMissing, row, column.character.empty() ? 1 : column.character[row],
-          fmt::format("column {}: the cell is empty; expected a number", source.column.name));
+      faults.add(ErrorCode::kMissing, row, column.character.empty() ? 1 : column.character[row],
+                 fmt::format("column {}: the cell is empty; expected a number; leave out rows "
+                             "without a measured value",
+                             source.column.name));
     }
   }
 }

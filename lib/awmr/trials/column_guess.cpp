@@ -54,8 +54,17 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
+/// Assumed steering stop, which the reason states.
+constexpr double kUsualStop_deg = 20.0;
 /// Assumed battery voltage, which the reason states.
 constexpr double kUsualVolts = 12.0;
+
+/// Pulses of a servo or a motor driver, us: 1500 in the middle, 500 to either end.
+bool looks_like_pulses(const std::vector<double>& values) {
+  if (values.empty()) return false;
+  const auto [least, most] = std::ranges::minmax(values);
+  return least >= 800.0 && most <= 2200.0;
+}
 
 Scale force_scale(const std::string& quoted, const Words& words,
                   const std::vector<double>& values) {
@@ -64,15 +73,13 @@ Scale force_scale(const std::string& quoted, const Words& words,
     return {fmt::format("{}/{:g}", quoted, kUsualVolts), Confidence::kUnsure,
             fmt::format("volts over the voltage of full power, taken as {:g} V", kUsualVolts)};
   }
-  const double least =
-      values.empty() ? 0.0 : std::abs(*std::min_element(values.begin(), values.end()));
   if (most <= 1.0) {
     return {quoted, Confidence::kLikely, "the values lie within [-1, 1], as forces over F_max do"};
   }
   if (most <= 100.0) return {quoted + "/100", Confidence::kUnsure, "the values look like percent"};
   if (most <= 255.0)
     return {quoted + "/255", Confidence::kUnsure, "the values look like 8-bit PWM"};
-  if (least >= 800.0 && most <= 2200.0) {
+  if (looks_like_pulses(values)) {
     return {fmt::format("({} - 1500)/500", quoted), Confidence::kUnsure,
             "the values look like servo pulses in us, 1500 at rest"};
   }
@@ -91,6 +98,12 @@ Scale scale_of(const std::string& quoted, const Words& words, Dimension dimensio
   const double to_column_unit = dimension == Dimension::kAngle ? degrees(1.0) : 1.0;
   if (is_si_by_convention(words)) {
     return {times(quoted, to_column_unit), Confidence::kLikely, "such messages are in SI units"};
+  }
+  if (dimension == Dimension::kAngle && looks_like_pulses(values)) {
+    return {fmt::format("({} - 1500)/500*{:g}", quoted, kUsualStop_deg), Confidence::kUnsure,
+            fmt::format("the values look like servo pulses in us: 1500 straight ahead, 500 to a "
+                        "stop, taken as {:g} deg",
+                        kUsualStop_deg)};
   }
   if (dimension == Dimension::kAngle && largest(values) > 2.0 * pi<double>()) {
     return {

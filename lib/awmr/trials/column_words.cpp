@@ -45,7 +45,7 @@ std::vector<Rule> log_rules() {
        Dimension::kSpeed},
       {"sway_mps", {{"vy", "sway"}}, {}, Dimension::kSpeed},
       {"sway_mps", {{"velocity", "vel", "linear"}, {"y"}}, {"angular"}, Dimension::kSpeed},
-      {"yaw_rate_radps", {{"yawrate", "omega", "wz"}}, {}, Dimension::kAngularRate},
+      {"yaw_rate_radps", {{"yawrate", "omega", "wz", "gz"}}, {}, Dimension::kAngularRate},
       {"yaw_rate_radps", {{"yaw"}, {"rate", "speed", "dot"}}, {}, Dimension::kAngularRate},
       {"yaw_rate_radps", {{"gyr", "gyro", "angular"}, {"z"}}, {}, Dimension::kAngularRate},
       {"yaw_rate_radps", {{"gyr", "gyro"}}, {"x", "y", "z", "temp"}, Dimension::kAngularRate},

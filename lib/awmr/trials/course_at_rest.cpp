@@ -12,7 +12,7 @@ namespace {
 
 /// Largest speed at rest: this, or a tenth of the highest speed if that is smaller.
 constexpr double kRest_mps = 0.1;
-/// Threshold of the difference, larger than that of noise, of a slow turn or of a start in a turn.
+/// Smallest change from one reading to the next that neither noise nor a turn on the spot causes.
 constexpr double kFar_rad = 20.0 * pi<double>() / 180.0;
 
 double difference(double a_rad, double b_rad) { return std::abs(wrap_angle(a_rad - b_rad)); }
@@ -38,14 +38,15 @@ CourseAtRest course_at_rest(std::span<const double> speed_mps, std::span<const d
     if (i > 0) before = heading_rad[present[i - 1]];
     if (end < present.size()) after = heading_rad[present[end]];
     const bool was_turned = before && after && difference(*before, *after) > kFar_rad;
-    for (; i < end; ++i) {
-      found.rows.push_back(present[i]);
-      if (was_turned || (!before && !after)) continue;
-      const double here = heading_rad[present[i]];
-      found.off_rad = std::max(found.off_rad, difference(here, after ? *after : *before));
+    // Changes from the reading before the rest to the one after it.
+    for (std::size_t next = std::max<std::size_t>(i, 1); !was_turned && next <= end; ++next) {
+      if (next == present.size()) break;
+      const double change = difference(heading_rad[present[next - 1]], heading_rad[present[next]]);
+      found.jump_rad = std::max(found.jump_rad, change);
     }
+    for (; i < end; ++i) found.rows.push_back(present[i]);
   }
-  if (found.off_rad <= kFar_rad) found.rows.clear();
+  if (found.jump_rad <= kFar_rad) found.rows.clear();
   return found;
 }
 

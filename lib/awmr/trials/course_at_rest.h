@@ -8,12 +8,12 @@
 namespace awmr {
 
 /// A GPS gives the direction of motion as the heading. At rest there is none: the receiver repeats
-/// the last one, writes 0, or noise. Compass readings at rest agree with those in motion before or
-/// after.
+/// the last one, writes 0, or noise, and jumps as soon as the vehicle moves. A compass does not jump:
+/// it turns with the vehicle, on the spot too.
 struct CourseAtRest {
   double rest_mps = 0.0;          ///< below this speed, the vehicle counts as at rest
   std::vector<std::size_t> rows;  ///< at rest; empty: the readings at rest are valid headings
-  double off_rad = 0.0;           ///< largest difference from the heading in motion, (0, pi]
+  double jump_rad = 0.0;          ///< largest change between readings at rest, [0, pi]
 };
 
 /// `present`: the rows with a heading, rising. `speed_mps` and `heading_rad` have one value per

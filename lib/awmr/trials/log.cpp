@@ -324,9 +324,9 @@ void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> spe
   findings.push_back(
       {log.file, log.line[found.rows.front()], Severity::kWarning, "course-at-rest",
        fmt::format(
-           "heading_deg: {} readings at rest (below {:.2g} m/s) are up to {:.0f} deg off the "
-           "heading in motion, as of a GPS, which measures the course: set aside",
-           found.rows.size(), found.rest_mps, degrees(found.off_rad))});
+           "heading_deg: {} readings at rest (below {:.2g} m/s) jump by up to {:.0f} deg, as of a "
+           "GPS, which measures the course: set aside",
+           found.rows.size(), found.rest_mps, degrees(found.jump_rad))});
 }
 
 DrivingLog log_of(TrialReader& reader, RowSpan rows, std::span<const LogChannel> unmeasured,

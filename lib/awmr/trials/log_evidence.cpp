@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "awmr/core/units.h"
 #include "rest_limits.h"
 
 namespace awmr {
@@ -71,6 +72,7 @@ EvidenceWindow sums_of(const DrivingLog& log, const Vehicle& vehicle,
     const auto [least, most] = std::ranges::minmax(
         std::span(speed->value).subspan(window.begin, window.end - window.begin));
     sums.has_stuck_speed = !(least < most) && !is_rest(least, kRestSpeed_mps);
+    if (sums.driven_m < 0.0) sums.course_rad += pi<double>();  // it drives backwards
   }
   add_commands(log, vehicle, window, sums);
   return sums;

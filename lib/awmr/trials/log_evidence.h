@@ -18,12 +18,12 @@ inline constexpr double kEvidenceWindow_s = 1.0;
 
 /// Sums of the signals over one window, in which noise averages out.
 struct EvidenceWindow {
-  double turned_rad = 0.0;       ///< change of heading; without one, of the integrated yaw rate
-  double rate_rad = 0.0;         ///< integral of the yaw rate
-  double moved_m = 0.0;          ///< distance between first and last position
-  double course_rad = 0.0;       ///< its direction
-  double heading_rad = 0.0;      ///< in the middle of the window, as turned_rad
-  double driven_m = 0.0;         ///< integral of the speed
+  double turned_rad = 0.0;   ///< change of heading; without one, of the integrated yaw rate
+  double rate_rad = 0.0;     ///< integral of the yaw rate
+  double moved_m = 0.0;      ///< distance between first and last position
+  double course_rad = 0.0;   ///< its direction; of a vehicle that drives backwards, the opposite
+  double heading_rad = 0.0;  ///< in the middle of the window, as turned_rad
+  double driven_m = 0.0;     ///< integral of the speed
   bool has_stuck_speed = false;  ///< all readings of the speed are the same and not 0
   double thrust = 0.0;           ///< mean of F'L + F'R
   double steering_rad = 0.0;     ///< mean command

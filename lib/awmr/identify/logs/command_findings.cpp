@@ -151,10 +151,16 @@ std::vector<Finding> steering_findings(const LogFit& fit, const std::string& fil
 
 }  // namespace
 
-std::vector<Finding> command_and_sensor_findings(const LogFit& fit, const std::string& file) {
+std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
+                                                 const std::string& file) {
   std::vector<Finding> findings = delay_findings(fit, file);
   for (const auto& more : {steering_findings(fit, file), actuator_findings(fit, file)}) {
     findings.insert(findings.end(), more.begin(), more.end());
+  }
+  if (!withdrawn) return findings;
+  for (Finding& finding : findings) {
+    finding.message +=
+        ". Its interval is withdrawn as well: what the model lacks may look like this";
   }
   return findings;
 }

@@ -9,8 +9,9 @@
 namespace awmr {
 
 /// Findings of an identified delay, lag or error: `sensor-delay`, `sensor-lag`, `steering-delay`,
-/// `steering-trim`, `force-imbalance`, `actuator-lag`, `late-commands`. `file`: the log named in
-/// the findings.
-std::vector<Finding> command_and_sensor_findings(const LogFit& fit, const std::string& file);
+/// `steering-trim`, `force-imbalance`, `actuator-lag`, `late-commands`. `withdrawn`: the intervals of
+/// the fit are withdrawn. `file`: the log named in the findings.
+std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
+                                                 const std::string& file);
 
 }  // namespace awmr

@@ -353,8 +353,9 @@ void refuse_all(const FamilyFit& chosen, const std::string& file, LogStage& stag
   }
 }
 
-/// `logs-disagree` for every quantity that differs between logs.
-std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements) {
+/// `logs-disagree` for every quantity that differs between logs. `withdrawn`: the intervals of the
+/// fit are withdrawn.
+std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements, bool withdrawn) {
   std::vector<Finding> findings;
   for (const LogDisagreement& one : disagreements) {
     std::string each;
@@ -370,8 +371,9 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements)
                                      "withdrawn; identify each log separately"
                      : one.refuses
                          ? "an interval that covers them would be too wide, so it is refused"
-                         : "its interval is widened and covers the mean over such logs, "
-                           "not an individual log")});
+                     : withdrawn ? "its interval is withdrawn"
+                                 : "its interval is widened and covers the mean over such logs, "
+                                   "not an individual log")});
   }
   return findings;
 }
@@ -392,7 +394,7 @@ Finding in_words(const HeldOut& missed, const std::string& file) {
 void take(const LogFit& fit, const Model& model, bool overrule, const std::string& file,
           LogStage& stage) {
   stage.block = fit.covariance;
-  append(stage.findings, command_and_sensor_findings(fit, file));
+  append(stage.findings, command_and_sensor_findings(fit, stage.withdraws_intervals, file));
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
     const bool parameter = q.kind == FreeQuantity::Kind::kParameter;
@@ -475,14 +477,11 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   FamilyFit chosen = fit_families(logs, power_law, options, std::move(first), stage);
   report(options, "comparing the logs with each other");
   const LogComparison compared = compare_logs(logs, chosen);
-  append(stage.findings, in_words(compared.disagreements));
-  if (std::ranges::any_of(compared.disagreements, &LogDisagreement::withdraws)) {
-    stage.withdraws_intervals = true;
-  }
-  if (compared.missed) {
-    stage.findings.push_back(in_words(*compared.missed, logs.front().file));
-    stage.withdraws_intervals = true;
-  }
+  stage.withdraws_intervals =
+      stage.withdraws_intervals || compared.missed ||
+      std::ranges::any_of(compared.disagreements, &LogDisagreement::withdraws);
+  append(stage.findings, in_words(compared.disagreements, stage.withdraws_intervals));
+  if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
   if (stage.withdraws_intervals) withdraw_intervals(chosen.fit.report);
   stage.reports[stage.chosen_report] = chosen.fit.report;
   const std::string& file = logs.front().file;
