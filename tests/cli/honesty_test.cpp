@@ -41,7 +41,8 @@ class Honesty : public ::testing::Test {
     vehicle["name"] = "another";
     vehicle["mass_kg"] = 41.0;
     write_all(kept("other_vehicle.json"), vehicle.dump());
-    write_all(kept("short.json"), R"({"global_evaluations": 20, "local_evaluations": 10})");
+    write_all(kept("short.json"), R"({"global_evaluations": 20, "local_evaluations": 10,
+                                      "mode": "combined"})");
     const std::string lines[] = {
         fmt::format("identify --vehicle configs/paper/vehicle.json {} -o {}", kTables,
                     kept("model.json")),
@@ -243,9 +244,10 @@ TEST_F(Honesty, NoNumberDependsOnTheOrderOfFiles) {
   std::vector<nlohmann::json> fits, checks, gains;
   for (const auto& [one, other] : orders) {
     const std::string logs = fmt::format("--log {} --log {}", one, other);
-    fits.push_back(without_inputs(result_of(
-        fmt::format("identify --vehicle configs/paper/vehicle.json {} --bootstrap 20 -o {}", logs,
-                    path("m.json")))["result"]));
+    fits.push_back(without_inputs(
+        result_of(fmt::format("identify --vehicle configs/paper/vehicle.json {} --family power "
+                              "--bootstrap 20 -o {}",
+                              logs, path("m.json")))["result"]));
     Json validation = result_of(fmt::format("validate --model {} {} -o {}", kept("model.json"),
                                             logs, path("v.json")))["result"];
     std::map<std::string, Json> by_file;
@@ -262,6 +264,7 @@ TEST_F(Honesty, NoNumberDependsOnTheOrderOfFiles) {
                                       {"local_evaluations", 10},
                                       {"draws", 2},
                                       {"judged_draws", 2},
+                                      {"mode", "combined"},
                                       {"scenarios", list}}
                                      .dump());
     gains.push_back(without_inputs(

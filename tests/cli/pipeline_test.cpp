@@ -107,9 +107,9 @@ TEST_F(Pipeline, TunedGainsBeatThePapersInEveryModeUnderTheConstraint) {
 /// With a short search.
 TEST_F(Pipeline, GivesTheSameBytesAgain) {
   const TemporaryDirectory one, two;
-  write_all(
-      one.path() / "tune.json",
-      R"({"global_evaluations": 20, "local_evaluations": 10, "draws": 4, "judged_draws": 4})");
+  write_all(one.path() / "tune.json",
+            R"({"global_evaluations": 20, "local_evaluations": 10, "draws": 4, "judged_draws": 4,
+          "mode": "combined"})");
   Json project =
       Json::parse(read_all(std::string(AWMR_SOURCE_DIR) + "/configs/paper/project.json"));
   const auto below_configs = [](Json& path) {

@@ -66,7 +66,8 @@ TEST_F(ShardsOfCommands, OfARecoveryAreMergedToTheBytesOfASingleRun) {
 
 TEST_F(ShardsOfCommands, OfATuningAreMergedToTheBytesOfASingleRun) {
   write_all(path("tune.json"), R"({"global_evaluations": 60, "local_evaluations": 20, "draws": 1,
-      "judged_draws": 9, "goals": [{"at_most": {"settling_time_s": 9}, "share": 0.6}]})");
+      "judged_draws": 9, "mode": "combined",
+      "goals": [{"at_most": {"settling_time_s": 9}, "share": 0.6}]})");
   const auto tune = [&](const std::string& words) {
     return fmt::format("tune --model {} --config {} {}", model_, path("tune.json"), words);
   };

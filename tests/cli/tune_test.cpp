@@ -46,7 +46,7 @@ class TunedGains : public ::testing::Test {
 };
 
 TEST_F(TunedGains, AreComparedWithTheFileThatIsGivenAsBaseline) {
-  const ProcessResult run = tune("--baseline " + path("own.json"));
+  const ProcessResult run = tune("--mode steering --baseline " + path("own.json"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Json json = gains();
   const Json& baseline = json.at("baseline");
@@ -64,10 +64,10 @@ TEST_F(TunedGains, AreComparedWithTheFileThatIsGivenAsBaseline) {
 }
 
 TEST_F(TunedGains, TakeTheBaselinesThatTheProgramKnowsByName) {
-  ASSERT_EQ(tune("--baseline paper").exit_code, 0);
+  ASSERT_EQ(tune("--mode combined --baseline paper").exit_code, 0);
   EXPECT_EQ(gains().at("baseline").at("source"), "paper");
   EXPECT_EQ(gains().at("baseline").at("heading").at("mu"), 50.0);
-  ASSERT_EQ(tune("--baseline pole-placement").exit_code, 0);
+  ASSERT_EQ(tune("--mode combined --baseline pole-placement").exit_code, 0);
   EXPECT_EQ(gains().at("baseline").at("source"), "pole-placement");
 }
 

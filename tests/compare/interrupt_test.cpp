@@ -24,7 +24,8 @@ TEST(Interrupt, LeavesValidFilesAndResumeEndsInTheSameBytes) {
             R"( "speed": {"mu": 5, "epsilon": 1.2}})");
   const auto compare = [&](const std::string& samples, const std::string& to) {
     return program + " compare --model " + out + "/model.json --gains " + out +
-           "/gains.json --scenario configs/paper/scenarios/c8_waypoints.json --seed 5 --samples " +
+           "/gains.json --scenario configs/paper/scenarios/c3_heading_steps.json --seed 5 "
+           "--samples " +
            samples + " -o " + out + "/" + to;
   };
   // Far more work than the time allows, so that the signal interrupts it; more time if a busy

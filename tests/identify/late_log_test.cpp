@@ -140,14 +140,12 @@ INSTANTIATE_TEST_SUITE_P(Long, SteeringTrim, ::testing::Values(0.07));
 
 TEST(LateLog, WithdrawsTheIntervalsOfLogsWithDifferentTrims) {
   TrialData data;
-  for (const auto& [trim_rad, seed] : {std::pair(0.04, 8), std::pair(-0.03, 9)}) {
-    data.logs.push_back(drive(kTruths[1], seed, {.duration_s = 20.0}));
+  for (const auto& [trim_rad, seed] : {std::pair(0.08, 8), std::pair(-0.06, 9)}) {
+    data.logs.push_back(drive(kTruths[1], seed, {.duration_s = 10.0}));
     for (double& command : *data.logs.back().steering_command_rad) command -= trim_rad;
     data.logs.back().file = std::to_string(seed);
   }
-  IdentifyOptions power_law;
-  power_law.surge_family = power_law.yaw_family = {.family = Family::kPower, .requested = true};
-  const auto result = identify(robot(), data, power_law, {});
+  const auto result = identify(robot(), data, power_law(), {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "logs-disagree", "steering.trim_rad"));
   EXPECT_FALSE(result->model[ParameterId::kInertiaNorm].ci95);
@@ -158,20 +156,20 @@ TEST(LateLog, DetectsASteeringCommandThatIsTheMeasuredAngle) {
   Plant<double> slow = plant(t);
   slow.steering_time_constant_s = 0.1;
   Random random(8, 5);
-  DrivingLog log = simulate_log(slow, robot(), {.duration_s = 40.0, .drive = 8}, {}, random);
+  DrivingLog log = simulate_log(slow, robot(), {.duration_s = 12.0, .drive = 8}, {}, random);
   std::vector<double> angle(log.rows());
   replay<double>(LogSignals(log), 0, log.rows(), slow, nullptr, 0.002, {},
                  [&](std::size_t row, const State<double>& s) { angle[row] = s.steering_rad; });
   log[LogChannel::kSteering].reset();
   TrialData as_logged;
   as_logged.logs = {log};
-  const auto command = identify(robot(), as_logged, {}, {});
+  const auto command = identify(robot(), as_logged, power_law(), {});
   ASSERT_TRUE(command);
   EXPECT_FALSE(has_finding(*command, "steering-measured"));
   expect_recovered(*command, ParameterId::kSteeringTimeConstant, 0.1, 4.5);
 
   as_logged.logs[0].steering_command_rad = angle;
-  const auto result = identify(robot(), as_logged, {}, {});
+  const auto result = identify(robot(), as_logged, power_law(), {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "steering-measured"));
   EXPECT_FALSE(result->model[ParameterId::kSteeringTimeConstant].source == Source::kFitted);

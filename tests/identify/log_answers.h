@@ -23,6 +23,13 @@ inline void expect_recovered(const Identification& result, ParameterId id, doubl
   EXPECT_NEAR(*estimate.value, truth, deviations * *estimate.std_error) << info(id).name;
 }
 
+/// The power law in surge and yaw, for tests whose subject is not the family.
+inline IdentifyOptions power_law() {
+  IdentifyOptions options;
+  options.surge_family = options.yaw_family = {.family = Family::kPower, .requested = true};
+  return options;
+}
+
 /// The mean force over every row behind motors with a time constant: F'(t + h) = c + (F'(t) - c) e.
 inline std::vector<double> behind_motors(const DrivingLog& log, const std::vector<double>& command,
                                          double lag_s) {
@@ -38,13 +45,14 @@ inline std::vector<double> behind_motors(const DrivingLog& log, const std::vecto
 }
 
 /// The drive of drive() with motors that lag.
-inline DrivingLog drive_with_lag(const Truth& t, std::uint64_t seed, double lag_s) {
+inline DrivingLog drive_with_lag(const Truth& t, std::uint64_t seed, double lag_s,
+                                 DrivePlan plan = {.duration_s = 20.0}) {
   const std::map<LogChannel, double> noise{{LogChannel::kX, 0.02},
                                            {LogChannel::kY, 0.02},
                                            {LogChannel::kHeading, 0.01},
                                            {LogChannel::kSpeed, 0.01},
                                            {LogChannel::kYawRate, 0.01}};
-  DrivingLog log = drive(t, seed);
+  DrivingLog log = drive(t, seed, plan);
   const std::vector<double> left = log.force_left;
   const std::vector<double> right = log.force_right;
   log.force_left = behind_motors(log, left, lag_s);

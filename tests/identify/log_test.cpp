@@ -173,7 +173,7 @@ void move_commands(DrivingLog& log, int rows) {
 TEST(Log, FindsALatencyOfCommandsAndOfTheirTimeStamps) {
   for (const int rows : {-4, 5}) {
     TrialData data;
-    data.logs = {drive(kTruths[1], 8)};
+    data.logs = {drive(kTruths[1], 8, {.duration_s = 12.0})};
     move_commands(data.logs[0], rows);
     const auto result = identify(robot(), data, {}, {});
     ASSERT_TRUE(result);
@@ -189,7 +189,7 @@ TEST(Log, FindsALatencyOfCommandsAndOfTheirTimeStamps) {
 TEST(Log, FreesMotorLagAndDeadTimeTogether) {
   constexpr double kLag_s = 0.08;
   TrialData data;
-  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s)};
+  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 12.0})};
   move_commands(data.logs[0], -4);
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
@@ -206,7 +206,7 @@ TEST(Log, FreesMotorLagAndDeadTimeTogether) {
 TEST(Log, SeparatesMotorLagFromADeadTime) {
   constexpr double kLag_s = 0.08;
   TrialData data;
-  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s)};
+  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 12.0})};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "motor.time_constant_s");
@@ -295,7 +295,7 @@ TEST(Log, FindsAndCompensatesALatencyOfTheSpeed) {
   const Truth& t = kTruths[0];
   constexpr std::size_t kLate = 10;  // rows of 10 ms
   TrialData data;
-  data.logs = {drive(t, 21, {.duration_s = 40.0})};
+  data.logs = {drive(t, 21)};
   std::vector<double>& speed = data.logs[0][LogChannel::kSpeed]->value;
   std::rotate(speed.rbegin(), speed.rbegin() + kLate, speed.rend());
   std::fill(speed.begin(), speed.begin() + kLate, speed[kLate]);
@@ -323,27 +323,27 @@ DrivingLog commanded_early(DrivingLog log, std::size_t rows) {
 
 TEST(Log, ReportsTheActuatorsIfAllSensorsAreDelayed) {
   TrialData data;
-  data.logs = {commanded_early(drive(kTruths[0], 22, {.duration_s = 40.0}), 6)};
+  data.logs = {commanded_early(drive(kTruths[0], 22), 6)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "actuator-lag"));
   const auto delay = estimated(*result, "input_delay_s");
   ASSERT_TRUE(delay && delay->std_error);
   EXPECT_NEAR(delay->value, 0.06, 4.5 * *delay->std_error);
-  IdentifyOptions with_delay;
+  IdentifyOptions with_delay = power_law();
   with_delay.fit_input_delay = true;
   const auto delayed = identify(robot(), data, with_delay, {});
   ASSERT_TRUE(delayed);
   EXPECT_TRUE(has_finding(*delayed, "actuator-lag", "s after its commands"));
-  data.logs = {drive(kTruths[0], 22, {.duration_s = 40.0})};
+  data.logs = {drive(kTruths[0], 22)};
   EXPECT_FALSE(has_finding(*identify(robot(), data, {}, {}), "actuator-lag", ""));
 }
 
 TEST(Log, RefusesTheServoLagWithoutASteeringCommand) {
   TrialData data;
-  data.logs = {drive(kTruths[1], 23)};
+  data.logs = {drive(kTruths[1], 23, {.duration_s = 8.0})};
   std::ranges::fill(*data.logs[0].steering_command_rad, 0.0);
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, power_law(), {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(refused(*result, ParameterId::kSteeringTimeConstant));
 }

@@ -4,6 +4,7 @@
     equation_index_test.py --list    prints every citation with what it stands at, for a new row
 """
 
+import functools
 import re
 import shutil
 import sys
@@ -113,8 +114,13 @@ def numbers(equations):
     return covered
 
 
+@functools.cache
+def words_in(text):
+    return frozenset(re.findall(r"\w+", text))
+
+
 def mentions(path, name):
-    return re.search(rf"\b{name}\b", path.read_text(encoding="utf-8")) is not None
+    return name in words_in(path.read_text(encoding="utf-8"))
 
 
 def check(root):
@@ -149,8 +155,8 @@ def check(root):
         elif not mentions(test, called):
             faults.append(f"{place}: {row['test']} does not mention {called}")
         if row["by"]:
-            library = library or "\n".join(p.read_text(encoding="utf-8") for p in sources(root))
-            if not re.search(rf"\b{row['by']}\b", library):
+            library = library or frozenset().union(*(words_in(p.read_text(encoding="utf-8")) for p in sources(root)))
+            if row["by"] not in library:
                 faults.append(f"{place}: nothing in lib/ is called {row['by']}")
     for c in cited:
         if not any((r["file"], r["equations"]) == (c.file, c.text) and r["function"] in c.names for r in rows):

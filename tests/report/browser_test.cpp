@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -147,11 +148,18 @@ class ReportInBrowser : public ::testing::Test {
   static void TearDownTestSuite() { delete directory_; }
   void SetUp() override { ASSERT_TRUE(found(AWMR_TOOL_CHROMIUM)); }
   static fs::path file(const std::string& name) { return directory_->path() / name; }
+  /// looked_at() of the suite's report; each width is opened once.
+  static const Json& report_at(int width) {
+    static std::map<int, Json> pages;
+    const auto [page, is_new] = pages.try_emplace(width);
+    if (is_new) page->second = looked_at(file("report.html"), width);
+    return page->second;
+  }
   static inline TemporaryDirectory* directory_ = nullptr;
 };
 
 TEST_F(ReportInBrowser, OnADeskAllIsDrawnWithoutErrorsOrRequestsAndNothingIsCut) {
-  const Json page = looked_at(file("report.html"), 1280);
+  const Json& page = report_at(1280);
   EXPECT_THAT(page.at("errors"), IsEmpty()) << page.at("errors");
   EXPECT_THAT(page.at("requests"), IsEmpty()) << page.at("requests");
   EXPECT_GT(page.at("charts"), 30);
@@ -164,7 +172,7 @@ TEST_F(ReportInBrowser, OnADeskAllIsDrawnWithoutErrorsOrRequestsAndNothingIsCut)
 }
 
 TEST_F(ReportInBrowser, OpensWithASummaryOnOneScreenAndContentsOfEverySection) {
-  const Json page = looked_at(file("report.html"), 1440);
+  const Json& page = report_at(1440);
   const Json& summary = page.at("summary");
   EXPECT_LE(summary.at("bottom"), 900) << "pixels of the frame";
   EXPECT_EQ(summary.at("tiles"), 4);
@@ -177,7 +185,7 @@ TEST_F(ReportInBrowser, OpensWithASummaryOnOneScreenAndContentsOfEverySection) {
 }
 
 TEST_F(ReportInBrowser, AxesIncludeZeroExtrapolatedTurnsAreShadedAndColoursAreLegible) {
-  const Json page = looked_at(file("report.html"), 1280);
+  const Json& page = report_at(1280);
   EXPECT_THAT(page.at("truncated"), IsEmpty()) << page.at("truncated");
   EXPECT_THAT(page.at("shaded"), ::testing::Contains("yaw rate"));
   // WCAG 2.1 AA: 1.4.3 for text, 1.4.11 for graphics.
@@ -186,7 +194,7 @@ TEST_F(ReportInBrowser, AxesIncludeZeroExtrapolatedTurnsAreShadedAndColoursAreLe
 }
 
 TEST_F(ReportInBrowser, SavesChartsWithoutColoursOfThePage) {
-  const Json page = looked_at(file("report.html"), 1280);
+  const Json& page = report_at(1280);
   EXPECT_THAT(page.at("unresolved"), IsEmpty()) << page.at("unresolved");
   EXPECT_THAT(page.at("saved"), ::testing::Each("data:image/png;base64,"));
 }
@@ -229,7 +237,7 @@ TEST_F(ReportInBrowser, IsWholeWithoutGainsComparisonOrTurns) {
 }
 
 TEST_F(ReportInBrowser, OnAPhoneNothingIsWiderThanThePageAndItOpensShort) {
-  const Json page = looked_at(file("report.html"), 390);
+  const Json& page = report_at(390);
   EXPECT_THAT(page.at("errors"), IsEmpty()) << page.at("errors");
   EXPECT_EQ(page.at("width"), 390);
   EXPECT_EQ(page.at("scroll_width"), 390);
@@ -241,7 +249,7 @@ TEST_F(ReportInBrowser, OnAPhoneNothingIsWiderThanThePageAndItOpensShort) {
 
 // The path turns back in x: a chart that assumes sorted points draws only a part of it.
 TEST_F(ReportInBrowser, TheWaypointDiamondHasItsTrueExtentAtEqualAxes) {
-  const Json page = looked_at(file("report.html"), 1280);
+  const Json& page = report_at(1280);
   const auto is_diamond = [](const Json& path) { return path.at("waypoints") == 4; };
   const Json& paths = page.at("paths");
   const auto path = std::find_if(paths.begin(), paths.end(), is_diamond);
@@ -262,7 +270,7 @@ TEST_F(ReportInBrowser, TheWaypointDiamondHasItsTrueExtentAtEqualAxes) {
 }
 
 TEST_F(ReportInBrowser, HostileNamesAreTextOnThePage) {
-  const Json page = looked_at(file("report.html"), 1280);
+  const Json& page = report_at(1280);
   EXPECT_EQ(page.at("foreign_elements"), 0);
   EXPECT_EQ(page.at("booms"), 0);
   EXPECT_TRUE(page.at("shows_hostile_name"));
@@ -301,8 +309,10 @@ TEST_F(ReportInBrowser, TheLivePartComputesWhatTheCommandLineDoes) {
   for (const char* name : {"model.json", "scenario_c3_heading_steps.json"}) {
     fs::copy(file(name), tuned.path() / name);
   }
+  write_all(tuned.path() / "tune.json", R"({"global_evaluations": 20, "local_evaluations": 10,
+    "draws": 2, "judged_draws": 4, "scenarios": ["scenario_c3_heading_steps.json"]})");
   for (const char* step :
-       {"tune --model model.json -o gains.json",
+       {"tune --config tune.json --model model.json -o gains.json",
         "simulate --model model.json --gains gains.json --mode combined -o run.csv "
         "--scenario scenario_c3_heading_steps.json",
         "compare --model model.json --gains gains.json --heading-rate-limit none -o . "
