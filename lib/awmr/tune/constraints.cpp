@@ -331,8 +331,9 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
     width = radps;
     return steering_rate_rms_degps(gains, context) <= *limit * (1.0 + wider);
   };
-  Interval widths{width, plant.yaw.coulomb * gains.heading.epsilon /
-                             (kLeastFrictionShare * plant.inertia_norm * gains.heading.mu)};
+  const double in_proportion =
+      plant.yaw.coulomb * gains.heading.epsilon / (plant.inertia_norm * gains.heading.mu);
+  Interval widths{width, std::min(in_proportion / kLeastFrictionShare, context.fastest_radps)};
   if (is_calm(widths.lo) || widths.hi <= widths.lo) {
     width = widths.lo;
     return gains;

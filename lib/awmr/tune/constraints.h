@@ -135,9 +135,9 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 
 /// Returns the gains with the smallest friction width w0 that meets the limit of the steering rate,
 /// or a limit larger by the share `wider`:
-///   0.02 <= w0 <= 10 c3 eps/(I'z mu)
-/// At the upper end the friction fed forward grows with S a tenth as fast as the corrective term. If
-/// no w0 in this range meets the limit, w0 is the upper end. Without a limit or without Coulomb
+///   0.02 <= w0 <= min(10 c3 eps/(I'z mu), the highest yaw rate of the runs)
+/// At the first bound the friction fed forward grows with S a tenth as fast as the corrective term.
+/// If no w0 in this range meets the limit, w0 is the upper end. Without a limit or without Coulomb
 /// friction, w0 is 0.02.
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider = 0.0);
