@@ -97,8 +97,7 @@ Status write_all(const std::vector<OutputFile>& files) {
 std::string example_summary(const InitCommand& command, const std::vector<OutputFile>& files) {
   const bool here = command.directory == ".";
   return fmt::format(
-      "wrote {} files to {} and {}: the paper's vehicle, its tables, scenarios, synthetic drives
-      "
+      "wrote {} files to {} and {}: the paper's vehicle, its tables, scenarios, synthetic drives\n"
       "next: {}awmr run configs/paper/project.json -o out\n",
       files.size(), (command.directory / "configs").string(),
       (command.directory / "datasets").string(),

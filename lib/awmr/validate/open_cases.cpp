@@ -55,7 +55,7 @@ std::vector<std::vector<std::size_t>> batches_of(const std::vector<ClaimCase>& c
   return batches;
 }
 
-ClaimCase evaluate(ClaimCase open, bool reproduced) {
+ClaimCase with_result(ClaimCase open, bool reproduced) {
   open.reproduced = reproduced;
   return open;
 }
@@ -131,9 +131,9 @@ void add_open_cases(const Model& model, const std::optional<Gains<double>>& gain
     Claim& claim = claims[c];
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const Claim& there = claims_by_case[i][c];
-      claim.cases.push_back(evaluate(cases[i], there.reproduced));
+      claim.cases.push_back(with_result(cases[i], there.reproduced));
       for (std::size_t m = 0; m < claim.modes.size(); ++m) {
-        claim.modes[m].cases.push_back(evaluate(cases[i], there.modes[m].reproduced));
+        claim.modes[m].cases.push_back(with_result(cases[i], there.modes[m].reproduced));
       }
     }
     claim.decided_by = decisive_settings(claim.cases);
