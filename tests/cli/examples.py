@@ -52,10 +52,11 @@ def shortened(lines, folder, paper_run):
     """The examples with the results of the paper's project, with short searches, without the paper's claims."""
     assert is_like_source(folder)
     shutil.copytree(paper_run, folder / "out")
-    search = {"global_evaluations": 20, "local_evaluations": 5, "draws": 2, "judged_draws": 4}
+    search = {"global_evaluations": 20, "local_evaluations": 5, "draws": 2, "judged_draws": 4, "mode": "combined"}
     (folder / "tune_short.json").write_text(json.dumps(search))
     project = json.loads((folder / "configs/synthetic/project.json").read_text())
-    (folder / "configs/synthetic/project_short.json").write_text(json.dumps({**project, "tune": "../../tune_short.json"}))
+    (folder / "configs/synthetic/project_short.json").write_text(json.dumps(
+        {**project, "identify": {"family": ["power"]}, "tune": "../../tune_short.json"}))
     changed = {"awmr run configs/paper/project.json -o out": None,
                "awmr run configs/synthetic/project.json -o driven": "awmr run configs/synthetic/project_short.json -o driven",
                "awmr tune --model model.json -o gains.json": "awmr tune --model model.json --config tune_short.json -o gains.json",
