@@ -156,7 +156,7 @@ TEST(LateLog, DetectsASteeringCommandThatIsTheMeasuredAngle) {
   Plant<double> slow = plant(t);
   slow.steering_time_constant_s = 0.1;
   Random random(8, 5);
-  DrivingLog log = simulate_log(slow, robot(), {.duration_s = 12.0, .drive = 8}, {}, random);
+  DrivingLog log = simulate_log(slow, robot(), {.duration_s = 20.0, .drive = 8}, {}, random);
   std::vector<double> angle(log.rows());
   replay<double>(LogSignals(log), 0, log.rows(), slow, nullptr, 0.002, {},
                  [&](std::size_t row, const State<double>& s) { angle[row] = s.steering_rad; });
