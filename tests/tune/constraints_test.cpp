@@ -298,6 +298,7 @@ TEST(FrictionWidth, IsTheNarrowestThatKeepsTheSteeringRate) {
     there.heading.friction_width_radps = width;
     return steering_rate_rms_degps(there, context);
   };
+  context.fastest_radps = 2.0;
   const double widest = 10.0 * context.plant.yaw.coulomb / (context.plant.inertia_norm * 1.3);
   EXPECT_LT(rate_at(widest), 0.7 * rate_at(0.02));
   const auto width = [&](double wider = 0.0) {
@@ -312,6 +313,8 @@ TEST(FrictionWidth, IsTheNarrowestThatKeepsTheSteeringRate) {
   EXPECT_LT(width(0.1), width());
   context.limits.steering_rate_rms_degps = 0.9 * rate_at(widest);
   EXPECT_NEAR(width(), widest, 1e-12);
+  context.fastest_radps = 0.5;
+  EXPECT_NEAR(width(), 0.5, 1e-12);
   context.plant.yaw.coulomb = 0.0;
   EXPECT_EQ(width(), 0.02);
 }
