@@ -23,8 +23,8 @@ using cli::Injection;
 
 float single(double value) { return static_cast<float>(value); }
 
-/// Guidance, avoidance and shaping run on the chip. Its input is the heading of a scenario without
-/// these, and the speed: 0 at the end of the path or if there is no passage.
+/// Guidance, avoidance and shaping run on the chip. Its input is the heading before avoidance and
+/// shaping, which a route replaces, and the speed: 0 at the end of the path or without a passage.
 AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed,
                         const GuidanceOutput& output) {
   const bool stops = output.finished || output.no_passage;

@@ -169,7 +169,7 @@ void add_line_law(CLI::App& command, EmitOptions& options) {
   };
   command
       .add_option_function<std::string>(
-          "--line-law", set, "Compile in the part 'line', with this law [" + laws.front() + "]")
+          "--line-law", set, "Include the part 'line', with this law [" + laws.front() + "]")
       ->check(one_of(laws));
 }
 

@@ -52,7 +52,7 @@ Result<Outcome> show_page(const std::vector<CommandInfo>& commands, const std::s
 void add_completion(CLI::App& app, Session& session) {
   auto shell = std::make_shared<Shell>(Shell::kBash);
   CLI::App* sub = add_command(app, session, "completion",
-                              "Print the completions of commands, options and files",
+                              "Print the shell completion of commands, options and files",
                               "source <(awmr completion bash)", [&app, shell]() -> Result<Outcome> {
                                 return text_outcome(completion_text(*shell, commands_of(app)));
                               });

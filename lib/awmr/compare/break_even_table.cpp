@@ -85,7 +85,7 @@ std::string break_even_table(const std::vector<BreakEven>& entries) {
   const BreakEven& first = entries.front();
   if (first.measured_m && !first.measured_degps) {
     return text + fmt::format(
-                      "yours: at least {:.3g} m, at which\n"
+                      "yours: at least {:.3g} m: with this moment\n"
                       "  the vehicle did not turn (awmr suggest lists forces to turn with)\n",
                       first.measured_m->lo);
   }

@@ -285,8 +285,7 @@ Status check_output_directory(const fs::path& path) {
     if (exists || there == directory_of(there)) break;
     if (there.filename().native().size() > NAME_MAX) {
       return input_error(ErrorCode::kBadName, path.string(),
-                         fmt::format("a name of {} characters is too long; {} is the "
-                                     "most",
+                         fmt::format("a name of {} bytes is too long; the limit is {}",
                                      there.filename().native().size(), NAME_MAX));
     }
     there = directory_of(there);

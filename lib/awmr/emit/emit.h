@@ -72,10 +72,9 @@ inline constexpr double kTableError = 5e-4;
 struct EmitOptions {
   /// kPowf if flash is scarce and the control step has time to spare; only for a power law.
   ResistanceForm resistance = ResistanceForm::kTable;
-  /// > 0: the largest relative error of a table. It is relative to the resistance or, if that is
-  /// less, to a tenth of the largest force (4 F'max for surge) or moment (4 d F'max for yaw).
-  /// Larger: a smaller table. Absent: kTableError or, if no table achieves it, the error of the
-  /// best one.
+  /// Largest error of a table, > 0, relative to the larger of the resistance and a tenth of the
+  /// largest force (4 F'max, surge) or moment (4 d F'max, yaw). A larger value gives a smaller
+  /// table. Absent: kTableError, or the smallest error that a table achieves.
   std::optional<double> table_error = {};
   /// Compiled in. Each needs flash, RAM and, while in use, time in every step.
   std::set<FirmwarePart> parts = {};

@@ -69,7 +69,7 @@ Result<std::optional<Finding>> foreign_run(const std::filesystem::path& director
   AWMR_ASSIGN_OR_RETURN(const bool has_side, regular_file_exists(side));
   const auto without = [&](const char* why) {
     return Finding{name, 0, Severity::kWarning, "result-without-origin",
-                   fmt::format("{}, so that its model is unknown, and it is not shown. Simulate it "
+                   fmt::format("{}, so its model is unknown and it is not shown. Simulate it "
                                "again (awmr simulate)",
                                why)};
   };

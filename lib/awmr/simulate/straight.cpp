@@ -11,8 +11,8 @@ namespace awmr {
 namespace {
 
 /// True if no force or moment moves the vehicle out of its straight line. Values below the
-/// threshold are rounding errors, as of sin(pi) or atan2. The simulated motion has no resistance to
-/// yaw and sway, so any resistance would reduce them further.
+/// threshold are rounding errors, such as those of sin(pi) or atan2. Unknown resistances in yaw and
+/// sway are simulated as 0; real ones would reduce these values.
 bool is_straight(const RunRow& row) {
   constexpr double kRounding = 1e-9;  // m/s, rad/s, rad, m
   const double turning[] = {row.state.v_mps,        row.state.r_radps,

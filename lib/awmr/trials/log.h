@@ -62,8 +62,8 @@ struct DrivingLog {
   }
   /// Median step between rows; of a joined log the time-weighted median.
   double median_step_s() const;
-  /// Steering input of the model d_r, rad, left positive: the servo's command, or its angle if only
-  /// that was logged.
+  /// Steering input of the model, rad, left positive: the servo's command d_ro, or its angle d_r if
+  /// only that was logged.
   const std::vector<double>& driving_steering_rad() const;
   /// The source column of the steering input.
   std::string_view steering_column() const {

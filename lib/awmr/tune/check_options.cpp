@@ -226,8 +226,8 @@ void check_mode(const TuneOptions& options, const Vehicle& vehicle, std::vector<
   for (const TuningGoal& goal : options.goals) {
     if (!goal.mode || *goal.mode == *options.mode) continue;
     faults.push_back({ErrorCode::kConflict, "",
-                      fmt::format("goals: one is for mode {}, but gains are tuned for {} only; "
-                                  "remove one of the two",
+                      fmt::format("goals: one is for mode {}, but \"mode\" tunes {} only; "
+                                  "remove the goal or \"mode\"",
                                   name_of(*goal.mode), name_of(*options.mode))});
   }
 }

@@ -177,7 +177,7 @@ Result<GlobalSensitivity> global_sensitivity(const Model& model, const Objective
         ErrorCode::kDiverges,
         fmt::format(
             "a run of the tuned loop fails with {} of {} samples of the assumed values, so the "
-            "sensitivity is unknown; tune without sensitivity, and examine these vehicles",
+            "sensitivity is unknown; tune without sensitivity",
             broken_off, figures.size()));
   }
   const std::span<const YawMode> modes = setting.modes();

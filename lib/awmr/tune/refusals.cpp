@@ -66,7 +66,8 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
   return refusal(
       ErrorCode::kNoGains,
       fmt::format(
-          "no gains within the bounds reach the goal \"{}\": the nearest of {} ({}) need {:.3g} "
+          "no gains within the bounds reach the goal \"{}\": of {} evaluated, the nearest ({}) "
+          "need {:.3g} "
           "times its limits. Make it soft, raise its limits, or give more evaluations{}",
           goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
           e.goal_quantile[worst],

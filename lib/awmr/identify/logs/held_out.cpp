@@ -64,8 +64,8 @@ Places places_of(const LogProblem& problem, const std::vector<double>& coordinat
   return places;
 }
 
-/// Information on the compared coordinates, divided by their large changes, after elimination of
-/// the biases: H_cc - H_cb H_bb^-1 H_bc and S_c - H_cb H_bb^-1 S_b.
+/// Information and score of the compared coordinates, each in units of its large change, after
+/// elimination of the biases: H_cc - H_cb H_bb^-1 H_bc and S_c - H_cb H_bb^-1 S_b.
 FitEvidence scaled_evidence(const std::vector<WindowSums>& sums, const Eigen::VectorXd& scale,
                             const Places& places) {
   const FitEvidence all = fit_evidence(sums, scale.size());

@@ -13,7 +13,7 @@ namespace awmr {
 struct Precision {
   ParameterId id{};
   /// Half of the 95 % interval relative to the value, dimensionless, >= 0; for an exponent, half of
-  /// the interval. Absent: no value or no interval.
+  /// the interval. Absent: given, or no value or no interval.
   std::optional<double> half_width;
 };
 

@@ -72,8 +72,8 @@ std::vector<Family> families_inside(Family family) {
   return {};
 }
 
-/// Initial guess without another fit: the power law by QR, and a share of the minimum force for
-/// each further term.
+/// Initial guess without another fit: the power law by QR (a fixed exponent is 1), half of the
+/// minimum force for Coulomb friction and dead zone, 0 for the quadratic term.
 TransformedParameters initial_guess_of(const SteadyProblem& problem) {
   const SteadyFit line = fit_log_linear(problem.points);
   TransformedParameters guess{line[TransformedParameter::kLogAlpha], 1.0, 0.0, 0.0, 0.0};

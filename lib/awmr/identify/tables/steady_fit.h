@@ -85,8 +85,8 @@ SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& 
 /// of the same points, noise and loss, by family; missing ones are added.
 SteadyFit fit_steady(const SteadyProblem& problem, std::map<Family, TransformedParameters>& known);
 
-/// The same curve with the error on the time that the rate took for the travel, travel/w, from the
-/// initial guess. Empty if a run was not timed, or the fit failed.
+/// Fits the same curve with the error on each run's time, travel/w, starting at the initial guess.
+/// Empty if a run was not timed, or the fit failed.
 std::optional<SteadyFit> fit_by_time(SteadyProblem problem,
                                      const TransformedParameters& initial_guess);
 
