@@ -10,6 +10,11 @@ namespace {
 
 using cli::Injection;
 
+bool is_safe(const Allocation<float>& command) {
+  return std::max({std::abs(command.force.left), std::abs(command.force.right),
+                   std::abs(command.steering_rad)}) <= 0.0F;
+}
+
 /// Checks that the first fault comes in time with the right cause, and that the vehicle stays
 /// disarmed.
 Injected disarming_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
@@ -26,9 +31,7 @@ Injected disarming_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) 
                   static_cast<double>(at - std::min(at, setup.middle)) * setup.sample_time_s <=
                       effect_of(setup.injection).within_s;
   result.safe = std::all_of(first, rows.end(), [&](const LoopRow& row) {
-    const Allocation<float>& command = row.step.output.command;
-    return has_fault(row) && std::max({std::abs(command.force.left), std::abs(command.force.right),
-                                       std::abs(command.steering_rad)}) <= 0.0F;
+    return has_fault(row) && is_safe(row.step.output.command);
   });
   return result;
 }
@@ -56,10 +59,7 @@ Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
       continue;
     }
     result.seen &= out.fault;
-    const bool still =
-        std::max({std::abs(out.command.force.left), std::abs(out.command.force.right),
-                  std::abs(out.command.steering_rad)}) <= 0.0F;
-    result.safe = result.safe && still;
+    result.safe = result.safe && is_safe(out.command);
   }
   result.worked = setup.injection == Injection::kReset ? restarts_of(rows) == setup.resets
                                                        : (result.seen & result.expected) != 0;

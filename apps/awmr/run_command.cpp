@@ -158,6 +158,14 @@ void emit_library(const fs::path& model, const fs::path& gains, const fs::path& 
                                 plain_text(awmr::to_text(emitted.error()))});
 }
 
+/// True if tune would refuse the model. A parameter that was refused can have a given or an assumed
+/// value.
+Result<bool> lacks_parameters(const Outcome& identified, const fs::path& model) {
+  if (!identified.refused) return false;
+  AWMR_ASSIGN_OR_RETURN(const Model fitted, read_model(model));
+  return !fitted.plant();
+}
+
 }  // namespace
 
 Result<Outcome> execute(const RunCommand& command) {
@@ -173,9 +181,8 @@ Result<Outcome> execute(const RunCommand& command) {
   Outcome& total = steps.total;
   AWMR_ASSIGN_OR_RETURN(Outcome identified, identify_step(project, names, model));
   add_step(steps, "identify", std::move(identified));
-  // What was refused may have a given or an assumed value: the rule of tune.
-  AWMR_ASSIGN_OR_RETURN(const Model fitted, read_model(model));
-  if (total.refused && !fitted.plant()) {
+  AWMR_ASSIGN_OR_RETURN(const bool has_gaps, lacks_parameters(total, model));
+  if (has_gaps) {
     total.summary += "stopped: the next steps need parameters that could not be identified\n";
     total.document = joined(steps.documents);
     put_findings_into_document(total);

@@ -241,7 +241,7 @@ class OtherProcessors : public Boards {
 /// A compiler for an FPU would round a b + c once (vfma): awmr.cpp disables that itself.
 TEST_F(OtherProcessors, GiveTheHostsBitsWithAndWithoutAnFpu) {
   for (const char* program : {kArmGcc, kArmGxx, kQemuArm}) {
-    if (!found(program)) GTEST_SKIP() << found(program).message() << " (scripts/setup all)";
+    if (!found(program)) GTEST_SKIP() << "the ARM tools are not installed (scripts/setup all)";
   }
   const std::string host = on_host("-ffp-contract=off");
   EXPECT_THAT(host, HasSubstr("6 "));

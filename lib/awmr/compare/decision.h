@@ -66,7 +66,7 @@ Decision decide(const ScenarioRows& scenario, const std::vector<PairedDifference
 /// complete no run under a change.
 std::string decision_text(const Decision& decision);
 
-/// One or two sentences: the best mode, by how much, and with what confidence. A mode that loses
+/// One or two sentences: the best mode, its lead and the confidence in it. A mode that loses
 /// rank 1 under a change is not called best.
 std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking,
                        const std::optional<Decision>& decision,

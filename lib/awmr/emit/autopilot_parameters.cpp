@@ -140,8 +140,8 @@ std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains
                      plant.inertia_norm * gains.lambda / kMore);
 }
 
-/// The steady error of the heading with motors that differ by 16 %, rad. In the boundary layer of the heading
-/// law (heading_law.h), at r = 0:
+/// Steady error of the heading with motors that differ by 16 %, rad. In the boundary layer of the
+/// heading law (heading_law.h), at r = 0:
 ///   0.08 d tau_speed = I'z lambda (mu/epsilon) e
 double steady_error_rad(const Plant<double>& plant, const HeadingGains<double>& gains,
                         double route_mps) {
@@ -150,20 +150,19 @@ double steady_error_rad(const Plant<double>& plant, const HeadingGains<double>& 
 }
 
 /// AWMR_ON_COURSE_RAD: twice the steady error of the heading, 15 to 45 deg.
-double on_course_rad(const Plant<double>& plant, const HeadingGains<double>& gains,
-                     double route_mps) {
-  return std::clamp(2.0 * steady_error_rad(plant, gains, route_mps), radians(15.0),
-                    kMostOnCourse_rad);
+double on_course_rad(double error_rad) {
+  return std::clamp(2.0 * error_rad, radians(15.0), kMostOnCourse_rad);
 }
 
 /// AWMR_OFF_COURSE_MRAD: a turn by 180 deg with the radius R takes R (pi - e0)^2/2 of it
 /// (control/motion_check.h), the rest is for the distance until the turn begins. R is the largest
 /// at speeds from a quarter of the route's on, because friction at rest makes slow turns wide.
 double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
-                       const HeadingGains<double>& gains, double full_force, double route_mps) {
+                       const HeadingGains<double>& gains, double full_force, double route_mps,
+                       double on_course_rad) {
   constexpr double kLeast_mrad = 10.0;
   constexpr double kMost_mrad = 90.0;
-  const double beyond_rad = radians(180.0) - on_course_rad(plant, gains, route_mps);
+  const double beyond_rad = radians(180.0) - on_course_rad;
   double most = kLeast_mrad;
   for (const double share : {0.25, 0.5, 0.75, 1.0}) {
     const double speed_mps = share * route_mps;
@@ -245,9 +244,10 @@ void set_sketch_values(const Plant<double>& plant, const Vehicle& vehicle,
   const double route_mps = route_speed_mps(plant, full_force);
   parameters.route_speed_mps = single(route_mps);
   parameters.steady_error_rad = steady_error_rad(plant, gains, route_mps);
-  parameters.on_course_rad = single(on_course_rad(plant, gains, route_mps));
+  const double course_rad = on_course_rad(parameters.steady_error_rad);
+  parameters.on_course_rad = single(course_rad);
   parameters.off_course_mrad =
-      single(off_course_mrad(plant, vehicle, gains, full_force, route_mps));
+      single(off_course_mrad(plant, vehicle, gains, full_force, route_mps, course_rad));
 }
 
 void set_position_filter(const Vehicle& vehicle, AutopilotParameters& parameters) {

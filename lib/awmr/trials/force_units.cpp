@@ -24,7 +24,6 @@ constexpr double kEndOfScale = 0.005;    // of the end of the scale, which full 
 constexpr double kLeastShare = 0.2;      // fraction of full power that a whole campaign reaches
 constexpr double kPlainlyBeyond = 1.05;  // of the limit: below, forces are over a smaller F_max
 
-constexpr Interval kPulse_us{900.0, 2200.0};
 constexpr ForceUnit kMicroseconds{
     "microseconds of a servo pulse (F' = (us - 1500)/500 where 1500 is standstill and 2000 full "
     "power)",

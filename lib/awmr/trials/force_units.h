@@ -25,6 +25,9 @@ namespace awmr {
 /// Forces beyond a limit only by rounding are within it.
 inline constexpr double kForceRounding = 1.01;
 
+/// Range of a servo's or a motor driver's pulses, us.
+inline constexpr Interval kPulse_us{900.0, 2200.0};
+
 /// Range of single-wheel forces, as in files.
 struct ForceSpan {
   double least = 0.0;    ///< signed

@@ -185,14 +185,17 @@ bool check_steering(const Table& table, const std::vector<TurningRow>& rows,
   return false;
 }
 
+double fastest_run_mps(const TrialSet<SurgeRow>& surge) {
+  return std::ranges::max_element(surge.rows, {}, &SurgeRow::speed_mps)->speed_mps;
+}
+
 /// A vehicle coasts from a speed to which it was driven. If no run was nearly as fast, the speed is
 /// in another unit or the resistance is extrapolated.
 void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
                          const std::optional<TrialSet<SurgeRow>>& surge) {
   constexpr double kFar = 1.5;
   if (!surge || surge->rows.empty()) return;
-  const double driven_mps =
-      std::ranges::max_element(surge->rows, {}, &SurgeRow::speed_mps)->speed_mps;
+  const double driven_mps = fastest_run_mps(*surge);
   if (fastest_mps <= kFar * driven_mps) return;
   table.findings.push_back(
       {table.file, line, Severity::kWarning, "coast-beyond-surge",
@@ -231,8 +234,7 @@ void warn_of_slow_coasts(const TrialData& data, std::vector<Finding>& findings) 
   constexpr double kSlow = 1.0 / 3.0;
   const FastestCoast coast = fastest_coast(data);
   if (coast.speed_mps == 0.0 || !data.surge || data.surge->rows.empty()) return;
-  const double driven_mps =
-      std::ranges::max_element(data.surge->rows, {}, &SurgeRow::speed_mps)->speed_mps;
+  const double driven_mps = fastest_run_mps(*data.surge);
   if (coast.speed_mps >= kSlow * driven_mps) return;
   findings.push_back(
       {coast.file, coast.line, Severity::kWarning, "coast-below-surge",

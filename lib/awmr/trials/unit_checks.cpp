@@ -417,14 +417,13 @@ std::optional<Contradiction> check_servo(const Evidence& evidence, const std::st
       fmt::format("reads {:.4g} to {:.4g} deg, where the stop is at {:g} deg", low, high, stop_deg);
   // Allowance for calibration and trim: both ends slightly beyond the stop.
   constexpr double kBeyondStop = 1.2;
-  constexpr Interval kServoPulse_us{900.0, 2200.0};
   for (const double centre : {90.0, 180.0}) {
     if (low < centre - kBeyondStop * stop_deg || high > centre + kBeyondStop * stop_deg) continue;
     return Contradiction{
         column, reads + fmt::format(": it looks like a servo's angle, {:g} straight ahead", centre),
         scaled_mapping(evidence, column, 1.0, -centre)};
   }
-  if (kServoPulse_us.contains(low) && kServoPulse_us.contains(high)) {
+  if (kPulse_us.contains(low) && kPulse_us.contains(high)) {
     const double factor = stop_deg / 500.0;
     return Contradiction{column,
                          reads +

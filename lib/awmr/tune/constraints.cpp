@@ -319,8 +319,7 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider) {
   constexpr int kBisections = 20;
-  // At the widest, friction adds a tenth to the corrective term: what it takes of the steering rate is
-  // of more use there.
+  // At the largest width, the fed-forward friction adds a tenth to the corrective term.
   constexpr double kLeastFrictionShare = 0.1;
   double& width = gains.heading.friction_width_radps;
   width = feed_forward_rest_speed<double>();

@@ -78,11 +78,10 @@ std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score
 }
 
 double unsettled_s(const Scenario& scenario, double itae_degs2) {
-  const auto* headings = std::get_if<HeadingSteps>(&scenario.guidance);
-  if (headings == nullptr) return scenario.duration_s;
   double in_band_degs2 = 0.0;
   double end_s = scenario.duration_s;
-  for (const HeadingStep& step : std::views::reverse(headings->steps)) {
+  for (const HeadingStep& step :
+       std::views::reverse(std::get<HeadingSteps>(scenario.guidance).steps)) {
     const double held_s = std::max(end_s - step.t_s, 0.0);
     in_band_degs2 += meter::kSettledLeastDeg * held_s * held_s / 2.0;
     end_s = step.t_s;

@@ -46,10 +46,11 @@ inline constexpr ObjectiveTerm kObjectiveTerms[] = {
     {"speed_itae", &ObjectiveWeights::speed_itae, "speed_itae_m_s", 1e-3},
 };
 
-/// What takes the place of the settling time of a run that does not settle after every step, s: the scenario's
-/// duration T, longer by what the heading error exceeds one at the edge of the narrowest settling band, b = 0.5 deg:
-///   T max(1, ITAE/sum_j(b T_j^2/2)),   T_j: how long the heading of step j is held
-/// With T alone, gains that never settle would be scored by how calm they are.
+/// Substitute for the settling time of a run that does not settle after every step, s. With T the
+/// scenario's duration, T_j that of step j and b = 0.5 deg, the narrowest settling band:
+///   T max(1, ITAE/sum_j(b T_j^2/2))
+/// T alone would not depend on the gains, and the least active ones would be selected.
+/// Precondition: heading guidance.
 double unsettled_s(const Scenario& scenario, double itae_degs2);
 
 /// x_i of one run, in the order of kObjectiveTerms.

@@ -218,8 +218,7 @@ struct ModeScore {
   std::string scenario;
   YawMode mode{};
   Metrics metrics{};
-  double unsettled_s =
-      0.0;  ///< takes the place of the settling time that a run does not have (objective.h)
+  double unsettled_s = 0.0;  ///< substitute for an absent settling time (objective.h)
   double objective =
       0.0;  ///< weighted geometric mean of its terms over the baseline's; 1 for itself
   bool has_failed = false;  ///< the run broke off; its metrics are those up to that time

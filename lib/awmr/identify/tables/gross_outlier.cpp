@@ -27,20 +27,18 @@ double log_misfit(const FamilyCandidate& candidate) {
 /// where the runs were not timed.
 double deviations_in_time(const Subject& subject, std::size_t point, const SteadyFit& of_others) {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
-  SteadyProblem problem{subject.points, Family::kPower, ErrorModel::kTime, Loss::kSquared,
-                        subject.beta_range};
-  SteadyProblem others = problem;
-  others.points.erase(others.points.begin() + eigen_index(point));
-  const SteadyPoint& run = subject.points[point];
-  const auto fit = fit_by_time(std::move(others), of_others.theta);
-  if (!fit || !fit->has_covariance() || !run.travel || !run.elapsed_s) return kUnknown;
-  problem.points = {run};
-  problem.points.front().elapsed_s = *run.travel / run.rate;
-  const auto row = steady_rows(problem, fit->theta, fit->free);
+  auto all = by_time({.points = subject.points, .beta_range = subject.beta_range});
+  if (!all) return kUnknown;
+  SteadyProblem one = *all;
+  one.points = {all->points[point]};
+  all->points.erase(all->points.begin() + eigen_index(point));
+  const SteadyFit fit = fit_steady(*all, of_others.theta);
+  if (!fit.usable || !fit.has_covariance()) return kUnknown;
+  const auto row = steady_rows(one, fit.theta, fit.free);
   if (!row) return kUnknown;
   const double variance =
-      fit->residual_std * fit->residual_std +
-      row->jacobian.row(0).dot(fit->covariance * row->jacobian.row(0).transpose());
+      fit.residual_std * fit.residual_std +
+      row->jacobian.row(0).dot(fit.covariance * row->jacobian.row(0).transpose());
   return std::abs(row->residuals(0)) / std::sqrt(variance);
 }
 

@@ -81,10 +81,11 @@ std::vector<Finding> outlier_findings(const Subject& subject, const SteadyProble
                                       const SteadyFit& fit) {
   std::vector<Finding> findings;
   Eigen::VectorXd t = studentised(fit.residuals, fit.leverages, fit.degrees_of_freedom);
-  if (const auto by_time = fit_by_time(problem, fit.theta)) {
+  if (const auto timed = by_time(problem)) {
+    const SteadyFit of_times = fit_steady(*timed, fit.theta);
     const Eigen::VectorXd other =
-        studentised(by_time->residuals, by_time->leverages, by_time->degrees_of_freedom);
-    if (other.size() == t.size()) t = t.cwiseAbs().cwiseMin(other.cwiseAbs());
+        studentised(of_times.residuals, of_times.leverages, of_times.degrees_of_freedom);
+    if (of_times.usable && other.size() == t.size()) t = t.cwiseAbs().cwiseMin(other.cwiseAbs());
   }
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     const double p = 2.0 * students_t_tail(std::abs(t(i)), fit.degrees_of_freedom - 1) *

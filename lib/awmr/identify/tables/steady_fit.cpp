@@ -154,15 +154,13 @@ SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& 
   return fit;
 }
 
-std::optional<SteadyFit> fit_by_time(SteadyProblem problem,
-                                     const TransformedParameters& initial_guess) {
+std::optional<SteadyProblem> by_time(SteadyProblem problem) {
   for (SteadyPoint& point : problem.points) {
     if (!point.travel || !point.elapsed_s) return std::nullopt;
     point.elapsed_s = *point.travel / point.rate;
   }
   problem.noise = ErrorModel::kTime;
-  SteadyFit fit = fit_steady(problem, initial_guess);
-  return fit.usable ? std::optional(std::move(fit)) : std::nullopt;
+  return problem;
 }
 
 std::optional<SteadyRows> steady_rows(const SteadyProblem& problem,

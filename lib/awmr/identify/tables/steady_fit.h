@@ -85,10 +85,8 @@ SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& 
 /// of the same points, noise and loss, by family; missing ones are added.
 SteadyFit fit_steady(const SteadyProblem& problem, std::map<Family, TransformedParameters>& known);
 
-/// Fits the same curve with the error on each run's time, travel/w, starting at the initial guess.
-/// Empty if a run was not timed, or the fit failed.
-std::optional<SteadyFit> fit_by_time(SteadyProblem problem,
-                                     const TransformedParameters& initial_guess);
+/// The same problem with the error on each run's time, travel/w. Empty if a run was not timed.
+std::optional<SteadyProblem> by_time(SteadyProblem problem);
 
 /// True if every coordinate is finite and alpha > 0.
 bool is_physical(const Resistance<double>& law);
