@@ -10,7 +10,6 @@
 namespace awmr::pil {
 namespace {
 
-constexpr std::size_t kStepsPerMode = 2000;
 constexpr int kFields = 11;  ///< floats in an AutopilotInput
 constexpr float kAcceptance_m = 1.0F;
 
@@ -123,7 +122,7 @@ Result<unsigned> tried(Executor& chip, Executor& host, const Attack& attack, Hos
 }  // namespace
 
 Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
-                        const Mission& mission, const Progress& progress) {
+                        const Mission& mission, std::size_t steps, const Progress& progress) {
   Hostile found;
   // Every step is at time 0. The first is not evaluated because it follows a time jump. Its invalid
   // mode raises a fault, after which chip and host have no memory of earlier motion.
@@ -132,6 +131,7 @@ Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limi
   AWMR_RETURN_IF_ERROR(chip.step(first));
   AWMR_RETURN_IF_ERROR(host.step(first));
   constexpr std::uint8_t kModes = static_cast<std::uint8_t>(YawMode::kCombined) + 1;
+  const std::size_t steps_per_mode = (steps + kModes - 1) / kModes;
   for (std::uint8_t mode = 0; mode < kModes; ++mode) {
     Random random(1, mode);
     Attack best;
@@ -143,10 +143,10 @@ Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limi
       if (!mission.line) best.points.acceptance_m = kAcceptance_m;
     }
     unsigned most = 0;
-    for (std::size_t i = 0; i < kStepsPerMode; ++i) {
+    for (std::size_t i = 0; i < steps_per_mode; ++i) {
       const Attack attack = changed(best, limits, random);
       AWMR_ASSIGN_OR_RETURN(const unsigned cycles, tried(chip, host, attack, found));
-      if (progress) progress(mode * kStepsPerMode + i + 1, kModes * kStepsPerMode);
+      if (progress) progress(mode * steps_per_mode + i + 1, kModes * steps_per_mode);
       if (cycles < most) continue;
       most = cycles;
       best = attack;

@@ -18,8 +18,8 @@ struct Hostile {
 /// Searches for the slowest inputs: at and beyond the limits, tiny, subnormal, not finite, headings
 /// of many turns, moving references. If the mission has points, they are replaced by points on the
 /// vehicle or anywhere. The slowest input so far is mutated repeatedly. The sequence is
-/// deterministic. Errors: those of the executors.
+/// deterministic; each mode gets a third of `steps`, rounded up. Errors: those of the executors.
 Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
-                        const Mission& mission, const Progress& progress = {});
+                        const Mission& mission, std::size_t steps, const Progress& progress = {});
 
 }  // namespace awmr::pil

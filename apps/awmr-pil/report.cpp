@@ -61,7 +61,8 @@ Result<Provenance> provenance_of(const PilOptions& options) {
       {"optimize", std::string(name_in(cli::kOptimizeNames, *options.optimize))},
       {"table-error", fmt::format("{:g}", options.emit.table_error.value_or(kTableError))},
       {"inject", std::string(name_in(cli::kInjectionNames, options.injection))},
-      {"line-noise", fmt::format("{:g}", options.line_noise)}};
+      {"line-noise", fmt::format("{:g}", options.line_noise)},
+      {"hostile-steps", std::to_string(options.hostile_steps)}};
   for (const fs::path& path : {options.model, options.gains, options.scenario}) {
     const auto input = input_file(path);
     if (!input) return tl::unexpected(input.error());

@@ -19,7 +19,8 @@ namespace awmr::pil {
 struct ChipRun {
   std::vector<LoopRow> rows;
   ChipFigures figures;
-  std::optional<Hostile> hostile;  ///< absent with an injection and for a real board
+  std::optional<Hostile>
+      hostile;  ///< absent without hostile steps, with an injection, for a real board
   std::uint8_t start_fault = 0;
   double real_time_factor = 0.0;  ///< simulated time divided by elapsed time
 };

@@ -154,12 +154,15 @@ Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& i
 /// Searches for the longest step of an emulated chip; called after its run.
 Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Inputs& in, Chip& chip,
                                           const Watch& watch) {
-  if (options.port || options.injection != Injection::kNone) return std::optional<Hostile>();
+  if (options.port || options.injection != Injection::kNone || options.hostile_steps == 0) {
+    return std::optional<Hostile>();
+  }
   watch.doing("searching for the longest step");
   const auto host = host_executor(in.parameters, in.setup.mission);
   if (const auto started = host->start(); !started) return tl::unexpected(started.error());
-  AWMR_ASSIGN_OR_RETURN(const Hostile hostile, provoke(chip, *host, in.parameters.block.safety,
-                                                       in.setup.mission, watch.progress));
+  AWMR_ASSIGN_OR_RETURN(const Hostile hostile,
+                        provoke(chip, *host, in.parameters.block.safety, in.setup.mission,
+                                options.hostile_steps, watch.progress));
   return std::optional(hostile);
 }
 

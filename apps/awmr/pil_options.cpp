@@ -68,6 +68,13 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
           "obstacles, and two parts or more]")
       ->check(one_of(names_in(kOptimizeNames)));
   add_bounds(command, options);
+  command
+      .add_option(
+          "--hostile-steps", options.hostile_steps,
+          "Steps with hostile inputs after the scenario, which search for the longest step; "
+          "0: none")
+      ->check(within(0U, 10000000U))
+      ->capture_default_str();
   add_choice(command, "--inject", options.injection, kInjectionNames, "A fault to inject half-way")
       ->default_str("none");
   command

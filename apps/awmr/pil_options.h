@@ -132,6 +132,7 @@ struct PilOptions {
   /// their samples apart.
   std::optional<double> heading_max_deg;
   Injection injection = Injection::kNone;
+  unsigned hostile_steps = 6000;  ///< steps with hostile inputs after the scenario; 0: none
   double line_noise = 0.0;  ///< fraction of bits flipped and of bytes lost, with kUart and no port
   std::optional<std::filesystem::path> build_directory;  ///< kept after the run; absent: temporary
   std::filesystem::path output;

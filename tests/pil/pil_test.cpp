@@ -75,7 +75,8 @@ class Pil : public ::testing::Test {
     return pil_on("model.json", "gains.json", scenario, mode, options, output);
   }
   /// pil.json of `scenario` in combined mode; each run once.
-  static const Json& result_of(const std::string& scenario, const std::string& options = "") {
+  static const Json& result_of(const std::string& scenario,
+                               const std::string& options = kWithoutSearch) {
     static std::map<std::string, Json> results;
     const auto [entry, is_new] = results.try_emplace(scenario + options);
     if (is_new) {
@@ -104,8 +105,9 @@ class Pil : public ::testing::Test {
                            brief() + " --mode combined " + options + " -o " + path(output),
                        AWMR_SOURCE_DIR);
   }
-  /// With a failure, a run does not search for the longest step.
-  static constexpr const char* kWithoutSearch = " --inject nan";
+  /// A tenth of the default, where the longest step is not what the test is about.
+  static constexpr const char* kShortSearch = " --hostile-steps 600";
+  static constexpr const char* kWithoutSearch = " --hostile-steps 0";
   static bool exists(const std::string& name) { return std::filesystem::exists(path(name)); }
   static std::size_t entries(const std::string& name) {
     const std::filesystem::directory_iterator first(path(name)), last;
@@ -189,13 +191,13 @@ INSTANTIATE_TEST_SUITE_P(Long, PilScenario,
 
 class PilGuidance : public Pil, public ::testing::WithParamInterface<const char*> {
  protected:
-  static void expect_leads_by_itself(const std::string& scenario);
+  static void expect_leads_by_itself(const std::string& scenario, const std::string& options);
 };
 
 /// The host's bits, within 16.1 KiB of flash and 512 bytes of RAM; with the estimate of the position
 /// 20 KiB and 640 bytes.
-void PilGuidance::expect_leads_by_itself(const std::string& scenario) {
-  const ProcessResult run = pil(scenario, "combined", "");
+void PilGuidance::expect_leads_by_itself(const std::string& scenario, const std::string& options) {
+  const ProcessResult run = pil(scenario, "combined", options);
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   const Json json = result();
   EXPECT_EQ(largest(json["difference"]), 0.0);
@@ -211,9 +213,10 @@ void PilGuidance::expect_leads_by_itself(const std::string& scenario) {
   EXPECT_EQ(json["guidance_on_chip"].get<bool>(), !heading);
 }
 
-/// In the first half minute.
+/// In the first half minute and a tenth of the hostile steps.
 TEST_P(PilGuidance, GuidanceOnTheChipGivesTheBitsOfTheHost) {
-  expect_leads_by_itself(shortened(std::string("configs/") + GetParam() + ".json", 30.0));
+  expect_leads_by_itself(shortened(std::string("configs/") + GetParam() + ".json", 30.0),
+                         kShortSearch);
 }
 
 /// One scenario for each set of the firmware's parts and laws.
@@ -258,7 +261,7 @@ INSTANTIATE_TEST_SUITE_P(, PilGuidance, ::testing::ValuesIn(kGuided), name_of_fi
 class PilWholeScenario : public PilGuidance {};
 
 TEST_P(PilWholeScenario, GuidanceOnTheChipGivesTheBitsOfTheHost) {
-  expect_leads_by_itself(std::string("configs/") + GetParam() + ".json");
+  expect_leads_by_itself(std::string("configs/") + GetParam() + ".json", "");
 }
 
 std::vector<const char*> all_guided() {
@@ -281,7 +284,7 @@ TEST_F(Pil, RefusesTheLqiByName) {
 /// If the only task is a heading that has been reached, the commands decay to the smallest numbers.
 TEST_F(Pil, ADecayingHeadingGivesTheHostsBitsInEveryMode) {
   for (const char* mode : {"differential", "steering"}) {
-    const ProcessResult run = pil("configs/scenarios/low_battery.json", mode, "");
+    const ProcessResult run = pil("configs/scenarios/low_battery.json", mode, kWithoutSearch);
     ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
     EXPECT_EQ(largest(result()["difference"]), 0.0) << mode;
   }
@@ -304,7 +307,7 @@ TEST_F(Pil, CompensatesFrictionDeadZoneAndBackEmfAsTheSimulator) {
   geared["motor"]["back_emf_s_per_m"] = given(0.15, "s/m");
   for (const Json& model : {friction, zone, geared}) {
     write_all(path("rest.json"), model.dump());
-    const ProcessResult run = pil_on("rest.json", "gains.json", kC3, "combined", "");
+    const ProcessResult run = pil_on("rest.json", "gains.json", kC3, "combined", kShortSearch);
     ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
     EXPECT_EQ(largest(result()["difference"]), 0.0);
     EXPECT_LE(result()["difference_double"]["heading_deg"].get<double>(), 0.05);
@@ -321,7 +324,8 @@ TEST_F(Pil, AnObserverTunedWithTheGainsWorksOnTheChip) {
   write_all(path("observed.json"), gains.dump());
   for (const std::string& scenario :
        {std::string(kC3), shortened("configs/scenarios/side_slope.json", 20.0)}) {
-    const ProcessResult run = pil_on("model.json", "observed.json", scenario, "combined", "");
+    const ProcessResult run =
+        pil_on("model.json", "observed.json", scenario, "combined", kShortSearch);
     ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
     EXPECT_EQ(largest(result()["difference"]), 0.0);
     EXPECT_LE(result()["difference_double"]["heading_deg"].get<double>(), 0.05);
@@ -332,7 +336,9 @@ TEST_F(Pil, AnObserverTunedWithTheGainsWorksOnTheChip) {
 TEST_F(Pil, ALineOverTheUartIsTheSameRun) {
   const std::string line = shortened("configs/paper/scenarios/c9_line.json", 8.0);
   // The serial line takes 1.5 kB more than the memory link, which stays within 16 KiB.
-  ASSERT_EQ(pil(line, "combined", "--link uart --flash-max 16800", "uart.json").exit_code, 0);
+  ASSERT_EQ(pil(line, "combined", "--link uart --flash-max 16800 --hostile-steps 0", "uart.json")
+                .exit_code,
+            0);
   EXPECT_EQ(result("uart.json")["difference_double"], result_of(line)["difference_double"]);
   EXPECT_EQ(largest(result("uart.json")["difference"]), 0.0);
   EXPECT_EQ(result("uart.json")["options"]["with"], "line");
@@ -340,7 +346,8 @@ TEST_F(Pil, ALineOverTheUartIsTheSameRun) {
 
 TEST_F(Pil, APartThatIsNotInUseChangesNoBit) {
   const std::string c8 = shortened(kC8, 40.0);
-  const ProcessResult run = pil(c8, "combined", "--with line,observer,slow_down", "with.json");
+  const ProcessResult run =
+      pil(c8, "combined", "--with line,observer,slow_down --hostile-steps 600", "with.json");
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   const Json with = result("with.json");
   EXPECT_EQ(result_of(c8)["difference_double"], with["difference_double"]);
@@ -353,7 +360,8 @@ TEST_F(Pil, APartThatIsNotInUseChangesNoBit) {
 
 TEST_F(Pil, CompiledForSizeItTakesLessFlashAndGivesTheSameBits) {
   const std::string c8 = shortened(kC8, 40.0);
-  const ProcessResult run = pil(c8, "combined", "--optimize size", "small.json");
+  const ProcessResult run =
+      pil(c8, "combined", "--optimize size --hostile-steps 600", "small.json");
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   const Json fast = result_of(c8), small = result("small.json");
   EXPECT_LT(small["flash_bytes"].get<int>(), fast["flash_bytes"].get<int>());
@@ -376,7 +384,8 @@ TEST_F(Pil, ByPowfItIsWithinTwoMillionths) {
   // The powf of the two libraries differs by up to 2.4e-7. The steering's division by tau_speed
   // amplifies this: 1.3e-6 measured with these gains, at most 9e-7 with the full-precision gains of
   // awmr tune.
-  const ProcessResult run = pil(kC3, "combined", "--resistance powf --difference-max 2e-6");
+  const ProcessResult run =
+      pil(kC3, "combined", "--resistance powf --difference-max 2e-6 --hostile-steps 0");
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   EXPECT_LE(largest(result()["difference"]), 2e-6);
   EXPECT_LE(result()["cycles"]["max"].get<int>(), 19998);
@@ -492,7 +501,8 @@ TEST_F(Pil, AChipResetDuringTheRunRestartsAsTheHostDoes) {
 }
 
 TEST_F(Pil, FailsOverABudgetAndNamesIt) {
-  const ProcessResult run = pil(kC3, "steering", "--cycles-max 100 --ram-max 100 --flash-max 100");
+  const ProcessResult run =
+      pil(kC3, "steering", "--cycles-max 100 --ram-max 100 --flash-max 100 --hostile-steps 0");
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.out, HasSubstr("FAILED: cycles"));
   EXPECT_THAT(run.out, HasSubstr("FAILED: flash"));
@@ -511,15 +521,16 @@ TEST_F(Pil, BadInputExitsWith2) {
 }
 
 TEST_F(Pil, OverTheUartItIsTheSameRun) {
-  const Json uart = result_of(kC3, "--link uart");
+  const Json uart = result_of(kC3, "--link uart --hostile-steps 0");
   EXPECT_EQ(uart["difference"], result_of(kC3)["difference"]);
   EXPECT_EQ(uart["difference_double"], result_of(kC3)["difference_double"]);
 }
 
 TEST_F(Pil, GivesTheSameRunOverALineThatFlipsBitsAndLosesBytes) {
-  const ProcessResult run = pil(kC3, "combined", "--link uart --line-noise 1e-3", "noisy.json");
+  const ProcessResult run =
+      pil(kC3, "combined", "--link uart --line-noise 1e-3 --hostile-steps 0", "noisy.json");
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
-  const Json quiet = result_of(kC3, "--link uart"), noisy = result("noisy.json");
+  const Json quiet = result_of(kC3, "--link uart --hostile-steps 0"), noisy = result("noisy.json");
   EXPECT_EQ(quiet["repeats"].get<int>(), 0);
   EXPECT_GT(noisy["repeats"].get<int>(), 1000);
   for (const char* what : {"difference", "difference_double", "cycles", "samples", "checks"}) {
@@ -539,8 +550,8 @@ TEST_F(Pil, ReportsALineThatFlipsAHundredthOfTheBits) {
 
 TEST_F(Pil, OptionsAreNotUsedAfterTheyAreFreed) {
   // Freed memory is overwritten at once, so that a CLI11 write to destroyed options gives garbage.
-  const ProcessResult run =
-      pil_after("GLIBC_TUNABLES=glibc.malloc.tcache_count=0:glibc.malloc.perturb=165", "");
+  const ProcessResult run = pil_after(
+      "GLIBC_TUNABLES=glibc.malloc.tcache_count=0:glibc.malloc.perturb=165", kWithoutSearch);
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
 }
 
@@ -615,8 +626,8 @@ TEST_F(Pil, RefusesASampleTimeBeyondTheTimer) {
 
 TEST_F(Pil, TwoRunsGiveTheSameBytesAndTheRealTimeFactorIsOnStdoutOnly) {
   const std::string c13 = shortened(kC13, 5.0);
-  const ProcessResult first = pil(c13, "combined", "", "first.json");
-  const ProcessResult second = pil(c13, "combined", "", "second.json");
+  const ProcessResult first = pil(c13, "combined", kShortSearch, "first.json");
+  const ProcessResult second = pil(c13, "combined", kShortSearch, "second.json");
   ASSERT_EQ(first.exit_code, 0) << first.err;
   ASSERT_EQ(second.exit_code, 0) << second.err;
   EXPECT_THAT(first.out, HasSubstr(" times real time"));
@@ -669,8 +680,9 @@ TEST_F(Pil, RemovesTheFolderOfAKilledRun) {
 }
 
 TEST_F(Pil, RefusesBoundsThatAreNotNumbers) {
-  for (const char* option : {"--difference-max nan", "--heading-max-deg nan", "--cycles-max -1",
-                             "--heading-max-deg inf", "--flash-max 1e3", "--ram-max 0"}) {
+  for (const char* option :
+       {"--difference-max nan", "--heading-max-deg nan", "--cycles-max -1", "--heading-max-deg inf",
+        "--flash-max 1e3", "--ram-max 0", "--hostile-steps -1", "--hostile-steps 1e9"}) {
     EXPECT_EQ(pil(kC13, "combined", option, "none.json").exit_code, 2) << option;
   }
 }
