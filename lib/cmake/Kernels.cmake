@@ -4,6 +4,7 @@
 #   (empty)       none: runs go one by one
 #   native        the one kernel that the building processor needs: avx2 has the bits of avx512 and compiles in half the
 #                 time; none where the processor has no AVX2 with fused multiply-add
+#   runnable      those of the default that the building processor runs: the others cannot be tested there
 # Sets AWMR_BUILT_KERNELS, the list that is built.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(known_kernels avx2 avx512)
@@ -13,19 +14,22 @@ else()
   set(known_kernels "")
 endif()
 set(AWMR_KERNELS "${known_kernels}" CACHE STRING
-  "Vector instruction sets of batches: a list of ${known_kernels}; native; empty for none")
+  "Vector instruction sets of batches: a list of ${known_kernels}; native; runnable; empty for none")
 
-if(NOT AWMR_KERNELS STREQUAL "native")
+if(NOT AWMR_KERNELS MATCHES "^(native|runnable)$")
   set(AWMR_BUILT_KERNELS ${AWMR_KERNELS})
   list(REMOVE_DUPLICATES AWMR_BUILT_KERNELS)
 elseif(CMAKE_CROSSCOMPILING)
-  message(FATAL_ERROR "AWMR_KERNELS=native describes the building processor. Name the target's kernels: ${known_kernels}")
+  message(FATAL_ERROR "AWMR_KERNELS=${AWMR_KERNELS} describes the building processor. Name the target's kernels: ${known_kernels}")
 elseif("avx2" IN_LIST known_kernels)
   set(AWMR_BUILT_KERNELS "")
   if(EXISTS /proc/cpuinfo)
     file(STRINGS /proc/cpuinfo processor_flags REGEX "^flags" LIMIT_COUNT 1)
     if(" ${processor_flags} " MATCHES " avx2 " AND " ${processor_flags} " MATCHES " fma ")
       set(AWMR_BUILT_KERNELS avx2)
+      if(AWMR_KERNELS STREQUAL "runnable" AND " ${processor_flags} " MATCHES " avx512f ")
+        list(APPEND AWMR_BUILT_KERNELS avx512)
+      endif()
     endif()
   endif()
 else()
@@ -34,6 +38,6 @@ endif()
 foreach(kernel IN LISTS AWMR_BUILT_KERNELS)
   if(NOT kernel IN_LIST known_kernels)
     message(FATAL_ERROR "AWMR_KERNELS has '${kernel}'. On ${CMAKE_SYSTEM_PROCESSOR} it takes "
-      "'${known_kernels}' or some of these, 'native', or nothing.")
+      "'${known_kernels}' or some of these, 'native', 'runnable', or nothing.")
   endif()
 endforeach()

@@ -3,13 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <random>
 
 #include "awmr/control/disturbance_observer.h"
+#include "awmr/core/linear_algebra.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/simulate.h"
@@ -490,7 +491,7 @@ TEST(SampledLoop, IsTheEquationsOfItsHeaderWhateverTheDirectShare) {
       Eigen::Matrix3d closed;
       for (int i = 0; i < 3; ++i) closed.col(i) = after_a_sample(loop, Eigen::Vector3d::Unit(i));
       double worst = 1.0;
-      for (const std::complex<double> z : closed.eigenvalues()) {
+      for (const std::complex<double> z : eigenvalues(closed)) {
         const std::complex<double> s = std::log(z);
         worst = std::min(worst, -s.real() / std::abs(s));
       }
