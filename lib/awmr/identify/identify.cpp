@@ -24,7 +24,8 @@ bool asks_for_other_family(const IdentifyOptions& options) {
          options.yaw_family.family != Family::kPower;
 }
 
-/// Steady runs with back-EMF only determine the sum of its loss and the resistance.
+/// Error if back-EMF is given or requested but there are only tables. Steady runs determine only
+/// the sum of back-EMF and resistance.
 Status check_back_emf(const Vehicle& vehicle, const TrialData& data,
                       const IdentifyOptions& options) {
   const bool is_requested =
@@ -76,7 +77,7 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
   return {};
 }
 
-/// The method of the tables: log-linear if it supports all requested parameters.
+/// Method of the table fits: log-linear unless another family or a robust loss is requested.
 Method method_of_tables(const IdentifyOptions& options) {
   const bool log_linear_does = !asks_for_other_family(options) && options.loss == Loss::kSquared;
   return log_linear_does ? Method::kLogLinear : Method::kNonlinear;
@@ -87,14 +88,14 @@ Method method_of(const TrialData& data, const IdentifyOptions& options) {
                                                    : Method::kTrajectory);
 }
 
-/// Noise model of the tables' fits. A request for another family or loss keeps the relative error
-/// of the force, as in log-linear least squares. Absent: the measured quantity has the error.
+/// Error model of the table fits if the options give none. With another family or a robust loss it
+/// is the relative error of the force, as in log-linear least squares. Otherwise absent.
 std::optional<ErrorModel> noise_of_tables(const IdentifyOptions& options) {
   if (method_of_tables(options) == Method::kLogLinear) return std::nullopt;
   return ErrorModel::kLogForce;
 }
 
-/// If the logs set the main values, the tables are still fitted, with their own method.
+/// Options of a table fit. With `trajectory` as the method, method_of_tables() fits the tables.
 SubjectOptions subject_options(const IdentifyOptions& options, Method method,
                                const FamilyChoice& family) {
   const bool asks_for_noise = options.noise || options.method == Method::kNonlinear;
@@ -108,8 +109,8 @@ SubjectOptions subject_options(const IdentifyOptions& options, Method method,
           .keeps_outliers = options.keeps_outliers};
 }
 
-/// A dead zone is a property of the wheels: it is identified from the surge runs and subtracted
-/// from the turning runs.
+/// Family of the yaw fit. For `dead-zone` this is the power law, because the wheels' dead zone is
+/// identified from the surge runs and subtracted from the forces of the turning runs.
 FamilyChoice yaw_family(const IdentifyOptions& options) {
   if (options.yaw_family.family == Family::kDeadZone) return {Family::kPower};
   return options.yaw_family;
@@ -180,13 +181,13 @@ bool is_fitted_to_logs(const Model& model, ParameterId id) {
   return model[id].method == name_in(kEstimatorNames, Estimator::kTrajectory);
 }
 
-/// True if yaw resistance is from differential turns only, although the vehicle has steering.
+/// True if the yaw resistance comes only from differential turns although the vehicle has steering.
 bool is_by_sides_alone(const TrialData& data, const Model& model) {
   return model.vehicle.has_steering() && data.turning && !data.turning->rows.empty() &&
          data.turning->rows.front().sides && !is_fitted_to_logs(model, ParameterId::kYawAlpha);
 }
 
-/// 99 % quantile of the logs' yaw rates, rad/s, which excludes spikes.
+/// Highest yaw rate of the logs, rad/s, as the 99 % quantile, because the maximum could be a spike.
 std::optional<double> fastest_logged_turn_radps(const std::vector<DrivingLog>& logs) {
   constexpr double kShare = 0.99;
   std::vector<double> rates;

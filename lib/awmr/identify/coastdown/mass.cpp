@@ -116,7 +116,7 @@ EstimatorReport report_of(const JointFit& joint, std::size_t surge_rows) {
   report.subject = FitSubject::kMass;
   report.estimator = Estimator::kJoint;
   report.noise = "as the surge fit, and speed";
-  const Subject surge{};  // the ids of surge
+  const Subject surge{};  // names the parameters
   for (std::size_t i = 0; i < joint.surge.free.size(); ++i) {
     const Eigen::Index row = eigen_index(i);
     const TransformedParameter c = joint.surge.free[i];
