@@ -159,7 +159,7 @@ std::optional<Finding> obstacle(const Subject& subject, const SubjectOptions& op
   const bool by_time = options.method != Method::kLogLinear && wanted == ErrorModel::kTime;
   if (by_time && !all_timed(subject.points)) {
     return about(subject, Severity::kError, "not-timed",
-                 fmt::format("{} needs elapsed_s, and distance_m or turns, in every row",
+                 fmt::format("{} needs distance_m (or turns) and elapsed_s in every row",
                              option_text("noise time")));
   }
   return std::nullopt;
