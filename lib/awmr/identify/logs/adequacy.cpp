@@ -27,9 +27,9 @@ std::optional<std::string> try_rivals(BestFamily alternatives, const FamilyFit& 
                      aic_lead(alternatives.best.fit, chosen.fit));
 }
 
-/// True for channels whose drift counts as a model error: speed and yaw rate. Without the speed
-/// also the position, without the yaw rate also the heading; otherwise their drift can come from
-/// the GNSS receiver or the compass.
+/// True for channels whose large drift invalidates the intervals: speed and yaw rate, the position
+/// if there is no speed, the heading if there is no yaw rate. (Otherwise a drift of position or
+/// heading can come from the GNSS receiver or the compass.)
 bool is_evaluated(const NoiseLevels& noise, LogChannel channel) {
   switch (channel) {
     case LogChannel::kSpeed:
