@@ -123,7 +123,7 @@ void record(Step& step, Model& model) {
   std::move(step.findings.begin(), step.findings.end(), std::back_inserter(model.record.findings));
 }
 
-/// Fits the surge or yaw law, if the runs determine it.
+/// Fits the surge or yaw law and, if the runs determine it, sets it in the model.
 SubjectFit identify_law(const Subject& subject, const SubjectOptions& options, MainValues& values) {
   SubjectFit fit = fit_subject(subject, options);
   if (fit.chosen) set_law(subject, fit, values);

@@ -43,8 +43,8 @@ constexpr std::string_view name_of(ErrorModel noise) {
 /// Loss function of the residuals: squared, or a robust loss that limits the effect of outliers.
 enum class Loss {
   kSquared,  ///< default: optimal for normal errors
-  kHuber,    ///< a few outliers
-  kCauchy,   ///< many or large outliers
+  kHuber,    ///< for a few outliers
+  kCauchy,   ///< for many or large outliers
   kTukey,    ///< ignores gross outliers; needs a good initial guess
 };
 inline constexpr NameTable<Loss, 4> kLossNames{{{"squares", Loss::kSquared},
@@ -90,7 +90,7 @@ struct IdentifyOptions {
   bool requested_all = false;
   bool fit_input_delay = false;         ///< logs: estimates one common delay of all commands, s
   std::vector<LogChannel> biases = {};  ///< logs: channels with an unknown constant offset
-  std::uint64_t seed = 1;               ///< of the multistart and of the bootstrap
+  std::uint64_t seed = 1;               ///< seed of the multistart and of the bootstrap
   int starts = 6;     ///< logs: number of random initial guesses if no trial gives one; >= 0
   int bootstrap = 0;  ///< logs: number of bootstrap resamples, e.g. 1000; 0: no bootstrap
   /// Logs: time limit of the searches, s. Fits that have not converged by then are refused. 0: no

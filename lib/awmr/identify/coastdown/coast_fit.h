@@ -15,7 +15,7 @@ namespace awmr {
 struct TermOverAlpha {
   TransformedParameter term{};  ///< c1 or q1
   double value = 0.0;           ///< c1/a1 in (m/s)^b1, q1/a1 in (m/s)^(b1 - 2); >= 0
-  double variance = 0.0;        ///< 0 if the value is 0, the end of its range
+  double variance = 0.0;        ///< variance of `value`; 0 if `value` is 0, its lower bound
 };
 
 /// Fit of coast-down curves to
@@ -25,7 +25,7 @@ struct TermOverAlpha {
 /// record begins before motors-off also has its own time of motors-off.
 struct CoastFit {
   double log_mass_norm = 0.0;  ///< ln m'; ln (m'/a1) without a surge law
-  double variance = 0.0;       ///< of log_mass_norm, from the noise of the curves alone
+  double variance = 0.0;       ///< variance of log_mass_norm by the noise of the curves alone
   double dof = 0.0;            ///< degrees of freedom of `variance`; fewer if autocorrelated
   /// d ln m' / d theta for the free coordinates theta of the fixed surge law (SteadyFit::free).
   Eigen::VectorXd by_surge;
@@ -37,11 +37,11 @@ struct CoastFit {
   double residual_std_mps = 0.0;
   int rows = 0;  ///< number of samples of all runs
   int rank = 0;
-  double condition_number = 0.0;               ///< columns scaled to length one
+  double condition_number = 0.0;               ///< of the Jacobian with columns of length one
   std::vector<std::vector<double>> residuals;  ///< by run, m/s
   bool autocorrelated =
       false;            ///< neighbouring residuals are correlated; `variance` allows for this
-  bool usable = false;  ///< converged, with full rank and degrees of freedom
+  bool usable = false;  ///< true if converged, with full rank and degrees of freedom
   std::string stop_reason;
 };
 

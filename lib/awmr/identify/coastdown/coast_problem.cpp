@@ -45,7 +45,7 @@ T coast_step(const Resistance<T>& law, const T& mass, const T& u, const T& h) {
 /// the search with a diverging t0.
 constexpr double kMaximumSteps = 1e6;
 
-/// The residuals of one curve over (ln a, b, c, q, ln m', (u0, t0)).
+/// Residuals of one curve as a function of ln a, b, c, q, ln m' and (u0, t0).
 struct CoastResidual {
   const CoastCurve* curve;
   double longest_step_s;

@@ -17,7 +17,7 @@ namespace awmr {
 /// its mean and t0 its end. Otherwise u0 and t0 are those of the first sample.
 struct CoastInitialState {
   double block[2];         ///< u0 in m/s, t0 in s
-  bool free_time = false;  ///< t0 is fitted
+  bool free_time = false;  ///< true if t0 is fitted
 };
 
 /// Residuals u(t) - measured of every sample, run after run. Parameters: the surge law (ln a, b, c,

@@ -12,8 +12,8 @@
 namespace awmr {
 namespace {
 
-constexpr double kFragileShare = 0.10;         ///< relative standard error of m' worth a warning
-constexpr double kInertiaDisagreement = 0.10;  ///< relative difference of Iz worth a note
+constexpr double kFragileShare = 0.10;         ///< relative standard error for `fragile-mass`
+constexpr double kInertiaDisagreement = 0.10;  ///< relative difference for `inertia-mismatch`
 
 /// Logarithm of the stop time for m' = 1; empty if the vehicle never stops.
 std::optional<double> log_unit_stop_time(const Resistance<double>& law, double speed_mps) {

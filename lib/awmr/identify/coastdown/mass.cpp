@@ -47,7 +47,7 @@ bool falls(const CoastCurve& curve) {
   return fall > kMinimumFall * noise_of(curve) / std::sqrt(static_cast<double>(part)) && fall > 0.0;
 }
 
-/// Returns the curves that fall, and adds a finding to `result` for each of the others.
+/// Returns the curves whose speed falls. Adds `no-deceleration` to `result` for each other curve.
 std::vector<CoastCurve> falling(const std::vector<CoastCurve>& curves, MassResult& result) {
   std::vector<CoastCurve> kept;
   for (const CoastCurve& curve : curves) {

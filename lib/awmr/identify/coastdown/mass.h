@@ -18,7 +18,7 @@ struct MassResult {
   /// stops.
   Posterior posterior;
   std::optional<double> by_grip;  ///< see Model::mass_norm_by_grip
-  std::optional<JointFit> joint;  ///< if requested and usable
+  std::optional<JointFit> joint;  ///< present if requested and usable
   std::optional<CoastFit> alone;  ///< fit of the curves, if there is no surge law
   std::string reason;             ///< why there is no estimate
   std::vector<EstimatorReport> reports;

@@ -52,7 +52,7 @@ std::string why_no_back_emf(const std::vector<DrivingLog>& logs) {
 }
 
 LogFitOptions with_back_emf(LogFitOptions options) {
-  constexpr double kShare = 0.1;  // of the resistance at 1 m/s
+  constexpr double kShare = 0.1;  // initial back-EMF, as a share of the resistance at 1 m/s
   double& guess = options.initial_guess[at(ParameterId::kBackEmf)];
   if (!(guess > 0.0)) guess = kShare * options.initial_guess[at(ParameterId::kSurgeAlpha)] / 4.0;
   if (!frees_back_emf(options)) options.free.push_back(ParameterId::kBackEmf);
@@ -64,7 +64,7 @@ bool frees_back_emf(const LogFitOptions& options) {
 }
 
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms) {
-  constexpr double kWorthATry = 4.0;  // of -2 ln L
+  constexpr double kWorthATry = 4.0;  // estimated decrease of -2 ln L
   const auto candidate_term = std::ranges::find(candidate_terms, ParameterId::kBackEmf);
   if (candidate_term == candidate_terms.end()) return false;
   if (!fit.usable || fit.suspect_gain[at(candidate_term - candidate_terms.begin())] > kWorthATry)

@@ -35,7 +35,7 @@ std::optional<std::size_t> place_in(const LogFit& fit, const std::string& name) 
   return std::nullopt;
 }
 
-/// Adds the estimate of one log.
+/// Adds the estimate of one log to `by_log`.
 void add(const std::string& file, double coordinate, double variance, ByLog& by_log) {
   by_log.files.push_back(file);
   by_log.coordinates.push_back(coordinate);
@@ -59,7 +59,7 @@ ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& 
 struct Heterogeneity {
   double p_value = 1.0;
   double std_error = 0.0;    ///< of the coordinate's mean over such logs, with tau^2 included
-  double mean_square = 0.0;  ///< Q/(L - 1)
+  double mean_square = 0.0;  ///< Q/(L - 1), about 1 if the L logs agree
 };
 
 Heterogeneity heterogeneity(const ByLog& by_log) {
@@ -104,7 +104,7 @@ LogPart part_of(const std::vector<DrivingLog>& log, double from, double to,
                 const std::string& which) {
   const std::vector<double>& t_s = log.front().t_s;
   const double duration_s = t_s.back() - t_s.front();
-  // The last row is in the last part.
+  // The interval is half-open, so the last part ends after the last row.
   const double end_s = to < 1.0 ? t_s.front() + to * duration_s : t_s.back() + 1.0;
   return {log,
           {t_s.front() + from * duration_s, end_s},
@@ -209,11 +209,11 @@ LogComparison compare_parts(const std::vector<DrivingLog>& log, const LogFitOpti
 }  // namespace
 
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common) {
-  constexpr double kLongEnough_s = 20.0;  // so that each half has information
+  constexpr double kLongEnough_s = 20.0;  // shorter logs have too little information in each half
   if (!common.fit.usable) return {};
   LogFitOptions options = from_optimum(common.options, common);
   options.bootstrap = 0;
-  options.effort.reset();  // short searches from the optimum, needed for valid intervals
+  options.effort.reset();  // no limit: these searches are short and decide if intervals are valid
   if (logs.size() == 1) {
     const std::vector<double>& t_s = logs.front().t_s;
     if (t_s.back() - t_s.front() < kLongEnough_s) return {};

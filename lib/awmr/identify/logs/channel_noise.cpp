@@ -132,7 +132,7 @@ Drift likeliest_share(std::span<const ErrorSeries> series, double correlation_s)
 /// length of a window; a coarse grid is refined by a search. `white_cost`: cost without a drift.
 /// The search is skipped if the grid lowers this cost so little that no drift can be significant.
 Drift likeliest_drift(std::span<const ErrorSeries> series, double step_s, double white_cost) {
-  constexpr double kWorthASearch = 4.0;  // of -2 ln L
+  constexpr double kWorthASearch = 4.0;  // smallest decrease of -2 ln L for a finer search
   constexpr int kGrid = 7;
   constexpr int kBits = 8;
   const double shortest = std::log(0.5 * step_s);
@@ -159,7 +159,7 @@ Drift likeliest_drift(std::span<const ErrorSeries> series, double step_s, double
   return drift.cost < best.cost ? drift : best;
 }
 
-/// Search coordinates of a second-order drift: share, frequency and damping.
+/// Search coordinates of a second-order drift: its share of the variance, frequency and damping.
 struct SecondOrder {
   double logit = 0.0;
   double log_radps = 0.0;

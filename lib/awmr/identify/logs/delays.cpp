@@ -181,7 +181,7 @@ Extended with_both_of_turning(NoiseIteration fit) {
 
 /// The fit with one more term free; empty if no term lowers AIC by more than kPlainly.
 std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss loss) {
-  constexpr double kPlainly = 10.0;  // of AIC
+  constexpr double kPlainly = 10.0;  // smallest decrease of AIC
   std::optional<NoiseIteration> more = likeliest_with_one_more(settled, loss);
   if (!more) return std::nullopt;
   Extended from = with_both_of_turning(*std::move(more));

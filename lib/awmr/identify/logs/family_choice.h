@@ -43,7 +43,7 @@ FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOption
 /// Options of the comparison of families.
 struct FamilyContest {
   bool surge = true;  ///< compares all families of surge resistance; false: power law
-  bool yaw = false;   ///< compares all families of yaw resistance, given the best one of surge
+  bool yaw = false;   ///< compares all families of yaw resistance; false: power law
   double lead = 0.0;  ///< a family replaces the power law if its AIC is lower by more than this
   /// True: fits other families only if a score test or correlated errors suggest a missing term.
   bool only_suspects = true;

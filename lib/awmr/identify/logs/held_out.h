@@ -12,7 +12,7 @@ namespace awmr {
 
 /// Rows of a log within a time interval.
 struct LogPart {
-  const std::vector<DrivingLog>& log;  ///< a single log
+  const std::vector<DrivingLog>& log;  ///< list with exactly one log
   Interval only_s;                     ///< time interval of the rows, s
   std::string name;                    ///< for messages: "the last fifth of log.csv"
 };

@@ -89,7 +89,7 @@ void check_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, 
                    LogStage& stage) {
   std::string why = why_no_inertia(vehicle, logs, model, stage);
   if (why.empty()) return;
-  // Without a yaw command, the yaw motion contains no information on the mass.
+  // If no command makes a yaw moment, the yaw motion contains no information about m'.
   const bool turned = is_turned(logs);
   if (!turned) why = "no command turns the vehicle";
   stage.reasons[ParameterId::kInertiaNorm] = why;

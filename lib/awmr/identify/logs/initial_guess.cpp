@@ -15,7 +15,7 @@ double rms(const std::vector<double>& values) {
 
 /// Root mean squares over one log, or their means over several logs.
 struct Magnitudes {
-  double thrust = 0.0;    ///< tau_speed
+  double thrust = 0.0;    ///< tau_speed, dimensionless
   double speed = 0.0;     ///< m/s
   double moment = 0.0;    ///< tau_turn, m
   double yaw_rate = 0.0;  ///< rad/s

@@ -99,7 +99,7 @@ class LinearStepper {
   struct Term {
     std::size_t parameter;
     double DrivenSlopes::*rate;
-    std::size_t place;  ///< [kDrivenSize][columns]
+    std::size_t place;  ///< index in an array [kDrivenSize][columns]
     double factor;
   };
   void note_driven(const DelayedCommand& command, double* driven) const;

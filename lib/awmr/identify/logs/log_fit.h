@@ -27,7 +27,7 @@ struct LogFit {
   std::vector<double> suspect_gain;
   double widened = 1.0;    ///< see Identifiability::widened()
   EstimatorReport report;  ///< report for /estimates; its parameters are the quantities
-  bool usable = false;     ///< the search converged
+  bool usable = false;     ///< true if the search converged
 };
 
 /// Fits the logs. Precondition: an initial guess for every parameter. Without measurements or free

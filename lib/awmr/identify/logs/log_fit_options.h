@@ -53,10 +53,10 @@ struct LogFitOptions {
   std::optional<Interval> only_s;
   /// Further initial guesses, for example the optimum of another family.
   std::vector<ParameterValues<double>> also_from;
-  Loss loss = Loss::kSquared;  ///< robust if a sensor has outliers
-  std::uint64_t seed = 1;      ///< of the multistart and of the bootstrap
-  int multistart = 6;          ///< random initial guesses in addition to the given one
-  int bootstrap = 0;           ///< resamples of the block bootstrap; 0: none
+  Loss loss = Loss::kSquared;  ///< use a robust loss if a sensor has outliers
+  std::uint64_t seed = 1;      ///< seed of the multistart and of the bootstrap
+  int multistart = 6;          ///< number of random initial guesses in addition to the given one
+  int bootstrap = 0;           ///< number of resamples of the block bootstrap; 0: no bootstrap
   int threads = 0;             ///< 0: every core; the result does not depend on it
   /// Counts the work of the searches and limits it. Absent: no limit.
   std::shared_ptr<Effort> effort;

@@ -9,7 +9,7 @@
 
 namespace awmr {
 
-/// Input of the report.
+/// Input of log_report().
 struct LogReportInput {
   const LogProblem& problem;
   const Solved& solved;

@@ -187,7 +187,7 @@ struct Chosen {
 /// Calls options.notice if the step `what` may take more than 10 s on one processor. `numbers`:
 /// approximate work of the step (Effort).
 void announce(const IdentifyOptions& options, double numbers, const std::string& what) {
-  constexpr double kNumbersPerSecond = 2e7;  // of a processor of 2023
+  constexpr double kNumbersPerSecond = 2e7;  // Effort per second on a processor of 2023
   constexpr double kLong_s = 10.0;
   const double about_s = numbers / kNumbersPerSecond;
   if (!options.notice || about_s <= kLong_s) return;

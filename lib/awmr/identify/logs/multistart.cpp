@@ -25,7 +25,7 @@ LogProblem rough_problem(const LogProblem& problem) {
   constexpr double kPart_s = 2.5;
   LogProblem rough = problem;
   rough.model.longest_step_s = kRoughStep * problem.model.longest_step_s;
-  rough.threads = 1;  // the searches run in parallel
+  rough.threads = 1;  // the searches run in parallel with each other
   rough.ends_at_limit = false;
   std::vector<FitWindow> parts;
   for (const FitWindow& window : spread(problem.windows, kParts)) {

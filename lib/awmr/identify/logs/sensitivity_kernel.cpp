@@ -17,7 +17,7 @@ namespace {
 #define AWMR_INDEPENDENT_COLUMNS
 #endif
 
-/// One column of S, or of S_dot.
+/// One column of the derivatives S of the state, or of their rates S_dot (step_sensitivities()).
 struct Column {
   double x, y, psi, u, v, r, steering;
 };

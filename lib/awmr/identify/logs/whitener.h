@@ -65,7 +65,7 @@ class WhitenerGains {
       : noise_(noise), p00_(noise.drift_std * noise.drift_std), p11_(p00_) {}
 
   struct Step {
-    bool predicts = false;  ///< apply x = F x first
+    bool predicts = false;  ///< true: x = F x has to be applied first
     double gain0 = 0.0;
     double gain1 = 0.0;
     double variance = 0.0;  ///< S

@@ -132,7 +132,7 @@ TrialData simulated_trials(const Experiment& experiment, const RecoverOptions& o
 struct OneRun {
   RecoverRun found;
   std::string why;             ///< reason of the first refusal
-  std::optional<Error> error;  ///< why the run gave no model
+  std::optional<Error> error;  ///< set if the identification failed
 };
 
 /// Estimate of a parameter with its interval; empty if the parameter was given or has no interval.

@@ -29,7 +29,7 @@ struct RecoverEstimate {
   Interval ci95;
 };
 
-/// One simulated data set, identified.
+/// Result of one run: the estimates from one simulated data set.
 struct RecoverRun {
   int index = 0;         ///< number of the run, from 0; errors depend on it and on the seed
   bool refused = false;  ///< true: a requested parameter was refused

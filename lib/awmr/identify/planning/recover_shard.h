@@ -19,7 +19,7 @@ const ShardKind& recover_shards();
 PartText recover_part_text(const RecoverPart& part, const Shard& shard,
                            const Provenance& provenance);
 
-/// All runs, with the content of recover.json.
+/// All runs of the merged parts, with the provenance for recover.json.
 struct MergedRecovery {
   RecoverPart whole;
   Provenance provenance;

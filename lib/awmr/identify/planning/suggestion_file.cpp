@@ -54,7 +54,7 @@ std::string missing_sheet(const std::vector<MissingParameter>& missing) {
     const auto has_its_trial = [one](const MissingParameter& other) {
       return other.trial == one->trial;
     };
-    if (std::find_if(missing.begin(), one, has_its_trial) != one) continue;  // reported already
+    if (std::find_if(missing.begin(), one, has_its_trial) != one) continue;  // listed before
     std::string names;
     for (auto other = one; other != missing.end(); ++other) {
       if (!has_its_trial(*other)) continue;

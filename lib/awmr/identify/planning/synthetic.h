@@ -33,8 +33,8 @@ struct TablePlan {
 /// Errors of the rows of tables. Standard deviations, all >= 0.
 struct RowNoise {
   ErrorModel error = ErrorModel::kLogForce;  ///< quantity that has the error
-  double surge = 0.0;        ///< unit by `error`: 1 (of ln tau_speed), tau_speed, m/s or s
-  double turning = 0.0;      ///< unit by `error`: 1 (of ln tau_turn), m, rad/s or s
+  double surge = 0.0;        ///< of surge rows, in the unit of `error`: 1 (force), m/s or s
+  double turning = 0.0;      ///< of turning rows, in the unit of `error`: 1, m, rad/s or s
   double stop_time_s = 0.0;  ///< error of the stop watch in coast-downs, whatever `error` is
 };
 
@@ -52,9 +52,9 @@ CoastCurve simulate_coastdown(const Plant<double>& plant, double speed_mps, doub
 /// A drive that makes all parameters identifiable. Every `hold_s`, thrust and steering change to
 /// random values within the vehicle's limits, with different left and right forces.
 struct DrivePlan {
-  double duration_s = 60.0;     ///< > 0
-  double rate_hz = 100.0;       ///< > 0, of the log's rows
-  double hold_s = 1.5;          ///< > 0
+  double duration_s = 60.0;     ///< duration of the log, > 0
+  double rate_hz = 100.0;       ///< rate of the log's rows, > 0
+  double hold_s = 1.5;          ///< time between changes of the commands, > 0
   bool straight = false;        ///< no steering, equal left and right forces: only surge is
                                 ///< identifiable
   bool servo_measured = false;  ///< the steering angle is logged in addition to its command

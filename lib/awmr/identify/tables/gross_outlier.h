@@ -10,7 +10,7 @@
 namespace awmr {
 
 struct GrossOutlier {
-  std::size_t point = 0;    ///< index in the subject's points
+  std::size_t point = 0;    ///< index of the run in Subject::points
   double deviations = 0.0;  ///< from the power law of the other runs, in standard deviations
 };
 

@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-constexpr double kOutlierLevel = 0.05;  ///< for the whole table (Bonferroni)
+constexpr double kOutlierLevel = 0.05;  ///< significance level for the whole table (Bonferroni)
 
 Finding outside_range(const Subject& subject, double beta) {
   const Interval& range = subject.beta_range;

@@ -47,7 +47,7 @@ std::optional<Interval> fitted_rates(const TrialSet<TurningRow>& turning) {
 struct StraightLine {
   double mean_x = 0.0, mean_y = 0.0, slope = 0.0;
   double xx = 0.0;                 ///< sum (x - mean_x)^2
-  double residual_variance = 0.0;  ///< with n - 2 degrees of freedom
+  double residual_variance = 0.0;  ///< variance of the residuals, n - 2 degrees of freedom
   double count = 0.0;
 
   double at(double x) const { return mean_y + slope * (x - mean_x); }

@@ -23,7 +23,7 @@ struct SteadyPoint {
   double force = 0.0;               ///< f: tau_speed, 1, or tau_turn, m; > 0
   double rate = 0.0;                ///< w: speed, m/s, or yaw rate, rad/s; > 0
   std::optional<double> travel;     ///< distance, m, or angle, rad, of a timed run; > 0
-  std::optional<double> elapsed_s;  ///< with `travel`; > 0
+  std::optional<double> elapsed_s;  ///< time for `travel`, s; > 0
   int line = 0;                     ///< line number in the file
 };
 
@@ -32,13 +32,13 @@ struct SteadyPoint {
 /// proportional to the number of rows.
 inline constexpr Eigen::Index kExactRows = 200;
 
-/// Input of a fit: the points, the family of the curve, and the quantity with the error.
+/// Input of a fit: the runs, the family of the curve, the error model and the loss.
 struct SteadyProblem {
   std::vector<SteadyPoint> points;  ///< at least one
   Family family = Family::kPower;
   ErrorModel noise = ErrorModel::kForce;
   Loss loss = Loss::kSquared;
-  Interval beta_range{0.0, 4.0};  ///< accepted exponents, a bound of the search
+  Interval beta_range{0.0, 4.0};  ///< accepted exponents: the bounds of the search
 };
 
 /// A fitted curve. "Unit of the noise" below is the unit of the quantity that has the error: of
@@ -105,7 +105,7 @@ std::optional<SteadyRows> steady_rows(const SteadyProblem& problem,
                                       const TransformedParameters& theta,
                                       const std::vector<TransformedParameter>& by);
 
-/// The bounds of a search over one coordinate; infinite without a bound.
+/// Bounds of one coordinate in a search; infinite if there is no bound.
 Interval bounds_of(const SteadyProblem& problem, TransformedParameter c);
 
 }  // namespace awmr

@@ -23,7 +23,7 @@ constexpr double kTablesPlainlyBetter = 10.0;
 /// with the p = 2 parameters of the smallest families.
 constexpr std::size_t kFewestToCompare = 5;
 
-/// The chosen fit and its index in the reports; no fit if none is accepted.
+/// The chosen fit and the index of its report; no fit if none is accepted.
 struct Choice {
   std::optional<SteadyFit> fit;
   SteadyProblem problem;

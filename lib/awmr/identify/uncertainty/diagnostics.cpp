@@ -105,7 +105,7 @@ std::optional<Diagnostic> curvature(std::span<const double> forces,
   }
   if (!(squares > 0.0) || !std::isfinite(squares) || !std::isfinite(steps)) return std::nullopt;
   const double size = static_cast<double>(n);
-  const double ratio = steps / squares;  // 2 for white noise
+  const double ratio = steps / squares;  // expected value for white noise: 2
   const double deviation = std::sqrt(4.0 * (size - 2.0) / (size * size - 1.0));
   const double p = normal_cdf((ratio - 2.0) / deviation);
   return Diagnostic{"curvature", ratio, p,
