@@ -46,7 +46,7 @@ std::string why_open(ParameterId id, const Estimate& estimate) {
   const bool is_of_logs = estimate.method == name_in(kEstimatorNames, Estimator::kTrajectory);
   if (id != ParameterId::kMassNorm || is_of_logs || !ci || !(ci->lo > 0.0)) return {};
   if (ci->hi <= kMostOpen * ci->lo) return {};
-  return fmt::format("these trials determine it only to {:.2g} ... {:.2g} (95 %)", ci->lo, ci->hi);
+  return fmt::format("its 95 % interval by these trials is {:.2g} to {:.2g}", ci->lo, ci->hi);
 }
 
 /// Removes the parameters that depend on a removed parameter, and adds the reasons.

@@ -48,22 +48,23 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
   for (const ParameterId id : options.requested) {
     if (has(vehicle, id) || options.requested_all) continue;
     return input_error(ErrorCode::kUnsupported, option_text("fit"),
-                       fmt::format("a vehicle of drive \"{}\" has no steering, and with it no {}",
+                       fmt::format("a vehicle with drive \"{}\" has no steering, so it has no {}",
                                    name_in(kDriveNames, vehicle.drive), info(id).name));
   }
   AWMR_RETURN_IF_ERROR(check_back_emf(vehicle, data, options));
   if (data.surge && vehicle.driven_wheels() != 4 &&
       options.surge_family.family == Family::kDeadZone) {
-    return input_error(ErrorCode::kUnsupported, option_text("family"),
-                       fmt::format("dead-zone needs four driven wheels; this vehicle's drive is "
-                                   "\"{}\"",
-                                   name_in(kDriveNames, vehicle.drive)));
+    return input_error(
+        ErrorCode::kUnsupported, option_text("family"),
+        fmt::format("dead-zone needs four driven wheels, but this vehicle's drive is "
+                    "\"{}\"; choose another family",
+                    name_in(kDriveNames, vehicle.drive)));
   }
   const bool other_family = asks_for_other_family(options);
   if (options.method == Method::kLogLinear && (other_family || options.loss != Loss::kSquared)) {
     return input_error(ErrorCode::kConflict, option_text("method"),
-                       fmt::format("log-linear supports only the power law and least squares; with "
-                                   "{} use nonlinear",
+                       fmt::format("log-linear supports only the power law and the squared loss; "
+                                   "with {} use nonlinear",
                                    option_text(other_family ? "family" : "loss")));
   }
   if (options.method == Method::kTrajectory && data.logs.empty()) {

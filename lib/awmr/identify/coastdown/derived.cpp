@@ -141,8 +141,8 @@ void check_inertia(const Vehicle& vehicle, std::vector<Finding>& findings) {
   if (std::abs(given - expected) <= kInertiaDisagreement * std::max(given, expected)) return;
   findings.push_back(
       {"", 0, Severity::kNote, "inertia-mismatch",
-       fmt::format("yaw_inertia_kgm2 is given as {:.4g}, the box formula gives {:.4g} "
-                   "kg m^2; the given value is used",
+       fmt::format("yaw_inertia_kgm2 is {:.4g} in the vehicle file, but a uniform box has {:.4g} "
+                   "kg m^2; the value of the file is used",
                    given, expected)});
 }
 

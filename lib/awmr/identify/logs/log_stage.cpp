@@ -305,7 +305,7 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
       ideal.is_out_of_time = is_over(power_law);
       ideal.findings.push_back(
           {logs.front().file, 0, Severity::kWarning, "families-not-compared",
-           fmt::format("the back-EMF model was not compared on these logs: {}{}",
+           fmt::format("the model with back-EMF could not be fitted to these logs: {}{}",
                        same.fit.report.stop_reason,
                        ideal.is_out_of_time ? "; the intervals are withdrawn" : "")});
     }
@@ -366,8 +366,8 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements,
     }
     findings.push_back(
         {one.files.front(), 0, Severity::kWarning, "logs-disagree",
-         fmt::format("the logs disagree on {}: {} (p = {:.2g} for one vehicle, surface and "
-                     "battery). {}",
+         fmt::format("the logs disagree on {}: {} (p = {:.2g} if vehicle, surface and battery were "
+                     "the same). {}",
                      one.name, each, one.p_value,
                      one.withdraws ? "The fit uses one value for all logs, so all intervals are "
                                      "withdrawn; identify each log separately"

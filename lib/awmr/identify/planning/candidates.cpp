@@ -109,7 +109,7 @@ CandidateTrial coastdown_candidate(double from_mps, double duration_s, double no
 CandidateTrial log_candidate(const std::string& what, const Vehicle& vehicle, const DrivePlan& plan,
                              const SensorNoise& sensors) {
   return {.trial = {.kind = TrialKind::kLog,
-                    .settings = fmt::format("{}, new levels every {:g} s, {:g} s logged at 100 Hz",
+                    .settings = fmt::format("{}, new step every {:g} s, {:g} s logged at 100 Hz",
                                             what, plan.hold_s, plan.duration_s),
                     .numbers = {{"duration_s", plan.duration_s},
                                 {"rate_hz", plan.rate_hz},
@@ -150,8 +150,8 @@ void add_coastdowns(const Vehicle& vehicle, const Plant<double>& plant,
 void add_logs(const Vehicle& vehicle, Motion motion, const SensorNoise& sensors,
               std::vector<CandidateTrial>& candidates) {
   const char* steps = vehicle.has_steering()
-                          ? "thrust and steering steps, at times unequal left and right"
-                          : "thrust steps, at times unequal left and right";
+                          ? "steps of thrust and steering, sometimes with unequal left and right"
+                          : "steps of thrust, sometimes with unequal left and right";
   candidates.push_back(log_candidate("straight starts and stops", vehicle,
                                      {.duration_s = 30.0, .straight = true}, sensors));
   if (motion != Motion::kPlanar) return;

@@ -19,7 +19,7 @@ Finding outside_range(const Subject& subject, double beta) {
   return {
       subject.file, 0, Severity::kWarning, "exponent-at-bound",
       fmt::format("the exponent {} = {:.4g} is outside the accepted range [{:g}, {:g}], so a power "
-                  "law may not describe these runs",
+                  "law may not describe these runs; try another family",
                   info(subject.beta).name, beta, range.lo, range.hi)};
 }
 
@@ -94,7 +94,7 @@ std::vector<Finding> outlier_findings(const Subject& subject, const SteadyProble
     findings.push_back(
         {subject.file, subject.points[at(i)].line, Severity::kWarning, "outlier",
          fmt::format("this run deviates by {:.1f} standard deviations from the curve of the other "
-                     "runs (p of one such run among {}: {:.2g}); check it, or use a robust loss "
+                     "runs (p for one such run among {}: {:.2g}); check it, or use a robust loss "
                      "({})",
                      std::abs(t(i)), t.size(), p, option_text("loss huber"))});
   }
