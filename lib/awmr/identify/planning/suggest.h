@@ -62,8 +62,8 @@ struct ScrubTurn {
 };
 
 /// A turn with the motors off, which decides between the 3-DOF model and the tyre model. In the
-/// 3-DOF model [paper (41)] steered wheels turn the vehicle only by the thrust of the motors.
-/// Rolling tyres turn it also with the motors off.
+/// 3-DOF model steered wheels turn the vehicle only by the thrust of the motors. Rolling tyres turn
+/// it also with the motors off.
 struct CoastingTurn {
   double speed_mps = 0.0;     ///< speed at which the motors are switched off, > 0
   double steering_deg = 0.0;  ///< steering angle after that, > 0
