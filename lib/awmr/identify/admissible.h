@@ -1,4 +1,5 @@
-/// Last step of identify(): removes values that a model file cannot hold. Private to identify/.
+/// Check of the identified model: removes values that a model file cannot hold. Private to
+/// identify/.
 #pragma once
 
 #include <map>

@@ -12,8 +12,10 @@
 namespace awmr {
 namespace {
 
-constexpr double kFragileShare = 0.10;         ///< relative standard error for `fragile-mass`
-constexpr double kInertiaDisagreement = 0.10;  ///< relative difference for `inertia-mismatch`
+/// Relative standard error of m' above which `fragile-mass` is reported.
+constexpr double kFragileShare = 0.10;
+/// Relative difference of Iz from the box formula above which `inertia-mismatch` is reported.
+constexpr double kInertiaDisagreement = 0.10;
 
 /// Logarithm of the stop time for m' = 1; empty if the vehicle never stops.
 std::optional<double> log_unit_stop_time(const Resistance<double>& law, double speed_mps) {

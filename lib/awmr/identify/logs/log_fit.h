@@ -22,7 +22,7 @@ struct LogFit {
   Eigen::MatrixXd covariance;        ///< of the coordinates; large variance if not identifiable
   std::vector<std::string> why_not;  ///< by quantity: why it is refused; empty if identified
   NoiseLevels noise;
-  ErrorsByChannel errors;  ///< model - measured at the optimum, not whitened
+  ErrorsByChannel errors;  ///< model + bias - measured at the optimum, not whitened
   /// By candidate term of the options: estimated decrease of -2 ln L if the term were free.
   std::vector<double> suspect_gain;
   double widened = 1.0;    ///< see Identifiability::widened()
