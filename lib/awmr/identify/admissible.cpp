@@ -29,7 +29,7 @@ void take_out(ParameterId id, std::string why, Model& model,
   reasons.emplace(id, std::move(why));
 }
 
-/// Reason why a value is not allowed in a model; empty if it is.
+/// Reason why a model file cannot hold this value; empty if it can.
 std::string why_not(double value, const NumberRule& rule) {
   if (!std::isfinite(value)) return "the fitted value is not finite";
   if (value >= rule.min && value <= rule.max) return {};
@@ -37,19 +37,19 @@ std::string why_not(double value, const NumberRule& rule) {
                      rule.min, rule.max);
 }
 
-/// Reason why the tables do not determine m'; empty if they do. Vehicles drawn from such an
-/// interval could not be simulated: their time constants differ by as much. Intervals of logs are
-/// wide where two logs disagree, which says something.
+/// Reason why the tables do not determine m'; empty if they do. The largest m' of such an interval
+/// gives a time constant over 10,000 times that of the smallest, so samples from the interval
+/// cannot be simulated. An m' from logs is kept: its wide interval shows that the logs disagree.
 std::string why_open(ParameterId id, const Estimate& estimate) {
-  constexpr double kMostOpen = 1e4;  // between the ends of the interval
+  constexpr double kMostOpen = 1e4;  // ratio of the interval's upper end to its lower end
   const auto& ci = estimate.ci95;
   const bool is_of_logs = estimate.method == name_in(kEstimatorNames, Estimator::kTrajectory);
   if (id != ParameterId::kMassNorm || is_of_logs || !ci || !(ci->lo > 0.0)) return {};
   if (ci->hi <= kMostOpen * ci->lo) return {};
-  return fmt::format("these trials determine it only to {:.2g} ... {:.2g} (95 %)", ci->lo, ci->hi);
+  return fmt::format("its 95 % interval by these trials is {:.2g} to {:.2g}", ci->lo, ci->hi);
 }
 
-/// Removes the parameters that depend on removed ones, with the reasons.
+/// Removes the parameters that depend on a removed parameter, and adds the reasons.
 void take_out_what_hangs_on_it(Model& model, std::map<ParameterId, std::string>& reasons) {
   const auto follow = [&](ParameterId first, ParameterId second) {
     if (!reasons.contains(first)) return;
@@ -68,7 +68,7 @@ void take_out_what_hangs_on_it(Model& model, std::map<ParameterId, std::string>&
   follow(ParameterId::kInertiaNorm, ParameterId::kMassNorm);
 }
 
-/// The covariance over the parameters that still have a value and finite variances.
+/// Covariance of the parameters that still have a value and a standard error.
 Covariance kept(const Covariance& all, const Model& model) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < all.parameters.size(); ++i) {
@@ -105,8 +105,8 @@ std::map<ParameterId, std::string> take_out_inadmissible(Model& model) {
     withdraw_uncertainty(estimate);
     model.record.findings.push_back(
         {"", 0, Severity::kWarning, "no-interval",
-         fmt::format("the standard error of {} is not finite: its uncertainty is "
-                     "unknown",
+         fmt::format("the standard error of {} is not finite, so its uncertainty is unknown; "
+                     "record more runs",
                      parameter.name)});
   }
   take_out_what_hangs_on_it(model, reasons);

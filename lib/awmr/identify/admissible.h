@@ -1,4 +1,5 @@
-/// Final check of a model before it is returned. Private to identify/.
+/// Check of the identified model: removes values that a model file cannot hold. Private to
+/// identify/.
 #pragma once
 
 #include <map>
@@ -8,14 +9,14 @@
 
 namespace awmr {
 
-/// Removes standard error, interval and quantiles; the value stays.
+/// Removes the standard error, interval and quantiles of an estimate. Keeps its value.
 void withdraw_uncertainty(Estimate& estimate);
 
-/// Removes from the model every fitted or derived value that is not finite or outside the range of
-/// a model file, and the parameters that have no meaning without it: the exponent without its
-/// factor, m' without the surge law. Removes an m' from tables whose 95 % interval spans more than
-/// a factor of 10,000. Removes non-finite standard errors, intervals and covariances. Returns the
-/// reasons, by parameter.
+/// Removes every fitted or derived value that is not finite or outside the range that model files
+/// allow. Also removes the parameters that depend on a removed value, for example the exponent b1
+/// if a1 is removed. Removes an m' from tables if the upper end of its 95 % interval is more than
+/// 10,000 times the lower end. Removes standard errors, intervals and covariances that are not
+/// finite. Returns the reason for each removed value.
 std::map<ParameterId, std::string> take_out_inadmissible(Model& model);
 
 }  // namespace awmr

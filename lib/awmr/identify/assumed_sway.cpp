@@ -12,11 +12,11 @@
 namespace awmr {
 namespace {
 
-/// c, 1/rad.
+/// 95 % interval of c, the lateral force of a tyre over its load, per radian of slip angle.
 constexpr Interval kTyreStiffness{0.5, 16.0};
-/// Ratio of half a normal 95 % interval to the standard deviation.
+/// Half width of a normal 95 % interval, in standard deviations.
 constexpr double kNormal95 = 1.959964;
-/// 95 % quantile of a log's speed, which excludes spikes.
+/// Quantile that is used as a log's highest speed. The maximum itself could be a spike.
 constexpr double kFastestQuantile = 0.95;
 
 void take_fastest(const DrivingLog& log, double& fastest_mps) {
@@ -34,7 +34,7 @@ void take_fastest(const DrivingLog& log, double& fastest_mps) {
   fastest_mps = std::max(fastest_mps, speeds[place]);
 }
 
-/// 0 if no trial has a speed.
+/// Highest speed of all trials, m/s; 0 if no trial has a speed.
 double fastest_mps(const TrialData& data) {
   double fastest = 0.0;
   if (data.surge) {

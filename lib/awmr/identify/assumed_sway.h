@@ -1,14 +1,14 @@
-/// Default sway resistance if neither the vehicle file nor a log gives it: that of common tyres,
-/// with their whole range as its uncertainty. Private to identify/.
+/// Default sway resistance, for models without a value from the vehicle file or a log. It is that
+/// of common tyres; the spread between tyres is its uncertainty. Private to identify/.
 ///
-/// A tyre resists sliding with c times its load per radian of slip, and at the speed u the slip is
-/// v/u:
+/// A tyre's lateral force is c times its load per radian of slip angle. At the forward speed u and
+/// the lateral speed v the slip angle is v/u:
 ///
 ///     F_y = c m g v/u,    over F_max = m/m':    sway.alpha = c g m'/u
 ///
-/// c is 15 for rubber on asphalt, 5 for hard plastic and less than 1 for wheels that already slide,
-/// as in the turns of a skid-steered vehicle. The range 0.5 to 16 is used as a 95 % interval of ln
-/// c. u is half of the highest speed in the trials, a typical speed of scenarios.
+/// c in 1/rad is 15 for rubber on asphalt, 5 for hard plastic, and less than 1 for wheels that
+/// already slide, as in the turns of a skid-steered vehicle. The 95 % interval of c is 0.5 to 16,
+/// with ln c normal. u is half of the highest speed in the trials.
 #pragma once
 
 #include <optional>
@@ -18,11 +18,11 @@
 
 namespace awmr {
 
-/// The name of this origin in model.json (`method`).
+/// Value of `method` in model.json for the assumed sway resistance.
 inline constexpr const char* kAssumedSwayMethod = "assumed of common tyres";
 
-/// Sets the sway resistance and its covariance, and adds a finding (`assumed-sway`). Does nothing
-/// if the model has a value already, has no turning parameters or no m', or if no trial has a
+/// Sets the assumed sway resistance and its covariance, and adds the finding `assumed-sway`. Does
+/// nothing if the model already has a sway resistance, lacks a3, I'z or m', or if no trial has a
 /// speed.
 void assume_sway(const TrialData& data, MainValues& values);
 

@@ -1,4 +1,4 @@
-/// Settings and helpers common to all searches with Ceres. Private to identify/.
+/// Solver settings and helpers for all fits by Ceres. Private to identify/.
 #pragma once
 
 #include <ceres/ceres.h>
@@ -15,7 +15,7 @@
 
 namespace awmr {
 
-/// Iterates until the coordinates no longer change, which is cheap for small data.
+/// Solver options for small problems: iterates until the parameters no longer change.
 inline ceres::Solver::Options exact_options() {
   silence_ceres();
   ceres::Solver::Options options;
@@ -39,8 +39,8 @@ inline std::string stop_reason(const ceres::Solver::Summary& summary) {
   }
 }
 
-/// The residuals at the problem's current point. Empty if one of them cannot be evaluated or is not
-/// finite; Ceres then returns none or only some of them.
+/// Residuals at the problem's current point. Empty if one of them cannot be evaluated or is not
+/// finite. (Ceres alone would return the other residuals.)
 inline std::optional<Eigen::VectorXd> evaluated_residuals(
     ceres::Problem& problem, const ceres::Problem::EvaluateOptions& options) {
   std::vector<double> values;
@@ -51,8 +51,8 @@ inline std::optional<Eigen::VectorXd> evaluated_residuals(
   return residuals;
 }
 
-/// The Jacobian at the problem's current point, as a dense matrix. Empty as in
-/// evaluated_residuals().
+/// Jacobian at the problem's current point, as a dense matrix. Empty if a derivative cannot be
+/// evaluated or is not finite.
 inline std::optional<Eigen::MatrixXd> evaluated_jacobian(
     ceres::Problem& problem, const ceres::Problem::EvaluateOptions& options) {
   ceres::CRSMatrix rows;
@@ -68,7 +68,7 @@ inline std::optional<Eigen::MatrixXd> evaluated_jacobian(
   return matrix;
 }
 
-/// Reason why a converged search gives no fit: its curve or its derivatives overflow.
+/// Stop reason of a search that converged to a point at which the model overflows.
 inline constexpr const char* kNotFinite =
     "failed: the curve or its derivatives are not finite where the search ended";
 
@@ -80,7 +80,7 @@ inline bool converged(const ceres::Solver::Summary& summary) {
 
 namespace ceres {
 
-/// The value of a Jet; found by argument-dependent lookup.
+/// Value of a Jet without its derivatives. In namespace ceres for argument-dependent lookup.
 template <class T, int N>
 T value_of(const Jet<T, N>& x) {
   return x.a;

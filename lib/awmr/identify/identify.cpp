@@ -24,7 +24,8 @@ bool asks_for_other_family(const IdentifyOptions& options) {
          options.yaw_family.family != Family::kPower;
 }
 
-/// Steady runs with back-EMF only determine the sum of its loss and the resistance.
+/// Error if back-EMF is given or requested but there are only tables. Steady runs determine only
+/// the sum of back-EMF and resistance.
 Status check_back_emf(const Vehicle& vehicle, const TrialData& data,
                       const IdentifyOptions& options) {
   const bool is_requested =
@@ -47,22 +48,23 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
   for (const ParameterId id : options.requested) {
     if (has(vehicle, id) || options.requested_all) continue;
     return input_error(ErrorCode::kUnsupported, option_text("fit"),
-                       fmt::format("a vehicle of drive \"{}\" has no steering, and with it no {}",
+                       fmt::format("a vehicle with drive \"{}\" has no steering, so it has no {}",
                                    name_in(kDriveNames, vehicle.drive), info(id).name));
   }
   AWMR_RETURN_IF_ERROR(check_back_emf(vehicle, data, options));
   if (data.surge && vehicle.driven_wheels() != 4 &&
       options.surge_family.family == Family::kDeadZone) {
-    return input_error(ErrorCode::kUnsupported, option_text("family"),
-                       fmt::format("dead-zone needs four driven wheels; this vehicle's drive is "
-                                   "\"{}\"",
-                                   name_in(kDriveNames, vehicle.drive)));
+    return input_error(
+        ErrorCode::kUnsupported, option_text("family"),
+        fmt::format("dead-zone needs four driven wheels, but this vehicle's drive is "
+                    "\"{}\"; choose another family",
+                    name_in(kDriveNames, vehicle.drive)));
   }
   const bool other_family = asks_for_other_family(options);
   if (options.method == Method::kLogLinear && (other_family || options.loss != Loss::kSquared)) {
     return input_error(ErrorCode::kConflict, option_text("method"),
-                       fmt::format("log-linear supports only the power law and least squares; with "
-                                   "{} use nonlinear",
+                       fmt::format("log-linear supports only the power law and the squared loss; "
+                                   "with {} use nonlinear",
                                    option_text(other_family ? "family" : "loss")));
   }
   if (options.method == Method::kTrajectory && data.logs.empty()) {
@@ -76,7 +78,7 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
   return {};
 }
 
-/// The method of the tables: log-linear if it supports all requested parameters.
+/// Method of the table fits: log-linear unless another family or a robust loss is requested.
 Method method_of_tables(const IdentifyOptions& options) {
   const bool log_linear_does = !asks_for_other_family(options) && options.loss == Loss::kSquared;
   return log_linear_does ? Method::kLogLinear : Method::kNonlinear;
@@ -87,14 +89,14 @@ Method method_of(const TrialData& data, const IdentifyOptions& options) {
                                                    : Method::kTrajectory);
 }
 
-/// Noise model of the tables' fits. A request for another family or loss keeps the relative error
-/// of the force, as in log-linear least squares. Absent: the measured quantity has the error.
+/// Error model of the table fits if the options give none. With another family or a robust loss it
+/// is the relative error of the force, as in log-linear least squares. Otherwise absent.
 std::optional<ErrorModel> noise_of_tables(const IdentifyOptions& options) {
   if (method_of_tables(options) == Method::kLogLinear) return std::nullopt;
   return ErrorModel::kLogForce;
 }
 
-/// If the logs set the main values, the tables are still fitted, with their own method.
+/// Options of a table fit. With `trajectory` as the method, method_of_tables() fits the tables.
 SubjectOptions subject_options(const IdentifyOptions& options, Method method,
                                const FamilyChoice& family) {
   const bool asks_for_noise = options.noise || options.method == Method::kNonlinear;
@@ -108,8 +110,8 @@ SubjectOptions subject_options(const IdentifyOptions& options, Method method,
           .keeps_outliers = options.keeps_outliers};
 }
 
-/// A dead zone is a property of the wheels: it is identified from the surge runs and subtracted
-/// from the turning runs.
+/// Family of the yaw fit. For `dead-zone` this is the power law, because the wheels' dead zone is
+/// identified from the surge runs and subtracted from the forces of the turning runs.
 FamilyChoice yaw_family(const IdentifyOptions& options) {
   if (options.yaw_family.family == Family::kDeadZone) return {Family::kPower};
   return options.yaw_family;
@@ -122,7 +124,7 @@ void record(Step& step, Model& model) {
   std::move(step.findings.begin(), step.findings.end(), std::back_inserter(model.record.findings));
 }
 
-/// Fits the surge or yaw law, if the runs determine it.
+/// Fits the surge or yaw law and, if the runs determine it, sets it in the model.
 SubjectFit identify_law(const Subject& subject, const SubjectOptions& options, MainValues& values) {
   SubjectFit fit = fit_subject(subject, options);
   if (fit.chosen) set_law(subject, fit, values);
@@ -180,13 +182,13 @@ bool is_fitted_to_logs(const Model& model, ParameterId id) {
   return model[id].method == name_in(kEstimatorNames, Estimator::kTrajectory);
 }
 
-/// True if yaw resistance is from differential turns only, although the vehicle has steering.
+/// True if the yaw resistance comes only from differential turns although the vehicle has steering.
 bool is_by_sides_alone(const TrialData& data, const Model& model) {
   return model.vehicle.has_steering() && data.turning && !data.turning->rows.empty() &&
          data.turning->rows.front().sides && !is_fitted_to_logs(model, ParameterId::kYawAlpha);
 }
 
-/// 99 % quantile of the logs' yaw rates, rad/s, which excludes spikes.
+/// Highest yaw rate of the logs, rad/s, as the 99 % quantile, because the maximum could be a spike.
 std::optional<double> fastest_logged_turn_radps(const std::vector<DrivingLog>& logs) {
   constexpr double kShare = 0.99;
   std::vector<double> rates;

@@ -1,4 +1,4 @@
-/// Trials and logs -> Model: fits, derived quantities, uncertainty, identifiability.
+/// Identification of a Model from trials and logs, with intervals. Public interface of identify/.
 #pragma once
 
 #include <vector>
@@ -12,20 +12,21 @@ namespace awmr {
 
 struct Identification {
   Model model;
-  std::vector<ParameterId> refused;  ///< requested, but not identifiable: exit code 1
+  std::vector<ParameterId> refused;  ///< requested parameters that the data do not identify
 };
 
+/// Identifies the model of a vehicle. `findings`: those of the data, put first in the record.
 /// Errors (input): contradictory options, such as a robust loss with the log-linear method. A
-/// parameter that the data cannot identify is not an error: it has no value and a
-/// `not-identifiable` finding, and it is in `refused`.
+/// parameter that the data do not identify is not an error: it gets no value and the finding
+/// `not-identifiable`, and is listed in `refused`.
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings);
 
-/// The same for trials from load_trials(); their findings come first in the record.
+/// Identifies the model from trials that load_trials() has read.
 Result<Identification> identify(const Trials& trials, const IdentifyOptions& options);
 
-/// Factor from the assumed sway resistance (`assumed-sway`) to each end of its 95 % range, > 1.
-/// Uncertainty of m' is not included.
+/// Ratio of the upper end of the 95 % interval of the assumed sway resistance (`assumed-sway`) to
+/// its value, and of its value to the lower end; > 1. Excludes the uncertainty of m'.
 double assumed_sway_factor();
 
 }  // namespace awmr

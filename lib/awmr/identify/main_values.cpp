@@ -20,7 +20,8 @@ Estimate exponent_of_family(Family family) {
   return given(1.0, fmt::format("family {}", name_of(family)));
 }
 
-/// exp of the last number of a posterior over (theta, ln m'), times a factor.
+/// Estimate of factor * exp(log_value). Its uncertainty is that of ln m', the last number of
+/// `posterior`. (m': factor 1; I'z: factor Iz/m.)
 Estimate from_last(const Posterior& posterior, double log_value, double factor, Source source,
                    std::string method) {
   Estimate estimate{factor * std::exp(log_value), {}, {}, source, std::move(method)};
@@ -39,8 +40,8 @@ void set_beta_of_curve(const CoastFit& curve, Model& model) {
                                     "coast-down curve"};
 }
 
-/// Sets the errors of a law's parameters, whose values are in the model, from the first entries of
-/// the posterior. Its covariance begins at `first`.
+/// Sets the standard errors and intervals of a resistance law's parameters from the first numbers
+/// of `posterior`. `first`: index of their block in the joint covariance.
 void set_law_errors(const Subject& subject, const SteadyFit& law, const Posterior& posterior,
                     Eigen::Index first, MainValues& values) {
   for (std::size_t i = 0; i < law.free.size(); ++i) {
@@ -54,7 +55,8 @@ void set_law_errors(const Subject& subject, const SteadyFit& law, const Posterio
   }
 }
 
-/// m', I'z and the errors of the surge law from a posterior over (theta, ln m'):
+/// Sets m', I'z and the standard errors of the surge law. `posterior`: of the law's free parameters
+/// and ln m'.
 ///   I'z = m' Iz / m                                                               [paper (68)]
 void set_mass_and_law(const SteadyFit& law, double log_mass, const Posterior& posterior,
                       Source source, const std::string& method, MainValues& values) {
@@ -67,7 +69,7 @@ void set_mass_and_law(const SteadyFit& law, double log_mass, const Posterior& po
   if (posterior.empty()) return;
   const Eigen::MatrixXd covariance = posterior.covariance();
   const Eigen::Index first = values.covariance.add_block(covariance);
-  set_law_errors(Subject{}, law, posterior, first, values);  // the ids of surge
+  set_law_errors(Subject{}, law, posterior, first, values);  // names the parameters
   const Eigen::Index last = first + covariance.rows() - 1;
   for (const ParameterId id : {ParameterId::kMassNorm, ParameterId::kInertiaNorm}) {
     values.covariance.set(id, {{last, *model[id].value}});
@@ -91,7 +93,8 @@ void set_joint(const JointFit& joint, MainValues& values) {
                    Source::kFitted, "joint with the surge runs", values);
 }
 
-/// Terms that are not in the logs' families are set to 0, even if the tables' families have them.
+/// Sets the surge family of the log fit. Terms that this family lacks become 0, even if a table fit
+/// has set them.
 void set_surge_family_of_logs(Family surge, Model& model) {
   model.surge_family = surge;
   const Estimate none = given(0.0, "not in the family");
@@ -120,8 +123,8 @@ void set_given(const Vehicle& vehicle, Model& model) {
   if (vehicle.back_emf_s_per_m) {
     model[ParameterId::kBackEmf] = given(*vehicle.back_emf_s_per_m, "vehicle");
   }
-  // Without steering there is no lag. It is fixed at an arbitrary value, so that no fit estimates
-  // it.
+  // A vehicle without steering has no servo. Any fixed time constant keeps the fits from estimating
+  // one.
   constexpr double kAny_s = 1.0;
   model[ParameterId::kSteeringTimeConstant] =
       given(vehicle.has_steering() ? vehicle.steering_time_constant_s : kAny_s, "vehicle");
@@ -143,7 +146,7 @@ void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values) 
 }
 
 void set_mass(const MassResult& mass, const std::optional<SteadyFit>& surge, MainValues& values) {
-  // For another family than the power law, an exponent alone is incomplete.
+  // Only for the power law: in the other families b1 has no meaning without c1/a1 or q1/a1.
   const bool power_alone = mass.alone && mass.alone->family == Family::kPower;
   if (power_alone && mass.alone->beta_variance > 0.0) set_beta_of_curve(*mass.alone, values.model);
   if (mass.joint) {

@@ -1,4 +1,4 @@
-/// The model under construction: the values set by each kind of trial, with their covariance.
+/// Functions that write the results of each kind of trial into the model, with their covariance.
 /// Private to identify/.
 #pragma once
 
@@ -12,23 +12,24 @@
 
 namespace awmr {
 
-/// A model and the covariance of its fitted parameters. Later evidence replaces earlier evidence.
+/// A model under construction and the covariance of its fitted parameters. Each call below replaces
+/// the values that earlier calls have set.
 struct MainValues {
   Model& model;
   JointCovariance covariance = {};
 };
 
-/// Sets the values of vehicle.json: sway resistance and servo.
+/// Sets the values that vehicle.json gives: sway resistance and servo time constant.
 void set_given(const Vehicle& vehicle, Model& model);
 
-/// A fitted resistance law with its family. Precondition: `fit` has one.
+/// Sets the parameters and the family of a resistance law. Precondition: `fit.chosen` is set.
 void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values);
 
-/// Sets m' from coast-downs, and I'z from m'; also b1, if there are curves but no surge law.
-/// Precondition: set_law() was called with the surge fit, if there is one.
+/// Sets m' from coast-downs, and I'z from m'. Without a surge law, sets b1 from the coast-down
+/// curves. Precondition: set_law() was called with the surge fit, if there is one.
 void set_mass(const MassResult& mass, const std::optional<SteadyFit>& surge, MainValues& values);
 
-/// Sets the values of the logs. `yaw_family`: of the logs' fit.
+/// Sets the values, the families and the covariance that the logs determine.
 void set_logs(const LogStage& logs, MainValues& values);
 
 }  // namespace awmr

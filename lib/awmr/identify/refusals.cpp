@@ -39,7 +39,7 @@ std::string table_reason(ParameterId id, const TrialData& data, const Reasons& r
     case ParameterId::kSwayAlpha:
       return "sway_alpha is not in vehicle.json";
     default:
-      return "it is not in vehicle.json";
+      return "vehicle.json does not give it";
   }
 }
 

@@ -1,4 +1,4 @@
-/// Requested parameters that the data do not identify. Private to identify/.
+/// Refusal of parameters that the data do not identify, with the reason. Private to identify/.
 #pragma once
 
 #include <map>
@@ -11,26 +11,26 @@
 
 namespace awmr {
 
-/// The requested parameters; if none are named, those that the given trials measure.
+/// Parameters that the user requested or, if `options` name none, those that the trials measure.
 std::vector<ParameterId> requested_parameters(const Vehicle& vehicle, const TrialData& data,
                                               const IdentifyOptions& options);
 
-/// Reason why a parameter has no value although its trials are present.
+/// Reasons why parameters have no value although their trials were recorded.
 struct Reasons {
-  std::string surge;         ///< why no fit of the surge rows is accepted
-  std::string turning;       ///< the same for the turning rows
-  std::string mass;          ///< why the coast-downs give no m'
-  bool curve_alone = false;  ///< curves without a surge law: `mass` is also the reason for the
-                             ///< missing a1
-  /// Fitted, but not finite or outside the range of a model file.
+  std::string surge;    ///< why no fit of the surge rows is accepted; may be empty
+  std::string turning;  ///< why no fit of the turning rows is accepted; may be empty
+  std::string mass;     ///< why the coast-downs give no m'
+  /// Coast-down curves were fitted without a surge law. `mass` is then also why a1 has no value.
+  bool curve_alone = false;
+  /// By parameter: why its fitted value was removed (take_out_inadmissible()).
   std::map<ParameterId, std::string> inadmissible;
-  std::map<ParameterId, std::string> logs;  ///< free in the fit of the logs, but not identifiable
+  std::map<ParameterId, std::string> logs;  ///< by parameter: why the logs do not identify it
 };
 
-/// Marks parameters without a value as not identified, with the reason; for requested ones the
-/// finding is an error (`not-identifiable`). Parameters that the vehicle does not have get no
-/// finding. A given or assumed value is kept; a finding reports if a log was to identify it and did
-/// not. Returns the requested parameters that are refused.
+/// Adds the finding `not-identifiable` for every parameter without a value: an error if it was
+/// requested, else a note. Parameters that the vehicle lacks get no finding. If a log fit does not
+/// identify a parameter whose value was given or assumed, that value is kept and the finding says
+/// so. Returns the requested parameters that are refused.
 std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Reasons& reasons,
                                                 const std::vector<ParameterId>& requested,
                                                 Model& model);

@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// Prediction of u or r by the model's law, and of the stop time.
+/// Predicts the steady speed, the steady yaw rate or the stop time of a run, by the kind of trial.
 std::optional<double> predicted(const Model& model, TrialKind kind, double input) {
   const auto surge = fitted_law(model, TrialKind::kSurge);
   const auto yaw = fitted_law(model, TrialKind::kTurning);

@@ -1,4 +1,4 @@
-/// Rows of the tables as used in the identification. Private to identify/.
+/// Measured rows of the tables with their predictions, for the model file. Private to identify/.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,8 @@
 
 namespace awmr {
 
-/// Every row of the tables with its prediction by the model's main values, where possible.
+/// Lists every row of the tables with the model's prediction. Rows whose parameters have no value
+/// get no prediction.
 std::vector<TrialPoint> trials_as_used(const TrialData& data, const Model& model);
 
 }  // namespace awmr

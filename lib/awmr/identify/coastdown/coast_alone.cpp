@@ -15,7 +15,7 @@
 namespace awmr {
 namespace {
 
-/// Families that a curve can distinguish: with the motors off there is no dead zone.
+/// Families that coast-downs can distinguish. The dead zone has no effect while the motors are off.
 constexpr Family kCoastFamilies[] = {Family::kPower, Family::kCoulombLinear,
                                      Family::kCoulombLinearQuadratic, Family::kCoulombPower};
 
@@ -50,7 +50,7 @@ EstimatorReport report_of_alone(const CoastFit& fit) {
   return report;
 }
 
-/// The requested family, or all families.
+/// Fits the curves under the requested family, or under all families if none is requested.
 std::vector<CoastFit> fits_of(const std::vector<CoastCurve>& curves, const Interval& beta_range,
                               const FamilyChoice& choice) {
   std::vector<CoastFit> fits;
@@ -63,7 +63,7 @@ std::vector<CoastFit> fits_of(const std::vector<CoastCurve>& curves, const Inter
   return fits;
 }
 
-/// The usable one with the minimum AICc; the first one if none is usable.
+/// The usable fit with the smallest AICc; the first fit if none is usable.
 const CoastFit& best_of(const std::vector<CoastFit>& fits) {
   return *std::min_element(fits.begin(), fits.end(), [](const CoastFit& a, const CoastFit& b) {
     if (!b.usable || !b.aicc) return a.usable && a.aicc.has_value();
@@ -71,7 +71,7 @@ const CoastFit& best_of(const std::vector<CoastFit>& fits) {
   });
 }
 
-/// Formats all numbers that a fit determines.
+/// Describes the ratios and the exponent that a fit determines, with standard errors.
 std::string ratios_in_words(const CoastFit& fit) {
   const double ratio = std::exp(fit.log_mass_norm);
   std::string words =
@@ -85,7 +85,7 @@ std::string ratios_in_words(const CoastFit& fit) {
   return words;
 }
 
-/// `power-law-inadequate`, if the power law was not requested and another is significantly better.
+/// Adds `power-law-inadequate` if the AICc of another family is significantly lower.
 void hold_against_others(const std::vector<CoastFit>& fits, const std::string& file,
                          MassResult& result) {
   const CoastFit& power = fits.front();
@@ -94,8 +94,8 @@ void hold_against_others(const std::vector<CoastFit>& fits, const std::string& f
   result.findings.push_back(
       {file, 0, Severity::kWarning, "power-law-inadequate",
        fmt::format(
-           "a power law does not describe these coast-downs: {} is better by {:.1f} of AICc "
-           "(residuals of {:.3g} against {:.3g} m/s); use {}",
+           "a power law does not describe these coast-downs: the AICc of {} is lower by {:.1f} "
+           "(residual standard deviation {:.3g}, power law {:.3g} m/s); use {}",
            name_of(best.family), *power.aicc - *best.aicc, best.residual_std_mps,
            power.residual_std_mps, option_text(fmt::format("family {}", name_of(best.family))))});
 }
@@ -125,7 +125,7 @@ EstimatorParameter by_logarithm(std::string name, double value, double error, do
 
 MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& vehicle,
                          const FamilyChoice& family, MassResult result) {
-  result.reason = "a coast-down shows m' only together with a1 and b1, which are not identified";
+  result.reason = "m' from a coast-down needs a1 and b1, which are not identified";
   if (curves.empty()) return result;
   const std::vector<CoastFit> fits = fits_of(curves, vehicle.surge_beta_range, family);
   const bool by_aicc = family.requested && !family.family;
@@ -135,7 +135,7 @@ MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& v
     return result;
   }
   result.reason =
-      fmt::format("a coast-down curve fixes only {}, not m' itself", ratios_in_words(fit));
+      fmt::format("a coast-down curve determines only {}, not m' itself", ratios_in_words(fit));
   result.reports.push_back(report_of_alone(fit));
   for (const CoastFit& other : fits) {
     if (&other != &fit && other.usable) result.reports.push_back(report_of_alone(other));

@@ -1,5 +1,5 @@
-/// Fit of coast-down curves without a surge law, and parts common to all reports on curves. Private
-/// to identify/coastdown/.
+/// Fit of coast-down curves without a surge law, and helpers for the reports of all curve fits.
+/// Private to identify/coastdown/.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace awmr {
 
-/// Rows, scatter, rank, and the tests of each run's residuals.
+/// Adds number of rows, residual standard deviation, rank and residual tests of a curve fit.
 void add_curve_figures(EstimatorReport& report, const CoastFit& fit);
 
-/// Estimate of a number from that of its logarithm, with standard error and interval; `half`: the t
-/// quantile.
+/// Report entry of a positive number whose logarithm was fitted. `error`: standard error of the
+/// logarithm. `half`: quantile of Student's t for the 95 % interval.
 EstimatorParameter by_logarithm(std::string name, double value, double error, double half);
 
-/// Estimates m'/a1 and the terms of the law relative to a1 from the curves alone, by the requested
-/// family, or the one with the minimum AICc for `auto`. Gives the reason why m' itself is not
-/// identified.
+/// Estimates m'/a1, b1, c1/a1 and q1/a1 from coast-down curves alone, under the requested family
+/// (for `auto`: the one with the smallest AICc). Adds them to `result`, with the reason why m'
+/// itself is not identified.
 MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& vehicle,
                          const FamilyChoice& family, MassResult result);
 

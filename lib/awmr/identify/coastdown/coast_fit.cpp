@@ -13,9 +13,9 @@
 namespace awmr {
 namespace {
 
-/// d ln m' / d theta of the surge law, by SteadyFit::free. At the optimum J^T e = 0 for every
-/// theta, so d(ln m', initial states)/d theta = -J^+ d e/d theta; a dead zone does not enter: the
-/// motors are off.
+/// Computes d ln m' / d theta for the free coordinates theta of the surge law. J is the Jacobian of
+/// the residuals e by ln m' and the initial states. At the optimum J^T e = 0 for every theta, so
+/// d(ln m', initial states)/d theta = -J^+ d e/d theta. The dead zone has no effect: motors off.
 std::optional<Eigen::VectorXd> by_surge_law(CoastProblem& problem, const Eigen::MatrixXd& j,
                                             const SteadyFit& surge) {
   Eigen::VectorXd derivative = Eigen::VectorXd::Zero(rows_of(surge.free));
@@ -35,20 +35,20 @@ std::optional<Eigen::VectorXd> by_surge_law(CoastProblem& problem, const Eigen::
   return derivative;
 }
 
-/// True if m' and its variance are valid in a model file.
+/// True if m', the variances and the degrees of freedom are finite.
 bool is_finite(const CoastFit& fit) {
   return std::isnormal(std::exp(fit.log_mass_norm)) && std::isfinite(fit.variance) &&
          std::isfinite(fit.beta_variance) && fit.dof > 0.0 && std::isfinite(fit.dof);
 }
 
-/// Marks the fit as unusable, with the stop reason of the search, if any.
+/// Marks the fit as unusable because its curve or a derivative is not finite.
 CoastFit not_finite(CoastFit fit, const CoastProblem& problem) {
   fit.usable = false;
   if (converged(problem.summary())) fit.stop_reason = kNotFinite;
   return fit;
 }
 
-/// The free parameters of g1/a1 in a family: b1, c1/a1, q1/a1.
+/// Parameters of the curve g1/a1 that a family frees, of b1, c1/a1 and q1/a1.
 std::vector<TransformedParameter> shapes_of(Family family) {
   const FamilyTerms terms = terms_of(family);
   std::vector<TransformedParameter> shapes;
@@ -58,7 +58,7 @@ std::vector<TransformedParameter> shapes_of(Family family) {
   return shapes;
 }
 
-/// a1 = 1, and the other parameters are relative to it. Initial guess of a term: 0.1.
+/// Initial guess of g1/a1: ln a1 = 0, b1 = 0.8 within its range, and terms of 0.1.
 TransformedParameters start_of(Family family, const Interval& beta_range) {
   constexpr double kTermOverAlpha = 0.1;
   const FamilyTerms terms = terms_of(family);
@@ -76,8 +76,8 @@ bool is_inside(const Interval& range, double value) {
   return value > range.lo + kOnTheEdge && value < range.hi - kOnTheEdge;
 }
 
-/// Sets the parameters of the shape and their variances. The first columns of the covariance are ln
-/// m' and those of `inside`.
+/// Sets the variances of ln m', b1 and the ratios c1/a1 and q1/a1, and the ratios. The covariance
+/// begins with ln m' and the parameters `inside`, which are not at a bound.
 void add_shapes(CoastProblem& problem, const std::vector<TransformedParameter>& free,
                 const std::vector<TransformedParameter>& inside, const Eigen::MatrixXd& covariance,
                 CoastFit& fit) {

@@ -1,4 +1,4 @@
-/// m' from whole coast-down curves. Private to identify/.
+/// Fit of m' to coast-down curves: speed over time with the motors off. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,46 +11,45 @@
 
 namespace awmr {
 
-/// A term of the family relative to a1. Without a surge law, curves only determine this ratio.
+/// Ratio of a resistance term to a1. Without a surge law, curves determine only such ratios.
 struct TermOverAlpha {
   TransformedParameter term{};  ///< c1 or q1
   double value = 0.0;           ///< c1/a1 in (m/s)^b1, q1/a1 in (m/s)^(b1 - 2); >= 0
-  double variance = 0.0;        ///< 0 if the value is 0, the end of its range
+  double variance = 0.0;        ///< variance of `value`; 0 if `value` is 0, its lower bound
 };
 
 /// Fit of coast-down curves to
 ///   m' u_dot = -g1(u), u(0) = u0:
 ///   u(t)^(1-b) = u0^(1-b) - (1-b) (a/m') t,   u = u0 exp(-(a/m') t) for b -> 1       [paper (58)]
-/// for a power law; other families are integrated. Each run has its own u0, and its own time of
-/// motors-off if it was recorded from before that time.
+/// for a power law; other families are integrated numerically. Each run has its own u0. A run whose
+/// record begins before motors-off also has its own time of motors-off.
 struct CoastFit {
   double log_mass_norm = 0.0;  ///< ln m'; ln (m'/a1) without a surge law
-  double variance = 0.0;       ///< of log_mass_norm, from the noise of the curves alone
-  double dof = 0.0;            ///< degrees of freedom of that variance, fewer where autocorrelated
-  /// d ln m' / d theta of the fixed surge law, by SteadyFit::free.
+  double variance = 0.0;       ///< variance of log_mass_norm by the noise of the curves alone
+  double dof = 0.0;            ///< degrees of freedom of `variance`; fewer if autocorrelated
+  /// d ln m' / d theta for the free coordinates theta of the fixed surge law (SteadyFit::free).
   Eigen::VectorXd by_surge;
   double beta = 0.0;                 ///< b1: fitted or given
-  double beta_variance = 0.0;        ///< 0 if it was not fitted or is at a bound
+  double beta_variance = 0.0;        ///< 0 if b1 was not fitted or is at a bound
   Family family = Family::kPower;    ///< without a surge law: the family that was fitted
   std::vector<TermOverAlpha> terms;  ///< without a surge law: those of the family
-  std::optional<double> aicc;        ///< without a surge law; smaller is better
+  std::optional<double> aicc;        ///< without a surge law
   double residual_std_mps = 0.0;
-  int rows = 0;  ///< samples of all runs
+  int rows = 0;  ///< number of samples of all runs
   int rank = 0;
-  double condition_number = 0.0;               ///< columns scaled to length one
+  double condition_number = 0.0;               ///< of the Jacobian with columns of length one
   std::vector<std::vector<double>> residuals;  ///< by run, m/s
   bool autocorrelated =
-      false;            ///< neighbouring residuals are correlated; the variance allows for it
-  bool usable = false;  ///< converged, with full rank and degrees of freedom
+      false;            ///< neighbouring residuals are correlated; `variance` allows for this
+  bool usable = false;  ///< true if converged, with full rank and degrees of freedom
   std::string stop_reason;
 };
 
 /// Fits m' and each run's initial state for a given surge law.
 CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge);
 
-/// Without a surge law, fits m'/a1, b1 and the terms relative to a1; curves determine no more:
+/// Fits curves without a surge law. They determine only m'/a1, b1, c1/a1 and q1/a1:
 ///   (m'/a1) u_dot = -(c1/a1 + |u|^b1 + (q1/a1) u^2)
-/// A dead zone has no effect, because the motors are off.
 CoastFit fit_coast_alone(const std::vector<CoastCurve>& curves, const Interval& beta_range,
                          Family family);
 

@@ -23,7 +23,8 @@ double lag_one(const Eigen::VectorXd& e, const std::vector<int>& sizes) {
   return squares > 0.0 ? products / squares : 0.0;
 }
 
-/// J^T Sigma J over sigma^2 for errors of correlation phi^|i - j| within a run, by recursion:
+/// J^T Sigma J/sigma^2 for errors with the covariance Sigma: variance sigma^2, correlation
+/// phi^|i - j| between samples i and j of a run, 0 between runs. With the rows J_i, by recursion:
 ///   y_i = phi (y_{i-1} + J_{i-1}),  sum_i J_i J_i^T + J_i y_i^T + y_i J_i^T
 Eigen::MatrixXd correlated_information(const Eigen::MatrixXd& j, const std::vector<int>& sizes,
                                        double phi) {
@@ -39,8 +40,8 @@ Eigen::MatrixXd correlated_information(const Eigen::MatrixXd& j, const std::vect
   return sum;
 }
 
-/// Rank and condition of J with its columns scaled to length 1, which makes them independent of
-/// units.
+/// Sets rank and condition number of J with its columns scaled to length 1, so that they do not
+/// depend on units.
 void add_rank(const Eigen::MatrixXd& j, CoastFit& fit) {
   Eigen::MatrixXd scaled = j;
   for (Eigen::Index c = 0; c < j.cols(); ++c) {

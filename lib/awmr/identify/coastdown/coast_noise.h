@@ -1,5 +1,4 @@
-/// Noise of coast-down curves, and the resulting uncertainty of the estimates. Private to
-/// identify/coastdown/.
+/// Noise of coast-down curves and the covariance of their fits. Private to identify/coastdown/.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,13 +8,13 @@
 
 namespace awmr {
 
-/// Splits the residuals into runs of these sizes.
+/// Splits the residuals `e` of all runs by run. `sizes`: number of samples of each run.
 std::vector<std::vector<double>> by_run(const Eigen::VectorXd& e, const std::vector<int>& sizes);
 
-/// Fills the residuals, their level and correlation, rank and degrees of freedom of `fit` from the
-/// jacobian `j` and the residuals `e` at the optimum. Returns the covariance over the columns of
-/// `j`, which allows for errors correlated from sample to sample; 0 x 0 without full rank or
-/// degrees of freedom.
+/// Sets the residuals, their standard deviation and autocorrelation, the rank and the degrees of
+/// freedom of `fit`, from the Jacobian `j` and the residuals `e` at the optimum. Returns the
+/// covariance of the columns of `j`, which allows for errors that are correlated from sample to
+/// sample. The covariance is 0 x 0 if `j` has no full rank or there are no degrees of freedom.
 Eigen::MatrixXd add_coast_noise(const Eigen::MatrixXd& j, const Eigen::VectorXd& e,
                                 const std::vector<int>& sizes, CoastFit& fit);
 

@@ -8,7 +8,7 @@
 namespace awmr {
 namespace {
 
-/// u after `tau_s` from u0 by the closed form, a power law with k = a/m':
+/// Speed u after the time tau_s from u0 under a power law, in closed form with k = a/m':
 ///   u = u0 (1 - s z)^(1/s),  s = 1 - b,  z = k tau u0^-s;  0 once s z >= 1;  u0 e^-z for s -> 0
 template <class T>
 T coasted(const T& u0, const T& beta, const T& k, const T& tau_s) {
@@ -21,14 +21,14 @@ T coasted(const T& u0, const T& beta, const T& k, const T& tau_s) {
   const T x = s * z;
   if (!(x < T(1.0))) return T(0.0);
   constexpr double kSmall = 1e-4;
-  // ln(1 - x)/s = -z (1 + x/2 + x^2/3 + x^3/4 + ...); the next term is below 1e-17 of it
+  // ln(1 - x)/s = -z (1 + x/2 + x^2/3 + x^3/4 + ...), x = s z; omitted terms are below 1e-17
   if (x < T(kSmall) && x > T(-kSmall)) {
     return u0 * exp(-z * (1.0 + x * (1.0 / 2.0 + x * (1.0 / 3.0 + x * (1.0 / 4.0)))));
   }
   return u0 * exp(log(1.0 - x) / s);
 }
 
-/// One classical Runge-Kutta step of m' u_dot = -g(u); at rest it stays.
+/// One classical Runge-Kutta step of m' u_dot = -g(u). A vehicle at rest stays at rest.
 template <class T>
 T coast_step(const Resistance<T>& law, const T& mass, const T& u, const T& h) {
   if (!(u > T(0.0))) return T(0.0);
@@ -41,11 +41,11 @@ T coast_step(const Resistance<T>& law, const T& mass, const T& u, const T& h) {
   return next > T(0.0) ? next : T(0.0);
 }
 
-/// Largest number of steps between two samples: half an hour in steps of 2 ms. Ends a search that
-/// diverges in time.
+/// Largest number of steps between two samples: half an hour in steps of 2 ms. Rejects points of
+/// the search with a diverging t0.
 constexpr double kMaximumSteps = 1e6;
 
-/// The residuals of one curve over (ln a, b, c, q, ln m', (u0, t0)).
+/// Residuals of one curve as a function of ln a, b, c, q, ln m' and (u0, t0).
 struct CoastResidual {
   const CoastCurve* curve;
   double longest_step_s;
@@ -68,7 +68,7 @@ struct CoastResidual {
           u = coasted(initial[0], *beta, k, T(T(t_s) - initial[1]));
         } else {
           const double count = (t_s - value_of(at_s)) / longest_step_s;
-          if (!(count < kMaximumSteps)) return false;  // rejects this point
+          if (!(count < kMaximumSteps)) return false;  // Ceres rejects this point
           const int steps = 1 + static_cast<int>(count);
           const T h = (T(t_s) - at_s) / static_cast<double>(steps);
           for (int n = 0; n < steps; ++n) u = coast_step(law, mass, u, h);
@@ -80,16 +80,18 @@ struct CoastResidual {
     return true;
   }
 
-  bool derivative_wanted = false;  ///< by c or q, which the closed form does not give
+  bool derivative_wanted = false;  ///< true: derivatives by c or q are needed, so no closed form
 };
 
 using CoastCost = ceres::AutoDiffCostFunction<CoastResidual, ceres::DYNAMIC, 1, 1, 1, 1, 1, 2>;
 
-/// RK4 at this step errs by (h/T)^4/120 a time constant, below 1e-6 of the speed for T > 0.05 s.
+/// Longest step h of the Runge-Kutta method. The error per time constant T is (h/T)^4/120 of the
+/// speed, below 1e-6 for T > 0.05 s.
 constexpr double kLongestStep_s = 2e-3;
 
-/// The noise is estimated from second differences, which are small for a smooth curve. The plateau
-/// ends at the last sample within 4 standard deviations of the mean of the first ones.
+/// Finds the plateau before motors-off. It ends at the last sample within 4 standard deviations of
+/// the mean of the samples before it. The standard deviation is that of the second differences,
+/// which are small for a smooth curve.
 CoastInitialState initial_state_of(const CoastCurve& curve) {
   const std::vector<double>& u = curve.speed_mps;
   double squares = 0.0;
@@ -139,8 +141,8 @@ CoastProblem::CoastProblem(const std::vector<CoastCurve>& curves,
 
 void CoastProblem::solve() {
   ceres::Solve(exact_options(), &problem_, &summary_);
-  // A motors-off time before the first sample cannot be separated from u0: such a run has no
-  // plateau.
+  // A run whose fitted motors-off time is before its first sample has no plateau. Its t0 is fixed
+  // at the first sample, because it cannot be separated from u0.
   bool again = false;
   for (std::size_t i = 0; i < initial_.size(); ++i) {
     CoastInitialState& initial = initial_[i];

@@ -1,4 +1,4 @@
-/// All coast-down curves as one least-squares problem. Private to identify/coastdown/.
+/// Least-squares problem of all coast-down curves. Private to identify/coastdown/.
 #pragma once
 
 #include <ceres/ceres.h>
@@ -13,18 +13,20 @@
 
 namespace awmr {
 
-/// Initial state of a run: mean and end of the plateau, if it was recorded from before motors-off.
+/// Initial state of a run. If the record begins before motors-off, the speed has a plateau: u0 is
+/// its mean and t0 its end. Otherwise u0 and t0 are those of the first sample.
 struct CoastInitialState {
   double block[2];         ///< u0 in m/s, t0 in s
-  bool free_time = false;  ///< t0 is fitted
+  bool free_time = false;  ///< true if t0 is fitted
 };
 
-/// The residuals u(t) - measured of every sample, run after run, over the surge law's ln a, b, c,
-/// q, ln m' and each run's (u0, t0). The surge law is constant unless its blocks are set variable.
-/// Not movable: the problem has pointers to its members and to `curves`.
+/// Residuals u(t) - measured of every sample, run after run. Parameters: the surge law (ln a, b, c,
+/// q), ln m' and each run's (u0, t0). The surge law is constant unless its blocks are set variable.
+/// Not movable, because the problem has pointers to its members and to `curves`.
 class CoastProblem {
  public:
-  /// `terms_free`: derivatives by c or q can be requested, which the closed form does not give.
+  /// `terms_free`: true if c or q will be fitted. The curve is then integrated numerically, because
+  /// its closed form has no derivative by c or q.
   CoastProblem(const std::vector<CoastCurve>& curves, const TransformedParameters& surge,
                double log_mass, bool terms_free);
   CoastProblem(const CoastProblem&) = delete;
@@ -38,16 +40,17 @@ class CoastProblem {
   void solve();
   const ceres::Solver::Summary& summary() const { return summary_; }
 
-  /// m/s, by sample; empty if one is not finite.
+  /// Residuals by sample, m/s; empty if one is not finite.
   std::optional<Eigen::VectorXd> residuals();
-  /// Samples by columns: `first` in order, then each run's initial state (u0, and t0 where free).
-  /// Empty if a derivative is not finite.
+  /// Jacobian, samples x columns. The columns are the blocks `first` in their order, then each
+  /// run's u0, and t0 if free. Empty if a derivative is not finite.
   std::optional<Eigen::MatrixXd> jacobian(const std::vector<double*>& first);
 
-  /// Moves theta, ln m' and each run's initial state, in that order.
+  /// Adds the step `by` to the coordinates `free`, ln m' and each run's initial state, in that
+  /// order.
   void step(const std::vector<TransformedParameter>& free, const Eigen::VectorXd& by);
 
-  const std::vector<int>& sizes() const { return sizes_; }  ///< samples, by run
+  const std::vector<int>& sizes() const { return sizes_; }  ///< number of samples, by run
 
  private:
   const std::vector<CoastCurve>* curves_;
@@ -59,8 +62,7 @@ class CoastProblem {
   ceres::Solver::Summary summary_;
 };
 
-/// An initial guess of ln m' from the deceleration at the beginning of the curves and g1 there:
-///   m' ~ g(u) dt/du
+/// Initial guess of ln m' from the deceleration early in a curve: m' ~ g(u) dt/|du|.
 double guess_log_mass(const std::vector<CoastCurve>& curves, const Resistance<double>& law);
 
 }  // namespace awmr

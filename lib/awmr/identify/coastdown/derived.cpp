@@ -12,18 +12,19 @@
 namespace awmr {
 namespace {
 
-constexpr double kFragileShare = 0.10;         ///< relative standard error of m' worth a warning
-constexpr double kInertiaDisagreement = 0.10;  ///< relative difference of Iz worth a note
+/// Relative standard error of m' above which `fragile-mass` is reported.
+constexpr double kFragileShare = 0.10;
+/// Relative difference of Iz from the box formula above which `inertia-mismatch` is reported.
+constexpr double kInertiaDisagreement = 0.10;
 
-/// ln of the stop time at m' = 1.
+/// Logarithm of the stop time for m' = 1; empty if the vehicle never stops.
 std::optional<double> log_unit_stop_time(const Resistance<double>& law, double speed_mps) {
   const auto stop_s = stop_time_s(law, 1.0, speed_mps);
   if (!stop_s) return std::nullopt;
   return std::log(*stop_s);
 }
 
-/// Central difference of ln m' by one coordinate; exact for ln alpha, where the step does not
-/// matter.
+/// Derivative of ln m' by one coordinate of the surge law, by a central difference.
 double derivative(const SteadyFit& surge, TransformedParameter c, double speed_mps) {
   if (c == TransformedParameter::kDeadZone) return 0.0;  // the motors are off
   const double h = 1e-6 * std::max(1e-3, std::abs(surge[c]));
@@ -36,7 +37,8 @@ double derivative(const SteadyFit& surge, TransformedParameter c, double speed_m
   return high && low ? -(*high - *low) / (2.0 * h) : 0.0;
 }
 
-/// For a power law in closed form: -1/(1 - b1) + ln u_max by b1.
+/// Derivative of ln m' by one coordinate of the surge law. For a power law in closed form:
+/// 1 by ln a1, -1/(1 - b1) + ln u_max by b1.
 double by_coordinate(const SteadyFit& surge, TransformedParameter c, double speed_mps) {
   const Resistance<double> law = surge.law();
   if (law.coulomb > 0.0 || law.quadratic > 0.0) return derivative(surge, c, speed_mps);
@@ -79,17 +81,16 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
                 double mass_kg, double mass_norm, std::optional<double> relative_std_error,
                 std::vector<Finding>& findings) {
   for (const StopTimeRow& run : coastdown.rows) {
-    // |u_dot| at motors-off: g1(u)/m'
+    // Initial deceleration |u_dot| = g1(u)/m'
     const double deceleration = surge.at(run.initial_speed_mps) / mass_norm;
     if (!is_implausible(surge, run.initial_speed_mps, mass_norm)) continue;
     findings.push_back(
         {coastdown.file, run.line, Severity::kWarning, "implausible-deceleration",
          fmt::format(
              "stopping from {:.3g} m/s in {:.3g} s means an initial deceleration of {:.1f} m/s^2 "
-             "({:.1f} g), more than a tyre can give, and F_max = {:.0f} N per motor; tyres of "
-             "friction "
-             "{:g} require m' = {:.3g}, which a quarter of the samples of compare and validate "
-             "use. Check the stop time, or record the coast-down curve",
+             "({:.1f} g), more than a tyre can give, and F_max = {:.0f} N per motor. Tyres of "
+             "friction {:g} allow m' = {:.3g}, which compare and validate use in a quarter of "
+             "their samples. Check the stop time, or record the coast-down curve",
              run.initial_speed_mps, run.stop_time_s, deceleration, deceleration / kGravity_mps2,
              mass_kg / mass_norm, kTyreFriction, mass_norm_by_grip(surge, run.initial_speed_mps))});
   }
@@ -97,18 +98,18 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
     findings.push_back(
         {coastdown.file, coastdown.rows.front().line, Severity::kNote, "single-stop-time",
          fmt::format(
-             "a single stop time has no scatter: the standard error of mass_norm assumes a timing "
-             "error of {:.2g} s, from the digits given; repeat the coast-down or record its curve",
+             "there is a single stop time, so the standard error of mass_norm assumes a timing "
+             "error of {:.2g} s, from its digits; repeat the coast-down or record its curve",
              coastdown.rows.front().timing_std_s)});
   }
   if (relative_std_error && *relative_std_error > kFragileShare) {
     findings.push_back(
         {coastdown.file, 0, Severity::kWarning, "fragile-mass",
-         fmt::format(
-             "the standard error of mass_norm is {:.0f} % of its value, because "
-             "m' from a stop time depends on the last centimetres (b1 = {:.3f}); record the "
-             "whole coast-down curve, or more surge runs at low speed",
-             100.0 * *relative_std_error, surge.beta)});
+         fmt::format("the standard error of mass_norm is {:.0f} % of its value, because "
+                     "m' from a stop time depends on the resistance at very low speed (b1 = "
+                     "{:.3f}); record "
+                     "the whole coast-down curve, or more surge runs at low speed",
+                     100.0 * *relative_std_error, surge.beta)});
   }
 }
 
@@ -142,8 +143,8 @@ void check_inertia(const Vehicle& vehicle, std::vector<Finding>& findings) {
   if (std::abs(given - expected) <= kInertiaDisagreement * std::max(given, expected)) return;
   findings.push_back(
       {"", 0, Severity::kNote, "inertia-mismatch",
-       fmt::format("yaw_inertia_kgm2 is given as {:.4g}, the box formula gives {:.4g} "
-                   "kg m^2; the given value is used",
+       fmt::format("yaw_inertia_kgm2 is {:.4g} in the vehicle file, but a uniform box has {:.4g} "
+                   "kg m^2; the value of the file is used",
                    given, expected)});
 }
 

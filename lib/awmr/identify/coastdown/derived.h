@@ -10,40 +10,42 @@
 
 namespace awmr {
 
-/// ln m' with its sensitivity and variance.
+/// m' from stop times, with its dependence on the surge law and its own variance.
 struct MassFromStopTime {
-  double log_mass_norm = 0.0;
-  /// d ln m' by SteadyFit::free of the surge fit. For a power law d/d ln a1 = 1 and
-  /// d/d b1 = -1/(1 - b1) + mean ln u_max.
+  double log_mass_norm = 0.0;  ///< ln m'
+  /// d ln m' / d theta for the free coordinates theta of the surge fit (SteadyFit::free). For a
+  /// power law d/d ln a1 = 1 and d/d b1 = -1/(1 - b1) + mean ln u_max.
   Eigen::VectorXd by_surge;
-  double timing_variance = 0.0;  ///< of ln m': scatter of the runs, or the timing error of a single
-                                 ///< one
+  /// Variance of ln m' from the times: by the scatter of the runs, or by the timing error if there
+  /// is a single run.
+  double timing_variance = 0.0;
 };
 
-/// t_a = m' int_0^u dw/g1(w), so m' = t_a / int; ln m' is averaged over the runs. For a power law
-/// m' = (1 - b1) a1 t_a / u_max^(1 - b1). [paper (60)] Empty if the law never stops the vehicle.
-/// Precondition: at least one run.
+/// Computes m' from the stop time t_a from the speed u_max: t_a = m' int_0^u_max dw/g1(w). For a
+/// power law m' = (1 - b1) a1 t_a / u_max^(1 - b1). [paper (60)] ln m' is averaged over the runs.
+/// Empty if the vehicle never stops under this law. Precondition: at least one run.
 std::optional<MassFromStopTime> mass_from_stop_time(const SteadyFit& surge,
                                                     const std::vector<StopTimeRow>& runs);
 
-/// Findings about m' from stop times: `implausible-deceleration`, `fragile-mass`,
-/// `single-stop-time`.
+/// Adds the findings about m' from stop times, where they apply: `implausible-deceleration`,
+/// `fragile-mass`, `single-stop-time`. `relative_std_error`: of m'.
 void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& coastdown,
                 double mass_kg, double mass_norm, std::optional<double> relative_std_error,
                 std::vector<Finding>& findings);
-/// `implausible-deceleration` if a curve begins with a deceleration above that of any tyre:
-/// g1(u)/m' > g.
+/// Adds `implausible-deceleration` for each curve whose initial deceleration g1(u)/m' is above g,
+/// more than a tyre gives.
 void check_mass(const Resistance<double>& surge, const std::vector<CoastCurve>& curves,
                 double mass_norm, std::vector<Finding>& findings);
 
-/// True if the initial deceleration |u_dot| = g1(u)/m' from this speed is above g.
+/// True if the initial deceleration g1(u)/m' of a coast-down from `speed_mps` is above g.
 bool is_implausible(const Resistance<double>& surge, double speed_mps, double mass_norm);
-/// The m' at which the initial deceleration from this speed equals mu g, the limit of tyres with mu
-/// = kTyreFriction:
+/// m' with which a coast-down from the speed u begins at the limit of tyres, mu g, with the
+/// friction mu = kTyreFriction:
 ///   m' = g1(u)/(mu g)
 double mass_norm_by_grip(const Resistance<double>& surge, double speed_mps);
 
-/// `inertia-mismatch`: the measured Iz differs by a large factor from that of a uniform box.
+/// Adds the note `inertia-mismatch` if the given Iz differs by more than 10 % from that of a
+/// uniform box.
 void check_inertia(const Vehicle& vehicle, std::vector<Finding>& findings);
 
 }  // namespace awmr

@@ -14,31 +14,32 @@ namespace awmr {
 namespace {
 
 constexpr int kMaximumRounds = 200;
-/// The fit has converged where the last step is shorter than this, in standard errors, and where
-/// the noise levels change by less, relative to themselves.
+/// Convergence threshold: largest element of the last step in standard errors, and largest relative
+/// change of the two noise variances.
 constexpr double kTolerance = 1e-8;
 
-/// One number for each of the two sets of rows.
+/// One number for the surge rows and one for the coast-down curves.
 struct BySet {
   double surge = 0.0;
   double coast = 0.0;
 };
 
-/// The columns common to surge rows and curves: those of the surge law, without the dead zone,
-/// which does not act in a coast-down.
+/// Jacobian columns that surge rows and curves share: the surge law without the dead zone, which
+/// does not act in a coast-down.
 struct SharedColumns {
-  std::vector<double*> blocks;         ///< of the curves' problem, with ln m' as the last
-  std::vector<Eigen::Index> of_surge;  ///< by block but the last: its column among the surge rows
+  std::vector<double*> blocks;         ///< parameter blocks of CoastProblem; the last one is ln m'
+  std::vector<Eigen::Index> of_surge;  ///< column of each block but the last in the surge Jacobian
 };
 
-/// Residuals and jacobians of both sets of rows, at one set of parameters.
+/// Residuals and Jacobians of the surge rows and of the curves, at one point.
 struct Rows {
   SteadyRows surge;
   Eigen::VectorXd coast_residuals;
   Eigen::MatrixXd coast_jacobian;  ///< over SharedColumns, then the initial states
 };
 
-/// Jacobians over (surge law, ln m', initial states), and the covariance at these noise levels.
+/// Jacobians of the surge rows and of the curves, both by (surge law, ln m', initial states), and
+/// the covariance of these parameters.
 struct Stacked {
   Eigen::MatrixXd surge;
   Eigen::MatrixXd coast;
@@ -56,7 +57,8 @@ SharedColumns shared_columns(CoastProblem& problem, const std::vector<Transforme
   return shared;
 }
 
-/// C = (Js^T Js / vs + Jc^T Jc / vc)^-1
+/// Covariance C = (Js^T Js / vs + Jc^T Jc / vc)^-1, with the Jacobian J and the noise variance v of
+/// the surge rows (s) and of the curves (c).
 Stacked stack(const Rows& rows, const SharedColumns& shared, const BySet& variance) {
   const Eigen::Index p = rows.surge.jacobian.cols();
   const Eigen::Index own = rows.coast_jacobian.cols() - rows_of(shared.of_surge);
@@ -74,14 +76,14 @@ Stacked stack(const Rows& rows, const SharedColumns& shared, const BySet& varian
   return stacked;
 }
 
-/// Gauss-Newton: -C (Js^T es / vs + Jc^T ec / vc)
+/// Gauss-Newton step -C (Js^T es / vs + Jc^T ec / vc), with the residuals es and ec.
 Eigen::VectorXd gauss_newton_step(const Stacked& s, const Rows& rows, const BySet& variance) {
   return -s.covariance * (s.surge.transpose() * rows.surge.residuals / variance.surge +
                           s.coast.transpose() * rows.coast_residuals / variance.coast);
 }
 
-/// Residual degrees of freedom of each set: rows minus their share of the parameters,
-/// n - tr(C J^T J)/v.
+/// Residual degrees of freedom n - tr(C J^T J)/v of the surge rows and of the curves: the number of
+/// rows minus their share of the parameters.
 BySet degrees_of_freedom(const Stacked& s, const Rows& rows, const BySet& variance) {
   const double surge_spent =
       (s.covariance * (s.surge.transpose() * s.surge)).trace() / variance.surge;
@@ -91,13 +93,14 @@ BySet degrees_of_freedom(const Stacked& s, const Rows& rows, const BySet& varian
           static_cast<double>(rows.coast_residuals.size()) - coast_spent};
 }
 
-/// Variance components: e^T e / dof of each set.
+/// Noise variances e^T e / dof of the surge rows and of the curves.
 BySet variance_components(const Rows& rows, const BySet& dof) {
   return {rows.surge.residuals.squaredNorm() / std::max(1.0, dof.surge),
           rows.coast_residuals.squaredNorm() / std::max(1.0, dof.coast)};
 }
 
-/// Satterthwaite's degrees of freedom of the first `count` variances, V = Vs + Vc by the two sets:
+/// Satterthwaite's degrees of freedom of the first `count` variances V = Vs + Vc, with the
+/// contribution Vs of the surge rows and Vc of the curves:
 ///   V^2 / (Vs^2/dof_s + Vc^2/dof_c)
 Eigen::VectorXd satterthwaite(const Stacked& s, const BySet& variance, const BySet& dof,
                               Eigen::Index count) {
@@ -115,12 +118,12 @@ Eigen::VectorXd satterthwaite(const Stacked& s, const BySet& variance, const ByS
   return combined;
 }
 
-/// The largest relative change of a noise level.
+/// Larger one of the relative changes of the two noise variances.
 double change(const BySet& from, const BySet& to) {
   return std::max(std::abs(to.surge / from.surge - 1.0), std::abs(to.coast / from.coast - 1.0));
 }
 
-/// The largest element of a step in standard errors.
+/// Largest element of a step, in standard errors.
 double length(const Eigen::VectorXd& step, const Stacked& s) {
   return (step.array() / s.covariance.diagonal().array().sqrt()).abs().maxCoeff();
 }
@@ -129,7 +132,7 @@ double mean_square(const Eigen::VectorXd& e) {
   return e.squaredNorm() / static_cast<double>(e.size());
 }
 
-/// Stores the fit at the current parameters and noise levels, converged or not.
+/// Stores the fit at the current point, converged or not.
 void keep(const Stacked& s, const Rows& rows, CoastProblem& problem, const BySet& variance,
           const BySet& dof, JointFit& joint) {
   const Eigen::Index count = rows_of(joint.surge.free) + 1;
@@ -142,7 +145,7 @@ void keep(const Stacked& s, const Rows& rows, CoastProblem& problem, const BySet
   joint.surge.covariance = joint.covariance.topLeftCorner(count - 1, count - 1);
 }
 
-/// Empty if a curve or a derivative is not finite at theta.
+/// Residuals and Jacobians at the current point. Empty if one of them is not finite.
 std::optional<Rows> rows_at(const SteadyProblem& surge, const TransformedParameters& theta,
                             const std::vector<TransformedParameter>& free,
                             const SharedColumns& shared, CoastProblem& problem) {
@@ -153,7 +156,7 @@ std::optional<Rows> rows_at(const SteadyProblem& surge, const TransformedParamet
   return Rows{std::move(*surge_rows), std::move(*residuals), std::move(*jacobian)};
 }
 
-/// Marks the fit as unusable and its covariance as unknown.
+/// Marks the fit as unusable and removes its covariance.
 JointFit not_finite(JointFit joint) {
   joint.coast.usable = false;
   joint.coast.stop_reason = kNotFinite;
@@ -171,12 +174,12 @@ JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& alone,
   const FamilyTerms terms = terms_of(surge.family);
   CoastProblem problem(curves, alone.theta, fit_coast(curves, alone).log_mass_norm,
                        terms.coulomb || terms.quadratic);
-  problem.solve();  // each run's initial state
+  problem.solve();  // ln m' and each run's initial state, under the given surge law
   const SharedColumns shared = shared_columns(problem, alone.free);
   const std::optional<Eigen::VectorXd> initial = problem.residuals();
   BySet variance{alone.residual_std * alone.residual_std, initial ? mean_square(*initial) : 0.0};
   joint.coast.stop_reason = "not converged: the step is still above 1e-8 standard errors";
-  // The noise levels are from the residuals of the last step; both converge together.
+  // Each round takes its noise variances from the residuals of the round before.
   for (int round = 0; round < kMaximumRounds && !joint.coast.usable; ++round) {
     joint.surge.theta = problem.theta();
     const std::optional<Rows> evaluated =

@@ -1,4 +1,4 @@
-/// Surge rows and coast-down curves as one fit. Private to identify/.
+/// Joint fit of surge rows and coast-down curves (--joint). Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,16 +8,16 @@
 
 namespace awmr {
 
-/// Joint fit of surge rows and curves, each weighted by its estimated noise.
+/// Result of the joint fit. Surge rows and curves are each weighted by their estimated noise.
 struct JointFit {
-  SteadyFit surge;             ///< theta, free, covariance of the joint optimum
+  SteadyFit surge;             ///< the surge law at the joint optimum, with its covariance
   double log_mass_norm = 0.0;  ///< ln m'
   Eigen::MatrixXd covariance;  ///< over (surge.free, ln m'), positive definite
-  Eigen::VectorXd dof;         ///< Satterthwaite's, by element of the same
-  CoastFit coast;              ///< its residuals, noise, stop reason, and whether it is usable
+  Eigen::VectorXd dof;         ///< Satterthwaite's degrees of freedom, over (surge.free, ln m')
+  CoastFit coast;              ///< residuals and noise of the curves; stop reason; usable or not
 };
 
-/// `alone`: the fit of the surge rows alone, which is the initial guess of the joint one.
+/// Fits surge rows and curves together. `alone`: fit of the surge rows alone, the initial guess.
 JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& alone,
                    const std::vector<CoastCurve>& curves);
 

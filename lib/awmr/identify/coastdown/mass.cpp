@@ -14,11 +14,11 @@
 namespace awmr {
 namespace {
 
-/// Smallest decrease of the speed, in standard deviations of its noise, for a curve to show a
-/// deceleration.
+/// Smallest decrease of the mean speed that counts as a deceleration, in standard deviations.
 constexpr double kMinimumFall = 5.0;
 
-/// Noise of a curve from the distance of each speed to the line through its neighbours:
+/// Standard deviation of a curve's speed noise. It is estimated from the distance e_i of each speed
+/// u_i from the line through its neighbours in time:
 ///
 ///     e_i = u_i - (1 - w) u_(i-1) - w u_(i+1),   w = (t_i - t_(i-1))/(t_(i+1) - t_(i-1))
 ///     std^2 = mean of e_i^2/(1 + w^2 + (1 - w)^2)
@@ -34,8 +34,8 @@ double noise_of(const CoastCurve& curve) {
   return std::sqrt(squares / static_cast<double>(u.size() - 2));
 }
 
-/// False if the speed does not fall significantly: the mean of the last fifth is not below that of
-/// the first fifth by more than noise. Precondition: three rows.
+/// True if the speed falls significantly: the mean of the curve's last fifth is below the mean of
+/// its first fifth by more than the noise. Precondition: three rows.
 bool falls(const CoastCurve& curve) {
   const std::size_t part = std::max<std::size_t>(1, curve.speed_mps.size() / 5);
   const auto mean = [&](std::size_t begin) {
@@ -47,7 +47,7 @@ bool falls(const CoastCurve& curve) {
   return fall > kMinimumFall * noise_of(curve) / std::sqrt(static_cast<double>(part)) && fall > 0.0;
 }
 
-/// Returns the curves that fall, and adds a finding to `result` for each of the others.
+/// Returns the curves whose speed falls. Adds `no-deceleration` to `result` for each other curve.
 std::vector<CoastCurve> falling(const std::vector<CoastCurve>& curves, MassResult& result) {
   std::vector<CoastCurve> kept;
   for (const CoastCurve& curve : curves) {
@@ -55,9 +55,10 @@ std::vector<CoastCurve> falling(const std::vector<CoastCurve>& curves, MassResul
       kept.push_back(curve);
       continue;
     }
-    result.findings.push_back({curve.file, curve.line, Severity::kWarning, "no-deceleration",
-                               "the speed of this coast-down does not fall by more than its noise, "
-                               "so it does not determine m' and is set aside"});
+    result.findings.push_back(
+        {curve.file, curve.line, Severity::kWarning, "no-deceleration",
+         "the speed of this coast-down does not fall by more than its noise, "
+         "so the curve is not used for m'; record it until the vehicle stops"});
   }
   return kept;
 }
@@ -71,10 +72,9 @@ std::optional<MassEstimate> by_stop_time(const SteadyFit& surge,
   const auto mass = mass_from_stop_time(surge, stops->rows);
   if (!mass) {
     result.reason = fmt::format(
-        "the surge exponent {:.4g} is 1 or more, with which the vehicle never stops, so a stop "
-        "time "
-        "does not determine m'. Choose a family with Coulomb friction ({}), or record the speed "
-        "of the coast-down as a curve",
+        "the surge exponent {:.4g} is 1 or more: with this law the vehicle never stops, so a stop "
+        "time does not determine m'. Choose a family with Coulomb friction ({}), or record the "
+        "speed of the coast-down as a curve",
         surge[TransformedParameter::kBeta], option_text("family auto"));
     return std::nullopt;
   }
@@ -103,10 +103,10 @@ std::optional<MassEstimate> by_curves(const SteadyFit& surge, const std::vector<
   result.reports.push_back(report_of(estimate, surge, Estimator::kCurve, "speed"));
   add_curve_figures(result.reports.back(), fit);
   if (fit.autocorrelated) {
-    result.findings.push_back(
-        {file, 0, Severity::kNote, "coloured-residuals",
-         "neighbouring residuals of the coast-down are correlated; the interval of mass_norm "
-         "allows for it"});
+    result.findings.push_back({file, 0, Severity::kNote, "coloured-residuals",
+                               "neighbouring residuals of the coast-down are correlated, and the "
+                               "interval of mass_norm is "
+                               "wider for this reason"});
   }
   return estimate;
 }
@@ -116,7 +116,7 @@ EstimatorReport report_of(const JointFit& joint, std::size_t surge_rows) {
   report.subject = FitSubject::kMass;
   report.estimator = Estimator::kJoint;
   report.noise = "as the surge fit, and speed";
-  const Subject surge{};  // the ids of surge
+  const Subject surge{};  // names the parameters
   for (std::size_t i = 0; i < joint.surge.free.size(); ++i) {
     const Eigen::Index row = eigen_index(i);
     const TransformedParameter c = joint.surge.free[i];
@@ -141,8 +141,8 @@ EstimatorReport report_of(const JointFit& joint, std::size_t surge_rows) {
   return report;
 }
 
-/// Estimates m' from stop times, curves or both under one surge law. Adds reports and findings to
-/// `result`.
+/// Estimates m' from stop times, curves or both, for a given surge law. Adds reports and findings
+/// to `result`.
 std::optional<MassEstimate> estimate_under(const SteadyFit& law,
                                            const std::optional<TrialSet<StopTimeRow>>& stops,
                                            const std::vector<CoastCurve>& curves,
@@ -157,8 +157,8 @@ std::optional<MassEstimate> estimate_under(const SteadyFit& law,
   return both;
 }
 
-/// Covariance of (theta, ln m') under one surge law, with C of theta, v the own variance of ln m',
-/// g = d ln m'/d theta:
+/// Joint distribution of the surge law's coordinates theta and ln m'. Its covariance, with C that
+/// of theta, g = d ln m'/d theta, and v the variance of ln m' that does not come from theta, is
 ///   [ C    C g       ]
 ///   [ g'C  g'C g + v ]
 /// Precondition: the law has a covariance.
@@ -177,7 +177,8 @@ Posterior::Alternative with_mass(const NoiseAlternative& law, const MassEstimate
   return joint;
 }
 
-/// Estimates m' under the alternative surge laws; that of the chosen one is already in `result`.
+/// Estimates m' under each alternative surge law, and sets `result.posterior`. The estimate under
+/// the chosen law is already in `result`.
 void add_alternatives(const std::vector<NoiseAlternative>& laws,
                       const std::optional<TrialSet<StopTimeRow>>& stops,
                       const std::vector<CoastCurve>& curves, MassResult& result) {
@@ -203,8 +204,8 @@ void add_alternatives(const std::vector<NoiseAlternative>& laws,
   for (std::size_t r = own_report; r < result.reports.size(); ++r) *result.reports[r].weight /= sum;
 }
 
-/// `noise-model` if the median of m' differs from the reported value by more than its standard
-/// error.
+/// Adds `noise-model` if the median of m' over all surge laws differs from the reported m' by more
+/// than the standard error of the reported m'.
 void check_noise(const std::vector<NoiseAlternative>& laws, const std::string& file,
                  MassResult& result) {
   if (result.posterior.alternatives.size() < 2) return;
@@ -216,16 +217,18 @@ void check_noise(const std::vector<NoiseAlternative>& laws, const std::string& f
   result.findings.push_back(
       {file, 0, Severity::kWarning, "noise-model",
        fmt::format(
-           "mass_norm depends on which measurement of the surge runs has the error, which is "
-           "unknown: "
-           "{:.3g} with errors on {}, median {:.3g} over all that the runs allow (weight in "
-           "/estimates); its interval and the draws of tune and compare include all of them. "
-           "{} selects the error location; a coast-down curve depends less on the surge law",
+           "mass_norm depends on which quantity of the surge runs has the error, which is unknown: "
+           "it is {:.3g} with errors on {}, and the median over all error models is {:.3g} "
+           "(weights "
+           "in /estimates). Its interval, tune and compare include all of them. Select one with "
+           "{}, "
+           "or record a coast-down curve, which depends less on the surge law",
            std::exp(result.estimate->log_mass_norm), name_of(laws.front().noise), std::exp(median),
            option_text("noise"))});
 }
 
-/// The m' that the grip limit requires for coast-downs with an implausible deceleration.
+/// m' by the grip of tyres (mass_norm_by_grip()), if the coast-down from the highest speed begins
+/// with an implausible deceleration; else empty.
 std::optional<double> demanded_by_grip(const SteadyFit& surge,
                                        const std::optional<TrialSet<StopTimeRow>>& stops,
                                        const std::vector<CoastCurve>& curves, double mass_norm) {
@@ -242,18 +245,19 @@ std::optional<double> demanded_by_grip(const SteadyFit& surge,
   return mass_norm_by_grip(surge.law(), fastest_mps);
 }
 
-/// `back-emf-assumed`: with back-EMF, the surge runs give g1 + 4 k_e u in place of g1, but the
-/// coast-down does not. m' = g1/|u_dot| would then be too large.
+/// The note `back-emf-assumed`. For motors with back-EMF k_e, the surge runs give g1 + 4 k_e u
+/// instead of g1, while only g1 brakes a coast-down. m' = g1/|u_dot| would then be too large.
 Finding assumed_back_emf(const std::string& file) {
   return {
       file, 0, Severity::kNote, "back-emf-assumed",
-      "mass_norm assumes that the force of a motor does not fall with the speed at a constant "
-      "command. For a voltage-driven motor whose driver coasts, m' is too large by the ratio of "
-      "4 k_e u to g1. Set motor.back_emf_s_per_m in the vehicle file (0: a force), or identify "
-      "it from a log with driven and coasting sections"};
+      "mass_norm assumes that at a constant command the force of a motor does not fall with the "
+      "speed. For voltage-driven motors that coast at a command of 0, m' is too large by the "
+      "factor "
+      "1 + 4 k_e u/g1. Set motor.back_emf_s_per_m (k_e) in the vehicle file (0 for motors with a "
+      "constant force), or identify it from a log with driven and coasting sections"};
 }
 
-/// Adds the findings about m'. The one on stop times does not apply to a whole curve.
+/// Adds the findings about m'. `fragile-mass` applies only without curves.
 void check(const SteadyFit& surge, const std::optional<TrialSet<StopTimeRow>>& stops,
            const std::vector<CoastCurve>& curves, const Vehicle& vehicle, MassResult& result) {
   if (!result.estimate) return;

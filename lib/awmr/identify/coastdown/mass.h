@@ -1,4 +1,4 @@
-/// m' and I'z from coast-downs, by stop times, curves or both. Private to identify/.
+/// Estimation of m' from coast-downs: stop times, curves or both. Private to identify/.
 #pragma once
 
 #include <optional>
@@ -12,22 +12,23 @@
 namespace awmr {
 
 struct MassResult {
-  std::optional<MassEstimate> estimate;  ///< main value, by the chosen surge law
-  /// Coordinates: SteadyFit::free of the surge law, then ln m'. Empty if the surge fit has no
-  /// covariance. Excludes laws that never stop the vehicle.
+  std::optional<MassEstimate> estimate;  ///< reported m', under the chosen surge law
+  /// Mixture over the alternative surge laws, of their free coordinates (SteadyFit::free) and ln
+  /// m'. Empty if the surge fit has no covariance. Excludes laws under which the vehicle never
+  /// stops.
   Posterior posterior;
-  std::optional<double> by_grip;  ///< Model::mass_norm_by_grip
-  std::optional<JointFit> joint;  ///< if requested and usable
-  std::optional<CoastFit> alone;  ///< curves without a surge law
+  std::optional<double> by_grip;  ///< see Model::mass_norm_by_grip
+  std::optional<JointFit> joint;  ///< present if requested and usable
+  std::optional<CoastFit> alone;  ///< fit of the curves, if there is no surge law
   std::string reason;             ///< why there is no estimate
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
 };
 
-/// Precondition: at least a stop time or a curve. `surge` is null if its law is not identified.
-/// Curves without a deceleration are excluded (`no-deceleration`). Without a surge law, `family` is
-/// fitted to the curves alone, and compared with the other families unless it was requested
-/// (`power-law-inadequate`).
+/// Estimates m' by stop times, curves or both. `surge` is null if the surge law is not identified;
+/// `family` is then fitted to the curves alone, and compared with the other families unless the
+/// user requested it (`power-law-inadequate`). Excludes curves without a deceleration
+/// (`no-deceleration`). Precondition: at least one stop time or curve.
 MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<StopTimeRow>>& stops,
                          const std::vector<CoastCurve>& curves, const Vehicle& vehicle,
                          const FamilyChoice& family, bool joint);

@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-constexpr double kDisagreement = 0.01;  ///< p below which two estimates disagree
+constexpr double kDisagreement = 0.01;  ///< two estimates disagree if p is below this value
 
 }  // namespace
 
@@ -60,8 +60,8 @@ std::vector<Finding> disagreement(const MassEstimate& a, const MassEstimate& b,
   if (p >= kDisagreement) return {};
   return {{file, 0, Severity::kWarning, "estimates-disagree",
            fmt::format(
-               "mass_norm is {:.4g} by the {} and {:.4g} by the {}: {:.1f} standard deviations "
-               "apart (p = {:.2g}); one of the two trials, or the resistance law, is wrong",
+               "mass_norm is {:.4g} by the {} and {:.4g} by the {}, {:.1f} standard deviations "
+               "apart (p = {:.2g}); check both trials and the resistance family",
                std::exp(a.log_mass_norm), a.method, std::exp(b.log_mass_norm), b.method, z, p)}};
 }
 

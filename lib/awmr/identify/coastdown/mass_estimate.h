@@ -1,4 +1,5 @@
-/// Estimate of ln m' with its sources of error, from one trial or several. Private to identify/.
+/// An estimate of ln m' with its two sources of error, and the combination of two estimates.
+/// Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,33 +13,35 @@
 
 namespace awmr {
 
-/// ln m' with two independent errors: that of the surge law, common to all coast-downs, and its
-/// own.
+/// An estimate of ln m'. It has two independent errors: that of the surge law, which is common to
+/// all coast-downs, and that of the coast-down itself.
 struct MassEstimate {
   double log_mass_norm = 0.0;
-  Eigen::VectorXd by_surge;   ///< d ln m' by SteadyFit::free of the surge fit
-  double own_variance = 0.0;  ///< of ln m', independent of the surge fit; >= 0
-  double own_dof = 1e9;       ///< degrees of freedom of that variance; 1e9: a known variance
+  Eigen::VectorXd by_surge;   ///< d ln m' / d theta, theta: SteadyFit::free of the surge fit
+  double own_variance = 0.0;  ///< variance of ln m' from the coast-down itself, >= 0
+  double own_dof = 1e9;       ///< degrees of freedom of own_variance; 1e9: variance is known
   std::string method;         ///< "stop time", "coast-down curve", "stop time and coast-down curve"
 
-  /// The variance of ln m'; empty if the surge fit has no covariance.
+  /// Total variance of ln m'; empty if the surge fit has no covariance.
   std::optional<double> variance(const SteadyFit& surge) const;
-  /// Satterthwaite: V^2 / (V_surge^2/dof_surge + V_own^2/dof_own)
+  /// Satterthwaite's degrees of freedom V^2 / (V_surge^2/dof_surge + V_own^2/dof_own) of the total
+  /// variance V = V_surge + V_own.
   double dof(const SteadyFit& surge) const;
 };
 
 MassEstimate from_stop_time(const MassFromStopTime& mass, std::size_t runs);
 MassEstimate from_curve(const CoastFit& fit);
 
-/// w a + (1 - w) b with minimum variance; the error of the surge fit is common to a and b.
-/// Precondition: the surge fit has a covariance.
+/// Weighted mean w a + (1 - w) b with the smallest variance. The error of the surge fit is common
+/// to a and b. Precondition: the surge fit has a covariance.
 MassEstimate combined(const MassEstimate& a, const MassEstimate& b, const SteadyFit& surge);
 
-/// `estimates-disagree` if two estimates differ significantly (p < 0.01).
+/// The warning `estimates-disagree` if a and b differ significantly (p < 0.01); else empty.
 std::vector<Finding> disagreement(const MassEstimate& a, const MassEstimate& b,
                                   const SteadyFit& surge, const std::string& file);
 
-/// An estimate as an entry of /estimates. `noise`: text of the assumed errors.
+/// Report of an estimate for /estimates of model.json. `noise`: names of the quantities with
+/// errors.
 EstimatorReport report_of(const MassEstimate& mass, const SteadyFit& surge, Estimator estimator,
                           std::string_view noise);
 

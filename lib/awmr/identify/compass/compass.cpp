@@ -23,15 +23,17 @@ using compass::Parameters;
 using compass::Points;
 using Covariance = Eigen::Matrix<double, 5, 5>;
 
-/// Residuals within one of these parts of a circle may go together.
+/// Number of equal sectors of the circle. Residuals within a sector may be correlated.
 constexpr int kSectors = 36;
 /// Largest gap of headings that is accepted in a calibration turn.
 constexpr double kLargestGapDeg = 30.0;
-/// Beyond this share of the field something else than hard and soft iron is there.
+/// Residual standard deviation, as a share of the field, above which `compass-residual` is
+/// reported. Hard and soft iron alone leave less.
 constexpr double kLargeResidual = 0.05;
-/// Beyond it there is no ellipse.
+/// Residual standard deviation, as a share of the field, above which the ellipse is refused.
 constexpr double kNoEllipse = 0.2;
-/// Compass and gyroscope may differ by this share of the turn: a scale within its tolerance.
+/// Accepted difference of the turn angles of compass and gyroscope, as a share of the turn. Allows
+/// for the gyroscope's scale error.
 constexpr double kTurnTolerance = 0.1;
 
 Points points_of(const FieldRecord& record) {
@@ -42,7 +44,7 @@ Points points_of(const FieldRecord& record) {
   return points;
 }
 
-/// From magnetic north, counter-clockwise; by row.
+/// Magnetic heading of each row, rad, counter-clockwise from magnetic north.
 std::vector<double> headings_of(const Ellipse& ellipse, const Points& points) {
   std::vector<double> headings;
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
@@ -52,7 +54,7 @@ std::vector<double> headings_of(const Ellipse& ellipse, const Points& points) {
   return headings;
 }
 
-/// The largest part of the circle without a heading: where it begins, and its size.
+/// Largest part of the circle without a heading, rad: its beginning and its size.
 std::pair<double, double> largest_gap_rad(std::vector<double> headings) {
   std::sort(headings.begin(), headings.end());
   std::pair<double, double> largest{headings.back(),
@@ -69,17 +71,17 @@ std::size_t sector_of(double heading_rad) {
   return static_cast<std::size_t>(std::clamp(static_cast<int>(share * kSectors), 0, kSectors - 1));
 }
 
-/// The fit's parameters and how well they are known.
+/// A fitted ellipse with its uncertainty.
 struct Known {
   Ellipse ellipse;
   Covariance covariance = Covariance::Zero();
-  double half = 0.0;      ///< half width of a 95 % interval over the standard error
-  double residual = 0.0;  ///< standard deviation
+  double half = 0.0;      ///< half width of a 95 % interval, in standard errors
+  double residual = 0.0;  ///< standard deviation of the residuals, as a share of the field
 };
 
-/// The covariance where residuals of a sector may go together: what becomes of the parameters where
-/// one of the n sectors is left out. With J_s the rows of derivatives of sector s and r_s its
-/// residuals,
+/// Computes the covariance of the ellipse by leaving out one of the n sectors at a time, because
+/// the residuals within a sector may be correlated. With the Jacobian J_s and the residuals r_s of
+/// sector s, and the Jacobian J of all rows,
 ///     D_s = (J'J - J_s'J_s)^-1 J_s' r_s,   (n - 1)/n sum over s of D_s D_s'    [Efron 1982, 3.1]
 Known known(const Ellipse& ellipse, const Points& points, const std::vector<double>& headings) {
   Known known{.ellipse = ellipse};
@@ -111,7 +113,7 @@ Known known(const Ellipse& ellipse, const Points& points, const std::vector<doub
   return known;
 }
 
-/// The bound of the heading's error that the covariance leaves, in the worst direction:
+/// 95 % bound of the heading error due to the covariance, rad, at the worst heading:
 ///     d heading = (c_left d c_ahead - c_ahead d c_left)/|c|^2
 double heading_error_rad(const Known& known) {
   const Ellipse& ellipse = known.ellipse;
@@ -127,12 +129,12 @@ double heading_error_rad(const Known& known) {
   return known.half * std::sqrt(worst);
 }
 
-/// A function of the parameters with its interval, by central differences of it.
+/// Value of a function of the ellipse with its 95 % interval, by central differences.
 template <class Function>
 WithInterval with_interval(const Known& known, const Function& function) {
   Parameters gradient;
   for (int k = 0; k < 5; ++k) {
-    // The gains are of the size 1/field; so is what is known of the centre, times the field.
+    // Step relative to the size of the field for the centre, to 1/field for the gains.
     const double scale = k < 2 ? 1.0 / known.ellipse.gain().norm() : known.ellipse.gain().norm();
     const double step = 1e-5 * scale;
     Ellipse up = known.ellipse;
@@ -146,7 +148,7 @@ WithInterval with_interval(const Known& known, const Function& function) {
   return {value, {value - half, value + half}};
 }
 
-/// The angle from the first row to the last; rows are closer than half a turn.
+/// Angle turned from the first row to the last, rad. Precondition: less than half a turn per row.
 double turned_rad(const std::vector<double>& headings) {
   double turned = 0.0;
   for (std::size_t i = 1; i < headings.size(); ++i) {
@@ -164,39 +166,41 @@ double turned_by_gyro_rad(const FieldRecord& record) {
   return turned;
 }
 
-/// Compares the turns by compass and gyroscope. Errors (refused): they turn against each other, or by
-/// amounts that are more than kTurnTolerance apart.
+/// Compares the angle `turned` of the compass with that of the gyroscope. Errors (refused): the
+/// angles have opposite signs or differ by more than kTurnTolerance.
 Status check_turn(const FieldRecord& record, double turned, std::vector<Finding>& findings) {
   if (record.yaw_rate_radps.empty()) {
     findings.push_back({record.file, 0, Severity::kNote, "turn-not-checked",
-                        "there is no yaw_rate_radps: that ahead is ahead and left is left was not "
-                        "checked"});
+                        "there is no yaw_rate_radps, so the signs of field_ahead and field_left "
+                        "were not checked; record the yaw rate too"});
     return {};
   }
   const double gyro = turned_by_gyro_rad(record);
   if (gyro * turned < 0.0) {
     return refusal(
         ErrorCode::kCompassUnusable,
-        fmt::format(
-            "{}: the compass turns by {:.0f} deg while the gyroscope turns by {:.0f}: one of "
-            "field_ahead and field_left has the wrong sign, or they are exchanged, or "
-            "yaw_rate_radps is positive to the right",
-            record.file, degrees(turned), degrees(gyro)));
+        fmt::format("{}: the compass turns by {:.0f} deg while the gyroscope turns by {:.0f} deg. "
+                    "Check the "
+                    "signs of field_ahead and field_left, whether they are exchanged, and that "
+                    "yaw_rate_radps is positive to the left",
+                    record.file, degrees(turned), degrees(gyro)));
   }
   if (std::abs(turned - gyro) <= kTurnTolerance * std::abs(turned)) return {};
   return refusal(ErrorCode::kCompassUnusable,
                  fmt::format("{}: the compass turns by {:.0f} deg while the gyroscope turns by "
-                             "{:.0f}, more than {:.0f} % "
-                             "apart: check that yaw_rate_radps is in rad/s and without bias, and "
-                             "that no row is missing",
+                             "{:.0f} deg, a difference of more than {:.0f} %; check that "
+                             "yaw_rate_radps is in rad/s and without bias, and that no row is "
+                             "missing",
                              record.file, degrees(turned), degrees(gyro), 100.0 * kTurnTolerance));
 }
 
-/// Errors (refused): the vehicle's float cannot represent the field next to the centre, or the
-/// field is so much weaker along one axis that noise determines the heading.
+/// Checks whether the firmware can use the calibration. Errors (refused): the centre is so large
+/// that rounding to float changes it by more than 0.1 % of the field, or one axis of the ellipse is
+/// more than ten times the other, so that noise determines the heading.
 Status check_usable(const std::string& file, const CompassCalibration& c) {
-  constexpr double kRounding = 1e-3;  // of the field: 0.06 deg
-  constexpr double kRoundest = 10.0;  // longer axis over the shorter one
+  constexpr double kRounding =
+      1e-3;  // largest rounding error of the centre over the field: 0.06 deg
+  constexpr double kRoundest = 10.0;  // largest ratio of the longer axis to the shorter axis
   const double field = c.field.value;
   for (const double centre : {c.centre_ahead.value, c.centre_left.value}) {
     const double rounded = static_cast<double>(static_cast<float>(centre));
@@ -204,11 +208,11 @@ Status check_usable(const std::string& file, const CompassCalibration& c) {
     return refusal(
         ErrorCode::kCompassUnusable,
         fmt::format("{}: the centre {:.9g} is too large compared with the field {:.4g} for the "
-                    "vehicle's 24-bit numbers: subtract the offset from the readings, or "
+                    "firmware's float numbers (24 bits); subtract a constant from the readings, or "
                     "move the magnet away",
                     file, centre, field));
   }
-  // S has the eigenvalues 1/a and 1/b of the axes, and a determinant of 1.
+  // The ratio of the axes a and b is that of the eigenvalues of S, which are 1/a and 1/b.
   const double mean = 0.5 * (c.gain_ahead.value + c.gain_left.value);
   const double apart =
       std::hypot(0.5 * (c.gain_ahead.value - c.gain_left.value), c.gain_cross.value);
@@ -217,12 +221,13 @@ Status check_usable(const std::string& file, const CompassCalibration& c) {
   return refusal(
       ErrorCode::kCompassUnusable,
       fmt::format(
-          "{}: the field is {:.3g} times weaker along one axis than along the other: one axis "
-          "of the compass is dead, or iron is too near",
+          "{}: the field is {:.3g} times weaker along one axis than along the other; check for a "
+          "dead compass axis, or for iron too close to the compass",
           file, ratio));
 }
 
-/// det S = 1: |c| is then the field, in the unit of f.
+/// Converts the ellipse to the calibration in the model. S is scaled to det S = 1, so that |c| is
+/// the field in the unit of the readings f.
 CompassCalibration calibration_of(const Known& known) {
   const auto root = [](const Ellipse& e) { return std::sqrt(e.gain().determinant()); };
   const auto gain = [&](int k) {
@@ -247,22 +252,22 @@ Result<CompassFit> fit_compass(const FieldRecord& record, double declination_deg
     return refusal(
         ErrorCode::kCompassUnusable,
         record.file +
-            ": the field makes no ellipse: turn the vehicle through two whole circles, level, "
-            "away from iron");
+            ": the field makes no ellipse; turn the vehicle through two whole circles on level "
+            "ground, away from iron");
   }
   const std::vector<double> headings = headings_of(*ellipse, points);
   const auto [gap_begin, gap] = largest_gap_rad(headings);
   if (degrees(gap) > kLargestGapDeg) {
     return refusal(ErrorCode::kCompassUnusable,
-                   fmt::format("{}: the turn leaves {:.0f} deg out, from {:.0f} deg on: an ellipse "
-                               "through the rest is a guess; turn through two whole circles",
+                   fmt::format("{}: the turn leaves {:.0f} deg out, from {:.0f} deg on, so the "
+                               "ellipse is uncertain there; turn through two whole circles",
                                record.file, degrees(gap), degrees(gap_begin)));
   }
   const Known fit = known(*ellipse, points, headings);
   if (fit.residual > kNoEllipse) {
     return refusal(ErrorCode::kCompassUnusable,
                    fmt::format("{}: the field is off the best ellipse by {:.0f} % (standard "
-                               "deviation): iron moved, or the vehicle was not level",
+                               "deviation); record again on level ground, away from moving iron",
                                record.file, 100.0 * fit.residual));
   }
   CompassFit result{.calibration = calibration_of(fit)};
@@ -274,8 +279,8 @@ Result<CompassFit> fit_compass(const FieldRecord& record, double declination_deg
     result.findings.push_back(
         {record.file, 0, Severity::kWarning, "compass-residual",
          fmt::format(
-             "the field is off the best ellipse by {:.1f} % (standard deviation), which may "
-             "turn the heading by {:.1f} deg: iron near by, or a vehicle that is not level",
+             "the field is off the best ellipse by {:.1f} % (standard deviation), a heading error "
+             "of about {:.1f} deg; record again on level ground, away from iron",
              100.0 * fit.residual, degrees(fit.residual))});
   }
   AWMR_RETURN_IF_ERROR(check_turn(record, turned_rad(headings), result.findings));

@@ -1,4 +1,4 @@
-/// Hard and soft iron of a compass from a record of its field over whole turns.
+/// Calibration of a compass for hard and soft iron, from its field recorded over whole turns.
 #pragma once
 
 #include <vector>
@@ -15,11 +15,13 @@ struct CompassFit {
   std::vector<Finding> findings = {};
 };
 
-/// Fits the ellipse with the least squares of the distances, divided by its size. Intervals allow
-/// for residuals that are correlated within 10 degrees of the turn. Findings: `compass-residual`
-/// (the field is no ellipse within 5 %), `turn-not-checked` (no yaw rate). Errors (refused): the
-/// turn leaves more than 30 degrees out; the field is no ellipse; compass and gyroscope turn by
-/// amounts that are more than 10 % apart, or against each other.
+/// Fits an ellipse to the measured field by least squares of the distances from the ellipse,
+/// relative to its size. Intervals allow for residuals that are correlated within 10 degrees of the
+/// turn. Findings: `compass-residual` (residuals above 5 % of the field), `turn-not-checked` (no
+/// yaw rate). Errors (refused): no field within more than 30 degrees of the circle; residuals above
+/// 20 % or no ellipse; a centre or axes that the firmware cannot use; turn angles of compass and
+/// gyroscope that differ by more than 10 % or in sign. `declination_deg` is stored in the
+/// calibration.
 Result<CompassFit> fit_compass(const FieldRecord& record, double declination_deg);
 
 }  // namespace awmr

@@ -16,9 +16,10 @@ Ellipse ellipse_of(const Eigen::Vector2d& centre, const Eigen::Matrix2d& gain) {
   return ellipse;
 }
 
-/// The conic A x^2 + B x y + C y^2 + D x + E y = 1 of least squares:
+/// Initial guess: fits the conic A x^2 + B x y + C y^2 + D x + E y = 1 by linear least squares. It
+/// is
 ///     (f - o)' M (f - o) = k,  M = (A, B/2; B/2, C),  o = -M^-1 (D, E)/2,  k = 1 + o' M o,
-/// which is |S (f - o)| = 1 with S = (M/k)^(1/2), where M/k is positive definite.
+/// which equals |S (f - o)| = 1 with S = (M/k)^(1/2). Empty if M/k is not positive definite.
 std::optional<Ellipse> conic(const Points& points) {
   Eigen::MatrixXd terms(points.rows(), 5);
   const auto x = points.col(0).array();
@@ -37,7 +38,7 @@ std::optional<Ellipse> conic(const Points& points) {
       centre, shape.vectors * shape.values.cwiseSqrt().asDiagonal() * shape.vectors.transpose());
 }
 
-/// For ceres::TinySolver: the residuals of all points and their derivatives, column by column.
+/// Cost function for ceres::TinySolver: residuals of all points and their Jacobian, column-major.
 struct Distances {
   using Scalar = double;
   enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = 5 };
@@ -86,7 +87,7 @@ Eigen::Matrix<double, 1, 5> residual_gradient(const Ellipse& ellipse, const Eige
 }
 
 std::optional<Ellipse> fit_ellipse(const Points& points) {
-  // About their mean and over their size all terms of the conic have the same magnitude.
+  // Centred and scaled points give all terms of the conic the same magnitude.
   const Eigen::RowVector2d mean = points.colwise().mean();
   const double size =
       std::sqrt((points.rowwise() - mean).squaredNorm() / static_cast<double>(points.rows()));

@@ -1,4 +1,4 @@
-/// The ellipse through points of a plane. Private to this folder.
+/// Least-squares fit of an ellipse to points in a plane. Private to identify/compass/.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,27 +7,27 @@
 namespace awmr::compass {
 
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 2>;
-/// o_1, o_2, S_11, S_12, S_22
+/// Parameters of an ellipse: o_1, o_2, S_11, S_12, S_22.
 using Parameters = Eigen::Matrix<double, 5, 1>;
 
-/// |S (f - o)| = 1 for the points f of the ellipse; S symmetric and positive definite.
+/// Ellipse of the points f with |S (f - o)| = 1: centre o, gain S, symmetric and positive definite.
 struct Ellipse {
   Parameters p = Parameters::Zero();
 
   Eigen::Vector2d centre() const { return p.head<2>(); }
   Eigen::Matrix2d gain() const;
-  /// c = S (f - o)
+  /// Maps the ellipse to the unit circle: c = S (f - o).
   Eigen::Vector2d on_circle(const Eigen::Vector2d& f) const;
 };
 
-/// r = |S (f - o)| - 1
+/// Residual r = |S (f - o)| - 1 of a point f.
 double residual(const Ellipse& ellipse, const Eigen::Vector2d& f);
-/// dr/dp, a row
+/// Gradient dr/dp of the residual by the parameters.
 Eigen::Matrix<double, 1, 5> residual_gradient(const Ellipse& ellipse, const Eigen::Vector2d& f);
-/// dc/dp
+/// Derivatives dc/dp of the point on the unit circle by the parameters.
 Eigen::Matrix<double, 2, 5> circle_gradient(const Ellipse& ellipse, const Eigen::Vector2d& f);
 
-/// The ellipse of least squares of the residuals. Empty if the points determine no ellipse.
+/// Fits the ellipse with the smallest sum of squared residuals. Empty if the points determine none.
 std::optional<Ellipse> fit_ellipse(const Points& points);
 
 }  // namespace awmr::compass

@@ -12,7 +12,8 @@
 namespace awmr {
 namespace {
 
-/// Adds fits of the other families of surge resistance. Returns advice if another one is best.
+/// Adds reports of the other families of surge resistance. Returns advice if one of them is better
+/// than the chosen fit.
 std::optional<std::string> try_rivals(BestFamily alternatives, const FamilyFit& chosen,
                                       Adequacy& adequacy) {
   for (EstimatorReport& report : reports_of(alternatives.others, chosen)) {
@@ -21,13 +22,14 @@ std::optional<std::string> try_rivals(BestFamily alternatives, const FamilyFit& 
   for (Finding& finding : alternatives.findings) adequacy.findings.push_back(std::move(finding));
   if (alternatives.best.surge == Family::kPower) return std::nullopt;
   adequacy.alternatives.push_back(alternatives.best.fit.report);
-  return fmt::format("a power law does not describe these logs; {} does better by {:.0f} of AIC",
+  return fmt::format("a power law does not fit these logs; use {}, whose AIC is lower by {:.0f}",
                      option_text(fmt::format("family surge={}", name_of(alternatives.best.surge))),
                      aic_lead(alternatives.best.fit, chosen.fit));
 }
 
-/// True for channels whose errors are evaluated: speed and yaw rate, or without them their
-/// integrals. Compass and GPS have drift of their own.
+/// True for channels whose large drift invalidates the intervals: speed and yaw rate, the position
+/// if there is no speed, the heading if there is no yaw rate. (Otherwise a drift of position or
+/// heading can come from the GNSS receiver or the compass.)
 bool is_evaluated(const NoiseLevels& noise, LogChannel channel) {
   switch (channel) {
     case LogChannel::kSpeed:
@@ -43,8 +45,8 @@ bool is_evaluated(const NoiseLevels& noise, LogChannel channel) {
   }
 }
 
-/// True if only positions are measured. A lasting error can then also be due to a drifting receiver
-/// or to a wrong optimum.
+/// True if only positions are measured. A lasting error can then also come from a drifting receiver
+/// or from a search that ended in a wrong optimum.
 bool has_only_positions(const NoiseLevels& noise) {
   return std::ranges::all_of(noise, [](const auto& channel) {
     return channel.first == LogChannel::kX || channel.first == LogChannel::kY;
@@ -62,8 +64,8 @@ std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::stri
     findings.push_back(
         {file, 0, fit.widened >= kMuch ? Severity::kWarning : Severity::kNote, "coloured-residuals",
          fmt::format("{}: the residuals are correlated (p = {:.2g}) beyond their noise model, so "
-                     "the model is incomplete; standard errors are widened by a factor of up to "
-                     "{:.2g}, to the scatter of blocks of the logs",
+                     "the model is incomplete. Standard errors are multiplied by up to {:.2g}, "
+                     "according to the scatter between parts of the logs",
                      test.name, test.p_value, fit.widened)});
   }
   return findings;

@@ -1,4 +1,4 @@
-/// Checks whether the model describes the logs. Private to identify/.
+/// Checks whether the fitted model describes the logs. Private to identify/.
 #pragma once
 
 #include <vector>
@@ -7,18 +7,20 @@
 
 namespace awmr {
 
-/// `coloured-residuals` for every channel whose residuals are still correlated after whitening. A
-/// warning if the standard errors were widened by half or more because of it.
+/// The finding `coloured-residuals` for every channel whose residuals are correlated after
+/// whitening. A warning if this widened the standard errors by 50 % or more, else a note.
 std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::string& file);
 
+/// Result of check_adequacy().
 struct Adequacy {
   std::vector<EstimatorReport> alternatives;  ///< fits of other families, if any
   std::vector<Finding> findings;
-  bool withdraws_intervals = false;  ///< the intervals of this model are invalid
+  bool withdraws_intervals = false;  ///< the model error is so large that the intervals are invalid
 };
 
-/// `model-inadequate` for every channel whose errors are due to the model, not the sensor. If that
-/// is the speed and `try_families`, the other families of surge resistance are fitted too.
+/// Reports `model-inadequate` for every channel whose residuals show a model error. If the speed is
+/// one of these channels and `try_families` is set, also fits the other families of surge
+/// resistance.
 Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         const FamilyFit& chosen, bool try_families);
 

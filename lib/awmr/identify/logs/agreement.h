@@ -1,4 +1,4 @@
-/// Comparison of a parameter from logs with that from other trials. Private to identify/.
+/// Comparison of a parameter from logs with its value from other trials. Private to identify/.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace awmr {
 
-/// `estimates-disagree` if the fit's i-th quantity, a parameter, differs significantly from the
-/// estimate of other trials (normal in the coordinate, two-sided, p < 0.01). Empty if the other
-/// trials gave no value with a standard error.
+/// The warning `estimates-disagree` if quantity `i` of the log fit, a parameter, differs
+/// significantly from the estimate `known` of other trials (two-sided normal test in the
+/// coordinate, p < 0.01). Else empty, also if `known` has no standard error.
 std::optional<Finding> disagreement(const LogFit& fit, std::size_t i, const Estimate& known,
                                     const std::string& file);
 

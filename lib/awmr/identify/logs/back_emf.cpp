@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Time in which the motors are off and the vehicle can still roll: without gaps in the log, within
-/// kRolls_s after being driven.
+/// Total time, s, with the motors off while the vehicle probably still rolls: within kRolls_s of
+/// driving, without gaps in the log.
 double coasting_s(const DrivingLog& log) {
   constexpr double kRolls_s = 3.0;
   const double gap_s = kGapSteps * log.median_step_s();
@@ -46,13 +46,13 @@ std::string why_no_back_emf(const std::vector<DrivingLog>& logs) {
   for (const DrivingLog& log : logs) coasts_s += coasting_s(log);
   if (coasts_s >= kEnough_s) return {};
   return fmt::format(
-      "the vehicle coasts (both forces 0) for only {:.2g} s, and under power back-EMF is "
-      "indistinguishable from linear resistance",
+      "the vehicle coasts (both forces 0) for only {:.2g} s, and while the motors drive, back-EMF "
+      "is indistinguishable from linear resistance",
       coasts_s);
 }
 
 LogFitOptions with_back_emf(LogFitOptions options) {
-  constexpr double kShare = 0.1;  // of the resistance at 1 m/s
+  constexpr double kShare = 0.1;  // initial back-EMF, as a share of the resistance at 1 m/s
   double& guess = options.initial_guess[at(ParameterId::kBackEmf)];
   if (!(guess > 0.0)) guess = kShare * options.initial_guess[at(ParameterId::kSurgeAlpha)] / 4.0;
   if (!frees_back_emf(options)) options.free.push_back(ParameterId::kBackEmf);
@@ -64,7 +64,7 @@ bool frees_back_emf(const LogFitOptions& options) {
 }
 
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms) {
-  constexpr double kWorthATry = 4.0;  // of -2 ln L
+  constexpr double kWorthATry = 4.0;  // estimated decrease of -2 ln L
   const auto candidate_term = std::ranges::find(candidate_terms, ParameterId::kBackEmf);
   if (candidate_term == candidate_terms.end()) return false;
   if (!fit.usable || fit.suspect_gain[at(candidate_term - candidate_terms.begin())] > kWorthATry)
@@ -86,13 +86,13 @@ Finding back_emf_finding(const std::string& file, const FamilyFit& with, const F
   double std_error = 0.0;
   const double k = fitted_back_emf(with, std_error);
   return {file, 0, Severity::kWarning, "back-emf",
-          fmt::format("motors with a force independent of speed do not describe these logs. With "
-                      "back-EMF, {:.3g} +- {:.2g} of the largest force per m/s, the fit {}, and is "
-                      "used; resistance is then identified from coasting",
+          fmt::format("motors with a force independent of speed do not describe these logs. The "
+                      "model with back-EMF, {:.3g} +- {:.2g} of the largest force per m/s, {} and "
+                      "is used; the coasting sections then determine the resistance",
                       k, std_error,
-                      without.fit.usable ? fmt::format("is better by {:.0f} of AIC",
+                      without.fit.usable ? fmt::format("has an AIC lower by {:.0f}",
                                                        aic_lead(with.fit, without.fit))
-                                         : "converges, as it does not without")};
+                                         : "converges, the one without does not,")};
 }
 
 }  // namespace awmr

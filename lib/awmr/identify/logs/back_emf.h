@@ -1,8 +1,8 @@
-/// Back-EMF of the motors as a free parameter of a log fit. Private to identify/.
+/// Estimation of the motors' back-EMF k_e from logs. Private to identify/.
 ///
 /// While the motors drive, back-EMF cannot be separated from a linear resistance. Straight ahead,
 ///     m' du/dt = 4 (F' - k_e u) - g1(u)
-/// and with the motors off only g1 acts. So k_e needs logs with both.
+/// With the motors off only g1 acts. Logs for k_e therefore need driving and coasting.
 #pragma once
 
 #include <string>
@@ -12,24 +12,25 @@
 
 namespace awmr {
 
-/// Reason why these logs cannot separate k_e from resistance. Empty if the vehicle coasts for a
-/// second or more, shortly after being driven.
+/// Reason why these logs cannot separate k_e from the resistance. Empty if the vehicle coasts for
+/// at least a second in all, within 3 s of driving.
 std::string why_no_back_emf(const std::vector<DrivingLog>& logs);
 
-/// The options with k_e free; its initial guess is set if it has none.
+/// Returns the options with k_e free. Sets an initial guess of k_e if there is none.
 LogFitOptions with_back_emf(LogFitOptions options);
 
-/// Whether k_e is free in a fit with these options.
+/// True if k_e is free in a fit with these options.
 bool frees_back_emf(const LogFitOptions& options);
 
-/// Whether to fit with k_e free: its score test has a large gain, slow drift of a channel may hide
-/// it, or the fit did not converge. Precondition: k_e is a candidate term of this fit.
+/// True if a fit with k_e free should be tried after `fit`: the score test of k_e has a large gain,
+/// a slow drift of a channel may hide k_e, or `fit` did not converge. Precondition: k_e is a
+/// candidate term of `fit`.
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms);
 
-/// Whether a fit with k_e free is significantly better than one without, and identifies k_e.
+/// True if the fit with k_e is significantly better than the fit without, and identifies k_e.
 bool shows_back_emf(const FamilyFit& with, const FamilyFit& without);
 
-/// `back-emf`: the chosen model and the improvement of the fit.
+/// The warning `back-emf`: the model with k_e is used; its k_e and the improvement of the fit.
 Finding back_emf_finding(const std::string& file, const FamilyFit& with, const FamilyFit& without);
 
 }  // namespace awmr

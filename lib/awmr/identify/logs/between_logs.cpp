@@ -18,9 +18,9 @@
 namespace awmr {
 namespace {
 
-constexpr double kLevel = 0.001;  // of a test of all quantities
+constexpr double kLevel = 0.001;  // significance level of the test of all quantities together
 
-/// One quantity by single logs.
+/// Estimates of one quantity by single logs.
 struct ByLog {
   std::vector<std::string> files;
   std::vector<double> coordinates;
@@ -35,14 +35,14 @@ std::optional<std::size_t> place_in(const LogFit& fit, const std::string& name) 
   return std::nullopt;
 }
 
-/// Adds the estimate of one log.
+/// Adds the estimate of one log to `by_log`.
 void add(const std::string& file, double coordinate, double variance, ByLog& by_log) {
   by_log.files.push_back(file);
   by_log.coordinates.push_back(coordinate);
   by_log.weights.push_back(1.0 / variance);
 }
 
-/// `files`: by fit.
+/// Collects the estimates of the quantity `name` from the fits that identify it. `files`: by fit.
 ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& fits,
               const std::string& name) {
   ByLog found;
@@ -58,8 +58,8 @@ ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& 
 /// Result of Cochran's Q test that the logs agree on a quantity.
 struct Heterogeneity {
   double p_value = 1.0;
-  double std_error = 0.0;    ///< of the coordinate's mean over such logs
-  double mean_square = 0.0;  ///< Q/(L - 1)
+  double std_error = 0.0;    ///< of the coordinate's mean over such logs, with tau^2 included
+  double mean_square = 0.0;  ///< Q/(L - 1), about 1 if the L logs agree
 };
 
 Heterogeneity heterogeneity(const ByLog& by_log) {
@@ -82,9 +82,9 @@ Heterogeneity heterogeneity(const ByLog& by_log) {
           q / degrees};
 }
 
-/// Widens the standard error of the i-th quantity of the common fit to this one, from this many
-/// logs. That of the common fit can already be larger, because it includes the scatter of rows that
-/// one value does not describe.
+/// Raises the standard error of quantity `i` of the common fit to `std_error`, which comes from
+/// `logs` logs, and sets the interval. Keeps a larger standard error: the common fit already
+/// includes the scatter of rows that one value does not describe.
 void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   const Eigen::Index row = eigen_index(i);
   const double by = std::max(1.0, std_error / std::sqrt(fit.covariance(row, row)));
@@ -99,12 +99,12 @@ void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   parameter.ci95 = Interval{q.value(x - half), q.value(x + half)};
 }
 
-/// The rows of a log between these shares of its duration.
+/// The rows of a log from the share `from` to the share `to` of its duration.
 LogPart part_of(const std::vector<DrivingLog>& log, double from, double to,
                 const std::string& which) {
   const std::vector<double>& t_s = log.front().t_s;
   const double duration_s = t_s.back() - t_s.front();
-  // The last row is in the last part.
+  // The interval is half-open, so the last part ends after the last row.
   const double end_s = to < 1.0 ? t_s.front() + to * duration_s : t_s.back() + 1.0;
   return {log,
           {t_s.front() + from * duration_s, end_s},
@@ -134,16 +134,16 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
     one.refuses = std::sqrt(common.fit.covariance(row, row)) > kUnknown * q.large_change;
     if (one.refuses) {
       common.fit.why_not[i] =
-          fmt::format("the logs disagree on it: {:.4g}", fmt::join(one.values, ", "));
+          fmt::format("the logs give different values: {:.4g}", fmt::join(one.values, ", "));
     }
     disagreements.push_back(one);
   }
   return disagreements;
 }
 
-/// The term outside the common fit on which the logs differ most in their score tests, if by more
-/// than three standard errors. The standard errors are those of the noise model, because blocks
-/// with a common error also scatter.
+/// The term outside the common fit whose score tests differ most between the logs, if by more than
+/// three standard errors. The standard errors are by the noise model, because the blocks of one log
+/// have the same command error and do not show it as scatter.
 std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>& logs,
                                                    const LogFitOptions& options,
                                                    const LogFit& common) {
@@ -168,7 +168,7 @@ std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>
   return strongest;
 }
 
-/// Frees a term outside the common fit on which the logs disagree.
+/// Fits the strongest missing term to each log. Returns the disagreement of the logs on it, if any.
 std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLog>& logs,
                                                      const std::vector<std::string>& files,
                                                      LogFitOptions options, const LogFit& common) {
@@ -209,11 +209,11 @@ LogComparison compare_parts(const std::vector<DrivingLog>& log, const LogFitOpti
 }  // namespace
 
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common) {
-  constexpr double kLongEnough_s = 20.0;  // so that each half has information
+  constexpr double kLongEnough_s = 20.0;  // shorter logs have too little information in each half
   if (!common.fit.usable) return {};
   LogFitOptions options = from_optimum(common.options, common);
   options.bootstrap = 0;
-  options.effort.reset();  // short searches from the optimum, needed for valid intervals
+  options.effort.reset();  // no limit: these searches are short and decide if intervals are valid
   if (logs.size() == 1) {
     const std::vector<double>& t_s = logs.front().t_s;
     if (t_s.back() - t_s.front() < kLongEnough_s) return {};

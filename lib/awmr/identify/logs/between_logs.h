@@ -1,4 +1,5 @@
-/// Tests whether several logs agree on the vehicle's parameters. Private to identify/.
+/// Test whether several logs, or the halves of one log, agree on the parameters. Private to
+/// identify/.
 #pragma once
 
 #include <optional>
@@ -10,42 +11,45 @@
 
 namespace awmr {
 
-/// A quantity that differs significantly between logs.
+/// A quantity whose values by single logs differ significantly.
 struct LogDisagreement {
   std::string name;
-  double p_value = 1.0;            ///< p of the hypothesis that all logs have one value
+  double p_value = 1.0;            ///< p of the hypothesis that all logs have the same value
   std::vector<std::string> files;  ///< logs that determine the quantity on their own
-  std::vector<double> values;      ///< by file
-  bool withdraws = false;          ///< the intervals of the common fit are invalid
-  bool refuses = false;            ///< the widened interval is too wide: refused in LogFit::why_not
+  std::vector<double> values;      ///< value by each of these logs
+  bool withdraws = false;          ///< true: all intervals of the common fit are invalid
+  bool refuses = false;            ///< true: the widened interval is too wide, so it is refused
 };
 
-/// Differences between fits of single logs, or of the halves of a single one.
+/// Result of compare_logs().
 struct LogComparison {
   std::vector<LogDisagreement> disagreements;
-  /// Set if the first half of a single log does not predict its last fifth although the halves
-  /// agree.
+  /// For a single log: set if its halves agree, but a fit of the first half does not predict the
+  /// last fifth.
   std::optional<HeldOut> missed;
 };
 
-/// Fits every log on its own from the common optimum and compares the results. With x_l, w_l =
-/// 1/var(x_l) of a coordinate in each of L logs that determine it,
+/// Fits every log on its own, starting from the common optimum, and compares the values. For a
+/// coordinate with the values x_l and the weights w_l = 1/var(x_l) in L logs,
 ///
-///     Q = sum w_l (x_l - mean)^2,   chi-squared with L - 1 degrees of freedom for one vehicle,
+///     Q = sum w_l (x_l - mean)^2,   chi-squared with L - 1 degrees of freedom if the logs agree,
 ///     tau^2 = (Q - (L - 1)) / (sum w - sum w^2 / sum w)                    (DerSimonian and Laird)
 ///
-/// If p < 0.001 over all quantities, the standard error of the common fit is widened at least to
-/// that of the mean over such logs, and the interval covers that mean. A quantity whose standard
-/// error then exceeds kUnknown is refused. Biases may differ between logs. A delay or command error
-/// that the common fit lacks (for example a trim that was changed between two logs) is freed if its
-/// score tests differ most between the logs. If the logs disagree on it, or on a trim or imbalance
-/// of the common fit, the intervals of the common fit are invalid, because the other quantities
-/// absorb the effect in each log.
+/// with the variance tau^2 between logs. The logs disagree if p < 0.001 (Bonferroni over all
+/// quantities). The standard error of the common fit is then raised to at least that of the mean
+/// over such logs, and the interval covers that mean, not an individual log. A quantity whose
+/// standard error then exceeds kUnknown large changes is refused. Biases may differ between logs.
 ///
-/// For a single log of 20 s or more, a fit of the first half predicts the second half and the last
-/// fifth (held_out.h). If it predicts both (p > 0.05), there is no difference; otherwise the halves
-/// are compared as two logs. A last fifth that is not predicted (p < 0.001) is reported if the
-/// halves agree.
+/// A delay or command error that the common fit lacks can differ between logs, for example a trim
+/// that was changed between two of them. The term whose score tests differ most between the logs is
+/// therefore fitted too. If the logs disagree on this term, or on a trim or imbalance of the common
+/// fit, all intervals of the common fit are invalid, because the other quantities absorb the
+/// effect.
+///
+/// A single log of 20 s or more is split: a fit of its first half predicts its second half and its
+/// last fifth (held_out.h). If both are predicted (p > 0.05), there is no disagreement. Otherwise
+/// the halves are compared like two logs. If the halves agree, a last fifth that is not predicted
+/// (p < 0.001) is returned as `missed`.
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common);
 
 }  // namespace awmr

@@ -15,7 +15,7 @@ Eigen::VectorXd mean_of(const std::vector<Eigen::VectorXd>& scores, Eigen::Index
   return mean;
 }
 
-/// Sum of n of the n scores, drawn with replacement, after subtracting their mean.
+/// Sum of n scores drawn with replacement from the n scores, less n times their mean.
 Eigen::VectorXd drawn_sum(const std::vector<Eigen::VectorXd>& scores, const Eigen::VectorXd& mean,
                           Random& random) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(mean.size());
@@ -30,7 +30,7 @@ double percentile(const std::vector<double>& sorted, double share) {
   return sorted[at(std::lround(share * static_cast<double>(sorted.size() - 1)))];
 }
 
-/// Ratio of `std` to the standard deviation of the draws; 1 if they do not vary.
+/// Ratio of `std` to the standard deviation of the draws; 1 if all draws are equal.
 double scale_to(double std, const std::vector<double>& draws) {
   double squares = 0.0;
   for (const double draw : draws) squares += draw * draw;
@@ -43,7 +43,7 @@ std::vector<Interval> block_bootstrap(const BootstrapInput& input,
                                       const BootstrapOptions& options) {
   if (options.resamples <= 0) return {};
   const std::size_t n = input.quantities.size();
-  std::vector<std::vector<double>> draws(n);  // by quantity: the coordinate's change
+  std::vector<std::vector<double>> draws(n);  // by quantity: change of the coordinate, by resample
   Random random(options.seed, 2);
   const Eigen::VectorXd mean = mean_of(input.scores, eigen_index(n));
   for (int b = 0; b < options.resamples; ++b) {

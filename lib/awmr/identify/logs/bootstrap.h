@@ -1,4 +1,4 @@
-/// Block-bootstrap intervals, which do not depend on the noise model. Private to identify/.
+/// Block-bootstrap intervals of a log fit. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ struct BootstrapOptions {
   std::uint64_t seed = 1;
 };
 
-/// The solution with its covariance (n x n), and the scores (n) of blocks of the logs.
+/// Solution with n quantities, its covariance (n x n), and the score (n) of each block of the logs.
 struct BootstrapInput {
   const std::vector<FreeQuantity>& quantities;
   const std::vector<double>& coordinates;
@@ -22,10 +22,10 @@ struct BootstrapInput {
   const std::vector<Eigen::VectorXd>& scores;
 };
 
-/// Block bootstrap: blocks drawn with replacement, one Gauss-Newton step from the solution for each
-/// draw, scaled to the covariance's standard error; the 2.5 % and 97.5 % percentiles of every
-/// quantity's value. The shape of the intervals need not be normal. Empty if no resamples are
-/// requested.
+/// Computes 95 % intervals by a block bootstrap. Each resample draws blocks with replacement and
+/// makes one Gauss-Newton step from the solution. The steps are scaled to the standard error of the
+/// covariance, so that the bootstrap determines only the shape of the intervals. The ends are the
+/// 2.5 % and 97.5 % percentiles of each quantity's value. Empty for 0 resamples.
 std::vector<Interval> block_bootstrap(const BootstrapInput& input, const BootstrapOptions& options);
 
 }  // namespace awmr

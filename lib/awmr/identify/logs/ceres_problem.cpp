@@ -17,12 +17,12 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 double prior_std(const LogProblem& problem, std::size_t i) {
   return kPriorStd * problem.model.quantities[i].large_change;
 }
-/// (x_i - initial_i) / std_i
+/// Residual (x_i - initial_i) / std_i of the prior of coordinate x_i at its initial guess.
 double prior_residual(const LogProblem& problem, std::size_t i, double x) {
   return (x - problem.initial[i]) / prior_std(problem, i);
 }
 
-/// Work of one evaluation of every window with its derivatives.
+/// Work of one evaluation of all windows with derivatives: number of integrated values.
 std::int64_t numbers_integrated(const LogProblem& problem) {
   double steps = 0.0;
   for (const FitWindow& window : problem.windows) {
@@ -35,11 +35,10 @@ std::int64_t numbers_integrated(const LogProblem& problem) {
   return std::llround(steps * static_cast<double>(1 + derivatives));
 }
 
-/// Evaluates all windows in parallel before Ceres requests the first one, at the point that Ceres
-/// changes. A coordinate at a bound with a cost gradient beyond it is fixed by derivatives of 0;
-/// otherwise a step cut at the bound would not be optimal for the other coordinates. Derivatives
-/// are always computed: they take little more time than the residuals, and Ceres needs them at
-/// every accepted point.
+/// Evaluates all windows in parallel at each new point, before Ceres requests the first window.
+/// Derivatives are always computed, because they take little more time than the residuals. If the
+/// cost falls beyond the bound of a coordinate at its bound, the derivatives by the coordinate are
+/// set to 0, which fixes it; a step cut at the bound would be wrong for the other coordinates.
 class Evaluator : public ceres::EvaluationCallback {
  public:
   Evaluator(const LogProblem& problem, const SearchPoint& point)
@@ -84,11 +83,11 @@ class Evaluator : public ceres::EvaluationCallback {
   const SearchPoint& point_;
   std::vector<WindowSums> sums_;
   std::vector<Triangle> triangles_;
-  std::vector<bool> held_;  ///< by coordinate
+  std::vector<bool> held_;  ///< by coordinate: true if fixed at its bound
 };
 
-/// Cost function of one window with the Evaluator's results, condensed to few rows. Blocks:
-/// coordinates, initial state.
+/// Cost function of one window. Returns the results of Evaluator, reduced to a triangular matrix.
+/// Parameter blocks: the coordinates, and the window's initial state.
 class WindowCost : public ceres::CostFunction {
  public:
   WindowCost(const Evaluator& evaluator, std::size_t window)
@@ -127,7 +126,7 @@ class WindowCost : public ceres::CostFunction {
   int initial_;
 };
 
-/// The weak prior of every coordinate at its initial guess.
+/// Cost function of the weak prior of every coordinate at its initial guess.
 class PriorCost : public ceres::CostFunction {
  public:
   explicit PriorCost(const Evaluator& evaluator) : evaluator_(evaluator) {
@@ -160,7 +159,7 @@ void bound(ceres::Problem& problem, const std::vector<Interval>& bounds,
   }
 }
 
-/// At least 1 ms, because Ceres rejects smaller limits.
+/// Time until the deadline, s; at least 1 ms, because Ceres rejects smaller limits.
 double seconds_until(std::chrono::steady_clock::time_point deadline) {
   const std::chrono::duration<double> left = deadline - std::chrono::steady_clock::now();
   return std::max(1e-3, left.count());
@@ -180,10 +179,10 @@ ceres::Solver::Options solver_options(double function_tolerance) {
   return options;
 }
 
-/// Ends a search if two steps in a row fail with a predicted decrease of -ln L below 0.05, which is
-/// a third of a standard error. On this scale the cost is not smooth: where the speed or the yaw
-/// rate changes sign, a Runge-Kutta step crosses the kink of the resistance, which happens
-/// thousands of times in a long log. Shorter steps would only find local minima.
+/// Ends a search after two failed steps in a row whose predicted decrease of -ln L is below 0.05 (a
+/// third of a standard error). On this scale the cost is rough, because Runge-Kutta steps cross the
+/// kink of the resistance wherever the speed or the yaw rate changes sign. Smaller steps would only
+/// find local minima.
 class EndAtRoughness : public ceres::IterationCallback {
  public:
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) final {
@@ -199,8 +198,8 @@ class EndAtRoughness : public ceres::IterationCallback {
   int failures_ = 0;
 };
 
-/// Ends a search at the limit of effort. Applies to sequential searches only, so that the result
-/// does not depend on the number of threads.
+/// Ends a search at the limit of effort. Used only for searches that run one after the other, so
+/// that the result does not depend on the number of threads.
 class EndAtLimit : public ceres::IterationCallback {
  public:
   explicit EndAtLimit(const LogProblem& problem) : problem_(problem) {}
@@ -215,22 +214,22 @@ class EndAtLimit : public ceres::IterationCallback {
   bool has_ended_ = false;
 };
 
-/// Stop reason of a search, and whether it converged.
+/// Sets the stop reason of a search, and whether the search converged and is usable.
 void tell_end(const ceres::Solver::Summary& summary, bool at_limit, Solved& solved) {
   const bool rough = summary.termination_type == ceres::USER_SUCCESS && !at_limit;
   solved.cost = summary.final_cost;
   solved.converged = rough || converged(summary);
   solved.usable = summary.IsSolutionUsable();
   solved.stop_reason = at_limit ? "the limit of the search was reached"
-                       : rough  ? "converged: steps fail that promise less than 0.05 of -ln L"
+                       : rough  ? "converged: further steps improve -ln L by less than 0.05"
                                 : stop_reason(summary);
 }
 
-/// Treatment of steps that would give non-finite numbers.
+/// Treatment of steps to points that cannot be simulated.
 enum class LineSearch {
-  /// Steps are cut at the bounds, and halved if they cannot be simulated. One Jacobian per step.
+  /// Ceres cuts steps at the bounds and shortens steps that fail. One Jacobian per step.
   kOff,
-  /// Ceres searches along every step for a point with finite derivatives: two Jacobians per step.
+  /// Ceres searches along every step for a point that can be simulated. Two Jacobians per step.
   kOn,
 };
 
@@ -244,8 +243,8 @@ Solved search_from(const LogProblem& problem, SearchPoint from, double function_
   problem_options.evaluation_callback = &evaluator;
   ceres::Problem search(problem_options);
   double* const coordinates = point.coordinates.data();
-  // Ceres eliminates the initial states in the order of their addresses, which here is that of the
-  // windows, so that runs are reproducible.
+  // Ceres eliminates the initial states in the order of their addresses. In one vector this is the
+  // order of the windows, so that runs are reproducible.
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (std::size_t i = 0; i < problem.windows.size(); ++i) {
     double* const initial_state = point.initial_states.data() + i * problem.model.initial.size();

@@ -1,4 +1,4 @@
-/// Least-squares solution of a LogProblem by Ceres. Private to identify/.
+/// Solution of a LogProblem by Ceres. Private to identify/.
 #pragma once
 
 #include <limits>
@@ -12,12 +12,13 @@ struct Solved {
   SearchPoint point;  ///< end of the search
   double cost = std::numeric_limits<double>::infinity();
   bool converged = false;
-  bool usable = false;  ///< the cost is not above that of the start
+  bool usable = false;  ///< the search did not fail: its cost is at most that of the start
   std::string stop_reason;
 };
 
-/// Levenberg-Marquardt within the bounds, each window's initial state eliminated. Ends when a step
-/// changes the cost by less than this relative amount.
+/// Minimises the cost by Levenberg-Marquardt steps within the bounds, starting at `from`. Each
+/// window's initial state is eliminated from the linear system. Ends when a step changes the cost
+/// by less than `function_tolerance`, relative to the cost.
 Solved solve(const LogProblem& problem, SearchPoint from, double function_tolerance);
 
 }  // namespace awmr

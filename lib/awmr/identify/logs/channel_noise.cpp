@@ -16,7 +16,7 @@
 namespace awmr {
 namespace {
 
-/// Second differences of one channel.
+/// Sums over the second differences of one channel.
 struct Roughness {
   double squares = 0.0;
   int count = 0;
@@ -30,7 +30,8 @@ void add_second_differences(const std::vector<double>& values, Roughness& roughn
   }
 }
 
-/// sum nu_k^2/S_k, sum ln S_k and n of errors with a noise.
+/// Sums over the innovations nu_k with the variances S_k: sum nu_k^2/S_k, sum ln S_k and their
+/// count.
 struct InnovationSums {
   double squares = 0.0;
   double log_variances = 0.0;
@@ -39,7 +40,7 @@ struct InnovationSums {
 
 InnovationSums innovation_sums(std::span<const ErrorSeries> series, const ChannelNoise& noise) {
   InnovationSums sums;
-  double product = 1.0;  // of many variances, to save logarithms
+  double product = 1.0;  // product of several S_k, so that one logarithm serves for all of them
   for (const ErrorSeries& part : series) {
     Whitener whitener(noise);
     for (std::size_t k = 0; k < part.error.size(); ++k) {
@@ -57,12 +58,13 @@ InnovationSums innovation_sums(std::span<const ErrorSeries> series, const Channe
   return sums;
 }
 
-/// -2 ln L of errors with a noise, and the factor on both variances that minimises it:
+/// -2 ln L of n errors under a noise model, minimised over a common factor on sigma_w^2 and
+/// sigma_d^2:
 ///
 ///     -2 ln L = sum ln S_k + nu_k^2 / S_k,   factor = (1/n) sum nu_k^2 / S_k
 struct Likelihood {
-  double cost = 0.0;    ///< at the best factor, up to a constant
-  double factor = 1.0;  ///< on sigma_w^2 and sigma_d^2
+  double cost = 0.0;    ///< -2 ln L with the best factor, up to a constant
+  double factor = 1.0;  ///< the best factor on sigma_w^2 and sigma_d^2
 };
 
 Likelihood likelihood(std::span<const ErrorSeries> series, const ChannelNoise& noise) {
@@ -71,7 +73,8 @@ Likelihood likelihood(std::span<const ErrorSeries> series, const ChannelNoise& n
   return {n * std::log(factor) + log_variances, factor};
 }
 
-/// Noise with unit variance, of which the drift has the share e^x / (1 + e^x).
+/// Noise model with a total variance of 1, of which the drift has the share e^x/(1 + e^x), x:
+/// logit.
 ChannelNoise unit_noise(double logit, double correlation_s) {
   const double share = 1.0 / (1.0 + std::exp(-logit));
   return {.white_std = std::sqrt(1.0 - share),
@@ -79,8 +82,9 @@ ChannelNoise unit_noise(double logit, double correlation_s) {
           .correlation_s = correlation_s};
 }
 
-/// All errors of a channel. If there are more than 2 kEnough, about kEnough of them, in whole
-/// windows spread over the logs, which determine the levels to 1 %.
+/// Selects the errors from which a channel's noise is estimated: all, or about kEnough if there are
+/// more than 2 kEnough. They are in whole windows spread over the logs, and determine the standard
+/// deviations to 1 %.
 std::vector<ErrorSeries> some_of(std::span<const ErrorSeries> series) {
   constexpr std::size_t kEnough = 20'000;
   std::size_t total = 0;
@@ -102,16 +106,17 @@ double median_step_s(std::span<const ErrorSeries> series) {
 }
 
 struct Drift {
-  ChannelNoise noise;  ///< of unit variance
+  ChannelNoise noise;  ///< scaled to a total variance of 1
   double cost = std::numeric_limits<double>::infinity();
 
   bool plainly_better_than(double other) const {
-    constexpr double kPlainly = 10.0;  // of -2 ln L for two more numbers: p = 0.007
+    constexpr double kPlainly = 10.0;  // decrease of -2 ln L by two more parameters: p = 0.007
     return cost < other - kPlainly;
   }
 };
 
-/// Maximum-likelihood share of a drift with this memory.
+/// Noise model with a first-order drift of the given correlation time and its most likely share of
+/// the variance.
 Drift likeliest_share(std::span<const ErrorSeries> series, double correlation_s) {
   constexpr int kBits = 10;
   std::uintmax_t evaluations = 24;
@@ -123,11 +128,11 @@ Drift likeliest_share(std::span<const ErrorSeries> series, double correlation_s)
   return {unit_noise(logit, correlation_s), least};
 }
 
-/// Maximum-likelihood drift with a memory between the sample interval and the length of a window: a
-/// coarse grid, then a search around the best. `white_cost`: without a drift. If the grid is hardly
-/// better than that, a finer search cannot make the drift significant, and is skipped.
+/// Most likely first-order drift. Its correlation time is between half the sample interval and the
+/// length of a window; a coarse grid is refined by a search. `white_cost`: cost without a drift.
+/// The search is skipped if the grid lowers this cost so little that no drift can be significant.
 Drift likeliest_drift(std::span<const ErrorSeries> series, double step_s, double white_cost) {
-  constexpr double kWorthASearch = 4.0;  // of -2 ln L
+  constexpr double kWorthASearch = 4.0;  // smallest decrease of -2 ln L for a finer search
   constexpr int kGrid = 7;
   constexpr int kBits = 8;
   const double shortest = std::log(0.5 * step_s);
@@ -154,7 +159,7 @@ Drift likeliest_drift(std::span<const ErrorSeries> series, double step_s, double
   return drift.cost < best.cost ? drift : best;
 }
 
-/// Search coordinates of a second-order drift: share, frequency and damping.
+/// Search coordinates of a second-order drift: its share of the variance, frequency and damping.
 struct SecondOrder {
   double logit = 0.0;
   double log_radps = 0.0;
@@ -165,15 +170,15 @@ struct SecondOrder {
     ChannelNoise unit = unit_noise(logit, 0.0);
     unit.frequency_radps = std::exp(log_radps);
     unit.damping = std::exp(log_damping);
-    // The slower of the two exponentials of the drift.
+    // Decay time of the drift; for zeta > 1 that of the slower one of its two exponentials.
     const double over = std::sqrt(std::max(0.0, unit.damping * unit.damping - 1.0));
     unit.correlation_s = 1.0 / (unit.frequency_radps * (unit.damping - over));
     return unit;
   }
 };
 
-/// Bounds of the search for a second-order drift: its share of the variance from 0.2 % to nearly
-/// all, periods from two windows to two samples.
+/// Bounds of the search for a second-order drift: a share of the variance from 0.2 % to nearly all,
+/// periods of oscillation from two sample intervals to two windows.
 struct SecondOrderRange {
   SecondOrder lowest;
   SecondOrder highest;
@@ -189,7 +194,7 @@ Drift as_drift(std::span<const ErrorSeries> series, const SecondOrder& s) {
   return {noise, likelihood(series, noise).cost};
 }
 
-/// The best point of a coarse grid of frequencies and shares.
+/// The most likely point of a coarse grid of frequencies and shares.
 SecondOrder likeliest_of_grid(std::span<const ErrorSeries> series, const SecondOrderRange& range) {
   constexpr int kFrequencies = 8;
   SecondOrder best;
@@ -222,12 +227,12 @@ double second_order_cost(unsigned, const double* x, double*, void* data) {
   return drift.cost;
 }
 
-/// Nelder-Mead search from there [NLopt, LN_NELDERMEAD]. If it fails, returns its best point, if
-/// any, which is compared with the other noise models in any case.
+/// Nelder-Mead search from the point `from` [NLopt, LN_NELDERMEAD]. Returns the best point found,
+/// also if the search fails, because the caller compares it with the other noise models.
 Drift likeliest_from(std::span<const ErrorSeries> series, const SecondOrder& from,
                      const SecondOrderRange& range) {
   constexpr int kMostEvaluations = 150;
-  constexpr double kFine = 0.02;  // of -2 ln L
+  constexpr double kFine = 0.02;  // the search ends at changes of -2 ln L below this
   constexpr double kFirstStep = 0.5;
   const std::array<double, 3> lowest = range.lowest.as_array();
   const std::array<double, 3> highest = range.highest.as_array();
@@ -247,7 +252,8 @@ Drift likeliest_from(std::span<const ErrorSeries> series, const SecondOrder& fro
   return search.best;
 }
 
-/// Maximum-likelihood drift of second order; starts from that of `before`, if there is one.
+/// Most likely second-order drift. The search starts at the second-order drift of `before`, or at
+/// the best point of a grid if there is none.
 Drift likeliest_second_order(std::span<const ErrorSeries> series, double step_s,
                              const ChannelNoise& before) {
   const SecondOrderRange range(step_s);

@@ -1,4 +1,4 @@
-/// Noise model of a channel in a log fit. Private to identify/.
+/// Noise model of a measured channel in a log fit, and its estimation. Private to identify/.
 #pragma once
 
 #include <cmath>
@@ -10,69 +10,70 @@
 
 namespace awmr {
 
-/// The error of a sample has two parts: white noise of the sensor, independent from sample to
-/// sample, and a correlated drift, caused by model errors and by the sensor's filter.
+/// The error e_k of sample k at the time t_k is the sum of white noise of the sensor and a drift d,
+/// which is correlated in time and comes from model errors and sensor filters.
 ///
 ///     e_k = d(t_k) + white_k,   E[white_k^2] = sigma_w^2,   E[d^2] = sigma_d^2
 ///
 ///     first order    d'  = -d/tau                          + white noise
 ///     second order   d'' = -2 zeta omega d' - omega^2 d    + white noise
 ///
-/// The second order describes a suspension, a filter or a smoothed sensor: the error is smooth from
-/// sample to sample, and oscillates for zeta < 1.
+/// The second order describes a suspension, a filter or a smoothed sensor: the drift is smooth from
+/// sample to sample, and oscillates if zeta < 1.
 struct ChannelNoise {
   double white_std = 1.0;        ///< sigma_w, SI
   double drift_std = 0.0;        ///< sigma_d, SI; 0: no drift
-  double correlation_s = 0.0;    ///< tau, or the duration of the oscillations; 0 without a drift
-  double frequency_radps = 0.0;  ///< omega of a drift of second order; 0: first order
-  double damping = 0.0;          ///< zeta of a drift of second order, > 0
-  double sensor_std = 0.0;  ///< noise from the second differences of the signal, without a model,
-                            ///< SI
-  int count = 0;            ///< samples
+  double correlation_s = 0.0;    ///< tau, or decay time of a second-order drift; 0 without a drift
+  double frequency_radps = 0.0;  ///< omega of a second-order drift; 0: first order
+  double damping = 0.0;          ///< zeta of a second-order drift, > 0
+  double sensor_std = 0.0;  ///< noise of the signal itself by sensor_noise(), without a model, SI
+  int count = 0;            ///< number of samples
   double cost = 0.0;        ///< -2 ln L of the channel's errors, up to a constant
 
   double std() const { return std::hypot(white_std, drift_std); }
   bool second_order() const { return frequency_radps > 0.0; }
-  /// Number of estimated parameters: sigma_w, and those of the drift.
+  /// Number of estimated noise parameters: sigma_w, and those of the drift.
   int numbers() const { return drift_std > 0.0 ? (second_order() ? 4 : 3) : 1; }
-  /// True for a drift above half of the sensor noise that lasts half a second or more: an error of
-  /// the model, or a drifting sensor.
+  /// True if the drift is above half of the sensor noise and lasts half a second or more. It is
+  /// then a model error or a sensor drift.
   bool of_the_model() const { return drift_std > 0.5 * sensor_std && correlation_s >= 0.5; }
-  /// True for a drift that is many times the sensor noise: the model does not describe the vehicle.
+  /// True if such a drift is above 2.5 times the sensor noise: the model is inadequate.
   bool overwhelms_sensor() const {
     constexpr double kMany = 2.5;
     return of_the_model() && drift_std > kMany * sensor_std;
   }
-  /// True for a drift that a missing term of the model can cause.
+  /// True if a missing term of the model may have caused the drift.
   bool has_slow_drift() const { return drift_std > 0.25 * sensor_std && correlation_s > 0.2; }
 };
 
 using NoiseLevels = std::map<LogChannel, ChannelNoise>;
 
-/// Smallest noise, so that noise-free data have a finite weight.
+/// Smallest standard deviation of the noise, SI, so that noise-free data have a finite weight.
 inline constexpr double kMinimumStd = 1e-9;
 
-/// Estimates the white noise of each channel from second differences d_k = y_k - 2 y_{k-1} +
-/// y_{k-2}. Smooth signals vanish in them, and white noise gives a variance of 6 sigma^2:
+/// Estimates the white noise sigma of each channel from the n second differences of its readings y,
+/// d_k = y_k - 2 y_{k-1} + y_{k-2}. Those of a smooth signal are nearly 0, and those of white noise
+/// have the variance 6 sigma^2:
 ///
-///     sigma^2 = sum d^2 / (6 n)   over the n second differences within windows
+///     sigma^2 = sum d^2 / (6 n)
 NoiseLevels sensor_noise(const std::vector<FitWindow>& windows);
 
 /// The errors of one channel in one window, in order of time.
 struct ErrorSeries {
   std::vector<double> error;    ///< SI
-  std::vector<double> since_s;  ///< time since the previous one; 0: the first
+  std::vector<double> since_s;  ///< time since the previous error, s; 0 for the first
 };
 
-/// The errors of a fit by channel, with one series per window.
+/// The errors of a fit by channel, one series per window.
 using ErrorsByChannel = std::map<LogChannel, std::vector<ErrorSeries>>;
 
-/// -2 ln L of errors with this noise, up to a constant: sum ln S_k + nu_k^2/S_k.
+/// -2 ln L of errors under a noise model, up to a constant: sum ln S_k + nu_k^2/S_k, with the
+/// innovations nu_k and their variances S_k (whitener.h).
 double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
 
-/// Maximum-likelihood noise of these errors: white; with a drift of first order if that lowers -2
-/// ln L by more than 10; of second order if that lowers it by more than 10 again. `free_share`, in
-/// (0, 1]: degrees of freedom of the errors per error. The search begins at `before`, whose
+/// Maximum-likelihood noise model of these errors. It has a first-order drift if this lowers -2 ln
+/// L by more than 10, and a second-order drift if this lowers -2 ln L by another 10. `free_share`:
+/// degrees of freedom of the errors per error, in (0, 1]. The search begins at `before`, whose
 /// sensor_std is kept.
 ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_share,
                              const ChannelNoise& before);

@@ -12,14 +12,15 @@
 namespace awmr {
 namespace {
 
-/// An identified delay, lag or command error, and its standard error.
+/// An identified delay, lag or command error with its standard error.
 struct FoundTerm {
   FreeQuantity quantity;
   double value;
   double error;
 };
 
-/// Those of one kind that exceed two standard errors and 1 ms, 1 mrad or 0.1 %.
+/// The identified terms of one kind that are larger than two standard errors and than 1 ms (delays
+/// and lags), 1 mrad (trim) or 0.1 % (imbalance).
 std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
   constexpr double kSmallest = 1e-3;
   std::vector<FoundTerm> found;
@@ -32,26 +33,27 @@ std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
   return found;
 }
 
-/// Reports a dead time of the commands, or latency of their time stamps. `with_lag`: motor lag is
-/// also free.
+/// Reports a dead time of the commands (value > 0), or late time stamps of the commands (< 0).
+/// `with_lag`: a motor lag is estimated too.
 Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::string& file) {
   if (input.value < 0.0) {
     return {file, 0, Severity::kWarning, "late-commands",
-            fmt::format("the vehicle responds {:.3f} +- {:.3f} s before its commands: the "
-                        "commands' time stamps are late, or all sensors' are early; the fit "
-                        "compensates",
+            fmt::format("the vehicle responds {:.3f} +- {:.3f} s before its commands: the time "
+                        "stamps of the commands are late, or those of all sensors are early. The "
+                        "fit compensates this; log the commands when they are sent",
                         -input.value, input.error)};
   }
   return {file, 0, Severity::kWarning, "actuator-lag",
-          fmt::format("the vehicle responds {:.3f} +- {:.3f} s after its commands, {}; the fit "
-                      "compensates, a controller has to allow for it",
+          fmt::format("the vehicle responds {:.3f} +- {:.3f} s after its commands, {}. The fit "
+                      "compensates this; add the delay to latency_s of the sensors in the vehicle "
+                      "file, so that gains are tuned for it",
                       input.value, input.error,
                       with_lag ? "in addition to the motors' lag"
                                : "more likely by a dead time than by motor lag")};
 }
 
-/// Reports latency of the commands (dead time or motor lag) or of their time stamps, or equal
-/// latency of two or more motion channels, which has a common cause.
+/// Reports motor lag, dead time or late time stamps of the commands. Without these, reports an
+/// equal latency of two or more motion channels, which indicates a common cause in the commands.
 std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWhy =
       "actuator lag, command latency or a slew-rate limit. m', I'z and the sway resistance may be "
@@ -61,7 +63,7 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
     findings.push_back(
         {file, 0, Severity::kWarning, "actuator-lag",
          fmt::format("the motors have a lag with a time constant of {:.3f} +- {:.3f} s; the fit "
-                     "compensates. Set motor.time_constant_s in the vehicle file",
+                     "includes it. Set motor.time_constant_s in the vehicle file",
                      lag.value, lag.error)});
   }
   const bool with_lag = has_kind(fit.quantities, FreeQuantity::Kind::kMotorLag);
@@ -82,7 +84,7 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
                        least.value, most.value, kWhy)}};
 }
 
-/// `sensor-delay` for every sensor with an estimated latency.
+/// `sensor-delay` for every sensor with an identified latency, `sensor-lag` for every filter.
 std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const auto& [quantity, value_s, error_s] :
@@ -91,8 +93,8 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
     findings.push_back(
         {file, 0, Severity::kWarning, "sensor-delay",
          fmt::format(
-             "{} {} delayed by {:.3f} +- {:.3f} s relative to the commands; the fit compensates, a "
-             "controller that uses it has to allow for it",
+             "{} {} delayed by {:.3f} +- {:.3f} s relative to the commands. The fit compensates "
+             "this; set latency_s in the vehicle file, so that gains are tuned for it",
              channel == LogChannel::kX ? "the position" : info(channel).name,
              channel == LogChannel::kX ? "comes" : "is read", value_s, error_s)});
   }
@@ -107,8 +109,8 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
   return findings;
 }
 
-/// `steering-delay`: the steering acts later than the forces, by more than the servo's lag.
-/// `steering-trim`, `force-imbalance`: constant errors of the commands.
+/// `steering-delay`, if the steering reacts later than the forces, beyond the servo's lag;
+/// `steering-trim` and `force-imbalance` for constant errors of the commands.
 std::vector<Finding> steering_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& latency : found_terms(fit, FreeQuantity::Kind::kSteeringDelay)) {
@@ -116,30 +118,30 @@ std::vector<Finding> steering_findings(const LogFit& fit, const std::string& fil
         {file, 0, Severity::kWarning, "steering-delay",
          fmt::format(
              "the steering begins to move {:.3f} +- {:.3f} s after its command, in addition to the "
-             "servo's time constant; the fit compensates. Shorten the servo's frame or bus cycle, "
-             "or add that latency in tuning",
+             "servo's time constant. The fit compensates this; shorten the servo's frame or bus "
+             "cycle, or add the delay to latency_s of the sensors in the vehicle file",
              latency.value, latency.error)});
   }
-  // Only one of them is free if the commands cannot separate both.
+  // If the commands cannot separate trim and imbalance, only one of them is in the fit.
   for (const FoundTerm& trim : found_terms(fit, FreeQuantity::Kind::kSteeringTrim)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "steering-trim",
          fmt::format("the vehicle turns as if the front wheels pointed {:.2f} +- {:.2f} deg to the "
-                     "{} at a steering angle of 0; the fit compensates. Centre the linkage or the "
-                     "servo{}",
+                     "{} at a steering angle of 0; the fit compensates this. Centre the linkage or "
+                     "the servo{}",
                      degrees(std::abs(trim.value)), degrees(trim.error),
                      trim.value > 0.0 ? "left" : "right",
                      has_kind(fit.quantities, FreeQuantity::Kind::kForceImbalance)
                          ? ""
-                         : "; motors that push more on one side look the same where the forces of "
-                           "both sides are equal")});
+                         : ". With equal forces left and right, motors that push more on one side "
+                           "look the same")});
   }
   for (const FoundTerm& imbalance : found_terms(fit, FreeQuantity::Kind::kForceImbalance)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "force-imbalance",
          fmt::format(
              "at equal commands the {} wheels push {:.1f} +- {:.1f} % more than the mean of "
-             "both sides; the fit compensates. Calibrate the motors of each side{}",
+             "both sides; the fit compensates this. Calibrate the motors of each side{}",
              imbalance.value > 0.0 ? "right" : "left", 100.0 * std::abs(imbalance.value),
              100.0 * imbalance.error,
              has_kind(fit.quantities, FreeQuantity::Kind::kSteeringTrim)
@@ -160,7 +162,7 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
   if (!withdrawn) return findings;
   for (Finding& finding : findings) {
     finding.message +=
-        ". Its interval is withdrawn as well: what the model lacks may look like this";
+        ". Its interval is withdrawn too, because the model error may cause this effect";
   }
   return findings;
 }

@@ -1,4 +1,5 @@
-/// Findings on delays, filters and constant errors of commands and sensors. Private to identify/.
+/// Findings about delays, filters and constant errors of commands and sensors. Private to
+/// identify/.
 #pragma once
 
 #include <string>
@@ -8,9 +9,10 @@
 
 namespace awmr {
 
-/// Findings of an identified delay, lag or error: `sensor-delay`, `sensor-lag`, `steering-delay`,
-/// `steering-trim`, `force-imbalance`, `actuator-lag`, `late-commands`. `withdrawn`: the intervals of
-/// the fit are withdrawn. `file`: the log named in the findings.
+/// One finding for each delay, lag or error that the fit identifies: `sensor-delay`, `sensor-lag`,
+/// `steering-delay`, `steering-trim`, `force-imbalance`, `actuator-lag`, `late-commands`.
+/// `withdrawn`: true if the intervals of the fit are withdrawn, which the messages then state.
+/// `file`: the log that the findings name.
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
                                                  const std::string& file);
 

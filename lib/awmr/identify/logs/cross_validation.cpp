@@ -13,7 +13,7 @@ std::vector<DrivingLog> without(std::vector<DrivingLog> logs, std::size_t out) {
   return logs;
 }
 
-/// "speed_mps 4.2 %, yaw_rate_radps 11.0 %": errors of the fit's prediction of a log.
+/// Prediction errors of a log by channel: "speed_mps 4.2 %, yaw_rate_radps 11.0 %".
 std::string prediction_errors(const DrivingLog& log, const LogFitOptions& options,
                               const LogFit& fit) {
   double delay_s = 0.0;
@@ -48,8 +48,9 @@ CrossValidation leave_one_log_out(const std::vector<DrivingLog>& logs, LogFitOpt
     result.leave_one_out.push_back(entry);
     if (!fit.usable) continue;
     result.findings.push_back({logs[out].file, 0, Severity::kNote, "held-out-log",
-                               fmt::format("prediction by the other logs over windows of 10 s, "
-                                           "error relative to the signal's standard deviation: {}",
+                               fmt::format("a fit of the other logs predicts this log over windows "
+                                           "of 10 s; errors relative to each signal's standard "
+                                           "deviation: {}",
                                            prediction_errors(logs[out], options, fit))});
   }
   return result;

@@ -1,4 +1,5 @@
-/// Prediction of each log by a fit of the others. Private to identify/.
+/// Leave-one-log-out cross-validation: each log is predicted by a fit of the others. Private to
+/// identify/.
 #pragma once
 
 #include <vector>
@@ -8,11 +9,12 @@
 namespace awmr {
 
 struct CrossValidation {
-  std::vector<LeaveOneOut> leave_one_out;  ///< by log
-  std::vector<Finding> findings;           ///< `held-out-log`: the errors of the prediction
+  std::vector<LeaveOneOut> leave_one_out;  ///< values of a fit without the log, by log
+  std::vector<Finding> findings;           ///< `held-out-log` with the prediction errors, by log
 };
 
-/// Fits without each log in turn and predicts it. Precondition: at least two logs.
+/// Leaves out each log in turn, fits the others and predicts the log. Precondition: two logs or
+/// more.
 CrossValidation leave_one_log_out(const std::vector<DrivingLog>& logs, LogFitOptions options);
 
 }  // namespace awmr

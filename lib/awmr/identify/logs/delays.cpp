@@ -22,7 +22,7 @@ bool has_delay(const std::vector<FreeQuantity>& quantities, LogChannel channel) 
   });
 }
 
-/// True if the servo's time constant is free; it would absorb a dead time of the steering.
+/// True if the servo's time constant is free. Without a steering delay it would absorb a dead time.
 bool frees_servo(const std::vector<FreeQuantity>& quantities) {
   return std::ranges::any_of(
       quantities, [](const FreeQuantity& q) { return q.is(ParameterId::kSteeringTimeConstant); });
@@ -60,14 +60,14 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
 
 namespace {
 
-/// A candidate for a fit, with its estimate by one step.
+/// A candidate term with its score-test estimate.
 struct CandidateTerm {
   FreeQuantity quantity;
   double value;
-  double significance;  ///< |value| over standard error, by the noise model
+  double significance;  ///< |value| over its standard error by the noise model
 };
 
-/// Most significant first.
+/// The terms with a significant score test, most significant first.
 std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   constexpr double kWorthATry = 3.0;
   const std::vector<FreeQuantity> channels = further_terms(settled.problem);
@@ -87,7 +87,7 @@ double akaike_of(const NoiseIteration& fit) {
   return akaike(fit.problem.model.noise, rows_of(fit.problem.model.quantities));
 }
 
-/// One round of the fit with more quantities free.
+/// One round of the fit with the terms `more` free.
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more, Loss loss) {
   constexpr double kLargestFirstStep = 0.3;
   std::vector<FreeQuantity> quantities;
@@ -105,17 +105,19 @@ bool may_be_smoothed(LogChannel channel) {
   return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate;
 }
 
-/// The fit with the lowest AIC after one round with one more term free. If none improves the fit,
-/// that of the most significant candidate, or empty.
+/// Fits each candidate term for one round and returns the fit with the lowest AIC. If no term
+/// lowers AIC, returns the fit of the first candidate if its score test is beyond doubt, else
+/// empty.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
-  // Without other channels, a filter of the speed has the same effect as a motor lag, which is more
-  // common; both give the same mass. The filter is selected only if its AIC is lower by this.
+  // A filter is selected only if it lowers AIC by more than this. With the speed as the only
+  // channel no filter is tried, because it has the same effect as a motor lag, which is more
+  // common.
   constexpr double kLikelierFilter = 10.0;
-  constexpr double kComparable = 0.2;  // of the strongest candidate's significance
+  constexpr double kComparable = 0.2;  // smallest significance relative to that of the strongest
   const bool tells_filters = settled.problem.model.noise.size() > 1;
   constexpr double kBeyondDoubt = 20.0;
   std::optional<NoiseIteration> best;
-  std::optional<NoiseIteration> strongest;  // if its significance is beyond doubt
+  std::optional<NoiseIteration> strongest;  // of the first candidate, if its test is beyond doubt
   double least = akaike_of(settled);
   const auto consider = [&](NoiseIteration fit, double by = 0.0) {
     const double criterion = akaike_of(fit);
@@ -130,7 +132,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   std::vector<std::pair<LogChannel, double>> filters;
   const std::vector<CandidateTerm> terms = candidate_terms(settled);
   for (const CandidateTerm& candidate_term : terms) {
-    // The next round tests the weaker candidates again, without the model error of the strongest.
+    // Much weaker candidates wait: they are tested again after the best term was added to the fit.
     if (best && candidate_term.significance < kComparable * terms.front().significance) break;
     const FreeQuantity& more = candidate_term.quantity;
     const bool is_sensor = more.kind == FreeQuantity::Kind::kSensorDelay;
@@ -141,8 +143,8 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
       strongest = fit;
     }
     has_sensor |= consider(std::move(fit)) && is_sensor;
-    // Also if delays of a sensor and of the commands are equally good: a lag can be better than
-    // both. The commands can be delayed, or logged late, in addition to a motor lag.
+    // A motor lag can be better than any delay. In addition to the lag, the commands can be delayed
+    // or their time stamps late.
     if (more.kind == FreeQuantity::Kind::kDelay && may_lag) {
       const double lag_s = 0.5 * std::abs(found_s);
       consider(tried(settled, {{input_delay(), found_s - lag_s}, {motor_lag(), lag_s}}, loss));
@@ -156,7 +158,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   for (const auto& [channel, found_s] : filters) {
     consider(tried(settled, {{sensor_lag_of(channel), found_s}}, loss), kLikelierFilter);
   }
-  // One round can be too few if the drift absorbed a large model error.
+  // If the drift had absorbed a large model error, one round can be too few to lower AIC.
   return best ? std::move(best) : std::move(strongest);
 }
 
@@ -166,7 +168,7 @@ bool is_of_turning(const FreeQuantity& q) {
 }
 
 /// Frees trim and imbalance together if one of them is free and the commands allow both. Their
-/// effects are nearly the same, so only the joint covariance is valid.
+/// effects are nearly the same, so intervals of one are valid only if the other is free too.
 Extended with_both_of_turning(NoiseIteration fit) {
   const std::vector<FreeQuantity>& quantities = fit.problem.model.quantities;
   std::vector<FreeQuantity> other;
@@ -177,9 +179,9 @@ Extended with_both_of_turning(NoiseIteration fit) {
                   std::vector<double>(other.size(), 0.0));
 }
 
-/// The fit with one more term free, if that lowers AIC enough.
+/// The fit with one more term free; empty if no term lowers AIC by more than kPlainly.
 std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss loss) {
-  constexpr double kPlainly = 10.0;  // of AIC
+  constexpr double kPlainly = 10.0;  // smallest decrease of AIC
   std::optional<NoiseIteration> more = likeliest_with_one_more(settled, loss);
   if (!more) return std::nullopt;
   Extended from = with_both_of_turning(*std::move(more));
@@ -192,7 +194,7 @@ std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss 
 
 NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss) {
   while (auto more = with_one_more(settled, loss))
-    settled = std::move(*more);  // ends: all have one
+    settled = std::move(*more);  // ends when no term is left, or none improves the fit
   return settled;
 }
 

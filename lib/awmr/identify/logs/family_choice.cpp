@@ -17,13 +17,13 @@
 namespace awmr {
 namespace {
 
-/// In a family without a free exponent the curve is linear: beta is held at 1.
+/// Fixes an exponent at 1, for families without a free exponent.
 void hold_exponent(LogFitOptions& options, ParameterId beta) {
   std::erase(options.free, beta);
   options.initial_guess[at(beta)] = 1.0;
 }
 
-/// Frees a term; its initial guess is `guess` unless it has one.
+/// Frees a term. Sets its initial guess to `guess` unless it already has one.
 void free_term(LogFitOptions& options, ParameterId id, double guess) {
   if (std::find(options.free.begin(), options.free.end(), id) == options.free.end()) {
     options.free.push_back(id);
@@ -33,7 +33,7 @@ void free_term(LogFitOptions& options, ParameterId id, double guess) {
 }
 
 LogFitOptions with_families(LogFitOptions options, Family surge_family, Family yaw_family) {
-  constexpr double kCoulombShare = 0.1;  // of the power law's force at 1 m/s, 1 rad/s
+  constexpr double kCoulombShare = 0.1;  // initial guess, relative to alpha, the force at 1 m/s
   const FamilyTerms surge = terms_of(surge_family);
   const FamilyTerms yaw = terms_of(yaw_family);
   const double surge_force = options.initial_guess[at(ParameterId::kSurgeAlpha)];
@@ -60,8 +60,8 @@ FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, F
   return result;
 }
 
-/// The optimum of `inner` as a start for other families. Terms outside these families get the value
-/// of a power law; terms that are 0 start from their guess.
+/// Options that start other families at the optimum of `inner`. Terms outside these families, and
+/// terms that are 0 there, get the initial values of `power_law`.
 LogFitOptions without_terms(const LogFitOptions& power_law, const FamilyFit& inner, Family surge,
                             Family yaw) {
   LogFitOptions options = from_optimum(power_law, inner);
@@ -76,7 +76,7 @@ LogFitOptions without_terms(const LogFitOptions& power_law, const FamilyFit& inn
   return options;
 }
 
-/// Highest speed, m/s, and yaw rate, rad/s, of the logs; 1 without measurements.
+/// Largest absolute value of a channel in the logs (m/s or rad/s); 1 without measurements.
 double fastest(const std::vector<DrivingLog>& logs, LogChannel channel) {
   double most = 0.0;
   for (const DrivingLog& log : logs) {
@@ -89,7 +89,8 @@ double fastest(const std::vector<DrivingLog>& logs, LogChannel channel) {
   return most > 0.0 ? most : 1.0;
 }
 
-/// Adds the curves of these families that are nearest to those of `inner` to `values`.
+/// Sets the resistance parameters in `values` to the curves of these families nearest to those of
+/// `inner`.
 void begin_near(const std::vector<DrivingLog>& logs, const FamilyFit& inner, Family surge,
                 Family yaw, ParameterValues<double>& values) {
   const Vehicle& vehicle = inner.options.vehicle;
@@ -119,7 +120,7 @@ bool is_of_yaw(ParameterId term) {
   return term == ParameterId::kYawCoulomb || term == ParameterId::kYawQuadratic;
 }
 
-/// Largest score-test gain of an axis' candidate terms; 0 without any.
+/// Largest gain of the score tests of surge terms, or of yaw terms (`of_yaw`); 0 without terms.
 double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate_terms,
                     bool of_yaw) {
   double most = 0.0;
@@ -131,13 +132,13 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
   return most;
 }
 
-/// True if a family with more terms can be better: a score test is large, or errors are correlated,
-/// which can hide a missing term.
+/// True if a family with more terms may be better: the score test of a term has a large gain, or
+/// the errors have a slow drift, which can hide a missing term.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
-  constexpr double kWorthATry = 4.0;  // of -2 ln L
+  constexpr double kWorthATry = 4.0;  // decrease of -2 ln L
   if (!fit.usable) return true;
   for (std::size_t i = 0; i < candidate_terms.size(); ++i) {
-    if (candidate_terms[i] == ParameterId::kBackEmf) continue;  // no family has it
+    if (candidate_terms[i] == ParameterId::kBackEmf) continue;  // belongs to no family
     if (is_of_yaw(candidate_terms[i]) == of_yaw && fit.suspect_gain[i] > kWorthATry) return true;
   }
   const auto drifts = [&](LogChannel channel) {
@@ -148,7 +149,8 @@ bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_ter
                 : drifts(LogChannel::kSpeed) || drifts(LogChannel::kX);
 }
 
-/// The parameter with the largest difference, in joint standard errors.
+/// The parameter with the largest difference between two fits, and that difference in standard
+/// errors.
 std::pair<double, std::string> largest_difference(const LogFit& a, const LogFit& b) {
   std::pair<double, std::string> largest{0.0, ""};
   for (std::size_t i = 0; i < a.quantities.size(); ++i) {
@@ -167,14 +169,14 @@ Finding taken(const std::string& file, const FamilyFit& best, const LogFit& powe
   const std::string families = families_in_words(best.surge, best.yaw);
   const std::string why =
       power_law.usable
-          ? fmt::format("{} is better by {:.0f} of AIC", families, aic_lead(best.fit, power_law))
-          : fmt::format("its fit did not converge, and that of {} did", families);
+          ? fmt::format("the AIC of {} is lower by {:.0f}", families, aic_lead(best.fit, power_law))
+          : fmt::format("its fit did not converge, that of {} did", families);
   return {file, 0, Severity::kWarning, "power-law-inadequate",
-          "a power law does not describe these logs: " + why};
+          "a power law does not describe these logs, and another family is used: " + why};
 }
 
-/// Finding on an alternative family that is better than the selected one, but not significantly,
-/// and that changes a parameter.
+/// The finding `family-undecided` if the alternative is better than the selected family, but not
+/// significantly, and gives a parameter a significantly different value.
 std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                                  const FamilyFit& alternative) {
   constexpr double kApart = 2.0;
@@ -184,28 +186,30 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
   return Finding{
       file, 0, Severity::kWarning, "family-undecided",
       fmt::format(
-          "these logs do not decide between {} and {} (AIC lower by {:.1f}, not significant), with "
-          "which {} differs by {:.1f} standard errors; the intervals are valid for {} only",
+          "these logs do not decide between {} and {} (AIC lower by {:.1f}, not significant). With "
+          "the latter, {} changes by {:.1f} standard errors. The intervals are valid for {} only; "
+          "record a log with more different speeds",
           families_in_words(best.surge, best.yaw),
           families_in_words(alternative.surge, alternative.yaw), gain, name, apart,
           families_in_words(best.surge, best.yaw))};
 }
 
 Finding not_compared(const std::string& file, const FamilyFit& first) {
-  return {file, 0, Severity::kWarning, "families-not-compared",
-          fmt::format(
-              "the search reached its limit before every family of resistance was compared with "
-              "{}; the intervals are withdrawn. Name the family ({}), or give a part of the logs",
-              families_in_words(first.surge, first.yaw), option_text("family surge=..."))};
+  return {
+      file, 0, Severity::kWarning, "families-not-compared",
+      fmt::format(
+          "the search reached its limit before every resistance family was compared with {}, so "
+          "the intervals are withdrawn. Select the family ({}), or use a part of the logs",
+          families_in_words(first.surge, first.yaw), option_text("family surge=..."))};
 }
 
 Finding terms_not_searched(const std::string& file, const FamilyFit& best) {
-  return {
-      file, 0, Severity::kWarning, "families-not-compared",
-      fmt::format("the search reached its limit before delays, lags and errors of the commands "
-                  "were searched with {}; the intervals are withdrawn. Name the family ({}), or "
-                  "give a part of the logs",
-                  families_in_words(best.surge, best.yaw), option_text("family surge=..."))};
+  return {file, 0, Severity::kWarning, "families-not-compared",
+          fmt::format(
+              "the search reached its limit before it had looked for delays, lags and command "
+              "errors with {}, so the intervals are withdrawn. Select the family ({}), or use a "
+              "part of the logs",
+              families_in_words(best.surge, best.yaw), option_text("family surge=..."))};
 }
 
 struct Contender {
@@ -213,19 +217,19 @@ struct Contender {
   Family yaw;
 };
 
-/// The other families of surge with this family of yaw, or of yaw with this family of surge.
+/// The pairs of families that differ from `first` in the yaw family (`of_yaw`) or the surge family.
 std::vector<Contender> contenders(const FamilyFit& first, bool of_yaw) {
   std::vector<Contender> found;
   for (const Family family : values_in(kFamilyNames)) {
-    if (of_yaw && family == Family::kDeadZone) continue;  // a dead zone belongs to the wheels
+    if (of_yaw && family == Family::kDeadZone) continue;  // wheels have dead zones, yaw has none
     const Contender c = of_yaw ? Contender{first.surge, family} : Contender{family, first.yaw};
     if (c.surge != first.surge || c.yaw != first.yaw) found.push_back(c);
   }
   return found;
 }
 
-/// Fits the contenders and stores the best fit in `result.best`. Returns the fit of the first
-/// families, which is repeated from a better alternative.
+/// Fits the families `others` and stores the best fit in `result.best`. Returns the fit of the
+/// families that were in `result.best` before, searched again if an alternative is better.
 LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                const std::vector<Contender>& others, double lead, BestFamily& result) {
   FamilyFit first = std::move(result.best);
@@ -260,8 +264,8 @@ LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_l
   return of_first;
 }
 
-/// Searches delays, lags and command errors again for the best families, because those adopted from
-/// other families can compensate a wrong resistance. Keeps them if they are better.
+/// Searches delays, lags and command errors again for the best families, because those found with
+/// other families can compensate for a wrong resistance. Keeps the new fit if it is better.
 void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         BestFamily& result) {
   FamilyFit& best = result.best;
@@ -278,9 +282,10 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
   if (aic_lead(own.fit, best.fit) > 0.0) best = std::move(own);
 }
 
-/// Removes from `others` and returns the families of an axis that were worse than `winner` by less
-/// than the later improvement of the fit (other axis, terms): these errors can have affected the
-/// selection.
+/// Returns the families of an axis to compare again, and removes them from `others`. `winner` was
+/// selected on this axis first; `best` includes the later improvements by the other axis and by
+/// delays. A family has to be compared again if it lost to `winner` by less than these
+/// improvements.
 std::vector<Contender> close_losers(const LogFit& winner, bool of_yaw, const FamilyFit& best,
                                     std::vector<FamilyFit>& others) {
   const double improved = aic_lead(best.fit, winner);
@@ -294,7 +299,7 @@ std::vector<Contender> close_losers(const LogFit& winner, bool of_yaw, const Fam
   return close;
 }
 
-/// True if other families of yaw, or of surge, are to be fitted.
+/// True if other yaw families (`of_yaw`) or surge families are to be fitted.
 bool is_contested(const LogFitOptions& power_law, const FamilyFit& first,
                   const FamilyContest& contest, bool of_yaw) {
   if (!(of_yaw ? contest.yaw : contest.surge)) return false;
@@ -371,15 +376,15 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
                        FamilyFit first, const FamilyContest& contest) {
   const bool surge = is_contested(power_law, first, contest, false);
   const bool yaw = is_contested(power_law, first, contest, true);
-  // A wrong law of one axis causes errors in the other, whose families are then slow to fit.
+  // The axis with the larger gain goes first: its wrong law also causes errors in the other axis.
   const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
                          largest_gain(first.fit, power_law.candidate_terms, false);
   LogFit power_fit = first.fit;
   const auto [first_surge, first_yaw] = std::pair(first.surge, first.yaw);
   BestFamily result;
   result.best = std::move(first);
-  std::optional<std::pair<bool, LogFit>> first_winner;  // its axis, and the fit without terms of
-                                                        // its own
+  // Axis (true: yaw) and fit of the first comparison, before delays are searched again.
+  std::optional<std::pair<bool, LogFit>> first_winner;
   const auto contest_axis = [&](bool of_yaw, const std::vector<Contender>& others) {
     const auto before = std::pair(result.best.surge, result.best.yaw);
     LogFit of_first = compete(logs, power_law, others, contest.lead, result);

@@ -1,4 +1,4 @@
-/// Selection of the resistance families of a log fit. Private to identify/.
+/// Selection of the surge and yaw resistance families of a log fit. Private to identify/.
 #pragma once
 
 #include <optional>
@@ -9,68 +9,71 @@
 
 namespace awmr {
 
+/// A log fit under one surge family and one yaw family.
 struct FamilyFit {
   Family surge = Family::kPower;
   Family yaw = Family::kPower;
-  LogFitOptions options;  ///< with the terms of the families free
+  LogFitOptions options;  ///< options of the fit; the terms of both families are free
   LogFit fit;
 };
 
-/// True if the limit of effort or time is reached; no further model is then fitted.
+/// True if the limit of effort or of time is reached, so that no further model is to be fitted.
 bool is_over(const LogFitOptions& options);
 
-/// The options with the optimum of `fit` as the only start, with its delays and no others, and
-/// without candidate terms.
+/// Returns the options for a fit that starts only at the optimum of `fit` and has the delays and
+/// command errors of `fit`, without a search for others and without candidate terms.
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
-/// Fits with the terms of the families free. `power_law`: the options for a power law in both
-/// motions.
+/// Fits the logs under the families `surge` and `yaw`. `power_law`: options of a fit of power laws.
 FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                      Family surge, Family yaw);
 
-/// Fits families from the optimum of `inner`, if it has one. Starts: the curves nearest to those of
-/// `inner`, and the values of `inner` with 0 for terms that it lacks.
+/// Fits the logs under the families `surge` and `yaw`, starting from the optimum of `inner`, a fit
+/// of other families. There are two starts: the curves of the new families nearest to those of
+/// `inner`, and the values of `inner` with 0 for the terms that `inner` lacks.
 FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const FamilyFit& inner, Family surge, Family yaw);
 
-/// Returns `first`. If `alternative` is better, first repeats the search for the families of
-/// `first` from the optimum of `alternative`, so that no family is selected only because another
-/// search failed.
+/// If `alternative` is better than `first`, repeats the search for the families of `first` from the
+/// optimum of `alternative`, so that `first` does not lose only because its search failed. Returns
+/// `first` or, if better, the repeated fit.
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& alternative);
 
 /// Options of the comparison of families.
 struct FamilyContest {
   bool surge = true;  ///< compares all families of surge resistance; false: power law
-  bool yaw = false;   ///< compares all families of yaw resistance, given the best one of surge
-  double lead = 0.0;  ///< a family replaces the power law if its AIC is lower by this
-  bool only_suspects = true;  ///< if no candidate term improves the power law, no other family is
-                              ///< fitted
+  bool yaw = false;   ///< compares all families of yaw resistance; false: power law
+  double lead = 0.0;  ///< a family replaces the power law if its AIC is lower by more than this
+  /// True: fits other families only if a score test or correlated errors suggest a missing term.
+  bool only_suspects = true;
 };
 
+/// Result of best_family().
 struct BestFamily {
   FamilyFit best;
   std::vector<FamilyFit> others;
   std::vector<Finding>
       findings;  ///< `power-law-inadequate`, `family-undecided`, `families-not-compared`
-  bool is_out_of_time = false;  ///< the limit was reached before all comparisons
+  bool is_out_of_time = false;  ///< true: the limit was reached before all comparisons were done
 };
 
-/// Reports of the fits, each with its AIC under the noise of `reference`.
+/// Reports of the fits for /estimates, each with its AIC under the noise of `reference`.
 std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference);
 
-/// Number of fits of other families by best_family(), unless it reaches its limit.
+/// Number of other families that best_family() will fit if it does not reach the limit.
 std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
                             const FamilyContest& contest);
 
-/// Fits the families in turn and returns the best converged one (family_score.h). Each starts from
-/// the best optimum so far, so that a family is not worse than one that it contains. `first`: the
-/// fit of the power law, or of other families to begin with.
+/// Fits the families in turn and returns the best converged fit, compared as in family_score.h.
+/// Each fit starts from the best optimum so far, so that a family is not worse than a special case
+/// of it. `first`: the fit to improve on, usually of power laws.
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest);
 
-/// "coulomb-linear", or "power, yaw coulomb-linear" if yaw has a different family.
+/// Describes two families: "coulomb-linear" if yaw has a power law, else "power, yaw
+/// coulomb-linear".
 std::string families_in_words(Family surge, Family yaw);
 
 }  // namespace awmr

@@ -1,24 +1,25 @@
-/// Comparison of fits of different models under one noise model. Private to identify/.
+/// AIC comparison of log fits with different models under one noise model. Private to identify/.
 ///
-/// Each fit estimates its own noise, and its drift absorbs the error of its model. Under their own
-/// noise, a model with a smooth error of 0.2 m/s can be likelier than one with an error of 3 mm/s.
-/// Models are therefore compared under the noise of the fit with the smaller errors.
+/// Models are compared under the noise of the fit with the smaller errors, because each fit
+/// estimates its own noise, whose drift absorbs the error of its model. Each under its own noise, a
+/// model with a smooth error of 0.2 m/s can be likelier than a model with an error of 3 mm/s.
 #pragma once
 
 #include "awmr/identify/logs/log_fit.h"
 
 namespace awmr {
 
-/// AIC of a fit's errors under a given noise; smaller is better.
+/// AIC of a fit's errors under the noise model `noise`; smaller is better. With the innovations
+/// nu_k of all channels, their variances S_k (whitener.h) and n free quantities,
 ///
-///     AIC = sum over channels (ln S_k + nu_k^2/S_k) + 2 k,   k free quantities
+///     AIC = sum (ln S_k + nu_k^2/S_k) + 2 n
 double aic_under(const NoiseLevels& noise, const LogFit& fit);
 
-/// Size of the errors: sum over channels of n ln(sum e^2/n).
+/// Logarithmic size of a fit's errors: sum over channels of n ln(sum e^2/n), with n errors e each.
 double log_size_of_errors(const LogFit& fit);
 
-/// AIC of `b` minus AIC of `a` under the noise of the one with the smaller errors: > 0 if `a` is
-/// better. +-infinity if only one of them is usable; 0 if neither is.
+/// AIC of `b` minus AIC of `a`, under the noise of the fit with the smaller errors. > 0 if `a` is
+/// better. Infinite if only one fit is usable; 0 if neither is usable.
 double aic_lead(const LogFit& a, const LogFit& b);
 
 }  // namespace awmr

@@ -15,7 +15,7 @@
 namespace awmr {
 namespace {
 
-/// The rows as a problem with the noise of the fit.
+/// The least-squares problem of these rows, with the noise levels of the fit.
 LogProblem problem_of(const std::vector<DrivingLog>& rows, const LogFit& fit,
                       const LogFitOptions& options) {
   LogProblem problem = log_problem(rows, options);
@@ -27,8 +27,9 @@ LogProblem problem_of(const std::vector<DrivingLog>& rows, const LogFit& fit,
   return problem;
 }
 
-/// The initial states of all windows at these coordinates, by Gauss-Newton steps from the measured
-/// ones. The motion is nearly linear in them, except for a servo at its rate limit.
+/// Fits the initial states of all windows at fixed coordinates. Gauss-Newton steps from the
+/// measured states suffice, because the motion is nearly linear in the states (except for a servo
+/// at its rate limit).
 SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> coordinates) {
   constexpr int kSteps = 10;
   const Eigen::Index n = rows_of(coordinates);
@@ -47,7 +48,8 @@ SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> c
   return point;
 }
 
-/// The compared coordinates, and the biases, which can differ between the parts of a log.
+/// Indices of the coordinates to compare, and of the biases, which may differ between parts of a
+/// log.
 struct Places {
   std::vector<Eigen::Index> compared;
   std::vector<Eigen::Index> biases;
@@ -64,8 +66,8 @@ Places places_of(const LogProblem& problem, const std::vector<double>& coordinat
   return places;
 }
 
-/// Information and score of the compared coordinates, each in units of its large change, after
-/// elimination of the biases: H_cc - H_cb H_bb^-1 H_bc and S_c - H_cb H_bb^-1 S_b.
+/// Information and score of the compared coordinates c, each in units of its large change, after
+/// elimination of the biases b: H_cc - H_cb H_bb^-1 H_bc and S_c - H_cb H_bb^-1 S_b.
 FitEvidence scaled_evidence(const std::vector<WindowSums>& sums, const Eigen::VectorXd& scale,
                             const Places& places) {
   const FitEvidence all = fit_evidence(sums, scale.size());
@@ -78,8 +80,8 @@ FitEvidence scaled_evidence(const std::vector<WindowSums>& sums, const Eigen::Ve
   return {h(c, c) - by_bias * h(b, c), s(c) - by_bias * s(b)};
 }
 
-/// The change of the compared coordinates, divided by their large changes, in `directions`
-/// directions.
+/// Change d of the compared coordinates, each divided by its large change. `directions`: number of
+/// directions that the rows determine.
 struct Change {
   Eigen::VectorXd size;
   Eigen::MatrixXd covariance;
@@ -87,7 +89,8 @@ struct Change {
   Eigen::Index directions = 0;
 };
 
-/// Computes d, cov d and X^2 of held_out.h. `c`: C.
+/// Computes d, cov d and the p value of X^2 (see predict()). `c`: covariance C of the fit. `f`: its
+/// widening factor.
 Change change_of(const FitEvidence& rows, const Eigen::MatrixXd& c, double f) {
   constexpr double kShown = 1.0 / (kUnknown * kUnknown);
   const SymmetricEigen eigen = symmetric_eigen(rows.information);

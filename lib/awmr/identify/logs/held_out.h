@@ -1,4 +1,4 @@
-/// Test of a fit by its prediction of other rows of the log. Private to identify/.
+/// Test of a log fit by rows that the fit has not used. Private to identify/.
 #pragma once
 
 #include <optional>
@@ -10,41 +10,43 @@
 
 namespace awmr {
 
-/// Part of a log.
+/// Rows of a log within a time interval.
 struct LogPart {
-  const std::vector<DrivingLog>& log;  ///< a single log
-  Interval only_s;                     ///< time of the rows
-  std::string name;                    ///< "the last fifth of log.csv"
+  const std::vector<DrivingLog>& log;  ///< list with exactly one log
+  Interval only_s;                     ///< time interval of the rows, s
+  std::string name;                    ///< for messages: "the last fifth of log.csv"
 };
 
-/// Result of the test.
+/// Result of predict().
 struct HeldOut {
-  std::string rows;      ///< "the last fifth of log.csv"
-  double p_value = 1.0;  ///< p of the hypothesis that the same values describe all rows
-  std::string quantity;  ///< the quantity with the largest change in standard errors
-  double by_fit = 0.0;   ///< its value
-  double by_rows = 0.0;  ///< its value from these rows, by one Gauss-Newton step
+  std::string rows;      ///< name of the tested rows: "the last fifth of log.csv"
+  double p_value = 1.0;  ///< p of the hypothesis that the fit's values describe these rows too
+  std::string quantity;  ///< the quantity with the largest change, in standard errors
+  double by_fit = 0.0;   ///< value of that quantity by the fit
+  double by_rows = 0.0;  ///< value of that quantity by the tested rows
 };
 
-/// Compares `rows` with the prediction of `fit`, which was fitted to other rows with these options:
+/// Tests whether `rows` agree with `fit`, a fit of other rows with these options. The test
+/// statistic is the change d of the coordinates by one Gauss-Newton step to these rows:
 ///
 ///     d = -H^-1 S,   cov d = f^2 H^-1 + C,   X^2 = d^T (cov d)^-1 d,   chi-squared
 ///
-/// with the information H and the score S of the rows at the fit's coordinates, after elimination
-/// of the initial states and biases; the covariance C of the fit; and the largest factor f by which
-/// its standard errors were widened. d is restricted to the directions that the rows determine
+/// H and S are information and score of the rows at the fit's coordinates, after elimination of the
+/// initial states and biases. C is the covariance of the fit, f the largest factor by which its
+/// standard errors were widened. d is restricted to the directions that the rows determine
 /// (identifiability.h). Quantities at an end of their range are fixed.
 ///
-/// The noise is that of the fit, because noise estimated from the same rows would absorb a change
+/// The noise is that of the fit, because noise estimated from the tested rows would absorb a change
 /// of the vehicle as sensor drift. Empty if the rows determine nothing or cannot be replayed.
 std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOptions options);
 
-/// Score-test estimates, from one log, of the delays and command errors that the fit does not free
-/// (score_test.h), with all quantities of the fit free.
+/// A delay or command error that a fit does not contain, with its score test (score_test.h).
 struct TermTest {
   FreeQuantity term;
   ScoreTest test;
 };
+/// Score tests of all delays and command errors that `fit` does not contain, on the rows of one
+/// log.
 std::vector<TermTest> test_further_terms(const std::vector<DrivingLog>& log, const LogFit& fit,
                                          const LogFitOptions& options);
 

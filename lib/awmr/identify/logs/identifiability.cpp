@@ -16,29 +16,29 @@
 namespace awmr {
 namespace {
 
-/// Standard error of a quantity, relative to its large change, from which it is not identified. For
-/// the sway resistance the limit is lower: it acts by its reciprocal, v ~ m' r u / a_s, and 1/a_s
-/// of a vehicle that hardly slides is near 0. If noise makes 1/a_s large, ln a_s appears precise,
-/// as d(ln a_s) = a_s d(1/a_s), and the estimates would be selected for large values. So 1/a_s has
-/// to be 4 standard errors from 0.
+/// Largest standard error of an identified quantity, in its large changes. The limit is lower for
+/// the sway resistance a_s, so that 1/a_s is at least 4 standard errors from 0. The lateral speed
+/// depends on the reciprocal, v ~ m' r u / a_s. If noise increases 1/a_s, the standard error of ln
+/// a_s becomes smaller, as d(ln a_s) = a_s d(1/a_s), so the common limit would favour too small
+/// values of a_s.
 double unknown_from(const FreeQuantity& q) {
   constexpr double kUnknownReciprocal = 0.25;
   return q.is(ParameterId::kSwayAlpha) ? kUnknownReciprocal : kUnknown;
 }
 
-/// Describes why a quantity is not identified. `std`: its standard error relative to its large
-/// change, which is useful up to `unknown`.
+/// Describes why a quantity is not identified. `std`: its standard error in large changes.
+/// `unknown`: the limit of `std`.
 std::string how_open(double std, double unknown = kUnknown) {
   if (!std::isfinite(std) || std > 1e3) return "no measurement depends on it";
-  return fmt::format("its standard error is {:.2g} times the useful limit", std / unknown);
+  return fmt::format("the standard error is {:.2g} times the accepted limit", std / unknown);
 }
 
-/// Sets the reason for every quantity with a part in a direction (of length 1) that the logs do not
-/// determine.
+/// Refuses every quantity that contributes to a direction (of length 1) which the logs do not
+/// determine. `std`: standard error along the direction.
 void refuse_direction(const Eigen::VectorXd& direction, double std,
                       const std::vector<FreeQuantity>& quantities,
                       std::vector<std::string>& why_not) {
-  constexpr double kPart = 0.1;  // of the squared length
+  constexpr double kPart = 0.1;  // smallest contribution to the squared length
   std::vector<std::size_t> parts;
   std::vector<std::string> names;
   for (Eigen::Index i = 0; i < direction.size(); ++i) {
@@ -48,7 +48,7 @@ void refuse_direction(const Eigen::VectorXd& direction, double std,
   }
   const std::string why = names.size() == 1
                               ? "these logs do not determine it: " + how_open(std)
-                              : fmt::format("these logs show only a combination of {}: {}",
+                              : fmt::format("these logs determine only a combination of {}: {}",
                                             fmt::join(names, ", "), how_open(std));
   for (const std::size_t i : parts) why_not[i] = why;
 }
@@ -60,7 +60,8 @@ std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities,
   return at(found - quantities.begin());
 }
 
-/// True for delays, lags and terms of a family, which can be 0, the end of their range.
+/// True if the search stopped at an end of the quantity's range. A delay, a lag or a term of a
+/// family at 0 does not count, because 0 is a possible value.
 bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
   if (q.may_be_zero()) return coordinate >= bounds.hi;
   const bool term = q.kind == FreeQuantity::Kind::kParameter && info(q.id).term;
@@ -68,7 +69,7 @@ bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
   return coordinate <= bounds.lo || coordinate >= bounds.hi;
 }
 
-/// Variances of the coordinates from the scatter of the blocks' scores: the diagonal of
+/// Variances of the coordinates by the scatter of the scores s_b of m parts: the diagonal of
 /// m/(m - 1) C (sum s_b s_b^T) C.
 Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
                                      const std::vector<Eigen::VectorXd>& scores) {
@@ -78,7 +79,8 @@ Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
   return m / (m - 1.0) * variances;
 }
 
-/// Raises the factor to that of the scatter of these parts, if it is significant and larger.
+/// Raises the factors of the standard errors to the scatter of these parts, where the ratio of the
+/// variances exceeds `allowed` and the factor becomes larger.
 void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
                   Identifiability& found) {
   if (scores.size() < 2) return;
@@ -91,9 +93,10 @@ void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
   }
 }
 
-/// Widens the standard errors to the scatter of blocks and of logs.
+/// Widens the standard errors to the scatter of the blocks and, with three or more logs, of the
+/// logs.
 void widen(const Scores& scores, Identifiability& found) {
-  constexpr double kManyDegrees = 1e6;  // normal
+  constexpr double kManyDegrees = 1e6;  // Student's t is then the normal distribution
   constexpr std::size_t kEnoughLogs = 3;
   found.degrees_of_freedom.assign(at(found.covariance.rows()), kManyDegrees);
   found.factor.assign(at(found.covariance.rows()), 1.0);
@@ -106,26 +109,26 @@ void widen(const Scores& scores, Identifiability& found) {
   found.covariance = factor.asDiagonal() * found.covariance * factor.asDiagonal();
 }
 
-/// Refuses coordinates that are correlated with a coordinate at a bound.
+/// Refuses all quantities correlated with quantity number `stopped`, whose search ended at a bound.
 void refuse_what_hangs_on(Eigen::Index stopped, const std::vector<FreeQuantity>& quantities,
                           Identifiability& found) {
-  constexpr double kHangs = 0.3;  // of a correlation
+  constexpr double kHangs = 0.3;  // smallest correlation that counts
   const Eigen::MatrixXd& c = found.covariance;
   for (Eigen::Index i = 0; i < c.rows(); ++i) {
     const double correlation = c(i, stopped) / std::sqrt(c(i, i) * c(stopped, stopped));
     if (i == stopped || !found.why_not[at(i)].empty() || !(std::abs(correlation) > kHangs))
       continue;
     found.why_not[at(i)] = fmt::format(
-        "it depends on {} (correlation {:.2f}), which the search left at the end of its range",
+        "it depends on {} (correlation {:.2f}), whose search ended at a limit of its range",
         quantities[at(stopped)].name(), correlation);
   }
 }
 
 std::string why_stopped(const FreeQuantity& q, double coordinate) {
   std::string why =
-      fmt::format("the search ended at the end of its range, {:.4g}", q.value(coordinate));
-  if (q.is(ParameterId::kSurgeBeta)) why += "; surge_beta_range in the vehicle file widens it";
-  if (q.is(ParameterId::kYawBeta)) why += "; yaw_beta_range in the vehicle file widens it";
+      fmt::format("the search ended at a limit of the range, {:.4g}", q.value(coordinate));
+  if (q.is(ParameterId::kSurgeBeta)) why += "; widen surge_beta_range in the vehicle file";
+  if (q.is(ParameterId::kYawBeta)) why += "; widen yaw_beta_range in the vehicle file";
   return why;
 }
 
@@ -133,7 +136,7 @@ std::string why_stopped(const FreeQuantity& q, double coordinate) {
 
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities) {
-  // The prior of the search: a standard deviation of ten large changes about the initial guess.
+  // Information of the search's weak prior: a standard deviation of kPriorStd large changes.
   constexpr double kPrior = 1.0 / (kPriorStd * kPriorStd);
   constexpr double kNull = 1e-12;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -186,8 +189,8 @@ Identifiability without_stopped(Identifiability found, const LogProblem& problem
     const auto exponent = place_of(quantities, beta);
     if (!factor || !exponent) continue;
     if (found.why_not[*factor].empty() || !found.why_not[*exponent].empty()) continue;
-    found.why_not[*exponent] =
-        fmt::format("{} is not determined, and the exponent needs it", info(alpha).name);
+    found.why_not[*exponent] = fmt::format(
+        "{} is not determined, and the exponent has no meaning without it", info(alpha).name);
   }
   return found;
 }

@@ -14,11 +14,11 @@
 namespace awmr {
 namespace {
 
-/// A unit of the speed that would explain I'z/m', if no other channel checks the speed; else empty.
-/// If the speed is k times the true one, m' is 1/k of the true one, and I'z/m' is k times the true
-/// one.
+/// Names a unit of the speed that would explain I'z/m'. Empty if I'z/m' is not too large, or if
+/// positions check the speed. (A speed that reads k times the true speed makes m' 1/k of the true
+/// m', and I'z/m' k times the true ratio.)
 std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_over_box) {
-  constexpr Interval kUsual{0.3, 2.0};  // I'z/m' of vehicles relative to that of their box
+  constexpr Interval kUsual{0.3, 2.0};  // I'z/m' of real vehicles over that of a uniform box
   const bool is_compared = std::ranges::all_of(
       logs, [](const DrivingLog& log) { return log[LogChannel::kX] || !log[LogChannel::kSpeed]; });
   if (is_compared || inertia_over_box < kInertiaOverBox.hi) return "";
@@ -28,7 +28,7 @@ std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_
   };
   for (const Unit& unit : {Unit{3.6, "km/h"}, Unit{100.0, "cm/s"}, Unit{1000.0, "mm/s"}}) {
     if (!kUsual.contains(inertia_over_box / unit.factor)) continue;
-    return fmt::format(" (with speed_mps in {} it would be {:.2g} times)", unit.name,
+    return fmt::format(" (if speed_mps is in {}, the factor is {:.2g})", unit.name,
                        inertia_over_box / unit.factor);
   }
   return " (speed_mps may be a rate of rotation of the wheels: multiply it by their radius)";
@@ -59,14 +59,15 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
   if (most > kInertiaOverBox.lo && least < kInertiaOverBox.hi) return {};
   const double times = *inertia->value / *mass->value / box;
   return fmt::format(
-      "the fitted I'z/m' is {:.3g} times Iz/m of the vehicle, impossible for any distribution of "
-      "its mass: a unit or a sign is wrong{}, or another moment turns it",
+      "the fitted I'z/m' is {:.3g} times Iz/m of the vehicle, which no distribution of its mass "
+      "can "
+      "give: a unit or a sign is wrong{}, or a moment outside the model turns the vehicle",
       times, speed_unit_hint(logs, times));
 }
 
-/// True if the forces push while the wheels are turned.
+/// True if a wheel force acts while the wheels are steered.
 bool has_steered_force(const DrivingLog& log) {
-  constexpr double kMuch = 0.01;  // of the largest force
+  constexpr double kMuch = 0.01;  // share of the largest force
   const std::vector<double>& angle = log.driving_steering_rad();
   for (std::size_t row = 0; row < log.rows(); ++row) {
     const double force = log.force_left[row] + log.force_right[row];
@@ -88,14 +89,14 @@ void check_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, 
                    LogStage& stage) {
   std::string why = why_no_inertia(vehicle, logs, model, stage);
   if (why.empty()) return;
-  // Without a yaw command, the yaw motion contains no information on the mass.
+  // If no command makes a yaw moment, the yaw motion contains no information about m'.
   const bool turned = is_turned(logs);
   if (!turned) why = "no command turns the vehicle";
   stage.reasons[ParameterId::kInertiaNorm] = why;
   if (turned && !stage.reasons.contains(ParameterId::kMassNorm)) {
     stage.findings.push_back({logs.front().file, 0, Severity::kWarning, "inertia-mismatch",
                               why + ". The intervals are withdrawn; check the units of the speed, "
-                                    "the yaw rate and the forces, and the sizes of the vehicle"});
+                                    "the yaw rate and the forces, and the size of the vehicle"});
     withdraw_intervals(stage.reports[stage.chosen_report]);
     for (LogStage::Main& value : stage.main) withdraw_uncertainty(value.estimate);
   }

@@ -1,4 +1,4 @@
-/// Plausibility of I'z of a log fit, given m' and the vehicle's size. Private to identify/.
+/// Plausibility check of I'z from a log fit, by m' and the vehicle's size. Private to identify/.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,9 @@
 
 namespace awmr {
 
-/// Refuses an impossible I'z (`inertia-mismatch`). If m' can be the wrong one of the two, as with a
-/// wrong unit of the speed, all intervals are withdrawn.
+/// Refuses I'z if no distribution of the vehicle's mass can give I'z/m'. If m' may be the wrong one
+/// of the two (for example by a wrong unit of the speed), also withdraws all intervals and reports
+/// `inertia-mismatch`.
 void check_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, const Model& model,
                    LogStage& stage);
 

@@ -9,13 +9,14 @@
 namespace awmr {
 namespace {
 
-/// (J_s^T J_s)^-1 J_s^T J_t: change of the initial state that compensates each coordinate.
+/// (J_s^T J_s)^-1 J_s^T J_t: least-squares change of a window's initial state by each coordinate.
 Eigen::MatrixXd compensation(const WindowSums& window, Eigen::Index n) {
   const Eigen::Index k = window.products.rows() - 1 - n;
   return solve_ldlt(window.products.block(n, n, k, k), window.products.block(n, 0, k, n));
 }
 
-/// g_t - J_t^T J_s (J_s^T J_s)^-1 g_s; by_initial: J_t^T J_s (J_s^T J_s)^-1 of the window.
+/// Score g_t - J_t^T J_s (J_s^T J_s)^-1 g_s. `gradient`: g_t and g_s. `by_initial`: J_t^T J_s
+/// (J_s^T J_s)^-1 of the window.
 Eigen::VectorXd score(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& by_initial) {
   const Eigen::Index n = by_initial.rows();
   return gradient.head(n) - by_initial * gradient.segment(n, by_initial.cols());

@@ -1,4 +1,4 @@
-/// Information and scores of the logs at the solution. Private to identify/.
+/// Fisher information and score vectors of a log fit at its solution. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,35 +8,36 @@
 
 namespace awmr {
 
-/// Information of the logs about the n coordinates, after elimination of the initial state of each
-/// window. With the Jacobian's parts J_t by coordinate and J_s by initial state, and the gradients
-/// g = J^T r:
+/// Information and score of the n coordinates, after elimination of each window's initial state.
+/// With the residuals r, the Jacobian J_t by the coordinates, the Jacobian J_s by the initial
+/// state, and the gradients g_t = J_t^T r and g_s = J_s^T r, summed over the windows:
 ///
 ///     H = J_t^T J_t - J_t^T J_s (J_s^T J_s)^-1 J_s^T J_t
 ///     S = g_t       - J_t^T J_s (J_s^T J_s)^-1 g_s
 struct FitEvidence {
   Eigen::MatrixXd information;  ///< H, Fisher information: n x n, symmetric, positive semidefinite
-  Eigen::VectorXd score;        ///< S
+  Eigen::VectorXd score;        ///< S, of length n
 };
+/// Computes information and score from the sums of all windows.
 FitEvidence fit_evidence(const std::vector<WindowSums>& sums, Eigen::Index n);
 
-/// Score vectors of length n, one per block b of a log: g_t - J_t^T J_s (J_s^T J_s)^-1 g_s with the
-/// block's gradients g = J_b^T r_b. Their scatter gives the variance of the fit without a noise
-/// model.
+/// Score vectors S of length n (see FitEvidence) of parts of the logs, each with the gradients of
+/// that part alone. Their scatter gives the variance of the fit without a noise model.
 struct Scores {
   std::vector<Eigen::VectorXd> blocks;  ///< blocks of some seconds within a window
-  std::vector<Eigen::VectorXd> logs;    ///< whole logs: the sums of their blocks
+  std::vector<Eigen::VectorXd> logs;    ///< whole logs: sums over their blocks
 };
 
-/// Scores of the blocks, and of whole logs as sums of their blocks.
+/// Computes the scores of the blocks and of whole logs.
 Scores scores_of(const std::vector<FitWindow>& windows, const std::vector<WindowSums>& sums,
                  Eigen::Index n);
 
-/// Block length for nearly independent blocks: five times the longest correlation, at most a
-/// window.
+/// Length of nearly independent blocks, s: five times the longest correlation time, at least 1 s,
+/// at most a window.
 double block_length_s(const NoiseLevels& noise);
 
-/// AIC: -2 ln L + 2 (n + parameters of the noise), up to a constant of the logs.
+/// AIC of a fit under its own noise: -2 ln L + 2 (n + number of noise parameters), up to a constant
+/// of the logs. `n`: number of free quantities.
 double akaike(const NoiseLevels& noise, Eigen::Index n);
 
 }  // namespace awmr

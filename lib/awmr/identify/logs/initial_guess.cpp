@@ -13,9 +13,9 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-/// Root mean squares of one log, or their means over several.
+/// Root mean squares over one log, or their means over several logs.
 struct Magnitudes {
-  double thrust = 0.0;    ///< tau_speed
+  double thrust = 0.0;    ///< tau_speed, dimensionless
   double speed = 0.0;     ///< m/s
   double moment = 0.0;    ///< tau_turn, m
   double yaw_rate = 0.0;  ///< rad/s
@@ -52,7 +52,7 @@ Magnitudes mean_magnitudes(const std::vector<DrivingLog>& logs, const Vehicle& v
   return mean;
 }
 
-/// Returns `otherwise` for a magnitude of 0, as in a log without motion.
+/// Returns `value`, or `otherwise` if it is 0 or not finite, as in a log without motion.
 double or_else(double value, double otherwise) {
   return value > 1e-6 && std::isfinite(value) ? value : otherwise;
 }
@@ -75,7 +75,7 @@ ParameterValues<double> guess_from_logs(const std::vector<DrivingLog>& logs,
   guess[at(ParameterId::kSwayAlpha)] = mass / 0.1;
   guess[at(ParameterId::kMassNorm)] = mass;
   guess[at(ParameterId::kInertiaNorm)] = mass * vehicle.inertia_kgm2() / vehicle.mass_kg;
-  // Without steering there is no servo, and the time constant is arbitrary.
+  // A vehicle without steering has no servo. Its time constant is arbitrary.
   const double servo_s = vehicle.steering_time_constant_s;
   guess[at(ParameterId::kSteeringTimeConstant)] = servo_s > 0.0 ? servo_s : 0.05;
   return guess;

@@ -1,4 +1,4 @@
-/// Initial guess of a log fit without other trials. Private to identify/.
+/// Initial guess of the parameters for a log fit without other trials. Private to identify/.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace awmr {
 
-/// Orders of magnitude from the logs: resistances that balance the mean thrust at the mean speed,
-/// and inertias for time constants of a third of a second. Terms that only some families have are
-/// 0.
+/// Guesses the order of magnitude of each parameter. The resistances balance the mean forces at the
+/// mean speeds; m' gives a time constant of 0.3 s; I'z is m' Iz/m of the vehicle. Terms that only
+/// some families have are 0.
 ParameterValues<double> guess_from_logs(const std::vector<DrivingLog>& logs,
                                         const Vehicle& vehicle);
 

@@ -7,7 +7,7 @@
 namespace awmr {
 namespace {
 
-/// A wheel's force beyond its dead zone, and its derivatives.
+/// Force of a wheel beyond its dead zone, with derivatives.
 struct WheelForce {
   double value;
   double by_command;
@@ -20,8 +20,8 @@ WheelForce wheel_force(double command, double zone) {
   return {0.0, 0.0, 0.0};
 }
 
-/// Derivatives of the rates of u, v and r by the sum of the forces, and of r by their difference,
-/// right minus left.
+/// Derivatives of u_dot, v_dot and r_dot by the sum of the forces, and of r_dot by their
+/// difference, right minus left.
 struct ByForces {
   DrivenSlopes sum;
   double difference;
@@ -33,7 +33,7 @@ struct ByForces {
   }
 };
 
-/// Servo: d_r_dot = sat((target - d_r)/T, d_rate_max); derivatives are 0 at a limit.
+/// Adds the servo: d_r_dot = sat((target - d_r)/T, d_rate_max). Derivatives are 0 at a limit.
 void add_servo(const LinearPlant& plant, const State<double>& s, double command_rad,
                LinearRates& out) {
   const Plant<double>& p = plant.plant;
@@ -46,7 +46,7 @@ void add_servo(const LinearPlant& plant, const State<double>& s, double command_
   out.steering_by_command = std::abs(command_rad) <= p.steering_max_rad ? free : 0.0;
 }
 
-/// Position and heading.
+/// Adds the rates of position and heading.
 void add_kinematics(const State<double>& s, LinearRates& out) {
   const double c = std::cos(s.psi_rad);
   const double d = std::sin(s.psi_rad);
@@ -61,7 +61,7 @@ void add_kinematics(const State<double>& s, LinearRates& out) {
   out.by_state.y_v = c;
 }
 
-/// The rates' derivatives by the numbers of a resistance: -(dg/d number)/inertia.
+/// Adds the derivatives of a rate by the parameters of its resistance: -(dg/d parameter)/inertia.
 template <double DrivenSlopes::*kRate>
 void add_resistance(const ResistanceSlopes& g, double per_inertia, ParameterId alpha,
                     ParameterId beta, ParameterId coulomb, ParameterId quadratic,
@@ -72,18 +72,18 @@ void add_resistance(const ResistanceSlopes& g, double per_inertia, ParameterId a
   out.by_parameter[at(quadratic)].*kRate = -g.by_quadratic * per_inertia;
 }
 
-/// Rows of a 3 x 3 matrix, or a vector, over (u, v, r).
+/// A vector over (u, v, r), or a row of a 3 x 3 matrix.
 using Vector3 = std::array<double, 3>;
 
-/// Adds share times a b^T to `to`.
+/// Adds share a b^T to the matrix `to`.
 void add_product(double share, const Vector3& a, const Vector3& b, std::array<Vector3, 3>& to) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) to[i][j] += share * a[i] * b[j];
   }
 }
 
-/// Damping matrix of back-EMF. A wheel rolls at w = J (u, v, r), its force acts as J^T F', and
-/// back-EMF reduces the force by k_e w:
+/// Damping matrix D of back-EMF. A wheel rolls at the speed w = J (u, v, r). Its force F' acts on
+/// the vehicle as (X, Y, N) = J^T F'. Back-EMF reduces F' by k_e w, so
 ///     (X, Y, N) -= k_e D (u, v, r),   D = sum J^T J over the wheels whose motor is on
 ///     J_rear = (1, 0, -+d),   J_front = (cos d_r, sin d_r, l_f sin d_r -+ d cos d_r)
 struct Braking {
@@ -101,7 +101,7 @@ void add_side(const Plant<double>& p, double left_m, double sin_d, double cos_d,
   add_product(1.0, front, turned, braking.by_steering);
 }
 
-/// Subtracts the deceleration by back-EMF, after all other terms are in `out`.
+/// Adds back-EMF to the rates. Call after all other terms.
 void add_back_emf(const LinearPlant& plant, const State<double>& s, bool left_on, bool right_on,
                   double sin_d, double cos_d, LinearRates& out) {
   const Plant<double>& p = plant.plant;
@@ -143,7 +143,7 @@ void add_back_emf(const LinearPlant& plant, const State<double>& s, bool left_on
   a.r_steering -= k * along(braking.by_steering, 2);
 }
 
-/// v_dot and all of its derivatives times `pace`.
+/// Multiplies v_dot and its derivatives by `pace` (LinearPlant::sway_pace).
 void slow_sway(double pace, LinearRates& out) {
   StateSlopes& a = out.by_state;
   for (double* rate : {&out.rates.v_mps, &a.v_u, &a.v_v, &a.v_r, &a.v_steering,
@@ -191,7 +191,7 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
   const Plant<double>& p = plant.plant;
   const double sin_d = std::sin(s.steering_rad);
   const double cos_d = std::cos(s.steering_rad);
-  const double reach = cos_d + p.rear_driven;  // of left and right forces: front and rear wheel
+  const double reach = cos_d + p.rear_driven;  // forward share of the front and the rear wheel
   const WheelForce left = wheel_force(command.force.left, p.wheel_dead_zone);
   const WheelForce right = wheel_force(command.force.right, p.wheel_dead_zone);
   const double sum = left.value + right.value;
@@ -257,7 +257,8 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
 
 namespace {
 
-/// Coulomb friction of one rate: w_dot -= s c/inertia. `inertia` is m' or I'z.
+/// Adds Coulomb friction c to the rate of one speed w: w_dot -= s c/inertia, with the sign s of the
+/// motion and m' or I'z as inertia.
 template <double DrivenSlopes::*kRate>
 void brake(double way, double friction, double per_inertia, ParameterId coulomb,
            ParameterId inertia, double& rate, LinearRates& out) {

@@ -1,8 +1,9 @@
-/// The rates of the state with their partial derivatives. Private to identify/.
+/// Rates of change of the vehicle's state and their partial derivatives, for log fits. Private to
+/// identify/.
 ///
-/// The equations are those of model/dynamics.h for left and right wheel forces; here they are
+/// The equations are those of model/dynamics.h for left and right wheel forces. They are
 /// differentiated by hand, which takes a tenth of the time of automatic differentiation. A test
-/// compares both.
+/// compares the results of both.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 
 namespace awmr {
 
-/// g(w) and its partial derivatives at one speed.
+/// Resistance g(w) and its partial derivatives at one speed or yaw rate w.
 struct ResistanceSlopes {
   double value = 0.0;
   double by_speed = 0.0;
@@ -24,16 +25,17 @@ struct ResistanceSlopes {
   double by_quadratic = 0.0;
 };
 
-/// A resistance with the precomputed chord through rest.
+/// Resistance with derivatives. Below the law's rest_speed the curve is replaced by a chord through
+/// 0, which is precomputed.
 class LinearResistance {
  public:
   explicit LinearResistance(const Resistance<double>& law);
-  /// With L = ln |w| and the sign of w on everything but by_speed,
+  /// Computes the value and the derivatives at the speed w. With L = ln |w|,
   ///
   ///     g = c + alpha e^(beta L) + q w^2,   dg/dw = (alpha beta e^(beta L))/|w| + 2 q |w|
   ///
-  /// and below the law's rest_speed the chord: g and its derivatives at rest_speed, times
-  /// w/rest_speed. rest_speed depends on the step length and has no derivative.
+  /// All results but by_speed have the sign of w. Below rest_speed they are those at rest_speed
+  /// times w/rest_speed. rest_speed depends on the step length and has no derivative.
   ResistanceSlopes operator()(double speed) const;
 
  private:
@@ -42,11 +44,11 @@ class LinearResistance {
   ResistanceSlopes at_rest_speed_;
 };
 
-/// A plant with precomputed reciprocals for repeated evaluation of its rates. Its rates exclude
-/// Coulomb friction, which add_friction() adds.
+/// Plant with precomputed reciprocals, for repeated evaluation of its rates. linear_rates()
+/// excludes Coulomb friction; add_friction() adds it.
 struct LinearPlant {
-  /// `by_back_emf`: computes the derivatives by k_e even if k_e is 0. `longest_step_s`: of the
-  /// Runge-Kutta steps to come; 0: short enough for sway.
+  /// `by_back_emf`: true computes the derivatives by k_e even if k_e is 0. `longest_step_s`:
+  /// longest Runge-Kutta step to come; 0 if all steps are short enough for sway.
   explicit LinearPlant(const Plant<double>& p, bool by_back_emf = false,
                        double longest_step_s = 0.0)
       : plant(without_friction(p)),
@@ -65,20 +67,20 @@ struct LinearPlant {
   double per_mass;
   double per_inertia;
   double per_lag;
-  /// Factor on v_dot, <= 1: sway that is faster than the steps reaches the same v within a step.
+  /// Factor on v_dot, <= 1. It slows sway that is faster than the steps, so that v reaches the same
+  /// steady value in about one step.
   double sway_pace;
   bool has_back_emf;
 };
 
-/// Forces and steering at one time.
+/// Wheel forces and steering command at one time.
 struct HeldCommand {
   SideForces<double> force{};
   double steering_rad = 0.0;
 };
 
-/// Partial derivatives of the rates by the state, those that are not 0: `u_psi` would be d u_dot /
-/// d psi.
-/// Also psi_r = 1.
+/// Partial derivatives of the rates by the state; x_psi is d x_dot / d psi. The others are 0,
+/// except d psi_dot / d r = 1.
 struct StateSlopes {
   double x_psi, x_u, x_v;
   double y_psi, y_u, y_v;
@@ -88,7 +90,7 @@ struct StateSlopes {
   double steering_steering;
 };
 
-/// Partial derivatives of the rates of u, v, r and of the steering angle by one number.
+/// Partial derivatives of u_dot, v_dot, r_dot and the steering rate by one number.
 struct DrivenSlopes {
   double u = 0.0;
   double v = 0.0;
@@ -96,6 +98,7 @@ struct DrivenSlopes {
   double steering = 0.0;
 };
 
+/// Rates of the state with all partial derivatives.
 struct LinearRates {
   State<double> rates{};
   StateSlopes by_state{};
@@ -105,13 +108,13 @@ struct LinearRates {
   double steering_by_command = 0.0;
 };
 
-/// Computes the rates at `s`. `out` must begin as LinearRates{}: entries that are always 0 are not
-/// written.
+/// Computes the rates at the state `s`. `out` must be LinearRates{} before the first call, because
+/// entries that are always 0 are not written.
 void linear_rates(const LinearPlant& p, const State<double>& s, const HeldCommand& command,
                   LinearRates& out);
 
-/// Adds Coulomb friction: it brakes a moving vehicle; if it holds the vehicle at rest, rate and
-/// derivatives are set to 0.
+/// Adds Coulomb friction to the rates. For a speed that friction holds at rest, the rate and its
+/// derivatives are set to 0. `way`: direction of motion of each speed.
 void add_friction(const LinearPlant& p, const Sliding& way, LinearRates& out);
 
 }  // namespace awmr

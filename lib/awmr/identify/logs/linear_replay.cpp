@@ -12,7 +12,7 @@ struct RateOfParameter {
   double DrivenSlopes::*rate;
 };
 
-/// The rates on which a parameter acts.
+/// The rates on which each parameter acts.
 constexpr RateOfParameter kActs[] = {
     {ParameterId::kSurgeAlpha, &DrivenSlopes::u},
     {ParameterId::kSurgeBeta, &DrivenSlopes::u},
@@ -38,7 +38,7 @@ constexpr RateOfParameter kActs[] = {
 constexpr double DrivenSlopes::*kDriven[kDrivenSize] = {&DrivenSlopes::u, &DrivenSlopes::v,
                                                         &DrivenSlopes::r, &DrivenSlopes::steering};
 
-/// Index of a component of State among its derivatives.
+/// Row of a component of State in LinearMotion::by_column.
 std::size_t place_of(LogChannel channel) {
   switch (channel) {
     case LogChannel::kX:
@@ -59,12 +59,12 @@ std::size_t place_of(LogChannel channel) {
   return 6;
 }
 
-/// d mean / d delay of a command over [t, t + h].
+/// Derivative by the delay of a command's mean over [t_s, t_s + h_s].
 double slope_by_delay(const HeldSignal& signal, double t_s, double h_s, double delay_s) {
   return -(signal.at(t_s + h_s - delay_s) - signal.at(t_s - delay_s)) / h_s;
 }
 
-/// By column, [kStateSize]: the rate of the derivatives at one moment.
+/// Rates of change A S + B of one column S of the derivatives.
 std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double* b,
                                               std::size_t columns, const double* s) {
   const double psi = s[2 * columns];
@@ -161,7 +161,7 @@ void LinearStepper::find_way(const DelayedCommand& command, LinearMotion& motion
 
 State<double> LinearStepper::state_after(const DelayedCommand& command, double h,
                                          const State<double>& from) {
-  // As rk4_step() does.
+  // Coefficients of rk4_step().
   constexpr double kToNext[kStages] = {0.5, 0.5, 1.0, 0.0};
   constexpr double kShare[kStages] = {6.0, 3.0, 3.0, 6.0};
   State<double> at_stage = from;
@@ -185,9 +185,9 @@ void LinearStepper::move_to(const State<double>& next, double h, LinearMotion& m
 }
 
 void LinearStepper::stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion) {
-  // A change S of the speed before the stop shifts the time of the stop by -S/w_dot. The speed
-  // after it changes by that time times the difference of the rates: S after = S before (w_dot
-  // after)/(w_dot before).
+  // A change S of the speed w before the stop shifts the time of the stop by -S/w_dot. The speed
+  // after the stop changes by that time shift times the difference of the rates, so
+  // S after = S before (w_dot after)/(w_dot before).
   find_rates(command, motion.state);
   const double before = channel_of(rates_.rates, speed);
   channel_of(motion.state, speed) = 0.0;
@@ -235,7 +235,7 @@ State<double> LinearStepper::rates(const DelayedCommand& command, LinearMotion& 
 
 namespace {
 
-/// Motors that are off as soon as their command is 0 then have no force and no derivatives.
+/// Sets force and derivatives to 0 on each side whose command is 0 (CommandPath::switches_off).
 void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
   const auto off = [&](double SideForces<double>::*side) {
     if (command.*side != 0.0) return;
@@ -250,7 +250,7 @@ void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
 
 namespace {
 
-/// The commands at the wheels, delayed and lagged, without the constant errors.
+/// Commands at the wheels with delays and lag, before the constant errors.
 DelayedCommand intended_command(const LogSignals& signals, std::size_t row, double t_s, double h_s,
                                 const CommandPath& path) {
   const DrivingLog& log = *signals.log;
@@ -323,7 +323,7 @@ LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
     for (int i = 0; i < steps; ++i) stepper.step(command, span_s / steps, motion);
     rates = stepper.rates(command, motion);
   }
-  // A longer delay selects an earlier time.
+  // A longer delay selects an earlier state, so the derivative by the delay is minus the rate.
   if (stepper.columns() == 0) return motion;
   for (const LogChannel channel : kChannels) {
     motion.row(channel, stepper.columns())[delay.column] -= channel_of(rates, channel);

@@ -1,5 +1,5 @@
-/// replay() with the derivatives of the motion by the free quantities of a fit. Private to
-/// identify/.
+/// Simulation of a log like replay(), with the derivatives of the motion by the free quantities of
+/// a log fit. Private to identify/.
 #pragma once
 
 #include <algorithm>
@@ -14,45 +14,45 @@
 
 namespace awmr {
 
-/// The state at one time and its derivatives by the columns of a fit, [kStateSize][columns]; empty
-/// if only the state is requested.
+/// State at one time with its derivatives by the columns of a fit. A column is a free quantity or a
+/// free component of the initial state.
 struct LinearMotion {
   State<double> state{};
-  std::vector<double> by_column;
+  std::vector<double> by_column;  ///< [kStateSize][columns]; empty for the state alone
+  /// Derivatives of one component of the state, by column.
 
   const double* row(LogChannel channel, std::size_t columns) const;
   double* row(LogChannel channel, std::size_t columns);
 };
 
-/// A parameter whose derivatives fill a column.
+/// A free parameter and the column of its derivatives.
 struct ParameterColumn {
   ParameterId id;
   std::size_t column;
   double factor;  ///< d parameter / d coordinate
 };
 
-/// A delay or a lag and the column that its derivatives fill.
+/// A delay or a lag and the column of its derivatives.
 struct DelayColumn {
   double delay_s;
   std::size_t column;
 };
 
-/// A constant error of the commands and the column that its derivatives fill.
+/// A constant error of the commands and the column of its derivatives.
 struct OffsetColumn {
   double value;
   std::size_t column;
 };
 
-/// Path of the logged commands to the wheels: direct, delayed, through motor lag, or with a
-/// constant error.
+/// Delays, lag and constant errors between the logged commands and the wheels.
 struct CommandPath {
-  std::optional<DelayColumn> delay = {};  ///< of all commands; negative: their time stamps are late
-  std::optional<DelayColumn> steering_delay = {};  ///< of the steering, on top of that
-  std::optional<LaggedForces> lag = {};
-  std::optional<std::size_t> lag_column = {};      ///< present if the lag is free
+  std::optional<DelayColumn> delay = {};           ///< of all commands; negative: late time stamps
+  std::optional<DelayColumn> steering_delay = {};  ///< of the steering, in addition to `delay`
+  std::optional<LaggedForces> lag = {};            ///< forces after the motors' lag
+  std::optional<std::size_t> lag_column = {};      ///< column of the lag; present if it is free
   std::optional<OffsetColumn> steering_trim = {};  ///< rad, added to command or logged angle
   std::optional<OffsetColumn> imbalance = {};  ///< e: left forces times 1 - e, right times 1 + e
-  /// A motor is off as soon as its command is 0, whatever its lag: true for motors with back-EMF.
+  /// True (motors with back-EMF): a motor is off as soon as its command is 0, whatever its lag.
   bool switches_off = false;
 };
 
@@ -66,55 +66,57 @@ struct CommandColumns {
 };
 CommandColumns columns_of(const CommandPath& path);
 
-/// The commands as they reach the wheels, and their derivatives with respect to the free quantities
-/// of their path.
+/// Commands as they reach the wheels, with derivatives by the free quantities of their path.
 struct DelayedCommand {
   HeldCommand command;
   HeldCommand by_delay{};
-  double steering_by_delay = 0.0;  ///< by a delay of the steering alone
+  double steering_by_delay = 0.0;  ///< by the delay of the steering alone
   SideForces<double> by_lag{};
   SideForces<double> by_imbalance{};
-  double steering_by_trim = 0.0;  ///< 1 with a trim, of a logged angle too
+  double steering_by_trim = 0.0;  ///< 1 if there is a trim, else 0
 };
 
-/// Integrates the state and its derivatives.
+/// Integrates the state and its derivatives step by step.
 class LinearStepper {
  public:
-  /// `columns`: 0 for the state alone. `command_columns`: columns_of() the command path. `longest_step_s`:
-  /// as for LinearPlant.
+  /// `columns`: number of columns; 0 for the state alone. `command_columns`: columns_of() of the
+  /// command path. `longest_step_s`: as for LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
                 const std::vector<ParameterColumn>& parameters,
                 const CommandColumns& command_columns, double longest_step_s = 0.0);
-  /// One classical Runge-Kutta step of h seconds with friction, as rk4_step_with_friction().
+  /// Makes one classical Runge-Kutta step of h_s seconds with friction, like
+  /// rk4_step_with_friction().
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
-  /// Makes one step along the rates at the present state, which are returned; h of either sign.
+  /// Makes one Euler step of h_s seconds (of either sign). Returns the rates before the step.
   State<double> step_along_tangent(const DelayedCommand& command, double h_s, LinearMotion& motion);
-  /// The rates of the state.
+  /// Rates of the state.
   State<double> rates(const DelayedCommand& command, LinearMotion& motion);
 
   std::size_t columns() const { return columns_; }
 
  private:
-  /// A nonzero derivative of rates_ and its destination.
+  /// A derivative of rates_ by a parameter and its destination in driven_.
   struct Term {
     std::size_t parameter;
     double DrivenSlopes::*rate;
-    std::size_t place;  ///< [kDrivenSize][columns]
+    std::size_t place;  ///< index in an array [kDrivenSize][columns]
     double factor;
   };
   void note_driven(const DelayedCommand& command, double* driven) const;
-  /// Fills a column by the derivatives of the commands.
+  /// Sets a column to the derivatives of the rates by a quantity that acts through the commands.
   void set_column(const HeldCommand& by, std::size_t column, double* driven) const;
-  /// The rates and their derivatives at `s`, friction included.
+  /// Computes the rates and their derivatives at `s`, friction included.
   void find_rates(const DelayedCommand& command, const State<double>& s);
-  /// Sets the direction in which each speed of `motion` moves from here on. A speed held at 0 by
-  /// friction has zero derivatives.
+  /// Sets way_, the direction in which each speed moves next. For a speed that friction holds at 0,
+  /// sets the derivatives to 0.
   void find_way(const DelayedCommand& command, LinearMotion& motion);
-  /// Returns the state after h seconds, and keeps what move_to() needs for the derivatives.
+  /// Returns the state after h_s seconds. Stores the stages that move_to() needs for the
+  /// derivatives.
   State<double> state_after(const DelayedCommand& command, double h_s, const State<double>& from);
-  /// Moves the state to `next`, that of the last state_after(), and its derivatives with it.
+  /// Moves state and derivatives of `motion` to `next`, the result of the last state_after().
   void move_to(const State<double>& next, double h_s, LinearMotion& motion);
-  /// Keeps a speed that has reached 0 at rest, or continues in the other direction.
+  /// Handles a speed that has reached 0: friction keeps it at rest, or it continues in the other
+  /// direction. Adapts the derivatives.
   void stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion);
 
   LinearPlant plant_;
@@ -127,12 +129,12 @@ class LinearStepper {
   std::vector<double> driven_;  ///< [kStages][kDrivenSize][columns]
 };
 
-/// The command over [t, t + h].
+/// Mean command at the wheels over [t_s, t_s + h_s].
 DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s, double h_s,
                           const CommandPath& path);
 
-/// Runs the model over rows [begin, end) from `motion` and calls visit(row, motion) at every row,
-/// as replay() does.
+/// Simulates rows [begin, end) from `motion` and calls visit(row, motion) at every row, like
+/// replay().
 template <class Visit>
 void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end,
                    const CommandPath& path, LinearStepper& stepper, double longest_step_s,
@@ -140,7 +142,7 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
   const DrivingLog& log = *signals.log;
   const bool servo = log.steering_command_rad.has_value();
   const std::size_t columns = stepper.columns();
-  // A logged angle depends on its trim alone.
+  // A logged steering angle has no servo; it depends only on the trim.
   const auto steer = [&](std::size_t row, double share) {
     const std::vector<double>& angle = log[LogChannel::kSteering]->value;
     motion.state.steering_rad =
@@ -169,9 +171,9 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
   }
 }
 
-/// The motion at delay.delay_s >= 0 before the last of `motions`, which are the motions at the rows
-/// from `begin` on. Integrated by Runge-Kutta steps from the preceding row. Before the first row,
-/// its rates are extrapolated. `errors`: its constant errors apply to the commands, not its delays.
+/// Motion at the time delay.delay_s >= 0 before the last of `motions`, which are the motions at the
+/// rows from `begin` on. It is integrated from the row before that time, or extrapolated by the
+/// rates if there is no such row. Of `errors` only the constant errors are used, not the delays.
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
                             const DelayColumn& delay, double longest_step_s,

@@ -19,13 +19,13 @@
 namespace awmr {
 namespace {
 
-/// Relative change of the cost at which the last search ends. The cost is about half the number of
+/// Relative change of the cost at which the final search ends. The cost is about half the number of
 /// samples, and a step of d standard errors changes it by d^2/2. With 100 000 samples, the last
-/// step is shorter than 0.01 standard errors.
+/// step is therefore shorter than 0.01 standard errors.
 constexpr double kFine = 1e-9;
 
-/// Maximum number of optima of the rough searches to refine, until the logs can be replayed at the
-/// refined one.
+/// Largest number of rough optima to refine. A rough optimum is skipped if the logs cannot be
+/// simulated at the refined optimum.
 constexpr std::size_t kTries = 3;
 
 LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
@@ -35,7 +35,7 @@ LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
   return fit;
 }
 
-/// Score-test estimate of the decrease of -2 ln L with each candidate term free.
+/// Score-test estimate of the decrease of -2 ln L by each candidate term.
 std::vector<double> suspect_gains(const LogProblem& problem, const SearchPoint& point,
                                   const std::vector<ParameterId>& candidate_terms) {
   std::vector<FreeQuantity> terms;
@@ -43,13 +43,13 @@ std::vector<double> suspect_gains(const LogProblem& problem, const SearchPoint& 
   for (const ParameterId id : candidate_terms) terms.push_back(free_parameter(id));
   std::vector<double> gains;
   for (const ScoreTest& test : score_test(problem, point, terms)) {
-    // A term is not negative: no gain if the estimate is below 0.
+    // A term cannot be negative, so an estimate below 0 gives no gain.
     gains.push_back(test.value > 0.0 ? test.gain : 0.0);
   }
   return gains;
 }
 
-/// Returns the fit at `solved`, the end of a search, with its `sums`, which are finite.
+/// Returns the fit at `solved`, the end of a search. `sums`: sums of all windows there, finite.
 LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector<WindowSums>& sums,
               const LogFitOptions& options) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
@@ -73,7 +73,8 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .usable = solved.usable && solved.converged};
 }
 
-/// The fit by a search from these coordinates; empty if the logs cannot be replayed at its end.
+/// Fits the logs by a search from these coordinates. Empty if the logs cannot be simulated at its
+/// end.
 std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double>& coordinates,
                                const LogFitOptions& options) {
   LogProblem problem = guess;
@@ -93,14 +94,14 @@ std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
   const LogProblem guess = log_problem(logs, options);
   if (guess.windows.empty() || guess.initial.empty()) {
-    return without_solution("no measurements, or no parameters requested", {});
+    return without_solution("there are no measurements, or no parameter is free", {});
   }
   int readings = 0;
   for (const auto& [channel, noise] : guess.model.noise) readings += noise.count;
   if (readings <= static_cast<int>(guess.unknowns())) {
     return without_solution(
-        fmt::format("{} readings are too few for {} free numbers, including the initial state of "
-                    "every 10 s: log at a higher rate or more channels",
+        fmt::format("{} readings are too few for {} unknowns (parameters, and the initial state of "
+                    "every 10 s); log at a higher rate, or more channels",
                     readings, guess.unknowns()),
         {});
   }
@@ -113,7 +114,7 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
     fit = fit_from(guess, search.ends[i], options);
   }
   if (!fit) {
-    return without_solution("failed: the logs cannot be replayed where the search ended",
+    return without_solution("failed: the logs cannot be simulated where the search ended",
                             search.starts);
   }
   fit->report.starts = std::move(search.starts);

@@ -1,8 +1,8 @@
 /// Output-error fit of the whole model to driving logs. Private to identify/.
 ///
-/// The model is simulated with the logged commands and compared with all measurements, in windows
-/// with separate initial states. The noise of each channel is estimated from its residuals, and
-/// errors that are correlated in time are whitened.
+/// The model is simulated with the logged commands and compared with all measurements. Each window
+/// of the logs has its own initial state. The noise of each channel is estimated from the
+/// residuals, and residuals that are correlated in time are whitened.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,30 +15,31 @@
 
 namespace awmr {
 
+/// Result of fit_logs().
 struct LogFit {
   std::vector<FreeQuantity> quantities;
-  std::vector<double> coordinates;  ///< by quantity
-  Eigen::MatrixXd covariance;  ///< of the coordinates; non-identifiable ones have a large variance
-  std::vector<std::string> why_not;  ///< by quantity; empty where the logs show it
+  std::vector<double> coordinates;   ///< by quantity
+  Eigen::MatrixXd covariance;        ///< of the coordinates; large variance if not identifiable
+  std::vector<std::string> why_not;  ///< by quantity: why it is refused; empty if identified
   NoiseLevels noise;
-  ErrorsByChannel errors;  ///< raw, at the optimum
-  /// By candidate term of the options: decrease of -2 ln L with the term free (score test).
+  ErrorsByChannel errors;  ///< model + bias - measured at the optimum, not whitened
+  /// By candidate term of the options: estimated decrease of -2 ln L if the term were free.
   std::vector<double> suspect_gain;
-  double widened = 1.0;    ///< largest of Identifiability's factors
-  EstimatorReport report;  ///< parameters by quantity
-  bool usable = false;     ///< the search converged
+  double widened = 1.0;    ///< see Identifiability::widened()
+  EstimatorReport report;  ///< report for /estimates; its parameters are the quantities
+  bool usable = false;     ///< true if the search converged
 };
 
-/// Precondition: an initial guess for every parameter.
-/// Without measurements or free quantities, or if all searches fail, the fit is not usable and has
-/// no quantities; its report has the reason.
+/// Fits the logs. Precondition: an initial guess for every parameter. Without measurements or free
+/// quantities, or if all searches fail, the fit is not usable and has no quantities; its report
+/// states the reason.
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
-/// The options with exactly the terms of the fit free, starting at its optimum; unchanged if the
-/// fit has no quantities.
+/// Returns the options with the delays and command errors of `fit` as the free terms, starting at
+/// their fitted values. Unchanged if `fit` has no quantities.
 LogFitOptions with_terms_of(const LogFit& fit, LogFitOptions options);
 
-/// All parameters after the fit: fitted or fixed.
+/// Values of all parameters after the fit, fitted and fixed ones.
 ParameterValues<double> fitted_values(const LogFitOptions& options, const LogFit& fit);
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// Options of fit_logs(). Private to identify/.
+/// Options of a log fit, fit_logs(). Private to identify/.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,9 @@
 
 namespace awmr {
 
-/// Work of all searches of one identification: number of integrated states and derivatives, summed
-/// over the steps. Unlike a time, it does not depend on the machine or its load.
+/// Counter of the work of all searches of one identification, with a limit. The unit is one
+/// integrated state or derivative in one step. Unlike a time limit, it does not depend on the
+/// machine or its load.
 class Effort {
  public:
   explicit Effort(std::int64_t limit) : limit_(limit) {}
@@ -33,32 +34,33 @@ class Effort {
 
 struct LogFitOptions {
   Vehicle vehicle;
-  /// By ParameterId: initial guess of a free parameter, value of a fixed one.
+  /// By ParameterId: initial guess of a free parameter, or value of a fixed parameter.
   ParameterValues<double> initial_guess{};
-  /// Free parameters whose initial guess is only an order of magnitude; the multistart varies them.
-  /// Empty if other trials gave every initial guess, so that one search suffices.
+  /// Free parameters whose initial guess is only an order of magnitude. The multistart varies them.
+  /// Empty if other trials gave all initial guesses; one search then suffices.
   std::vector<ParameterId> guessed;
   std::vector<ParameterId> free;
-  /// Terms fixed at 0, for which the fit computes a score test.
+  /// Terms of resistance families, and back-EMF, that are fixed at 0. The fit computes a score test
+  /// of each.
   std::vector<ParameterId> candidate_terms;
-  /// Free delays, lags and command errors. Excludes a motor lag from the vehicle file, which is
-  /// fixed.
+  /// Free delays, lags and command errors. A motor lag from the vehicle file is fixed and not
+  /// listed.
   std::vector<FreeTerm> terms;
   std::vector<LogChannel> biases;  ///< channels whose constant offset is free
-  bool finds_delays = true;        ///< the fit adds significant terms (delays.h)
-  /// Time of the fitted rows, s. Commands before it act on them through latency and lags. Absent:
-  /// all rows.
+  bool finds_delays = true;        ///< true: the fit searches for further such terms (delays.h)
+  /// Time interval of the fitted rows, s. Earlier commands still act on them through delays and
+  /// lags. Absent: all rows.
   std::optional<Interval> only_s;
-  /// Further initial guesses, such as the optimum of a family that this one contains.
+  /// Further initial guesses, for example the optimum of another family.
   std::vector<ParameterValues<double>> also_from;
-  Loss loss = Loss::kSquared;  ///< robust if a sensor has outliers
-  std::uint64_t seed = 1;      ///< of the multistart and of the bootstrap
-  int multistart = 6;          ///< random initial guesses in addition to the given one
-  int bootstrap = 0;           ///< resamples of the block bootstrap; 0: none
+  Loss loss = Loss::kSquared;  ///< use a robust loss if a sensor has outliers
+  std::uint64_t seed = 1;      ///< seed of the multistart and of the bootstrap
+  int multistart = 6;          ///< number of random initial guesses in addition to the given one
+  int bootstrap = 0;           ///< number of resamples of the block bootstrap; 0: no bootstrap
   int threads = 0;             ///< 0: every core; the result does not depend on it
-  /// Counts the work of the searches. At its limit no further model is fitted. Absent: no limit.
+  /// Counts the work of the searches and limits it. Absent: no limit.
   std::shared_ptr<Effort> effort;
-  /// Time at which all searches stop.
+  /// Time at which all searches stop. Absent: no time limit.
   std::optional<std::chrono::steady_clock::time_point> deadline;
 };
 

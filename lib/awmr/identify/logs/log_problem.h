@@ -1,4 +1,4 @@
-/// The least-squares problem of a fit of logs. Private to identify/.
+/// Least-squares problem of a log fit: residuals, prior, bounds. Private to identify/.
 #pragma once
 
 #include <chrono>
@@ -10,15 +10,17 @@
 
 namespace awmr {
 
-/// Standard deviation of the prior at the initial guess, relative to the quantity's large change.
+/// Standard deviation of each coordinate's prior, in its large changes
+/// (FreeQuantity::large_change).
 inline constexpr double kPriorStd = 5.0;
 
-/// The cost is half the sum of squares of the residuals of all windows and of a prior of every
-/// coordinate at its initial guess,
+/// Data of the problem. The cost is half the sum of squares of the residuals of all windows and of
+/// a prior residual of every coordinate x_i,
 ///
 ///     (x_i - initial_i) / (kPriorStd large_change_i)
 ///
-/// which is weak compared with informative data, but keeps coordinates without data at their guess.
+/// The prior is weak compared with informative data, but keeps coordinates without data at their
+/// initial guess.
 struct LogProblem {
   LogModel model;
   std::vector<FitWindow> windows;
@@ -29,40 +31,40 @@ struct LogProblem {
   std::shared_ptr<Effort> effort;                                 ///< of all searches
   bool ends_at_limit = true;  ///< the search stops at the limit of effort
 
-  /// Number of free numbers: the quantities, and the initial state of every window.
+  /// Number of unknowns: the quantities, and the free initial states of all windows.
   std::size_t unknowns() const {
     return model.quantities.size() + model.initial.size() * windows.size();
   }
 };
 
-/// The numbers that a search moves.
+/// The unknowns of a LogProblem.
 struct SearchPoint {
   std::vector<double> coordinates;     ///< by quantity
   std::vector<double> initial_states;  ///< by window, then by component
 };
 
-/// Longest integration step at these coordinates, s: as replay_step_s(), but sway is not resolved
-/// between the rows of a log (LinearPlant::sway_pace), nor a servo with a time constant below a
-/// sixteenth of the row spacing.
+/// Longest integration step at these coordinates, s. Like replay_step_s(), but does not resolve
+/// sway within a row of the log (see LinearPlant::sway_pace), nor a servo with a time constant
+/// below 1/16 of the row spacing.
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates);
 
-/// The problem at the initial guess, with sensor noise and without outlier weights. The logs must
-/// outlive it.
+/// Builds the problem at the initial guess, with the noise by sensor_noise() and without weights of
+/// a robust loss. The logs must outlive it.
 LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
-/// The coordinates with the measured initial state of every window.
+/// Combines the coordinates with the measured initial state of every window.
 SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates);
 
-/// Searches that only rank the initial guesses integrate with steps longer by this factor.
+/// Factor on the integration step in searches that only rank initial guesses or models.
 inline constexpr double kRoughStep = 2.0;
 
-/// The errors and the sums of every window, computed in parallel. The result does not depend on the
-/// number of threads. `block_s`: of sums_of().
+/// Errors, or sums, of every window, computed in parallel. The result does not depend on the number
+/// of threads. `block_s`: length of the blocks, see sums_of().
 std::vector<WindowErrors> errors_at(const LogProblem& problem, const SearchPoint& point);
 std::vector<WindowSums> sums_at(const LogProblem& problem, const SearchPoint& point,
                                 double block_s = 0.0);
 
-/// False if the simulation of a window is not finite.
+/// True if the simulations of all windows are finite.
 bool all_finite(const std::vector<WindowErrors>& errors);
 bool all_finite(const std::vector<WindowSums>& sums);
 

@@ -14,7 +14,8 @@
 namespace awmr {
 namespace {
 
-/// "speed_mps 0.012 m/s, 0.004 of it correlated over 0.4 s; yaw_rate_radps 0.03 rad/s"
+/// Describes the noise of each channel: "speed_mps 0.012 m/s, 0.004 of it correlated over 0.4 s;
+/// yaw_rate_radps 0.03 rad/s".
 std::string in_words(const NoiseLevels& levels) {
   std::string text;
   for (const auto& [channel, noise] : levels) {
@@ -32,7 +33,7 @@ std::string in_words(const NoiseLevels& levels) {
   return text;
 }
 
-/// The i-th quantity with its interval: that of the bootstrap if available, else normal in the
+/// Quantity `i` with its 95 % interval: by the bootstrap if available, else Student's t in the
 /// coordinate.
 EstimatorParameter parameter_of(const LogReportInput& input, std::size_t i) {
   const FreeQuantity& q = input.problem.model.quantities[i];
@@ -44,13 +45,13 @@ EstimatorParameter parameter_of(const LogReportInput& input, std::size_t i) {
   parameter.std_error = q.jacobian(x) * error;
   parameter.ci95 = input.bootstrap95.empty() ? Interval{q.value(x - half), q.value(x + half)}
                                              : input.bootstrap95[i];
-  // A term of a family is not negative.
+  // A term of a family cannot be negative.
   const bool term = q.kind == FreeQuantity::Kind::kParameter && info(q.id).term;
   if (term) parameter.ci95->lo = std::max(0.0, parameter.ci95->lo);
   return parameter;
 }
 
-/// The standardised residuals of one channel, window after window.
+/// Standardised residuals of one channel, window after window.
 std::vector<double> series_of(const LogReportInput& input, const std::vector<WindowErrors>& errors,
                               LogChannel channel) {
   std::vector<double> series;
@@ -64,7 +65,7 @@ std::vector<double> series_of(const LogReportInput& input, const std::vector<Win
   return series;
 }
 
-/// Whiteness, then normality of each channel; the name says which channel.
+/// Tests the residuals of each channel for whiteness and normality. Test names end in the channel.
 std::vector<Diagnostic> residual_tests(const LogReportInput& input) {
   constexpr int kLags = 10;
   const std::vector<WindowErrors> errors = errors_at(input.problem, input.solved.point);
@@ -91,7 +92,7 @@ EstimatorReport log_report(const LogReportInput& input) {
   for (std::size_t i = 0; i < input.problem.model.quantities.size(); ++i) {
     report.parameters.push_back(parameter_of(input, i));
   }
-  report.residual_std = 1.0;  // of standardised residuals
+  report.residual_std = 1.0;  // residuals are standardised
   for (const auto& [channel, level] : noise) report.rows_used += level.count;
   report.degrees_of_freedom = report.rows_used - static_cast<int>(input.problem.unknowns());
   report.rank = input.found.rank;

@@ -1,4 +1,4 @@
-/// The entry of a fit of logs among the estimates. Private to identify/.
+/// Report of a log fit for /estimates of model.json. Private to identify/.
 #pragma once
 
 #include <vector>
@@ -9,19 +9,21 @@
 
 namespace awmr {
 
-/// Input of the report.
+/// Input of log_report().
 struct LogReportInput {
   const LogProblem& problem;
   const Solved& solved;
   const Identifiability& found;
-  const std::vector<Interval>& bootstrap95;  ///< of the value, by quantity; empty: not requested
+  /// 95 % intervals of the values by the bootstrap, by quantity; empty if not requested.
+  const std::vector<Interval>& bootstrap95;
 };
 
-/// Values of all quantities, standard errors of those that the logs identify, and tests whether the
-/// standardised residuals of each channel are white and normal. Excludes the multistart.
+/// Builds the report: values of all quantities, standard errors of those that the logs identify,
+/// and tests whether the standardised residuals of each channel are white and normal. Does not list
+/// the starts of the multistart.
 EstimatorReport log_report(const LogReportInput& input);
 
-/// Removes the standard errors and intervals; the values stay.
+/// Removes the standard errors and intervals from the report. Keeps the values.
 void withdraw_intervals(EstimatorReport& report);
 
 }  // namespace awmr

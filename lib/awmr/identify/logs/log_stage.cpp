@@ -45,8 +45,8 @@ bool any_has(const std::vector<DrivingLog>& logs, std::initializer_list<LogChann
   });
 }
 
-/// Reason why no channel or command of the logs can identify a parameter, checked before any
-/// search; empty if one can. Coupling, as of yaw and speed, does not count.
+/// Reason why the channels and commands of the logs cannot identify a parameter; empty if they can.
+/// Checked before any search. Indirect effects, for example of yaw on the speed, do not count.
 std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
   switch (id) {
     case ParameterId::kSteeringTimeConstant: {
@@ -80,7 +80,7 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
   }
 }
 
-/// Whether any command of the logs turns the vehicle.
+/// True if a command of the logs turns the vehicle.
 bool turns(const std::vector<DrivingLog>& logs) {
   constexpr double kMuch_rad = 0.01;
   return std::ranges::any_of(logs, [](const DrivingLog& log) {
@@ -90,8 +90,8 @@ bool turns(const std::vector<DrivingLog>& logs) {
   });
 }
 
-/// Channels with a free offset: the requested ones; a yaw rate, if the heading determines its bias;
-/// a heading, if the course over ground determines its offset.
+/// Channels with a free offset: those that the user requested, the yaw rate if the heading
+/// determines its bias, and the heading if the course over ground determines its offset.
 std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
                                         std::vector<LogChannel> requested) {
   const auto add = [&](LogChannel channel, bool is_biased) {
@@ -105,11 +105,11 @@ std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
   return requested;
 }
 
-/// Limit of the integrated numbers in all searches: about half a minute on a processor of 2023, and
-/// more for long logs. A log that the model describes needs a tenth.
+/// Limit of the work (Effort) of all searches: about half a minute on a processor of 2023, more for
+/// long logs. A log that the model describes well needs a tenth of this.
 std::int64_t effort_limit(const std::vector<DrivingLog>& logs) {
   constexpr double kLeast = 6e8;
-  constexpr double kPerSecond = 1e6;  // of log
+  constexpr double kPerSecond = 1e6;  // per second of log
   double duration_s = 0.0;
   for (const DrivingLog& log : logs) duration_s += log.t_s.back() - log.t_s.front();
   return std::llround(kLeast + kPerSecond * duration_s);
@@ -138,8 +138,8 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
   return fit;
 }
 
-/// Frees the parameters that are requested or have no value, and guesses the latter. Stores the
-/// reasons for those that the logs cannot identify.
+/// Frees the parameters that are requested or have no value. Guesses parameters without a value.
+/// Stores the reason for each parameter that the logs cannot identify.
 void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
                      const std::vector<ParameterId>& requested, const Model& model,
                      std::map<ParameterId, std::string>& reasons) {
@@ -152,8 +152,8 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
     if (!can_be_requested(parameter) || !wanted) continue;
     const std::string why = cannot_show(logs, parameter.id);
     if (!why.empty()) reasons[parameter.id] = why;
-    // In a turn, parameters that are not identified affect the others: they remain free, and are
-    // refused.
+    // In logs with turns, an unidentifiable parameter affects the others. It therefore stays free,
+    // so that its uncertainty is included, and is refused later.
     if (!why.empty() && (!turning || back_emf)) continue;
     fit.free.push_back(parameter.id);
     if (!known.value) fit.guessed.push_back(parameter.id);
@@ -161,8 +161,8 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
   if (frees_back_emf(fit)) fit = with_back_emf(std::move(fit));
 }
 
-/// Whether to test for back-EMF: it is neither given nor requested, no parameters were requested,
-/// and no table fit has absorbed it into the resistance.
+/// True if back-EMF is to be tested: it is neither given nor requested, no parameters were
+/// requested, and no resistance comes from a table fit, which would have absorbed it.
 bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                         const IdentifyOptions& options, const Model& model) {
   return options.requested.empty() && !vehicle.back_emf_s_per_m &&
@@ -178,26 +178,26 @@ void report(const IdentifyOptions& options, std::string_view what) {
   if (options.doing) options.doing(what);
 }
 
-/// Returns the requested families, or the best ones.
+/// Result of choose_families().
 struct Chosen {
   BestFamily found;
-  bool may_have_back_emf = false;  ///< according to the fit of the first family
+  bool may_have_back_emf = false;  ///< the fit of the first families indicates back-EMF
 };
 
-/// Reports the reason if the next step can take more than 10 s of one processor. `numbers`:
-/// approximate number of integrated values.
+/// Calls options.notice if the step `what` may take more than 10 s on one processor. `numbers`:
+/// approximate work of the step (Effort).
 void announce(const IdentifyOptions& options, double numbers, const std::string& what) {
-  constexpr double kNumbersPerSecond = 2e7;  // a processor of 2023
+  constexpr double kNumbersPerSecond = 2e7;  // Effort per second on a processor of 2023
   constexpr double kLong_s = 10.0;
   const double about_s = numbers / kNumbersPerSecond;
   if (!options.notice || about_s <= kLong_s) return;
   options.notice(fmt::format(
-      "{} may take up to about {:.0f} s of one processor; a part of the logs ({}) takes less", what,
-      about_s, option_text("from S")));
+      "{} may take up to about {:.0f} s of one processor; use a part of the logs ({}) to save time",
+      what, about_s, option_text("from S")));
 }
 
-/// Work of the first fit: each evaluation integrates, in at least one step per row, the state and
-/// its derivatives by each free quantity and initial component.
+/// Estimated work of the first fit (Effort). Each evaluation integrates the state and its
+/// derivatives by every free quantity and every component of the initial state.
 double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
   constexpr double kEvaluations = 40.0;
   constexpr double kStepsOfRow = 2.0;
@@ -208,7 +208,7 @@ double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOpt
   return kEvaluations * kStepsOfRow * rows * (1.0 + derivatives);
 }
 
-/// Fits the requested families; default: power law.
+/// Fits the families that the options name, by default power laws.
 FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            const IdentifyOptions& options) {
   report(options, "fitting the logs");
@@ -217,7 +217,8 @@ FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOpti
                     options.yaw_family.family.value_or(Family::kPower));
 }
 
-/// `first`: the result of fit_first_family().
+/// Selects the families: those that the user requested, or the best ones. `first`: result of
+/// fit_first_family().
 Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const IdentifyOptions& options, FamilyFit first) {
   const FamilyChoice& surge = options.surge_family;
@@ -227,7 +228,8 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   Chosen chosen{{.best = std::move(first), .others = {}, .findings = {}}};
   chosen.may_have_back_emf = suspects_back_emf(chosen.found.best.fit, power_law.candidate_terms);
   if (!surge_open && !yaw_open) return chosen;
-  // Without a request, another family has to be significantly better than the paper's.
+  // Unless the user requests the best family, another family has to be significantly better than
+  // the power law.
   report(options, "trying families of resistance");
   const bool is_family_requested = !surge.family || !yaw.family;
   const FamilyContest contest{.surge = surge_open,
@@ -244,7 +246,7 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   return chosen;
 }
 
-/// The logs with their steering command as the measured steering angle.
+/// Returns the logs with the steering command as the measured steering angle.
 std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs) {
   for (DrivingLog& log : logs) {
     log[LogChannel::kSteering] = Measured{.value = *std::move(log.steering_command_rad),
@@ -254,9 +256,8 @@ std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs) {
   return logs;
 }
 
-/// True if the steering command of every log is the measured angle: `first` has a servo without
-/// lag, and the fit with the column as the angle, interpolated between the rows, is significantly
-/// better.
+/// True if the column of steering commands contains measured angles: the servo of the fit `first`
+/// has practically no lag, and a fit that uses the column as the angle is significantly better.
 bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                           const FamilyFit& first, const IdentifyOptions& options) {
   constexpr double kOfRow = 0.5;
@@ -281,14 +282,15 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
 
 Finding measured_steering_finding(const std::string& file) {
   return {file, 0, Severity::kWarning, "steering-measured",
-          fmt::format("the vehicle turns with steering_cmd_deg without the lag of a servo: the "
-                      "column is the measured angle and is used as such. Map it by {}, or log the "
-                      "command, from which the servo's lag is identified",
+          fmt::format("the vehicle follows steering_cmd_deg without a servo lag, so the column is "
+                      "used as the measured angle. Map it by {}, or log the steering command, so "
+                      "that the servo's lag can be identified",
                       option_text(R"(column 'steering_deg="steering_cmd_deg"')"))};
 }
 
-/// Refits the best families of `ideal` with back-EMF and keeps the result if it is significantly
-/// better. The rejected fit is reported.
+/// Refits the best families of `ideal`, a result without back-EMF, with back-EMF. Returns the
+/// better model, and puts the other fit among its alternatives. Back-EMF has to be significantly
+/// better.
 BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
                             const IdentifyOptions& options, BestFamily ideal) {
   report(options, "trying back-EMF of the motors");
@@ -303,7 +305,7 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
       ideal.is_out_of_time = is_over(power_law);
       ideal.findings.push_back(
           {logs.front().file, 0, Severity::kWarning, "families-not-compared",
-           fmt::format("the back-EMF model was not compared on these logs: {}{}",
+           fmt::format("the model with back-EMF could not be fitted to these logs: {}{}",
                        same.fit.report.stop_reason,
                        ideal.is_out_of_time ? "; the intervals are withdrawn" : "")});
     }
@@ -319,8 +321,8 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
   return braked;
 }
 
-/// Fits the requested or the best families, with back-EMF if it is significant. Also fits the
-/// alternatives for the report.
+/// Selects the families, and back-EMF if it is significant. Adds the reports of all fits and the
+/// findings to `stage`.
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                        const IdentifyOptions& options, FamilyFit first, LogStage& stage) {
   const FamilyChoice& surge = options.surge_family;
@@ -353,8 +355,8 @@ void refuse_all(const FamilyFit& chosen, const std::string& file, LogStage& stag
   }
 }
 
-/// `logs-disagree` for every quantity that differs between logs. `withdrawn`: the intervals of the
-/// fit are withdrawn.
+/// The finding `logs-disagree` for every quantity that differs between logs. `withdrawn`: true if
+/// the intervals of the fit are withdrawn.
 std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements, bool withdrawn) {
   std::vector<Finding> findings;
   for (const LogDisagreement& one : disagreements) {
@@ -364,33 +366,33 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements,
     }
     findings.push_back(
         {one.files.front(), 0, Severity::kWarning, "logs-disagree",
-         fmt::format("the logs disagree on {}: {} (p = {:.2g} for one vehicle, surface and "
-                     "battery); {}",
+         fmt::format("the logs disagree on {}: {} (p = {:.2g} if vehicle, surface and battery were "
+                     "the same). {}",
                      one.name, each, one.p_value,
-                     one.withdraws ? "the fit uses one value for all of them, so the intervals are "
+                     one.withdraws ? "The fit uses one value for all logs, so all intervals are "
                                      "withdrawn; identify each log separately"
                      : one.refuses
-                         ? "an interval that covers them would be too wide, so it is refused"
-                     : withdrawn ? "its interval is withdrawn"
-                                 : "its interval is widened and covers the mean over such logs, "
+                         ? "An interval that covers all values would be too wide, so it is refused"
+                     : withdrawn ? "Its interval is withdrawn"
+                                 : "Its interval is widened: it covers the mean over such logs, "
                                    "not an individual log")});
   }
   return findings;
 }
 
-/// `held-out-misses`: the first half of the log does not predict these rows.
+/// The finding `held-out-misses`: a fit of the log's first half does not predict the last fifth.
 Finding in_words(const HeldOut& missed, const std::string& file) {
-  return {
-      file, 0, Severity::kWarning, "held-out-misses",
-      fmt::format("a fit of the first half predicts {} worse than its noise and intervals allow "
-                  "(p = {:.2g}): {} changes most, from {:.4g} to {:.4g}. Battery, temperature, "
-                  "ground or load changed, or the model lacks something. The intervals are "
-                  "withdrawn; identify the part under one condition ({}, {})",
-                  missed.rows, missed.p_value, missed.quantity, missed.by_fit, missed.by_rows,
-                  option_text("from S"), option_text("until S"))};
+  return {file, 0, Severity::kWarning, "held-out-misses",
+          fmt::format("a fit of the first half predicts {} worse than noise and intervals allow "
+                      "(p = {:.2g}); {} changes most, from {:.4g} to {:.4g}. Battery, temperature, "
+                      "ground or load changed, or the model is incomplete, so the intervals are "
+                      "withdrawn. Identify a part under constant conditions ({}, {})",
+                      missed.rows, missed.p_value, missed.quantity, missed.by_fit, missed.by_rows,
+                      option_text("from S"), option_text("until S"))};
 }
 
-/// Sets the parameters that the fit identifies; those from other trials only if `overrule`.
+/// Takes the parameters that the fit identifies into `stage`. Parameters with a value from other
+/// trials are replaced only if `overrule`.
 void take(const LogFit& fit, const Model& model, bool overrule, const std::string& file,
           LogStage& stage) {
   stage.block = fit.covariance;
@@ -419,9 +421,9 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
   }
 }
 
-/// `speed-controlled`, a warning: both resistances are linear, and that of yaw is d^2 times that of
-/// surge. Then each wheel rolls at a speed proportional to its command, due to the drag of its
-/// motor or a speed loop whose set-point was logged in place of the force.
+/// The warning `speed-controlled`, if both resistances are linear and the yaw coefficient is d^2
+/// times the surge coefficient. Each wheel then rolls at a speed proportional to its command. The
+/// cause is motor drag, or a speed controller whose set-point was logged in place of the force.
 ///
 ///     tau_speed = a1 u,   tau_turn = a3 r = d^2 a1 r
 std::vector<Finding> speed_findings(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
@@ -447,9 +449,9 @@ std::vector<Finding> speed_findings(const Vehicle& vehicle, const std::vector<Dr
       {logs.front().file, 0, Severity::kWarning, "speed-controlled",
        fmt::format(
            "each wheel rolls at {:.3g} m/s per unit of its command, also in turns. Either motor "
-           "drag is the only resistance, or force_left and force_right are set-points of a "
-           "speed controller; then a1, a3, m' and I'z describe that controller, not the "
-           "vehicle: log the commands that reach the motors",
+           "drag is the only resistance, or force_left and force_right are set-points of a speed "
+           "controller, and a1, a3, m' and I'z describe that controller. In that case log the "
+           "commands that reach the motors",
            vehicle.driven_wheels() / surge)}};
 }
 

@@ -1,5 +1,5 @@
-/// Identification of model parameters from driving logs, and their comparison with those of other
-/// trials. Private to identify/.
+/// Identification from driving logs: fit, choice of the model, checks. Called by identify().
+/// Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,34 +12,37 @@
 
 namespace awmr {
 
+/// Result of run_log_stage().
 struct LogStage {
-  /// A parameter that the logs set.
+  /// A parameter whose value in the model comes from the logs.
   struct Main {
     ParameterId id;
     Estimate estimate;
-    Eigen::Index place;  ///< in `block`
+    Eigen::Index place;  ///< index in `block`
     double jacobian;     ///< d value / d coordinate
   };
   std::vector<Main> main;
-  Family surge_family = Family::kPower;  ///< of the fit
+  Family surge_family = Family::kPower;  ///< families of the fit
   Family yaw_family = Family::kPower;
-  Eigen::MatrixXd block;                       ///< covariance of the fit's coordinates
-  std::map<ParameterId, std::string> reasons;  ///< free in the fit, but not identifiable
-  /// k_e was free in the fit and is not identifiable: a model without k_e would be inconsistent.
+  Eigen::MatrixXd block;  ///< covariance of the fit's coordinates
+  /// By parameter: why the logs do not identify it, although the fit estimates it.
+  std::map<ParameterId, std::string> reasons;
+  /// True if the fit estimates k_e but does not identify it. The model then has no value of k_e,
+  /// because the other parameters do not match k_e = 0.
   bool is_back_emf_open = false;
-  std::vector<EstimatorReport> reports;  ///< of all fitted families
-  std::size_t chosen_report = 0;         ///< in `reports`: index of the fit that sets `main`
+  std::vector<EstimatorReport> reports;  ///< reports of all fitted families
+  std::size_t chosen_report = 0;         ///< index in `reports` of the fit that sets `main`
   std::vector<Finding> findings;
-  bool withdraws_intervals = false;  ///< the values have no standard errors and intervals
+  bool withdraws_intervals = false;  ///< true: the values have no standard errors and intervals
 };
 
-/// Fits the logs, starting from the model's values. All of `requested` are free; the others are
-/// fixed at their value, or free without one. `overrule`: the logs also replace values of other
-/// trials. Findings: `estimates-disagree` (logs against tables, p < 0.01), `coloured-residuals`,
-/// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `back-emf`, `sensor-delay`,
-/// `logs-disagree`, `not-identifiable`, `not-converged`, `held-out-misses`, `inertia-mismatch`,
-/// `held-out-log` (each log predicted by the others), `families-not-compared` (the time limit
-/// ended). Errors (input): a given time constant is too small for a log.
+/// Fits the logs, starting from the values in `model`. The `requested` parameters and those without
+/// a value are free, the others fixed. `overrule`: the logs also replace values from other trials.
+/// Findings: `estimates-disagree` (logs against tables, p < 0.01), `coloured-residuals`,
+/// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `back-emf`, `steering-measured`,
+/// `speed-controlled`, `logs-disagree`, `not-identifiable`, `not-converged`, `held-out-misses`,
+/// `inertia-mismatch`, `held-out-log`, `families-not-compared` (a limit was reached), and those of
+/// command_findings.h. Errors (input): a given time constant is too small for a log.
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                                const IdentifyOptions& options,
                                const std::vector<ParameterId>& requested, const Model& model,

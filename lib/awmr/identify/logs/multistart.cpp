@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// `count` of them, evenly spaced, or all.
+/// Selects `count` windows, evenly spaced, or all if there are fewer.
 std::vector<FitWindow> spread(const std::vector<FitWindow>& windows, std::size_t count) {
   std::vector<FitWindow> some;
   count = std::min(count, windows.size());
@@ -18,13 +18,14 @@ std::vector<FitWindow> spread(const std::vector<FitWindow>& windows, std::size_t
   return some;
 }
 
-/// At most half a minute, spread over all logs: enough to rank the initial guesses. Steps are long.
+/// Problem that ranks initial guesses: twelve parts of 2.5 s, spread over all logs, with longer
+/// integration steps.
 LogProblem rough_problem(const LogProblem& problem) {
   constexpr std::size_t kParts = 12;
   constexpr double kPart_s = 2.5;
   LogProblem rough = problem;
   rough.model.longest_step_s = kRoughStep * problem.model.longest_step_s;
-  rough.threads = 1;  // the searches run in parallel
+  rough.threads = 1;  // the searches run in parallel with each other
   rough.ends_at_limit = false;
   std::vector<FitWindow> parts;
   for (const FitWindow& window : spread(problem.windows, kParts)) {
@@ -34,9 +35,9 @@ LogProblem rough_problem(const LogProblem& problem) {
   return rough;
 }
 
-/// Random start of the search: each guessed quantity is multiplied by a factor in [e^-2, e^2]; an
-/// exponent is drawn from [0.3, 1.3]; the terms of a family are unchanged. Uses one random number
-/// per quantity, even if the quantity is not drawn.
+/// Random initial guess. Each parameter in `guessed` is multiplied by a factor in [e^-2, e^2]; an
+/// exponent is drawn from [0.3, 1.3]; terms of a family do not change. Uses one random number per
+/// quantity, changed or not.
 std::vector<double> drawn(const LogProblem& problem, const std::vector<ParameterId>& guessed,
                           Random& random) {
   std::vector<double> coordinates = problem.initial;
@@ -55,7 +56,7 @@ std::vector<double> drawn(const LogProblem& problem, const std::vector<Parameter
   return coordinates;
 }
 
-/// The initial guess, the other given ones, then the random ones, as coordinates.
+/// Coordinates of all starts: the initial guess, options.also_from, then the random guesses.
 std::vector<std::vector<double>> places(const LogProblem& problem, const LogFitOptions& options) {
   std::vector<std::vector<double>> from{problem.initial};
   for (const ParameterValues<double>& values : options.also_from) {

@@ -8,17 +8,19 @@
 
 namespace awmr {
 
+/// Result of multistart().
 struct Multistart {
   /// Coordinates at the ends of the searches with a usable solution, smallest cost first.
   std::vector<std::vector<double>> ends;
-  std::vector<SearchStart> starts;  ///< the initial guess, the other ones, the random ones
+  /// Report of all starts: the initial guess, LogFitOptions::also_from, the random guesses.
+  std::vector<SearchStart> starts;
 };
 
-/// Returns the initial guess if it is complete from other trials and no other one is given.
-/// Otherwise runs rough searches from the guess, from each other one and, if some of the guess is
-/// only an order of magnitude, from several random ones. The searches use short parts of some of
-/// the windows, because over a long part the effect of a wrong guess accumulates and the search
-/// ends in a wrong optimum.
+/// Returns the initial guess alone if other trials gave all of it and `also_from` is empty.
+/// Otherwise runs rough searches from the initial guess and from each guess in `also_from`. If a
+/// part of the guess is only an order of magnitude, also searches from random guesses. The searches
+/// use short parts of some windows, because over a long part the effect of a wrong guess
+/// accumulates and the search ends in a wrong optimum.
 Multistart multistart(const LogProblem& problem, const LogFitOptions& options);
 
 }  // namespace awmr

@@ -14,8 +14,8 @@ struct Nearest {
   double squares = std::numeric_limits<double>::infinity();
 };
 
-/// Fit for a given beta, with or without a quadratic term; the constant is free, or fixed at
-/// `least`.
+/// Least-squares curve for a given beta, with or without a quadratic term. The constant is free, or
+/// fixed at `least`.
 Nearest fitted(const Values& speed, const Values& force, double beta, bool quadratic,
                bool free_constant, double least) {
   Eigen::Matrix<double, kSpeeds, Eigen::Dynamic> columns(kSpeeds, 1 + quadratic + free_constant);
@@ -38,7 +38,7 @@ Resistance<double> nearest_curve(const Resistance<double>& curve, const FamilyTe
   constexpr double kLeastShare = 0.1;
   constexpr double kLeastBeta = 0.2;
   constexpr double kBetaStep = 0.1;
-  constexpr int kBetas = 24;  // up to 2.5
+  constexpr int kBetas = 24;  // number of exponents to try, up to 2.5
   const Values speed = Values::LinSpaced(fastest / kSpeeds, fastest);
   const Values force = speed.unaryExpr([&](double w) { return curve.at(w); });
   const bool constant = terms.coulomb || terms.dead_zone;

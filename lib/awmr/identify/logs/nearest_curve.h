@@ -1,4 +1,4 @@
-/// Initial guess of the search for another resistance family. Private to identify/.
+/// Initial guess for fitting another resistance family to logs. Private to identify/.
 #pragma once
 
 #include "awmr/model/family.h"
@@ -6,10 +6,10 @@
 
 namespace awmr {
 
-/// Returns the curve of a family nearest to another curve, by least squares at equidistant speeds
-/// up to `fastest`, in m/s or rad/s, > 0. A constant term of the family (Coulomb friction or dead
-/// zone) is at least a tenth of the resistance at half of `fastest`, because a search cannot leave
-/// 0. Both are returned as `coulomb`.
+/// Returns the curve with the free terms `terms` that is nearest to `curve`, by least squares at
+/// equidistant speeds up to `fastest` (m/s or rad/s, > 0). A constant term, Coulomb friction or
+/// dead zone, is returned as `coulomb`. It is at least a tenth of the resistance at half of
+/// `fastest`, because a search cannot leave 0.
 Resistance<double> nearest_curve(const Resistance<double>& curve, const FamilyTerms& terms,
                                  double fastest);
 

@@ -30,8 +30,7 @@ ErrorsByChannel by_channel(const std::vector<FitWindow>& windows,
   return channels;
 }
 
-/// Under a robust loss, errors are clipped at three standard deviations (by the median), so that
-/// outliers do not increase the noise.
+/// Clips the errors of a channel at three standard deviations, which are estimated from the median.
 void clip(std::vector<ErrorSeries>& channel) {
   std::vector<double> all;
   for (const ErrorSeries& part : channel) {
@@ -74,8 +73,8 @@ NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErro
   return levels;
 }
 
-/// The largest change of a level, relative to the channel's standard deviation, or of the memory of
-/// a relevant drift, relative to itself.
+/// Largest change of the noise: of a standard deviation relative to that of its channel, or of the
+/// correlation time of a relevant drift relative to itself.
 double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
   double change = 0.0;
   for (const auto& [channel, noise] : after) {
@@ -90,8 +89,8 @@ double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
   return change;
 }
 
-/// Square root of a loss's weight at a standardised residual r. The constants give 95 % efficiency
-/// for normal errors:
+/// Square root of the weight of a robust loss at the standardised residual r. The constants give 95
+/// % efficiency for normal errors. The weights are
 ///
 ///     Huber 1 for |r| <= 1.345, else 1.345/|r|;   Cauchy 1/(1 + (r/2.385)^2);
 ///     Tukey (1 - (r/4.685)^2)^2 for |r| < 4.685, else 0
@@ -133,7 +132,7 @@ NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss, in
     point = solve(problem, std::move(point), kMiddling).point;
     problem.model.longest_step_s = fine_step_s;
     const std::vector<WindowErrors> errors = errors_at(problem, point);
-    if (!all_finite(errors)) break;  // fit_logs() refuses
+    if (!all_finite(errors)) break;  // fit_logs() then refuses the fit
     const NoiseLevels levels = noise_levels(problem, errors, loss);
     const double change = largest_change(problem.model.noise, levels);
     problem.model.noise = levels;

@@ -1,23 +1,26 @@
-/// Alternating estimation of the fit and of its noise levels. Private to identify/.
+/// Alternating estimation of a log fit's coordinates and of its noise. Private to identify/.
 #pragma once
 
 #include "awmr/identify/logs/log_problem.h"
 
 namespace awmr {
 
+/// A problem with estimated noise, and its solution.
 struct NoiseIteration {
-  LogProblem problem;  ///< with its noise levels and the weights of a robust loss
+  LogProblem problem;  ///< includes the noise levels and the weights of a robust loss
   SearchPoint point;
 };
 
-/// The raw errors at a point; under a robust loss they are clipped, so that outliers do not
-/// increase the noise.
+/// Collects the raw errors by channel. Under a robust loss large errors are clipped, so that
+/// outliers do not increase the noise.
 ErrorsByChannel errors_by_channel(const LogProblem& problem,
                                   const std::vector<WindowErrors>& errors, Loss loss);
 
-/// Alternates fits and noise estimates from the residuals, until no level changes by more than 1 %,
-/// at most `rounds` times. A single round, for ranking models, integrates with longer steps.
+/// Default maximum of rounds in settle_noise().
 inline constexpr int kNoiseRounds = 6;
+/// Fits the coordinates and estimates the noise from the residuals in turn, until no noise level
+/// changes by more than 1 %, at most `rounds` times. A single round, used to rank models,
+/// integrates with longer steps.
 NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss,
                             int rounds = kNoiseRounds);
 

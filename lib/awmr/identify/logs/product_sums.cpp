@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kWaiting = 32;  // buffered rows
+constexpr std::size_t kWaiting = 32;  // number of rows in the buffer
 
 }  // namespace
 
@@ -65,7 +65,7 @@ Triangle triangle_of(const Eigen::MatrixXd& products) {
       (ldlt.diagonal.array() > kOpen).select(ldlt.diagonal.array().abs().sqrt(), 0.0);
   const Eigen::VectorXd gradient =
       ldlt.permutation * (inverse.asDiagonal() * products.col(m).head(m));
-  // scaled = P^T L D L^T P
+  // The scaled matrix is P^T L D L^T P, with the permutation P.
   const Eigen::MatrixXd factor =
       ldlt.permutation.transpose() * (ldlt.lower * root.asDiagonal()).eval();
   Triangle t;

@@ -1,4 +1,5 @@
-/// Sums of products of rows, and a triangular matrix equivalent to the rows. Private to identify/.
+/// Accumulation of a Jacobian's rows to [J r]^T [J r], and the triangular equivalent of the rows.
+/// Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,16 +8,17 @@
 
 namespace awmr {
 
-/// M^T M of a matrix M = [J r] that is given row by row; r is its last column.
+/// Accumulates M^T M of a matrix M = [J r] row by row. The residuals r are its last column.
 class ProductSums {
  public:
+  /// `size`: number of columns of M.
   explicit ProductSums(std::size_t size);
-  /// Padded length of a row: `size` rounded up to whole vectors; the rest is 0.
+  /// Length of a row in memory: `size` rounded up to a multiple of kRowVector. Pad rows with 0.
   std::size_t columns() const { return columns_; }
   void add(const double* row);
-  /// J^T r of the rows since the last call.
+  /// Returns J^T r of the rows added since the last call.
   Eigen::VectorXd take_gradient();
-  /// M^T M, both triangles.
+  /// M^T M as a full symmetric matrix.
   Eigen::MatrixXd products();
 
  private:
@@ -29,14 +31,14 @@ class ProductSums {
   Eigen::VectorXd gradient_;  ///< J^T r at the last call
 };
 
-/// Equivalent of the rows for least squares: [R z; 0 rest] has the same M^T M.
+/// Small equivalent of the rows for least squares: [R z; 0 rest] has the same M^T M, R triangular.
 struct Triangle {
   Eigen::MatrixXd r;
   Eigen::VectorXd z;
   double rest = 0.0;  ///< norm of the residual that no step reduces
 };
-/// By L D L^T with pivots of the products, columns scaled to 1; a pivot below 1e-14 is a direction
-/// that the rows do not determine.
+/// Computes the triangle from M^T M by a pivoted L D L^T decomposition with columns scaled to
+/// length 1. A pivot below 1e-14 is set to 0: the rows do not determine this direction.
 Triangle triangle_of(const Eigen::MatrixXd& products);
 
 }  // namespace awmr

@@ -32,8 +32,8 @@ Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& 
     return {vehicle.yaw_beta_range.lo, vehicle.yaw_beta_range.hi};
   }
   if (quantity.scale == Scale::kLinear) return {0.0, 1e6};
-  // The servo's time constant is at most kSlowestServo_s. Servo and yaw (I'z/g3') are two lags in
-  // series, which a search could otherwise exchange.
+  // The servo's time constant is limited to kSlowestServo_s, because servo and yaw motion (I'z/g3')
+  // are two lags in series, which a search could otherwise exchange.
   const double most = quantity.is(ParameterId::kSteeringTimeConstant)
                           ? to_coordinate(quantity.scale, kSlowestServo_s)
                           : initial + 10.0;
@@ -73,7 +73,7 @@ double FreeQuantity::jacobian(double coordinate) const {
 }
 
 FreeQuantity free_parameter(ParameterId id) {
-  // The large change of a term is relative to the whole force.
+  // The large change of a term is a share of the largest force.
   return {.id = id, .scale = scale_of(id), .large_change = info(id).term ? 0.2 : 1.0};
 }
 

@@ -1,4 +1,5 @@
-/// Free quantities of a log fit: parameters, delays, command errors, biases. Private to identify/.
+/// Quantities that a log fit can estimate: parameters, delays, lags, command errors, biases.
+/// Private to identify/.
 #pragma once
 
 #include <string>
@@ -14,36 +15,31 @@ namespace awmr {
 
 struct LogFitOptions;
 
-/// One free quantity. The search changes its coordinate, which is the value or its logarithm.
+/// One free quantity of a fit. The search changes its coordinate: the value or its logarithm.
 struct FreeQuantity {
-  /// kDelay: of all commands; kSteeringDelay: of the steering alone, on top of that; kMotorLag: the
-  /// time
-  /// constant of the motors; kSensorLag: that of a filter which smooths a channel; kSteeringTrim:
-  /// the
-  /// steering angle at a command of 0; kForceImbalance: half the relative difference of right and
-  /// left.
-  /// The order is that of the columns of a fit.
+  /// Kinds of quantities, in the order of the columns of a fit.
   enum class Kind {
-    kParameter,
-    kDelay,
-    kSteeringDelay,
-    kMotorLag,
-    kSteeringTrim,
-    kForceImbalance,
-    kBias,
-    kSensorDelay,
-    kSensorLag
+    kParameter,       ///< a model parameter
+    kDelay,           ///< delay of all commands
+    kSteeringDelay,   ///< additional delay of the steering command
+    kMotorLag,        ///< time constant of the motors
+    kSteeringTrim,    ///< steering angle at a command of 0
+    kForceImbalance,  ///< half the relative difference between right and left forces
+    kBias,            ///< constant offset of a channel
+    kSensorDelay,     ///< latency of a channel
+    kSensorLag        ///< time constant of a filter that smooths a channel
   };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< of kParameter
   LogChannel channel =
-      LogChannel::kX;  ///< of kSensorDelay (kX: of the position), kSensorLag, kBias
+      LogChannel::kX;  ///< of kSensorDelay (kX: x and y together), kSensorLag, kBias
   Scale scale = Scale::kLinear;
-  /// A typical large change of the coordinate: 1 for a logarithm (a factor e) or an exponent.
+  /// Large change: change of the coordinate that is large for this quantity. 1 for a logarithm (a
+  /// factor e) or an exponent. Priors and limits of identifiability are relative to it.
   double large_change = 1.0;
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
-  /// True for a time that cannot be negative.
+  /// True for delays and lags that cannot be negative, so that 0 is an end of their range.
   bool may_be_zero() const {
     return kind == Kind::kSteeringDelay || kind == Kind::kMotorLag || kind == Kind::kSensorDelay ||
            kind == Kind::kSensorLag;
@@ -53,32 +49,32 @@ struct FreeQuantity {
   double jacobian(double coordinate) const;  ///< d value / d coordinate
 };
 
-/// A parameter with its scale.
+/// A model parameter as a free quantity.
 FreeQuantity free_parameter(ParameterId id);
 
-/// Latency of all commands, s; negative: their time stamps are late.
+/// Delay of all commands, s; negative if their time stamps are late.
 FreeQuantity input_delay();
 
-/// Additional delay of the steering relative to the forces, s, e.g. a servo's frame or a slower
-/// bus.
+/// Additional delay of the steering command relative to the forces, s, e.g. by a servo's frame.
 FreeQuantity steering_delay();
 
-/// The time constant of the motors, s.
+/// Time constant of the motors, s.
 FreeQuantity motor_lag();
 
-/// The steering angle at a command of 0, rad; positive: to the left.
+/// Steering angle at a command of 0, rad; positive to the left.
 FreeQuantity steering_trim();
 
-/// e of motors that push with (1 - e) times the command on the left and (1 + e) times on the right.
+/// Force imbalance e: the left motors push with 1 - e times their command, the right with 1 + e
+/// times.
 FreeQuantity force_imbalance();
 
-/// The time constant of a first-order filter that smooths a channel, s.
+/// Time constant of a first-order filter that smooths a channel, s.
 FreeQuantity sensor_lag_of(LogChannel channel);
 
 /// Latency of a channel, s.
 FreeQuantity sensor_delay_of(LogChannel channel);
 
-/// A free delay, lag or error of commands or sensors, with its initial guess.
+/// A free delay, lag or command error with its initial guess.
 struct FreeTerm {
   FreeQuantity quantity;
   double begin;
@@ -86,23 +82,23 @@ struct FreeTerm {
 
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind);
 
-/// Free quantities of a fit, by kind: the parameters, the terms of the commands, the biases, those
-/// of the sensors.
+/// Free quantities of a fit in the order of FreeQuantity::Kind.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);
 
-/// By quantity: the coordinate of the initial guess; 0 for a bias.
+/// By quantity: coordinate of the initial guess; 0 for a bias.
 std::vector<double> initial_coordinates(const LogFitOptions& options);
 
-/// By quantity: bounds of the coordinate, given its initial guess.
+/// By quantity: bounds of the coordinate. `initial`: coordinates of the initial guess.
 std::vector<Interval> coordinate_bounds(const std::vector<FreeQuantity>& quantities,
                                         const std::vector<double>& initial, const Vehicle& vehicle);
 
-/// All parameters: `held`, overlaid by the free ones at the first coordinates.
+/// Values of all parameters: those of `held`, with the free parameters replaced by their
+/// coordinates.
 ParameterValues<double> parameters_at(ParameterValues<double> held,
                                       const std::vector<FreeQuantity>& quantities,
                                       const std::vector<double>& coordinates);
 
-/// By quantity: the value at each coordinate.
+/// By quantity: value at its coordinate.
 std::vector<double> values_at(const std::vector<FreeQuantity>& quantities,
                               const std::vector<double>& coordinates);
 

@@ -16,7 +16,7 @@
 namespace awmr {
 namespace {
 
-/// The values of one evaluation, and the columns of the free quantities.
+/// Values of one evaluation, and the columns of the free quantities.
 struct Unpacked {
   Plant<double> plant;
   std::vector<ParameterColumn> parameters;
@@ -32,8 +32,8 @@ struct Unpacked {
   }
 };
 
-/// Limits the servo's time constant to what Runge-Kutta steps of h seconds resolve; otherwise a
-/// search for an unidentifiable time constant would end where the integration diverges.
+/// Raises the servo's time constant to what Runge-Kutta steps of h seconds resolve. Otherwise a
+/// search for a time constant near 0 would end where the integration diverges.
 void slow_servo(double h, std::vector<ParameterColumn>& parameters, Plant<double>& plant) {
   if (!(plant.steering_time_constant_s < 0.5 * h)) return;
   plant.steering_time_constant_s = 0.5 * h;
@@ -90,7 +90,7 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
   u.path.switches_off = values[at(ParameterId::kBackEmf)] > 0.0;
   u.plant = resolved_beside_friction(plant_of(model.vehicle, values), model.longest_step_s);
   slow_servo(model.longest_step_s, u.parameters, u.plant);
-  // A logged angle is used directly, without limit or lag.
+  // A logged steering angle is used directly, without servo limit or lag.
   if (!window.rows.log->steering_command_rad) u.plant.steering_max_rad = 10.0;
   u.initial = window.measured;
   for (std::size_t i = 0; i < model.initial.size(); ++i) {
@@ -100,8 +100,8 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
   return u;
 }
 
-/// The initial motion. Derivatives are 1 by the free components of the state, and of the steering
-/// angle by its trim.
+/// Initial motion of a window. The derivative of each free component of the state by itself is 1,
+/// and so is that of the steering angle by its trim. The others are 0.
 LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t columns) {
   LinearMotion motion{u.initial, std::vector<double>(kStateSize * columns, 0.0)};
   for (std::size_t i = 0; columns > 0 && i < model.initial.size(); ++i) {
@@ -113,7 +113,7 @@ LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t 
   return motion;
 }
 
-/// Simulated sensor filters of a window; empty for channels without a filter.
+/// Simulated sensor filters of a window, by channel; empty for channels without a filter.
 using SmoothedChannels = std::array<std::optional<SmoothedChannel>, kChannelCount>;
 
 SmoothedChannels smoothed_channels(const FitWindow& window, const Unpacked& u,
@@ -127,10 +127,10 @@ SmoothedChannels smoothed_channels(const FitWindow& window, const Unpacked& u,
   return smoothed;
 }
 
-/// Calls visit(i, error, row) for every sample in order, with error = model + bias - measured and
-/// its derivatives by column, which the visitor may overwrite; `row` is empty without columns. A
-/// sensor with latency is compared with the state one delay earlier, a filtered one with the
-/// filter's output.
+/// Calls visit(i, error, row) for every sample i in order. `error` is model + bias - measured,
+/// `row` its derivatives by column; `row` is empty if there are no columns, and the visitor may
+/// overwrite it. A sensor with latency is compared with the state one delay earlier, a filtered
+/// sensor with the output of the filter.
 template <class Visit>
 void for_each_error(const LogModel& model, const FitWindow& window, const Unpacked& u,
                     std::size_t columns, Visit visit) {
@@ -141,7 +141,7 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
   LinearStepper stepper(u.plant, columns, u.parameters, command_columns, h);
   LinearStepper back(u.plant, columns, u.parameters, command_columns, h);
   const bool any_late = u.any_late();
-  std::vector<LinearMotion> motions;  // by row, if a sensor has latency
+  std::vector<LinearMotion> motions;  // by row; kept only if a sensor has latency
   std::vector<double> row(columns);
   std::size_t next = 0;
   SmoothedChannels smoothed = smoothed_channels(window, u, columns);
@@ -180,17 +180,18 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
                 });
 }
 
-/// Weak prior of a component of the initial state, centred on its measurement.
+/// Residual of the weak prior of a component of the initial state, which is centred on its
+/// measurement.
 double pull(const InitialComponent& component, const FitWindow& window, double initial) {
   return (initial - channel_of(window.measured, component.channel)) / component.prior_std;
 }
 
-/// Whitening filter of one channel: for the errors and each of their derivatives.
+/// Whitening filters of one channel: one for the errors and one for each of their derivatives.
 struct RowWhitener {
   RowWhitener(const ChannelNoise& noise, std::size_t columns)
       : gains(noise), states(noise.drift_std > 0.0 ? columns : 0) {}
 
-  /// Replaces the row by its innovation over the standard deviation, times `weight`.
+  /// Replaces each number of the row by weight times its innovation over the standard deviation.
   void next(double since_s, double weight, std::vector<double>& row) {
     const WhitenerGains::Step& step = gains.next(since_s);
     const double scale = weight / std::sqrt(step.variance);
@@ -202,7 +203,7 @@ struct RowWhitener {
   std::vector<WhitenerState> states;
 };
 
-/// Ends a block of samples after about `block_s`.
+/// Divides a window's samples into blocks of about `block_s` seconds.
 class Blocks {
  public:
   Blocks(const FitWindow& window, double block_s)

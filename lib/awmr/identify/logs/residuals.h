@@ -1,8 +1,8 @@
-/// Residuals of one window of a log, and their derivatives. Private to identify/.
+/// Residuals of one window of a log, with derivatives. Private to identify/.
 ///
 /// The model is simulated with the logged commands and compared with all measurements. Correlated
-/// errors of a channel are whitened. The Jacobian has a row per sample; it is accumulated as J^T J,
-/// so memory does not grow with the samples.
+/// errors of a channel are whitened. The Jacobian J has a row per sample. Only J^T J is stored, so
+/// that memory does not grow with the samples.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,43 +13,44 @@
 
 namespace awmr {
 
-/// Data shared by all windows: the plant, the free quantities and the noise.
+/// Data shared by all windows of a fit.
 struct LogModel {
   Vehicle vehicle;
-  ParameterValues<double> held;  ///< all parameters; those among the quantities are overridden
+  ParameterValues<double> held;  ///< values of all parameters; free ones are replaced in a fit
   std::vector<FreeQuantity> quantities;
   std::vector<InitialComponent> initial;
   NoiseLevels noise;
   double row_spacing_s = 0.02;   ///< shortest row spacing of the logs
-  double longest_step_s = 0.01;  ///< of the integration
+  double longest_step_s = 0.01;  ///< longest integration step
 };
 
-/// The errors of a window's n samples.
+/// Errors of a window's n samples.
 struct WindowErrors {
   Eigen::VectorXd raw;           ///< n: model + bias - measured, SI
   Eigen::VectorXd standardised;  ///< n: whitened, divided by the standard deviation, and weighted
   bool finite = false;           ///< false if the simulation is not finite
 };
 
-/// The errors of one window. `coordinates`: by free quantity. `initial_state`: by free component.
+/// Simulates one window and returns its errors. `coordinates`: by free quantity. `initial_state`:
+/// by free component of the initial state.
 WindowErrors errors_of(const LogModel& model, const FitWindow& window, const double* coordinates,
                        const double* initial_state);
 
-/// Sums over the rows of a window. The residuals r are the standardised errors and the prior of the
-/// initial state at its measurement; J is their Jacobian. Columns: the q quantities, then the k
-/// components of the initial state.
+/// Sums over the residuals r of a window and their Jacobian J. The residuals are the standardised
+/// errors and those of the prior of the initial state at its measurement. The columns of J are the
+/// q free quantities, then the k free components of the initial state.
 struct WindowSums {
-  Eigen::MatrixXd products;  ///< (q + k + 1) square: [J r]^T [J r]
-  /// Vectors of length q + k: J^T r of the samples of each block, without the prior; empty unless
-  /// requested.
+  Eigen::MatrixXd products;  ///< [J r]^T [J r], (q + k + 1) x (q + k + 1)
+  /// J^T r of each block of samples, without the prior; length q + k each. Empty unless requested.
   std::vector<Eigen::VectorXd> block_gradients;
   bool finite = false;  ///< false if the simulation or its derivatives are not finite
 
-  /// Half the sum of squares.
+  /// Half of r^T r.
   double cost() const { return 0.5 * products(products.rows() - 1, products.rows() - 1); }
 };
 
-/// The sums of one window. With `block_s` > 0, also those of blocks of about this length.
+/// Computes the sums of one window. With `block_s` > 0, also the gradients of blocks of about that
+/// length in seconds.
 WindowSums sums_of(const LogModel& model, const FitWindow& window, const double* coordinates,
                    const double* initial_state, double block_s = 0.0);
 

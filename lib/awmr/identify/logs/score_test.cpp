@@ -10,7 +10,8 @@
 namespace awmr {
 namespace {
 
-/// The score test of the candidate at row and column `c` of `h`; `by_others` is H_tt^-1 H_tc.
+/// Score test of the candidate with the index `c` in the information `h`. `by_others`: H_tt^-1
+/// H_tc.
 ScoreTest test_one(const Eigen::MatrixXd& h, const std::vector<Eigen::VectorXd>& scores,
                    const Eigen::VectorXd& by_others, Eigen::Index c) {
   const Eigen::Index n = by_others.size();
@@ -67,7 +68,7 @@ std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& 
   const Eigen::Index all = rows_of(with.problem.model.quantities);
   const Eigen::MatrixXd h = fit_evidence(sums, all).information;
   const std::vector<Eigen::VectorXd> scores = scores_of(with.problem.windows, sums, all).blocks;
-  // The weak prior of the search keeps H_tt regular if the data do not determine a quantity.
+  // The weak prior of the search keeps H_tt regular even if the data do not determine a quantity.
   Eigen::MatrixXd of_others = h.topLeftCorner(n, n);
   of_others.diagonal().array() += 1.0 / (kPriorStd * kPriorStd);
   const Eigen::MatrixXd by_others = solve_ldlt(of_others, h.topRightCorner(n, all - n));

@@ -7,35 +7,38 @@
 
 namespace awmr {
 
+/// Result of a score test.
 struct ScoreTest {
-  double value = 0.0;      ///< estimate by one Gauss-Newton step from 0
-  double std_error = 0.0;  ///< of the value: the larger of that by the noise model and that by the
-                           ///< blocks' scatter
-  double noise_error = 0.0;  ///< of the value, by the noise model alone
-  double gain = 0.0;         ///< decrease of -2 ln L: (value / std_error)^2
+  double value = 0.0;  ///< estimate of the candidate by one Gauss-Newton step from 0
+  /// Standard error of `value`: by the noise model or by the scatter of blocks, whichever is
+  /// larger.
+  double std_error = 0.0;
+  double noise_error = 0.0;  ///< standard error of `value` by the noise model
+  double gain = 0.0;         ///< estimated decrease of -2 ln L: (value / std_error)^2
 };
 
-/// Rao's score test of each candidate at 0, with all quantities of the problem free and the other
-/// candidates fixed at 0. With the information H and the scores g of the coordinates t and a
-/// candidate c,
+/// Computes Rao's score test of each candidate at 0. All quantities of the problem are free, and
+/// the other candidates are fixed at 0. With the information H and the gradients g of the
+/// coordinates t and of a candidate c,
 ///
 ///     value = -(g_c - H_ct H_tt^-1 g_t) / (H_cc - H_ct H_tt^-1 H_tc)
 ///
-/// Drift is replaced by white noise of equal variance, so that it cannot absorb the effect of a
-/// candidate. The standard error is then that of the blocks' scatter. `point`: the solution without
-/// the candidates. Precondition: candidates are linear quantities.
+/// The noise model is replaced by with_white_noise(), so that drift cannot absorb the effect of a
+/// candidate. `point`: the solution without the candidates. Precondition: the coordinate of each
+/// candidate is its value.
 std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& point,
                                   const std::vector<FreeQuantity>& candidates);
 
-/// The problem with white noise of the same standard deviation in every channel, so that the model
-/// has to explain the drift.
+/// Returns the problem with the drift of every channel replaced by white noise, at the same total
+/// variance, so that the model has to explain the drift.
 LogProblem with_white_noise(LogProblem problem);
 
-/// The problem and the point with further free quantities at their initial values.
+/// A problem with further free quantities, and its point.
 struct Extended {
   LogProblem problem;
   SearchPoint point;
 };
+/// Adds the free quantities `more` at the coordinates `begin`.
 Extended extended(LogProblem problem, SearchPoint point, const std::vector<FreeQuantity>& more,
                   const std::vector<double>& begin);
 

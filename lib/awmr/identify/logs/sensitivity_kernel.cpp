@@ -3,21 +3,21 @@
 namespace awmr {
 namespace {
 
-// Code in a function for an instruction set is compiled for that set only if it is inlined.
+// Functions must be inlined to be compiled for the instruction set of their caller.
 #if defined(__GNUC__)
 #define AWMR_INLINE inline __attribute__((always_inline))
 #else
 #define AWMR_INLINE inline
 #endif
 
-// The columns are independent, which the compiler cannot prove.
+// Tells the compiler that the columns are independent, which it cannot prove.
 #if defined(__GNUC__) && !defined(__clang__)
 #define AWMR_INDEPENDENT_COLUMNS _Pragma("GCC ivdep")
 #else
 #define AWMR_INDEPENDENT_COLUMNS
 #endif
 
-/// One column of S, or of its rate.
+/// One column of the derivatives S of the state, or of their rates S_dot (step_sensitivities()).
 struct Column {
   double x, y, psi, u, v, r, steering;
 };
@@ -64,7 +64,7 @@ AWMR_INLINE void step_columns(const StateSlopes* __restrict a, const double* __r
   }
 }
 
-/// Squares of kTile by kTile sums, each kept in registers over all rows.
+/// Adds the products of all rows tile by tile: kTile x kTile sums stay in registers over all rows.
 AWMR_INLINE void add_rows(const double* __restrict rows, std::size_t count, std::size_t columns,
                           double* __restrict sums) {
   constexpr std::size_t kTile = kRowVector;
@@ -85,7 +85,7 @@ AWMR_INLINE void add_rows(const double* __restrict rows, std::size_t count, std:
   }
 }
 
-/// The loops as compiled for one instruction set.
+/// The two loops compiled for one instruction set.
 struct Kernels {
   void (*step)(const StateSlopes*, const double*, double, std::size_t, double*);
   void (*add)(const double*, std::size_t, std::size_t, double*);

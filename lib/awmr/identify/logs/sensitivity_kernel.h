@@ -1,8 +1,9 @@
-/// The two inner loops of a log fit, over independent columns. Private to identify/.
+/// The two inner loops of a log fit: a Runge-Kutta step of the derivatives, and J^T J. Private to
+/// identify/.
 ///
-/// Compiled for several instruction sets; the best one of the processor is selected at run time.
-/// None uses fused multiply-add, and every column is summed in the same order, so all give the same
-/// bits.
+/// Both are compiled for several instruction sets, and the best one of the processor is selected at
+/// run time. All give the same bits, because none uses fused multiply-add and sums have a fixed
+/// order.
 #pragma once
 
 #include <array>
@@ -12,27 +13,28 @@
 
 namespace awmr {
 
-/// Components of State, in its order.
+/// Number of components of State.
 inline constexpr std::size_t kStateSize = 7;
-/// Number of rates that depend on parameters: of u, v, r and the steering angle.
+/// Number of rates that depend on parameters: those of u, v, r and the steering angle.
 inline constexpr std::size_t kDrivenSize = 4;
-/// Stages of the Runge-Kutta method.
+/// Number of stages of the Runge-Kutta method.
 inline constexpr std::size_t kStages = 4;
 
-/// One classical Runge-Kutta step of h seconds of the sensitivities S, along with the state's:
+/// Makes one classical Runge-Kutta step of h_s seconds of the derivatives S of the state by the
+/// columns:
 ///
 ///     S_dot = A S + B
 ///
-/// `stages`: A at each stage. `driven`: B at each stage, [kStages][kDrivenSize][columns], of the
-/// rates of u, v, r and the steering angle. `s`: [kStateSize][columns], in and out.
+/// `stages`: A at each stage of the state's step. `driven`: nonzero rows of B at each stage,
+/// [kStages][kDrivenSize][columns]. `s`: S, [kStateSize][columns], in and out.
 void step_sensitivities(const std::array<StateSlopes, kStages>& stages, const double* driven,
                         double h_s, std::size_t columns, double* s);
 
-/// The number of columns of a row is a multiple of this.
+/// Rows in memory have a multiple of this number of columns.
 inline constexpr std::size_t kRowVector = 4;
 
-/// sums += rows^T rows, on and above the diagonal. `rows`: [count][columns]; `sums`:
-/// [columns][columns]; columns is a multiple of kRowVector.
+/// Adds rows^T rows to `sums`, on and above the diagonal. `rows`: [count][columns]. `sums`:
+/// [columns][columns]. `columns`: a multiple of kRowVector.
 void add_products(const double* rows, std::size_t count, std::size_t columns, double* sums);
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// Simulation of a sensor's low-pass filter. Private to identify/.
+/// Simulation of a sensor's first-order low-pass filter, with derivatives. Private to identify/.
 #pragma once
 
 #include <cstddef>
@@ -8,19 +8,19 @@
 
 namespace awmr {
 
-/// Output y of a first-order filter with the time constant T, and its derivatives by column: T
-/// dy/dt = u - y. With u linear between rows and e = exp(-h/T), q = (T/h)(1 - e),
+/// Output y of a filter T dy/dt = u - y with the input u and the time constant T, and its
+/// derivatives by column. With u linear between rows h apart, e = exp(-h/T) and q = (T/h)(1 - e),
 ///
 ///     y(t + h) = u(t + h) - q (u(t + h) - u(t)) + e (y(t) - u(t))
 ///
-/// It starts at the first reading of the window, whose noise decays with the time constant.
+/// y starts at the first reading of the window. The effect of that reading's noise decays with T.
 class SmoothedChannel {
  public:
-  /// `first`: the first reading. `columns`: 0 for values without derivatives.
+  /// `first`: first reading of the window. `columns`: number of columns; 0 for no derivatives.
   SmoothedChannel(LogChannel channel, const DelayColumn& lag, double first, std::size_t columns)
       : channel_(channel), lag_(lag), y_(first), by_column_(columns, 0.0) {}
 
-  /// Advances to the motion `now`, h seconds after the previous one.
+  /// Advances to the motion `now`, h_s seconds after the previous motion.
   void next(const LinearMotion& now, double h_s, std::size_t columns);
   double value() const { return y_; }
   const std::vector<double>& by_column() const { return by_column_; }

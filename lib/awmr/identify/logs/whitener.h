@@ -1,4 +1,4 @@
-/// Innovations of the residuals of a channel. Private to identify/.
+/// Kalman filter that whitens the residuals of a channel. Private to identify/.
 #pragma once
 
 #include <algorithm>
@@ -9,15 +9,15 @@
 
 namespace awmr {
 
-/// Propagation of a drift over a time h: x <- F x + noise with the covariance (P - F P F^T), where
-/// x = (d, d'/omega) and P = sigma_d^2 I is its stationary covariance, so that F = e^(-h/tau) for
-/// the first order, of which only f[0][0] counts, and for the second, with s = zeta omega and nu =
+/// Transition matrix F of a drift over the time h: x <- F x + noise of covariance P - F P F^T. The
+/// state is x = (d, d'/omega), with the stationary covariance P = sigma_d^2 I. For a first-order
+/// drift only f[0][0] = e^(-h/tau) is used. For a second-order drift, with s = zeta omega and nu =
 /// omega sqrt(1 - zeta^2),
 ///
 ///     F = e^(-s h) ( cos(nu h) + (s/nu) sin(nu h)        (omega/nu) sin(nu h)
 ///                    -(omega/nu) sin(nu h)               cos(nu h) - (s/nu) sin(nu h) )
 ///
-/// and cosh, sinh for zeta > 1.
+/// For zeta > 1, cosh and sinh replace cos and sin.
 struct DriftStep {
   double f[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
 
@@ -51,13 +51,13 @@ struct DriftStep {
   }
 };
 
-/// Innovations of the residuals of one channel: a Kalman filter of one state or two,
+/// Gains of the Kalman filter for the residuals e of one channel, with the drift x as its state:
 ///
 ///     x = F x,   P = F P F^T + sigma_d^2 (I - F F^T)
 ///     nu = e - x_0,   S = P_00 + sigma_w^2,   x += (P_.0/S) nu,   P -= P_.0 P_.0^T/S
 ///
-/// so that the nu/sqrt(S) are white if e follows ChannelNoise. This class computes F, S and the
-/// gains P_.0/S, which depend only on the times.
+/// The innovations nu/sqrt(S) are white if e follows ChannelNoise. This class computes F, S and the
+/// gains P_.0/S, which depend only on the times of the residuals, not on their values.
 class WhitenerGains {
  public:
   /// `noise` must outlive it.
@@ -65,13 +65,13 @@ class WhitenerGains {
       : noise_(noise), p00_(noise.drift_std * noise.drift_std), p11_(p00_) {}
 
   struct Step {
-    bool predicts = false;  ///< apply x = F x first
+    bool predicts = false;  ///< true: x = F x has to be applied first
     double gain0 = 0.0;
     double gain1 = 0.0;
     double variance = 0.0;  ///< S
   };
-  /// Advances to the next error, `since_s` after the previous one; 0 for the first. At a constant
-  /// interval the gains converge and are then reused.
+  /// Advances to the next error, `since_s` seconds after the previous error; 0 for the first. At a
+  /// constant interval the gains converge and are then reused.
   const Step& next(double since_s) {
     if (settled_ && same_step(since_s)) return last_;
     const double white = noise_.white_std * noise_.white_std;
@@ -119,7 +119,7 @@ class WhitenerGains {
     const double a1 = f[0][0] * p01_ + f[0][1] * q11;
     const double b0 = f[1][0] * q00 + f[1][1] * p01_;
     const double b1 = f[1][0] * p01_ + f[1][1] * q11;
-    // The remaining variance of the drift is negative only by rounding.
+    // Rounding can make a variance negative.
     p00_ = std::max(drift + a0 * f[0][0] + a1 * f[0][1], 0.0);
     p01_ = a0 * f[1][0] + a1 * f[1][1];
     p11_ = std::max(drift + b0 * f[1][0] + b1 * f[1][1], 0.0);
@@ -135,12 +135,12 @@ class WhitenerGains {
   bool settled_ = false;
 };
 
-/// Filter state of one number: an error, or one of its derivatives.
+/// State of the filter for one series: the errors, or one of their derivatives.
 struct WhitenerState {
   double x0 = 0.0;
   double x1 = 0.0;
 
-  /// nu of the next value.
+  /// Returns the innovation nu of the next value.
   double next(double value, const WhitenerGains& gains, const WhitenerGains::Step& step) {
     const auto& f = gains.drift_step().f;
     if (step.predicts && !gains.second_order()) x0 = f[0][0] * x0;
@@ -166,7 +166,8 @@ class Whitener {
     double value;     ///< nu
     double variance;  ///< S
   };
-  /// Processes the next error, `since_s` after the previous one; 0 for the first.
+  /// Returns the innovation of the next error, `since_s` seconds after the previous error; 0 for
+  /// the first.
   Innovation next(double error, double since_s) {
     const WhitenerGains::Step& step = gains_.next(since_s);
     if (!gains_.has_drift()) return {error, step.variance};

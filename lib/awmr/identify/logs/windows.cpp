@@ -28,7 +28,7 @@ std::vector<Sample> samples_of(const LogWindow& window) {
   return samples;
 }
 
-/// The rows of a window with a time in [lo, hi).
+/// The rows of a window with a time in [only_s.lo, only_s.hi).
 LogWindow within(const LogWindow& window, const Interval& only_s) {
   const std::vector<double>& t_s = window.log->t_s;
   const auto from = t_s.begin() + static_cast<std::ptrdiff_t>(window.begin);

@@ -1,6 +1,7 @@
-/// Division of the logs into windows, each with its samples and its own initial state (multiple
-/// shooting without continuity constraints, so that a disturbance affects one window only). Private
-/// to identify/.
+/// Division of the logs into windows for the fit. Private to identify/.
+///
+/// Each window has its own initial state (multiple shooting without continuity constraints), so
+/// that a disturbance affects only one window.
 #pragma once
 
 #include <cstdint>
@@ -13,47 +14,48 @@
 
 namespace awmr {
 
-/// Length of a window.
+/// Length of a window, s.
 inline constexpr double kWindow_s = 10.0;
 
-/// Position of one measured value. Kept small, because long logs have millions.
+/// Position of one measured value in a log.
 struct Sample {
   std::uint32_t row;
   LogChannel channel;
-  double since_s = 0.0;  ///< time since the window's previous sample of this channel; 0: the first
+  double since_s = 0.0;  ///< s since the window's previous sample of this channel; 0: first sample
 };
 
+/// A window of a log with its samples.
 struct FitWindow {
   LogWindow rows;
-  std::shared_ptr<const LogSignals> signals;               ///< the log's commands
-  std::shared_ptr<const std::vector<Sample>> all_samples;  ///< in order of rows, never empty
-  State<double> measured{};     ///< the initial state, as far as it was measured
-  std::vector<double> weights;  ///< by sample: square roots of the weights of a robust loss; empty:
-                                ///< all 1
+  std::shared_ptr<const LogSignals> signals;               ///< commands of the log
+  std::shared_ptr<const std::vector<Sample>> all_samples;  ///< in the order of rows, never empty
+  State<double> measured{};  ///< measured initial state; components without a measurement are 0
+  /// Square root of the robust loss's weight, by sample; empty: all are 1.
+  std::vector<double> weights;
 
   const std::vector<Sample>& samples() const { return *all_samples; }
   double weight(std::size_t sample) const { return weights.empty() ? 1.0 : weights[sample]; }
 };
 
-/// The windows of all logs, within `only_s` if given, without those that have no sample. The logs
-/// must outlive them.
+/// Divides all logs into windows, within the time interval `only_s` if given. Omits windows without
+/// samples. The logs must outlive the windows.
 std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
                                    const std::optional<Interval>& only_s = {});
 
-/// Divides the window into equal parts of at most `longest_s`, each with its own initial state.
+/// Divides a window into equal parts of at most `longest_s` seconds, each with its own initial
+/// state.
 std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s);
 
-/// A component of the initial state that is free in every window, with the channel that measures
-/// it.
+/// A component of the initial state that is free in every window.
 struct InitialComponent {
-  LogChannel channel;
-  double prior_std;  ///< of the weak prior at the measured or assumed initial state, SI
+  LogChannel channel;  ///< names the component
+  double prior_std;  ///< standard deviation of the weak prior about the measured initial state, SI
 };
 
-/// The components of the initial state that affect any measurement.
+/// The components of the initial state that affect a measurement of the logs.
 std::vector<InitialComponent> initial_components(const std::vector<DrivingLog>& logs);
 
-/// By window, then by component: the measured initial states.
+/// Measured initial states of all windows, by window, then by component.
 std::vector<double> measured_initial_states(const std::vector<FitWindow>& windows,
                                             const std::vector<InitialComponent>& components);
 

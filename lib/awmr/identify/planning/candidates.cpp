@@ -15,12 +15,13 @@
 namespace awmr {
 namespace {
 
-/// Logs and coast-downs are recorded at this rate.
+/// Rate of the rows of logs and coast-downs.
 constexpr double kRate_hz = 100.0;
-/// Smallest rate (m/s, rad/s), so that its logarithm exists at rest.
+/// Speed (m/s) or yaw rate (rad/s) in place of rest, whose logarithm does not exist.
 constexpr double kAtRest = 1e-6;
 
-/// Relative scatter of the model's own rows of this kind; 5 % without rows.
+/// Relative scatter of the model's own rows of this kind about the prediction; 5 % for fewer than
+/// three rows.
 double relative_scatter(const Model& model, TrialKind kind) {
   double squares = 0.0;
   int count = 0;
@@ -34,8 +35,8 @@ double relative_scatter(const Model& model, TrialKind kind) {
   return count > 2 && squares > 0.0 ? std::sqrt(squares / (count - 2)) : kOtherwise;
 }
 
-/// Measures ln u of the steady speed u under tau_speed. Its error is the relative scatter over
-/// sqrt(runs).
+/// Surge runs: measure ln u of the steady speed u under tau_speed. The standard error of the mean
+/// is the relative scatter over sqrt(runs).
 CandidateTrial surge_candidate(double tau, double wheel_force, double scatter, double runs) {
   return {
       .trial = {.kind = TrialKind::kSurge,
@@ -50,7 +51,7 @@ CandidateTrial surge_candidate(double tau, double wheel_force, double scatter, d
       }};
 }
 
-/// Measures ln r of the steady yaw rate r under tau_turn = 2 l_f F' sin d_r, as for surge.
+/// Steered turns: measure ln r of the steady yaw rate r under tau_turn = 2 l_f F' sin d_r.
 CandidateTrial turning_candidate(double steering_rad, double wheel_force, double scatter,
                                  double runs) {
   return {.trial = {.kind = TrialKind::kTurning,
@@ -67,7 +68,7 @@ CandidateTrial turning_candidate(double steering_rad, double wheel_force, double
           }};
 }
 
-/// The same for a vehicle without steering, under tau_turn = 2 d (F'R - F'L).
+/// Differential turns of a vehicle without steering: ln r under tau_turn = 2 d (F'R - F'L).
 CandidateTrial sides_candidate(SideForces<double> force, double scatter, double runs) {
   return {.trial = {.kind = TrialKind::kTurning,
                     .settings = fmt::format("F'L = {:.3g}, F'R = {:.3g}, {:g} full turns",
@@ -84,7 +85,7 @@ CandidateTrial sides_candidate(SideForces<double> force, double scatter, double 
           }};
 }
 
-/// Measures every speed of the curve, from motors off to rest.
+/// Coast-down curve: measures the speed from motors off to rest.
 CandidateTrial coastdown_candidate(double from_mps, double duration_s, double noise_mps,
                                    double runs) {
   return {.trial = {.kind = TrialKind::kCoastdown,
@@ -104,11 +105,11 @@ CandidateTrial coastdown_candidate(double from_mps, double duration_s, double no
           }};
 }
 
-/// Measures every speed, yaw rate and heading of a log.
+/// Driving log: measures speed, yaw rate, heading and position.
 CandidateTrial log_candidate(const std::string& what, const Vehicle& vehicle, const DrivePlan& plan,
                              const SensorNoise& sensors) {
   return {.trial = {.kind = TrialKind::kLog,
-                    .settings = fmt::format("{}, new levels every {:g} s, {:g} s logged at 100 Hz",
+                    .settings = fmt::format("{}, new step every {:g} s, {:g} s logged at 100 Hz",
                                             what, plan.hold_s, plan.duration_s),
                     .numbers = {{"duration_s", plan.duration_s},
                                 {"rate_hz", plan.rate_hz},
@@ -149,8 +150,8 @@ void add_coastdowns(const Vehicle& vehicle, const Plant<double>& plant,
 void add_logs(const Vehicle& vehicle, Motion motion, const SensorNoise& sensors,
               std::vector<CandidateTrial>& candidates) {
   const char* steps = vehicle.has_steering()
-                          ? "thrust and steering steps, at times unequal left and right"
-                          : "thrust steps, at times unequal left and right";
+                          ? "steps of thrust and steering, sometimes with unequal left and right"
+                          : "steps of thrust, sometimes with unequal left and right";
   candidates.push_back(log_candidate("straight starts and stops", vehicle,
                                      {.duration_s = 30.0, .straight = true}, sensors));
   if (motion != Motion::kPlanar) return;
@@ -193,7 +194,7 @@ void add_turning_runs(const Model& model, const SuggestOptions& options,
 
 std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptions& options) {
   std::vector<CandidateTrial> candidates;
-  // With back-EMF, steady runs determine only the sum of its loss and the resistance.
+  // Tables are no candidates with back-EMF: steady runs determine only its sum with the resistance.
   const bool tables = !(model[ParameterId::kBackEmf].value.value_or(0.0) > 0.0);
   if (tables && model.plant(Motion::kSteadySurge)) add_surge_runs(model, options, candidates);
   if (tables && model.plant(Motion::kSteadyTurn)) add_turning_runs(model, options, candidates);
@@ -206,7 +207,8 @@ std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptio
 
 namespace {
 
-/// Range of the scrub moment, m: from the trials, or from 0 to that of sliding tyres.
+/// Range of the scrub moment, m: its 95 % interval, or without one 0 to the moment of sliding
+/// tyres.
 Interval possible_scrub_m(const Model& model, const Plant<double>& plant) {
   const double held_m = model.yaw_held_m.value_or(0.0);
   if (const auto& scrub = model.yaw_scrub) {
@@ -216,8 +218,9 @@ Interval possible_scrub_m(const Model& model, const Plant<double>& plant) {
   return {held_m, std::max(held_m, sliding_moment_m(plant))};
 }
 
-/// Left and right forces with the mean `straight` and this moment; empty beyond the wheels' limits:
+/// Left and right wheel forces with the mean `straight` and a given yaw moment:
 ///   2 d (F'R - F'L) = moment                                                        [paper (41)]
+/// Empty if a force is outside `range`, the limits of the wheels.
 std::optional<SideForces<double>> forces_for(double moment_m, double straight,
                                              const Plant<double>& plant, const Interval& range) {
   const double half = moment_m / (4.0 * plant.half_track_m);
@@ -227,14 +230,14 @@ std::optional<SideForces<double>> forces_for(double moment_m, double straight,
   return force;
 }
 
-/// Steered turns to record if all turns were differential.
+/// Text that asks for steered turns, for a model from differential turns only.
 std::string steered_turns_instead(const Vehicle& vehicle) {
   const double stop = vehicle.steering_max_deg;
   const double force = 0.5 * vehicle.wheel_force.hi;
   return fmt::format(
-      "all turns were differential, so yaw resistance includes their scrub. Record at least three "
-      "steered turns in the turning table: steering {:.3g}, {:.3g} and {:.3g} deg, wheel_force "
-      "{:.3g} or what the space allows",
+      "all turns were differential, so the yaw resistance includes their tyre scrub. Record at "
+      "least three steered turns in the turning table: steering {:.3g}, {:.3g} and {:.3g} deg, "
+      "wheel_force {:.3g}, or less if the space is small",
       stop / 3.0, 2.0 * stop / 3.0, stop, force);
 }
 
@@ -251,8 +254,9 @@ std::optional<double> fastest_surge_mps(const Model& model) {
 std::string purpose_of(const Model& model) {
   if (const auto& scrub = model.yaw_scrub) {
     return fmt::format(
-        "{} turns give {:.3g} to {:.3g} m of scrub; four times as many halve the interval. compare "
-        "--break-even shows whether more are needed",
+        "the tyre scrub by {} turns is {:.3g} to {:.3g} m (95 %). Four times as many turns halve "
+        "the "
+        "interval; compare --break-even shows whether this is needed",
         scrub->rows, scrub->ci95_m.lo, scrub->ci95_m.hi);
   }
   return model.yaw_held_m ? fmt::format("the scrub is at least {:.3g} m", *model.yaw_held_m)
@@ -270,8 +274,9 @@ ScrubPlan scrub_plan(const Model& model) {
   const std::optional<double> fastest_degps = measured_yaw_rate_degps(model);
   if (!yaw || !surge || !fastest_degps) {
     return {{},
-            "differential turns are suggested once surge and yaw resistance are known, and the "
-            "range of yaw rates (turning trials, or yaw_rate_max_degps in the vehicle)"};
+            "the forces of differential turns can be suggested only with the surge and yaw "
+            "resistance and the highest yaw rate; record turning trials, or set "
+            "yaw_rate_max_degps in the vehicle file"};
   }
   const std::optional<double> fastest_mps = fastest_surge_mps(model);
   const double straight = fastest_mps ? surge->surge(0.5 * *fastest_mps) / vehicle.driven_wheels()
@@ -290,15 +295,16 @@ ScrubPlan scrub_plan(const Model& model) {
   }
   if (plan.turns.size() < kTurns) {
     plan.about += fmt::format(
-        "; the forces of this vehicle reach {} of {} such turns about F' = {:.3g}: three are "
-        "needed, so drive more of them, or repeat them at other speeds",
+        "; the wheel forces suffice for only {} of {} yaw rates at a mean F' of {:.3g}. Three "
+        "turns "
+        "are needed: repeat turns, also at other speeds",
         plan.turns.size(), kTurns, straight);
   }
   return plan;
 }
 
-/// Rolling without slip about a centre on the rear axle's line, the wheelbase being 2 l_f
-/// (tyres.h):
+/// The vehicle rolls without slip about a centre on the line of the rear axle, with a wheelbase of
+/// 2 l_f (tyres.h):
 ///   r = u tan(d_r)/(2 l_f),   u r <= 0.2 g
 std::optional<CoastingTurn> coasting_turn(const Model& model) {
   const Vehicle& vehicle = model.vehicle;

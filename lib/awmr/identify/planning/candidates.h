@@ -1,4 +1,5 @@
-/// Candidate trials to record next, each with its predicted measurements. Private to this folder.
+/// Candidate trials for `awmr suggest`, with their predicted measurements. Private to
+/// identify/planning/.
 #pragma once
 
 #include <functional>
@@ -9,30 +10,34 @@
 
 namespace awmr {
 
+/// A trial that could be recorded next.
 struct CandidateTrial {
   SuggestedTrial trial;  ///< kind, settings and numbers; its standard errors are not set
-  /// Predicted measurements of the trial on a plant, each divided by the standard deviation of its
-  /// error. The number of measurements is the same for every plant.
+  /// Predicts the measurements of the trial on a plant, each divided by the standard deviation of
+  /// its error. Their number is the same for every plant.
   std::function<std::vector<double>(const Plant<double>&)> standardised;
 };
 
-/// Trials within the model's validity; for a model of straight motion the logs drive straight.
+/// All candidates, within the measured range of the model. If the model has only parameters of
+/// straight motion, the logs drive straight.
 std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptions& options);
 
+/// Differential turns to record for the tyre scrub.
 struct ScrubPlan {
   std::vector<ScrubTurn> turns;
-  std::string about;
+  std::string about;  ///< see Suggestion::about_scrub
 };
-/// Differential turns at 1/3, 2/3 and 1 times the highest measured yaw rate. The mean wheel force
-/// is that of straight driving at half the highest speed. Forces are within the limits of the
-/// wheels.
+/// Plans differential turns at 1/3, 2/3 and 1 times the highest measured yaw rate. The mean wheel
+/// force is that of straight driving at half the highest speed. All forces are within the limits of
+/// the wheels.
 ScrubPlan scrub_plan(const Model& model);
 
-/// At half of the highest speed of the trials or the motors and half of the largest steering angle;
-/// less if tyres with little friction would slide.
+/// Plans the turn with motors off. Its speed is half of the highest speed of the trials (without
+/// trials, of the motors). Its steering angle is half of the largest one, or less, so that the
+/// lateral acceleration is at most 0.2 g. Empty without steering or surge resistance.
 std::optional<CoastingTurn> coasting_turn(const Model& model);
 
-/// Description of the assumed measurement errors of the candidates.
+/// Describes the measurement errors that the candidates assume.
 std::vector<std::string> assumptions_of(const Model& model, const SuggestOptions& options);
 
 }  // namespace awmr

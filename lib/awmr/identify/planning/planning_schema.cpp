@@ -1,4 +1,4 @@
-// Schemas of recover.json and suggest.json.
+// JSON Schemas of recover.json and suggest.json.
 #include <limits>
 
 #include "awmr/core/json.h"

@@ -8,8 +8,7 @@
 namespace awmr {
 namespace {
 
-/// Half of the interval in the parameter's coordinate (transform.h), to first order: (hi - lo)/2,
-/// divided by the value unless the parameter is an exponent.
+/// Precision::half_width: (hi - lo)/2, divided by the value unless the parameter is an exponent.
 std::optional<double> half_width_of(const Model& model, ParameterId id) {
   const Estimate& estimate = model[id];
   if (!estimate.value || !estimate.ci95 || estimate.source == Source::kGiven) return std::nullopt;

@@ -1,4 +1,4 @@
-// Runs of a recovery: simulate trials at the model's values and identify them.
+// Runs of `awmr recover`: simulates trials at the model's values and identifies them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,13 +18,14 @@
 namespace awmr {
 namespace {
 
-/// Quantity with the error, as assumed by the estimator under test.
+/// Quantity that has the error by the assumption of the estimator under test.
 ErrorModel error_of(const IdentifyOptions& options) {
   if (options.method != Method::kNonlinear) return ErrorModel::kLogForce;
   return options.noise.value_or(ErrorModel::kTime);
 }
 
-/// Residual standard deviation of the model's own fit of this subject, in the unit of the error.
+/// Residual standard deviation of the model's own surge or yaw fit under this error model, in the
+/// unit of the error.
 double scatter(const Model& model, FitSubject subject, ErrorModel error) {
   for (const EstimatorReport& report : model.record.reports) {
     if (report.subject == subject && report.noise == name_of(error) &&
@@ -35,8 +36,9 @@ double scatter(const Model& model, FitSubject subject, ErrorModel error) {
   return 0.0;
 }
 
-/// Left and right wheel forces for this yaw moment, m, without steering: opposite ones, or with the
-/// left wheels at their rearward limit (0 if they cannot push back) if that is less.
+/// Left and right wheel forces that give a yaw moment, m, without steering. The forces are
+/// opposite. If the left wheels cannot push back so much, the left force is at its rearward limit,
+/// or 0.
 ///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
 SideForces<double> sides_for(const Vehicle& vehicle, double tau_turn_m) {
   const double difference = tau_turn_m / (2.0 * vehicle.half_track_m);
@@ -44,7 +46,7 @@ SideForces<double> sides_for(const Vehicle& vehicle, double tau_turn_m) {
   return {left, left + difference};
 }
 
-/// The settings of the model's own trials.
+/// Settings of the model's own trials.
 TablePlan plan_of(const Model& model) {
   TablePlan plan;
   double most_tau_turn_m = 0.0;
@@ -62,7 +64,8 @@ TablePlan plan_of(const Model& model) {
     }
     return plan;
   }
-  // tau_turn = 2 l_f F' sin d_r: one F' whose largest angle is the vehicle's stop.     [paper (62)]
+  // tau_turn = 2 l_f F' sin d_r                                                        [paper (62)]
+  // All turns have the same F', with which the largest moment needs the largest steering angle.
   const double stop_rad = radians(model.vehicle.steering_max_deg);
   plan.turning_wheel_force =
       most_tau_turn_m / (2.0 * model.vehicle.front_axle_m * std::sin(stop_rad));
@@ -101,7 +104,7 @@ struct Experiment {
   double coast_from_mps = 0.0;
 };
 
-/// The trials of run `index`. Their errors depend only on the seed and the index.
+/// Simulates the trials of run `index`. Their errors depend only on the seed and the index.
 TrialData simulated_trials(const Experiment& experiment, const RecoverOptions& options,
                            std::uint64_t index) {
   Random random(options.seed, index);
@@ -125,17 +128,17 @@ TrialData simulated_trials(const Experiment& experiment, const RecoverOptions& o
   return data;
 }
 
-/// Estimates and findings of one run.
+/// Result of one run.
 struct OneRun {
   RecoverRun found;
   std::string why;             ///< reason of the first refusal
-  std::optional<Error> error;  ///< why the run gave no model
+  std::optional<Error> error;  ///< set if the identification failed
 };
 
-/// Estimate of a fitted parameter with its interval; empty for all others.
+/// Estimate of a parameter with its interval; empty if the parameter was given or has no interval.
 std::optional<RecoverEstimate> interval_of(const Estimate& estimate) {
   if (!estimate.value || !estimate.ci95 || estimate.source == Source::kGiven) return std::nullopt;
-  // An unbounded interval counts as none, as in model.json.
+  // An interval with an infinite end counts as no interval, as in model.json.
   const auto fits = [](double number) { return std::abs(number) <= kLargestEstimate; };
   if (!fits(*estimate.value) || !fits(estimate.std_error.value_or(0.0)) ||
       !std::isfinite(estimate.ci95->lo) || !std::isfinite(estimate.ci95->hi)) {
@@ -162,13 +165,14 @@ OneRun identified_again(const Vehicle& vehicle, const TrialData& data, IdentifyO
   }
   for (std::size_t i = 0; i < truths.size(); ++i) {
     const Estimate& estimate = identified->model[truths[i].id];
-    // Assumed values were not fitted to the trials.
+    // An assumed sway resistance is not an estimate.
     if (estimate.method != kAssumedSwayMethod) run.found.estimates[i] = interval_of(estimate);
   }
   return run;
 }
 
-/// Runs of a part, in order. Progress is reported on this thread; the last call has all runs.
+/// Simulates and identifies the runs of a part, in order. `progress` is called on this thread; its
+/// last call has the number of all runs.
 std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOptions& options,
                                    const Shard& shard, const std::vector<RecoverTruth>& truths,
                                    const std::function<void(int)>& progress) {
@@ -193,7 +197,8 @@ std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOp
   return runs;
 }
 
-/// The parameters to evaluate: the requested ones or all, if the model has a value.
+/// Parameters to evaluate: the requested ones, or all if none is requested. Only those with a
+/// value.
 std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<ParameterId>& requested) {
   std::vector<RecoverTruth> truths;
   for (const ParameterInfo& parameter : parameter_table()) {
@@ -204,7 +209,7 @@ std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<Parame
   return truths;
 }
 
-/// Stores the runs in the part, with the first reason for a refusal.
+/// Stores the runs in the part, with the first refusal and its reason.
 void put_runs(std::vector<OneRun> runs, RecoverPart& part) {
   if (std::ranges::all_of(runs, [](const OneRun& run) { return run.error.has_value(); })) {
     part.error = runs.front().error;
@@ -228,20 +233,21 @@ std::string noise_in_words(const RowNoise& rows, const RecoverOptions& options) 
                      name_of(rows.error), rows.surge, rows.turning, rows.stop_time_s, s.speed_mps);
 }
 
-/// Errors (input): the drive has too few or too many rows.
+/// Checks the simulated log. Errors (input): too few or too many rows.
 Status check_drive(const DrivePlan& drive) {
   constexpr double kFewest = 20.0;
   constexpr double kMost = 1e6;
   const double rows = drive.duration_s * drive.rate_hz;
   if (drive.rate_hz > 0.0 && rows >= kFewest && rows <= kMost) return {};
-  return input_error(ErrorCode::kOutOfRange, option_text("duration"),
-                     fmt::format("{:g} s at {:g} Hz make {:.3g} rows; a log to be simulated has "
-                                 "{:g} to {:g}",
-                                 drive.duration_s, drive.rate_hz, rows, kFewest, kMost));
+  return input_error(
+      ErrorCode::kOutOfRange, option_text("duration"),
+      fmt::format("{:g} s at {:g} Hz make {:.3g} rows; a simulated log needs {:g} to "
+                  "{:g} rows",
+                  drive.duration_s, drive.rate_hz, rows, kFewest, kMost));
 }
 
-/// Adapts the options to the model. A model of straight motion is driven straight and only its
-/// parameters are requested. A fitted back-EMF is requested again.
+/// Adapts the options to the model. If the model has only parameters of straight motion, the log
+/// drives straight and only these parameters are requested. A fitted back-EMF is requested too.
 RecoverOptions options_for(const Model& model, RecoverOptions options) {
   const bool log = options.plan == RecoverPlan::kLog;
   if (log && options.identify.requested.empty() && !is_absent_term(model, ParameterId::kBackEmf) &&
@@ -262,17 +268,17 @@ RecoverOptions options_for(const Model& model, RecoverOptions options) {
   return options;
 }
 
-/// The plant of the runs. Errors (input): the model lacks a parameter that a trial needs.
+/// Plant that the runs simulate. Errors (input): the model lacks a parameter that a trial needs.
 Result<Plant<double>> truth_of(const Model& model, RecoverPlan plan) {
   if (plan == RecoverPlan::kLog) return model.plant(model.simulated_motion());
   if (plan == RecoverPlan::kCurve) AWMR_RETURN_IF_ERROR(model.plant(Motion::kStraight));
   return model.plant_of_trials();
 }
 
-/// Errors (input): runs, a drive or trials that cannot be simulated.
+/// Checks the options. Errors (input): fewer than 2 runs, or trials that cannot be simulated.
 Status check_plan(const Model& model, const Plant<double>& truth, const RecoverOptions& options) {
   if (options.runs < 2) {
-    return input_error(ErrorCode::kOutOfRange, option_text("runs"), "at least 2 are needed");
+    return input_error(ErrorCode::kOutOfRange, option_text("runs"), "at least 2 runs are needed");
   }
   if (options.plan == RecoverPlan::kLog) {
     AWMR_RETURN_IF_ERROR(check_drive(options.drive));
@@ -281,7 +287,7 @@ Status check_plan(const Model& model, const Plant<double>& truth, const RecoverO
   if (!model.record.trials.empty()) return {};
   return input_error(
       ErrorCode::kMissing, model.file + ":/trials",
-      "holds no trials whose inputs could be simulated again; use " + option_text("plan log"));
+      "the model has no table rows to simulate again; use " + option_text("plan log"));
 }
 
 }  // namespace

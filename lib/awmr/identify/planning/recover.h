@@ -1,5 +1,5 @@
-/// Self-test of a planned or recorded set of trials: simulates the trials at a model's values,
-/// identifies them and compares, many times.
+/// Self-test of an identification (`awmr recover`): simulates a model's trials with noise many
+/// times, identifies each set, and compares the estimates with the model's values.
 #pragma once
 
 #include <functional>
@@ -13,34 +13,34 @@ namespace awmr {
 
 /// Which trials are simulated.
 enum class RecoverPlan {
-  kTables,  ///< rows with the settings of the model's trials
-  kCurve,   ///< the same, with a coast-down curve in place of the stop times
+  kTables,  ///< tables with the settings of the model's own trials
+  kCurve,   ///< these tables with a coast-down curve in place of the stop times
   kLog,     ///< only a driving log
 };
 
 struct RecoverOptions {
-  /// Plan of the simulated trials.
   RecoverPlan plan = RecoverPlan::kTables;
-  /// >= 2. The standard error of the coverage is 0.22/sqrt(runs): 1.5 % with 200 runs.
+  /// Number of simulated sets, >= 2. The standard error of the coverage is 0.22/sqrt(runs): 1.5 %
+  /// for 200 runs.
   int runs = 200;
   std::uint64_t seed = 1;
-  /// >= 0; 0: one per core. The result does not depend on it.
+  /// Number of threads, >= 0; 0: one per core. The result does not depend on it.
   int threads = 0;
   /// The estimator under test.
   IdentifyOptions identify;
-  /// Quantity with the simulated error. Absent: as the estimator assumes. Another quantity shows
-  /// the effect of a wrong assumption.
+  /// Quantity that gets the simulated error. Absent: the one that the estimator assumes. Another
+  /// quantity shows the effect of a wrong assumption.
   std::optional<ErrorModel> error;
   /// Sensor noise of curves and logs. Use the robot's own values if they are known.
   SensorNoise sensors;
-  /// Length and rate of a coast-down curve, > 0.
+  /// Duration, s, and sample rate, Hz, of a coast-down curve, > 0.
   double curve_s = 2.0;
   double curve_rate_hz = 100.0;
-  /// Commands of a log; each run has different ones.
+  /// Commands of a log; each run has other random commands.
   DrivePlan drive;
 };
 
-/// truth, bias, rmse and mean_std_error are in the parameter's unit.
+/// Statistics of one parameter. truth, bias, rmse and mean_std_error are in the parameter's unit.
 struct RecoveredParameter {
   ParameterId id = ParameterId::kMassNorm;
   double truth = 0.0;
@@ -48,29 +48,30 @@ struct RecoveredParameter {
   double rmse = 0.0;            ///< root mean square of estimate - truth
   double mean_std_error = 0.0;  ///< mean of the standard errors that the fits report
   double coverage95 = 0.0;      ///< share of runs whose interval contains the truth
-  double worst_error = 0.0;     ///< largest |estimate/truth - 1|; 0 where the truth is 0
+  double worst_error = 0.0;     ///< largest |estimate/truth - 1|; 0 if the truth is 0
   int runs = 0;                 ///< runs with an estimate and an interval
 };
 
+/// Statistics of all runs.
 struct Recovery {
   std::vector<RecoveredParameter> parameters;
   std::string noise_text;  ///< description of the simulated noise
   int runs = 0;
-  int failed = 0;  ///< runs that refused a requested parameter
+  int failed = 0;  ///< number of runs that refused a requested parameter
 };
 
 /// Runs the self-test. `progress` is called on the calling thread with the number of completed
-/// runs. With a model of straight motion, the log drives straight and only parameters of straight
-/// motion are fitted. Errors (input): the model lacks a parameter that a trial of the plan needs,
-/// or has no trials for the plan; fewer than 2 runs. (refused): no run gives a requested parameter,
-/// or any parameter.
+/// runs. If the model has only parameters of straight motion, the log drives straight and only
+/// these parameters are fitted. Errors (input): the model lacks a parameter that a trial of the
+/// plan needs, or has no trials for the plan; fewer than 2 runs. Errors (refused): no run estimates
+/// a requested parameter, or any parameter.
 Result<Recovery> recover(const Model& model, const RecoverOptions& options,
                          const std::function<void(int)>& progress);
 
 /// Content of recover.json.
 std::string recovery_text(const Recovery& recovery, const Provenance& provenance);
 
-/// The same as text for a terminal, one line per parameter.
+/// Table of the statistics for a terminal, one line per parameter.
 std::string recovery_table(const Recovery& recovery);
 
 /// The JSON Schema of recover.json.

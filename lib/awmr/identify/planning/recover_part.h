@@ -1,4 +1,5 @@
-/// Recovery in two steps, for several machines: the runs of a part, and the statistics of all runs.
+/// The two steps of recover(), so that several machines can share the runs: the runs of a part, and
+/// the statistics of all runs.
 #pragma once
 
 #include <functional>
@@ -13,7 +14,7 @@
 
 namespace awmr {
 
-/// A parameter and its simulated value, in its unit.
+/// A parameter with the value at which trials are simulated, in its unit.
 struct RecoverTruth {
   ParameterId id = ParameterId::kMassNorm;
   double value = 0.0;
@@ -28,15 +29,15 @@ struct RecoverEstimate {
   Interval ci95;
 };
 
-/// One simulated data set, identified.
+/// Result of one run: the estimates from one simulated data set.
 struct RecoverRun {
-  int index = 0;         ///< number among all runs, from 0; with the seed it determines the errors
-  bool refused = false;  ///< a requested parameter was refused
-  /// By RecoverPart::truths; absent without an interval.
+  int index = 0;         ///< number of the run, from 0; errors depend on it and on the seed
+  bool refused = false;  ///< true: a requested parameter was refused
+  /// In the order of RecoverPart::truths; absent for a parameter without an interval.
   std::vector<std::optional<RecoverEstimate>> estimates;
 };
 
-/// The first run that was refused, with the reason.
+/// The first run that refused a requested parameter, with the reason.
 struct RecoverRefusal {
   int run = 0;
   std::string message;
@@ -44,23 +45,24 @@ struct RecoverRefusal {
 
 /// Some or all of the runs of a recovery.
 struct RecoverPart {
-  int all_runs = 0;                    ///< number in all parts
-  std::string noise_text;              ///< as simulated
-  std::vector<ParameterId> requested;  ///< empty: all that the trials identify
-  std::vector<RecoverTruth> truths;    ///< of the evaluated parameters
-  std::vector<RecoverRun> runs;        ///< by index
+  int all_runs = 0;                    ///< number of runs in all parts together
+  std::string noise_text;              ///< description of the simulated noise
+  std::vector<ParameterId> requested;  ///< empty: all parameters that the trials identify
+  std::vector<RecoverTruth> truths;    ///< true values of the evaluated parameters
+  std::vector<RecoverRun> runs;        ///< in the order of their index
   std::optional<RecoverRefusal> refusal;
-  std::optional<Error> error;  ///< error of the first run, if no run gave a model
+  std::optional<Error> error;  ///< error of the first run, if every run failed
 };
 
-/// Runs the part `shard`. `progress` and errors as in recover(), except that a part without any
-/// result is not an error, because other parts can have results. Errors (input): also a part that
-/// does not exist or is empty.
+/// Executes the runs of the part `shard`. `progress` and errors as in recover(), with two
+/// differences: a part without any estimate is not an error, because other parts may have
+/// estimates; a part that does not exist or has no runs is an error (input).
 Result<RecoverPart> recover_part(const Model& model, const RecoverOptions& options,
                                  const Shard& shard, const std::function<void(int)>& progress);
 
-/// Computes the statistics of the runs. Precondition: `whole` has all runs. Errors: that of the
-/// first run, if all have one; (refused) no run gives one of the requested parameters, or any.
+/// Computes the statistics of all runs. Precondition: `whole` has all runs. Errors: the error of
+/// the first run, if every run failed. Errors (refused): no run estimates a requested parameter, or
+/// any parameter.
 Result<Recovery> recovery_of(const RecoverPart& whole);
 
 }  // namespace awmr

@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-/// Largest number of runs, and limits of a true value.
+/// Limits of numbers in a part's files: number of runs, absolute true value.
 constexpr long kMaxRecoverRuns = std::numeric_limits<int>::max();
 constexpr double kLargestTruth = 1e100;
 constexpr double kSmallestTruth = 1e-100;
@@ -48,7 +48,7 @@ Error read_error(JsonObject json) {
   return error;
 }
 
-/// Empty, with a fault, if no parameter has this name.
+/// Parameter with this name. Adds a fault and returns empty if there is none.
 std::optional<ParameterId> read_parameter(JsonObject& json, const std::string& key,
                                           const std::string& name) {
   const auto id = parameter_by_name(name);
@@ -64,7 +64,7 @@ std::vector<RecoverTruth> read_truths(JsonObject json) {
     const double value = json.number(name, {.min = -kLargestTruth, .max = kLargestTruth});
     if (value != 0.0 && std::abs(value) < kSmallestTruth) {
       json.fault(ErrorCode::kOutOfRange, name,
-                 fmt::format("expected 0 or a number not below {:g} in size, found {:g}",
+                 fmt::format("expected 0 or an absolute value of at least {:g}, found {:g}",
                              kSmallestTruth, value));
     }
     if (const auto id = read_parameter(json, name, name)) truths.push_back({*id, value});
@@ -79,7 +79,7 @@ RecoverRefusal read_refusal(JsonObject json) {
   return refusal;
 }
 
-/// The keys of shard.json that a recovery adds; the runs are in the table.
+/// Reads the keys of shard.json that are specific to a recovery. The runs are in recovery.csv.
 RecoverPart read_payload(JsonObject& json) {
   RecoverPart part;
   part.all_runs = static_cast<int>(json.integer("runs", 2, kMaxRecoverRuns));
@@ -99,8 +99,8 @@ Status check_runs(std::string_view text, const std::string& file, const std::str
   return {};
 }
 
-/// The runs of a part. Errors (input): a run of another part, in the wrong order, or
-/// missing.
+/// Reads the runs of a part. Errors (input): a run that belongs to another part, is out of order or
+/// is missing.
 Result<std::vector<RecoverRun>> read_runs(const Part& part, const RecoverPart& payload) {
   const ShardFile& table = recover_shards().files.front();
   AWMR_ASSIGN_OR_RETURN(const std::string text, read_part_file(part, table));
@@ -111,7 +111,7 @@ Result<std::vector<RecoverRun>> read_runs(const Part& part, const RecoverPart& p
   if (std::ssize(runs) != expected) {
     return input_error(
         ErrorCode::kStaleResult, (part.directory / table.name).string(),
-        fmt::format("has {} runs, part {} of {} of {} runs has {}: run it again", runs.size(),
+        fmt::format("has {} runs, part {} of {} of {} runs has {}: run the part again", runs.size(),
                     shard.index, shard.count, payload.all_runs, expected));
   }
   AWMR_RETURN_IF_ERROR(check_items(part, table, "run", payload.all_runs, runs.size(),
@@ -119,8 +119,8 @@ Result<std::vector<RecoverRun>> read_runs(const Part& part, const RecoverPart& p
   return runs;
 }
 
-/// Merges the reasons of a part: keeps the refusal of the smallest run. Keeps an error only if all
-/// parts have one: that of the first run.
+/// Merges refusal and error of a part into `whole`. Keeps the refusal of the run with the smallest
+/// index. Keeps the error only if all parts have one.
 void take_reasons(const RecoverPart& part, RecoverPart& whole) {
   if (part.refusal && (!whole.refusal || part.refusal->run < whole.refusal->run)) {
     whole.refusal = part.refusal;

@@ -1,5 +1,5 @@
-/// Recovery on several machines, each of which does some of the runs. merge_recover_shards()
-/// combines the parts to the output of a single recovery, byte for byte.
+/// Files of `awmr recover --shard`, by which several machines share the runs.
+/// merge_recover_shards() combines the parts; the result is byte for byte that of a single machine.
 #pragma once
 
 #include <filesystem>
@@ -12,21 +12,21 @@
 
 namespace awmr {
 
-/// Files of a part: recovery.csv has a row per run.
+/// Description of the files of a part, of which recovery.csv has a row per run.
 const ShardKind& recover_shards();
 
-/// The files of the part `shard`.
+/// Texts of the files of the part `shard`.
 PartText recover_part_text(const RecoverPart& part, const Shard& shard,
                            const Provenance& provenance);
 
-/// All runs, with the content of recover.json.
+/// All runs of the merged parts, with the provenance for recover.json.
 struct MergedRecovery {
   RecoverPart whole;
   Provenance provenance;
 };
 
-/// Combines the parts in these directories, in any order. Errors (input): as read_parts(); a row of
-/// another part, or a missing row.
+/// Combines the parts in these directories, in any order. Errors (input): those of read_parts(); a
+/// row that belongs to another part; a missing row.
 Result<MergedRecovery> merge_recover_shards(const std::vector<std::filesystem::path>& directories);
 
 }  // namespace awmr

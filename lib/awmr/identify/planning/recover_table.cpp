@@ -12,14 +12,14 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kRunColumns = 2;  ///< run,refused
+constexpr std::size_t kRunColumns = 2;  ///< columns before the estimates: run, refused
 constexpr std::size_t kEstimateColumns = 4;
 
 std::string head_of(std::string_view parameter) {
   return fmt::format(",{0},{0}.std_error,{0}.ci95_lo,{0}.ci95_hi", parameter);
 }
 
-/// Truths with columns: those that at least one run estimated.
+/// Indices in `truths` of the parameters that at least one run has estimated. They have columns.
 std::vector<std::size_t> places_in(const RecoverPart& part) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < part.truths.size(); ++i) {
@@ -36,7 +36,7 @@ std::string cells_of(const std::optional<RecoverEstimate>& estimate) {
                      format_number(estimate->ci95.lo), format_number(estimate->ci95.hi));
 }
 
-/// The truths of the columns in the header, in order; empty if the header is invalid.
+/// Indices in `truths` of the parameters in the header, in order; empty if the header is invalid.
 std::optional<std::vector<std::size_t>> places_of(const std::vector<std::string>& head,
                                                   const std::vector<RecoverTruth>& truths) {
   std::string line;
@@ -52,7 +52,7 @@ std::optional<std::vector<std::size_t>> places_of(const std::vector<std::string>
   return line == expected ? std::optional(places) : std::nullopt;
 }
 
-/// Reads four cells that are not all empty; empty if they are invalid.
+/// Reads the four cells of an estimate, which are not all empty. Returns empty if they are invalid.
 std::optional<RecoverEstimate> estimate_in(std::span<const std::string> cells) {
   const auto value = number_from_text(cells[0]);
   const auto std_error = number_from_text(cells[1].empty() ? "0" : cells[1]);
@@ -67,7 +67,7 @@ std::optional<RecoverEstimate> estimate_in(std::span<const std::string> cells) {
                          .ci95 = {*lo, *hi}};
 }
 
-/// Index of a run; empty if the cell is not a whole number.
+/// Reads the index of a run. Returns empty if the cell is not a whole number.
 std::optional<int> index_in(const std::string& cell) {
   int index = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), index);
@@ -75,7 +75,7 @@ std::optional<int> index_in(const std::string& cell) {
   return index;
 }
 
-/// Empty if the cells are not a row as written by recover_csv().
+/// Reads a row. Returns empty if the cells are not a row as written by recover_csv().
 std::optional<RecoverRun> run_in(const std::vector<std::string>& cells,
                                  const std::vector<std::size_t>& places, std::size_t truths) {
   if (cells.size() != kRunColumns + kEstimateColumns * places.size()) return std::nullopt;
@@ -115,7 +115,7 @@ Result<std::vector<RecoverRun>> recover_runs(std::string_view text, const std::s
   const auto places = places_of(take_text_record(rest), truths);
   if (!places) {
     return input_error(ErrorCode::kStaleResult, file + ":1:1",
-                       "these are not the columns of a recovery");
+                       "these are not the columns of a recovery; run the part again");
   }
   std::vector<RecoverRun> runs;
   while (!rest.empty()) {

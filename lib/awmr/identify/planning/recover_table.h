@@ -1,4 +1,4 @@
-/// Writes and reads recovery.csv. Private to this folder.
+/// Writes and reads recovery.csv, the estimates of all runs. Private to identify/planning/.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace awmr {
 
-/// Upper bound of an estimate, with which the sum of a million squares is finite.
+/// Largest accepted estimate, so that a sum of a million squares is finite.
 inline constexpr double kLargestEstimate = 1e150;
 
-/// The text of recovery.csv, one row per run: `run,refused`, and
-/// `NAME,NAME.std_error,NAME.ci95_lo,NAME.ci95_hi` for every parameter that at least one run
-/// estimated. Cells are empty if this run did not estimate it.
+/// Text of recovery.csv. It has one row per run with the columns `run,refused`, and
+/// `NAME,NAME.std_error,NAME.ci95_lo,NAME.ci95_hi` for every parameter that at least one run has
+/// estimated. A cell is empty if the row's run has not estimated the parameter.
 std::string recover_csv(const RecoverPart& part);
 
-/// Reads a text of recover_csv(), with the estimates by `truths`. `file`: its name in errors.
-/// Errors (input), by line: text that is not such a table.
+/// Reads a text written by recover_csv(). The estimates of each run are in the order of `truths`.
+/// `file`: file name for errors. Errors (input), with the line: text that is not such a table.
 Result<std::vector<RecoverRun>> recover_runs(std::string_view text, const std::string& file,
                                              const std::vector<RecoverTruth>& truths);
 

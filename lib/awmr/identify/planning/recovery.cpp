@@ -1,4 +1,4 @@
-// Statistics of the runs of a recovery.
+// Statistics of the runs of `awmr recover`.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,8 +10,8 @@
 namespace awmr {
 namespace {
 
-/// Statistics of true value number `place`. Sums are in the order of the runs, so they do not
-/// depend on threads or parts.
+/// Statistics of the parameter `truth`, whose index in the runs' estimates is `place`. Sums are in
+/// the order of the runs, so that they do not depend on threads or parts.
 RecoveredParameter recovered_parameter(const RecoverTruth& truth, std::size_t place,
                                        const std::vector<RecoverRun>& runs) {
   RecoveredParameter p{.id = truth.id, .truth = truth.value};
@@ -36,8 +36,8 @@ RecoveredParameter recovered_parameter(const RecoverTruth& truth, std::size_t pl
   return p;
 }
 
-/// Errors: that of the first run, if all have one; (refused) no run gave any parameter, or one of
-/// the requested ones.
+/// Errors: the error of the first run, if every run failed. Errors (refused): no run has estimated
+/// any parameter, or a requested one.
 Status check_recovered(const Recovery& recovery, const RecoverPart& whole) {
   if (whole.error) return tl::unexpected(*whole.error);
   std::vector<std::string_view> missing;
@@ -48,10 +48,10 @@ Status check_recovered(const Recovery& recovery, const RecoverPart& whole) {
   if (!recovery.parameters.empty() && missing.empty()) return {};
   return refusal(
       ErrorCode::kNotRecovered,
-      fmt::format("of {} runs none gave {}{}", recovery.runs,
-                  missing.empty() ? "an interval" : fmt::format("{}", fmt::join(missing, ", ")),
+      fmt::format("none of {} runs has estimated {}{}", recovery.runs,
+                  missing.empty() ? "a parameter" : fmt::format("{}", fmt::join(missing, ", ")),
                   whole.refusal ? ": " + whole.refusal->message
-                                : ", as this plan's trials do not show it"));
+                                : ", because the trials of this plan do not determine it"));
 }
 
 }  // namespace

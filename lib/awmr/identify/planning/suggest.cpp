@@ -15,18 +15,20 @@
 namespace awmr {
 namespace {
 
-/// Assumed uncertainty of a parameter without a standard error: a factor of e^2, so that a trial
-/// that measures it has a benefit.
+/// Assumed standard error of the coordinate of a parameter without one: a factor of e^2. It makes
+/// trials that measure the parameter useful.
 constexpr double kUnknownStd = 2.0;
 
-/// The uncertain parameters: n of them in the coordinates z of model/transform.h, with
+/// Covariance of the n uncertain parameters, in the coordinates z of model/transform.h. With the
+/// covariance C_pq of the parameters p and q,
 ///   Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q).
 struct Uncertainty {
   std::vector<ParameterId> parameters;
   Eigen::MatrixXd covariance;  ///< n x n, positive definite
 };
 
-/// The model's covariance, and every parameter that was not given but has none.
+/// The model's covariance, extended by the parameters that have a value, were not given and have no
+/// covariance.
 Uncertainty uncertainty_of(const Model& model) {
   const std::vector<ParameterId>& known = model.covariance.parameters;
   std::vector<ParameterId> ids = known;
@@ -47,14 +49,15 @@ Uncertainty uncertainty_of(const Model& model) {
   for (std::size_t i = known.size(); i < ids.size(); ++i) {
     covariance(eigen_index(i), eigen_index(i)) = kUnknownStd * kUnknownStd;
   }
-  // From one coast-down, I'z is m' times a constant, so C would be singular. A small independent
-  // error of each makes C invertible, so that a trial that measures I'z separates them.
+  // I'z from a coast-down is m' times a constant, so the covariance is singular. A small
+  // independent error of each parameter makes it invertible, so that a trial that measures I'z can
+  // separate them.
   constexpr double kIndependentStd = 1e-4;
   covariance.diagonal().array() += kIndependentStd * kIndependentStd;
   return {std::move(ids), std::move(covariance)};
 }
 
-/// Parameters without a value.
+/// Parameters of the vehicle without a value, each with the trial that measures it.
 std::vector<MissingParameter> missing_of(const Model& model) {
   std::vector<MissingParameter> missing;
   for (const ParameterInfo& parameter : parameter_table()) {
@@ -64,15 +67,15 @@ std::vector<MissingParameter> missing_of(const Model& model) {
   return missing;
 }
 
-/// The model's plant with one coordinate moved by `step`.
+/// Plant of the model with the coordinate of one parameter changed by `step`.
 Plant<double> moved(Model model, ParameterId id, double step) {
   double& value = *model[id].value;
   value = scale_of(id) == Scale::kLinear ? value + step : value * std::exp(step);
   return model.plant_as_known();
 }
 
-/// d values / d z by central differences: one row per value, one column per parameter. For a term
-/// that a backward step would make negative, that step ends at 0.
+/// Derivatives of values by the parameters' coordinates, by central differences: one row per value,
+/// one column per parameter. The backward step of a term ends at 0 at the latest.
 template <class Values>
 Eigen::MatrixXd jacobian_of(const Model& model, const std::vector<ParameterId>& ids,
                             const Values& values_at) {
@@ -90,29 +93,29 @@ Eigen::MatrixXd jacobian_of(const Model& model, const std::vector<ParameterId>& 
   return result;
 }
 
-/// The target of the ranking: the rows of `gradient` are combinations of the coordinates, and the
-/// error is the root sum of their variances, times `scale` to have its unit.
+/// Target of the ranking: m linear combinations of the n coordinates. Its standard error is the
+/// root of the sum of their variances, times `scale`.
 struct Target {
-  Eigen::MatrixXd gradient;  ///< m x n
-  double scale = 1.0;
-  std::string name;       ///< SuggestedTrial::parameter
-  std::string criterion;  ///< description
+  Eigen::MatrixXd gradient;  ///< m x n, a combination in each row
+  double scale = 1.0;        ///< converts the standard error to the unit of the target
+  std::string name;          ///< SuggestedTrial::parameter
+  std::string criterion;     ///< description of the target
 
   double std_error(const Eigen::MatrixXd& covariance) const {
     return scale * std::sqrt((gradient * covariance * gradient.transpose()).trace());
   }
 };
 
-/// The whole resistance at 1 m/s or 1 rad/s in the unit of the term. The error of a term is
-/// relative to it, because a term may be 0.
+/// Whole resistance at 1 m/s or 1 rad/s. The error of a term is relative to it, because the term
+/// itself may be 0. For a term of a single wheel, the share of one wheel.
 double whole_of(ParameterId id, const Plant<double>& plant) {
   if (id == ParameterId::kYawCoulomb || id == ParameterId::kYawQuadratic) return plant.yaw(1.0);
   const bool of_a_wheel = id == ParameterId::kWheelDeadZone || id == ParameterId::kBackEmf;
   return plant.surge(1.0) / (of_a_wheel ? 4.0 : 1.0);
 }
 
-/// A-optimality with equal weights. The error of a logarithm is relative already; that of an
-/// exponent is absolute; that of a term is relative to the whole resistance.
+/// Target of A-optimality: all parameters with equal weights. The errors are relative (coordinate
+/// is a logarithm), absolute (exponents) or relative to the whole resistance (terms).
 Target all_parameters(const std::vector<ParameterId>& ids, const Plant<double>& plant) {
   Eigen::MatrixXd gradient = Eigen::MatrixXd::Identity(rows_of(ids), rows_of(ids));
   for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -130,7 +133,8 @@ tl::unexpected<Error> unknown_target(const std::vector<ParameterId>& ids,
   for (const ParameterId known : ids) names += fmt::format("{} ", info(known).name);
   for (const SuggestTarget& metric : options.metrics) names += metric.name + " ";
   return input_error(ErrorCode::kUnknownName, option_text("parameter"),
-                     fmt::format("'{}' has no uncertainty in this model; choose one of: {}",
+                     fmt::format("'{}' is not an uncertain parameter of this model or a metric; "
+                                 "choose one of: {}",
                                  options.parameter, names));
 }
 
@@ -167,8 +171,8 @@ double log_determinant(const Eigen::MatrixXd& covariance) {
   return symmetric_eigen(covariance).values.array().max(1e-300).log().sum();
 }
 
-/// C_after = (C^-1 + J^T J)^-1, J the derivatives of the measurements by the coordinates, in units
-/// of the noise.
+/// Computes the effect of a candidate: C_after = (C^-1 + J^T J)^-1, with the derivatives J of its
+/// measurements, divided by their standard deviations, by the coordinates.
 SuggestedTrial evaluate(const CandidateTrial& candidate, const Model& model,
                         const Uncertainty& uncertainty, const Target& target) {
   const Eigen::MatrixXd j = jacobian_of(model, uncertainty.parameters, candidate.standardised);
@@ -184,7 +188,8 @@ SuggestedTrial evaluate(const CandidateTrial& candidate, const Model& model,
   return trial;
 }
 
-/// Best first; ties in the target by the larger gain of information.
+/// Sorts the trials by the standard error of the target, smallest first; then by d_gain, largest
+/// first.
 void sort_by_promise(std::vector<SuggestedTrial>& trials) {
   std::stable_sort(trials.begin(), trials.end(),
                    [](const SuggestedTrial& a, const SuggestedTrial& b) {
@@ -202,7 +207,8 @@ Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
   std::vector<MissingParameter> missing = missing_of(model);
   if (uncertainty.parameters.empty() && missing.empty()) {
     return input_error(ErrorCode::kNotIdentified, model.file + ":/covariance",
-                       "no parameter has an uncertainty that a trial could reduce");
+                       "no parameter has a standard error that a trial could reduce; identify the "
+                       "model from trials first");
   }
   AWMR_ASSIGN_OR_RETURN(const Target target,
                         target_of(model, model.plant_as_known(), uncertainty.parameters, options));

@@ -1,4 +1,5 @@
-/// Ranks the trials to record next by the reduction of the model's uncertainty.
+/// Ranking of the trials to record next (`awmr suggest`) by the reduction of the model's
+/// uncertainty.
 #pragma once
 
 #include <functional>
@@ -10,35 +11,38 @@
 
 namespace awmr {
 
-/// A quantity whose uncertainty is to be reduced.
+/// A closed-loop metric whose uncertainty is to be reduced.
 struct SuggestTarget {
-  std::string name;  ///< a parameter, or a closed-loop metric
-  /// Value for a plant. Its variance is grad^T C grad, with the gradient by finite differences.
+  std::string name;  ///< name of the metric
+  /// Value of the metric for a plant. Its variance is grad^T C grad, with the covariance C of the
+  /// parameters and the gradient by finite differences.
   std::function<double(const Plant<double>&)> value;
 };
 
+/// Options of suggest().
 struct SuggestOptions {
-  /// Target of the ranking: the name of a parameter or of one of `metrics`. Empty: A-optimality,
-  /// the root of the sum of squared relative errors of all parameters (of an exponent the absolute
-  /// error, of a family's term relative to the whole resistance at 1 m/s or 1 rad/s).
+  /// Target of the ranking: the name of a parameter or of one of `metrics`. Empty: all parameters
+  /// (A-optimality), with the root of the sum of their squared relative standard errors. The error
+  /// of an exponent is absolute, that of a family's term relative to the whole resistance at 1 m/s
+  /// or 1 rad/s.
   std::string parameter = {};
   /// Sensor noise of future curves and logs. Use the robot's own values if they are known.
   SensorNoise sensors = {};
-  /// Number of runs of one candidate, >= 1.
+  /// Number of runs of each candidate, >= 1.
   int repeats = 3;
-  /// Closed-loop metrics as targets, evaluated by the caller.
+  /// Closed-loop metrics that can be targets.
   std::vector<SuggestTarget> metrics = {};
 };
 
-/// A candidate trial.
+/// A trial with its effect on the target of the ranking.
 struct SuggestedTrial {
   TrialKind kind = TrialKind::kSurge;
   std::string settings;                                 ///< text for the field sheet
-  std::vector<std::pair<std::string, double>> numbers;  ///< the same, units in the names
-  std::string parameter = {};                           ///< criterion of the ranking
-  double std_error_before = 0.0;                        ///< of that criterion, in its unit, >= 0
-  double std_error_after = 0.0;  ///< the same with the trial, in [0, std_error_before]
-  double d_gain = 0.0;           ///< ln det C before - after, >= 0: D-optimality
+  std::vector<std::pair<std::string, double>> numbers;  ///< settings as numbers, unit in the name
+  std::string parameter = {};                           ///< name of the target
+  double std_error_before = 0.0;  ///< standard error of the target now, in its unit, >= 0
+  double std_error_after = 0.0;   ///< standard error of the target with this trial, >= 0
+  double d_gain = 0.0;            ///< decrease of ln det C by the trial, >= 0 (D-optimality)
 };
 
 /// A parameter without a value.
@@ -47,48 +51,52 @@ struct MissingParameter {
   std::string trial;  ///< description of the trial that measures it
 };
 
-/// Differential turns with straight wheels that measure the tyre scrub, on which the choice between
-/// differential, steering and combined depends (compare --break-even).
+/// A differential turn with straight wheels, to measure the tyre scrub. The choice between the
+/// differential, steering and combined modes depends on the scrub (compare --break-even).
 struct ScrubTurn {
-  double yaw_rate_degps = 0.0;  ///< target, > 0
-  /// F' of each left and each right wheel, over F_max, for this turn with the smallest and with the
-  /// largest scrub moment: those of the trials, else 0 and sliding tyres with mu = 0.8.
+  double yaw_rate_degps = 0.0;  ///< yaw rate to reach, > 0
+  /// Wheel forces F' (over F_max) for this yaw rate under the smallest and under the largest scrub
+  /// moment. These are the ends of its 95 % interval; if there is none, 0 and the moment of sliding
+  /// tyres with friction 0.8.
   SideForces<double> least, most;
 };
 
-/// A turn that discriminates between the 3-DOF model and the tyre model. In (41) steered wheels
-/// turn the vehicle only by the thrust of the motors; rolling tyres turn it also with the motors
-/// off.
+/// A turn with the motors off, which decides between the 3-DOF model and the tyre model. In the
+/// 3-DOF model steered wheels turn the vehicle only by the thrust of the motors. Rolling tyres turn
+/// it also with the motors off.
 struct CoastingTurn {
-  double speed_mps = 0.0;     ///< at which the motors are switched off, > 0
-  double steering_deg = 0.0;  ///< set after that, > 0
-  /// Yaw rate of wheels that roll without slip at that speed and angle, deg/s, > 0. The 3-DOF model
+  double speed_mps = 0.0;     ///< speed at which the motors are switched off, > 0
+  double steering_deg = 0.0;  ///< steering angle after that, > 0
+  /// Yaw rate, deg/s, if the wheels roll without slip at this speed and angle, > 0. The 3-DOF model
   /// predicts 0.
   double rolling_yaw_rate_degps = 0.0;
 };
 
+/// Result of suggest().
 struct Suggestion {
-  std::string criterion;                  ///< description
+  std::string criterion;                  ///< description of the ranking's target
   std::vector<MissingParameter> missing;  ///< parameters without a value, whose trials come first
   std::vector<SuggestedTrial> trials;     ///< best first
-  std::vector<ScrubTurn> scrub_turns;     ///< empty: the reason is in `about_scrub`
-  std::string about_scrub;  ///< purpose of the scrub turns, or why there are none; empty: no
-                            ///< steering
-  std::vector<std::string> assumptions;
-  std::optional<CoastingTurn> coasting = {};  ///< absent: no steering, or no surge resistance
+  std::vector<ScrubTurn> scrub_turns;     ///< if empty, `about_scrub` has the reason
+  /// Purpose of the scrub turns, or why there are none. Empty for a vehicle without steering.
+  std::string about_scrub;
+  std::vector<std::string> assumptions;       ///< assumed measurement errors, as text
+  std::optional<CoastingTurn> coasting = {};  ///< absent without steering or surge resistance
 };
 
-/// Ranks the candidates. Information is additive:
+/// Ranks the candidate trials by the standard error of the target. A trial changes the covariance C
+/// of the parameters' coordinates (model/transform.h) to
 ///   C_after = (C^-1 + J^T W J)^-1
-/// with J the derivatives of the candidate's measurements by the parameters' coordinates
-/// (model/transform.h) and W the inverse variances of their errors. A parameter without a value is
-/// reported as missing, and candidates that measure it are not evaluated. Errors (input): the model
-/// has all values but no covariance; an unknown parameter name, or one without a value.
+/// with the derivatives J of its measurements by the coordinates, and the inverse variances W of
+/// its errors. A parameter without a value is reported as missing, and trials that measure it are
+/// not ranked. Errors (input): the model has all values but no covariance; the target is unknown or
+/// has no value.
 Result<Suggestion> suggest(const Model& model, const SuggestOptions& options);
 
 /// Content of suggest.json.
 std::string suggestion_text(const Suggestion& suggestion, const Provenance& provenance);
-/// Field sheet: settings, durations and quantities to record.
+/// Field sheet for printing: settings, durations and quantities to record, for at most `most`
+/// trials.
 std::string field_sheet(const Suggestion& suggestion, std::size_t most);
 
 /// The JSON Schema of suggest.json.

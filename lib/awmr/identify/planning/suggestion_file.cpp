@@ -1,4 +1,4 @@
-// Writes suggest.json and the field sheet.
+// Texts of suggest.json and of the field sheet of `awmr suggest`.
 
 #include <fmt/format.h>
 
@@ -46,14 +46,15 @@ std::string suggestion_text(const Suggestion& suggestion, const Provenance& prov
 
 namespace {
 
-/// Missing trials, each with the parameters that it measures.
+/// Part of the field sheet: trials of missing parameters, each with the parameters that it
+/// measures.
 std::string missing_sheet(const std::vector<MissingParameter>& missing) {
   std::string text;
   for (auto one = missing.begin(); one != missing.end(); ++one) {
     const auto has_its_trial = [one](const MissingParameter& other) {
       return other.trial == one->trial;
     };
-    if (std::find_if(missing.begin(), one, has_its_trial) != one) continue;  // reported already
+    if (std::find_if(missing.begin(), one, has_its_trial) != one) continue;  // listed before
     std::string names;
     for (auto other = one; other != missing.end(); ++other) {
       if (!has_its_trial(*other)) continue;
@@ -67,7 +68,7 @@ std::string missing_sheet(const std::vector<MissingParameter>& missing) {
   return text;
 }
 
-/// Differential turns that measure the scrub.
+/// Part of the field sheet: differential turns that measure the tyre scrub.
 std::string scrub_sheet(const Suggestion& suggestion) {
   if (suggestion.about_scrub.empty()) return {};
   std::string text =
@@ -77,8 +78,7 @@ std::string scrub_sheet(const Suggestion& suggestion) {
   text +=
       "  Drive steady differential turns with straight wheels (rows of the turning table, "
       "steering_deg 0).\n"
-      "  Raise the force difference from the first pair towards the second until the vehicle turns "
-      "at:\n";
+      "  Increase the forces from the first pair towards the second until the vehicle turns at:\n";
   for (const ScrubTurn& turn : suggestion.scrub_turns) {
     text += fmt::format(
         "[ ]    turning   {:.3g} deg/s: force_left {:.3g}, force_right {:.3g} to {:.3g}, {:.3g}\n",
@@ -87,17 +87,19 @@ std::string scrub_sheet(const Suggestion& suggestion) {
   return text;
 }
 
-/// The turn that discriminates between the plants of compare.
+/// Part of the field sheet: the turn with motors off, which decides between the two plants of
+/// compare.
 std::string coasting_sheet(const Suggestion& suggestion) {
   const auto& coasting = suggestion.coasting;
   if (!coasting) return {};
   return fmt::format(
       "\n"
-      "for the choice between the model and the four-wheel plant (compare, simulate --plant):\n"
-      "[ ]    steer while coasting: at {:.3g} m/s motors off, at once steer {:.3g} deg, log yaw "
-      "rate and\n"
-      "       speed. Predicted yaw rate: model 0 deg/s, wheels that roll without slip {:.3g} "
-      "deg/s\n",
+      "for the choice between the 3-DOF model and the four-wheel plant (simulate --plant):\n"
+      "[ ]    steer while coasting: at {:.3g} m/s switch the motors off, steer {:.3g} deg at once, "
+      "log yaw\n"
+      "       rate and speed. Predicted yaw rate: 3-DOF model 0 deg/s, wheels that roll without "
+      "slip "
+      "{:.3g} deg/s\n",
       coasting->speed_mps, coasting->steering_deg, coasting->rolling_yaw_rate_degps);
 }
 

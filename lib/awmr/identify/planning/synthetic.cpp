@@ -13,7 +13,8 @@
 namespace awmr {
 namespace {
 
-/// White noise, or first-order noise of the same standard deviation:
+/// Source of noise e_k with a given standard deviation: white (w_k), or first-order with the
+/// correlation time T and samples h apart:
 ///   e_k = phi e_{k-1} + sqrt(1 - phi^2) w_k,   phi = exp(-h/T)
 class NoiseSource {
  public:
@@ -34,7 +35,7 @@ class NoiseSource {
   bool first_ = true;
 };
 
-/// Force and rate of a row, one of them with the error. The time is that of `travel`.
+/// Force, rate and time of a row with its error. The time is that of a given distance or angle.
 struct NoisyRow {
   double force;
   double rate;
@@ -64,7 +65,7 @@ NoisyRow noisy(double force, double rate, double travel, ErrorModel error, doubl
   return row;
 }
 
-/// Solves g1(u) = tau_speed, after subtracting the dead zones of the driven wheels.
+/// Simulates surge runs: solves g1(u) = tau_speed for u, after subtracting the wheels' dead zones.
 TrialSet<SurgeRow> surge_rows(const Plant<double>& plant, const TablePlan& plan,
                               const RowNoise& noise, Random& random) {
   TrialSet<SurgeRow> set{"simulated surge", {}, 0};
@@ -79,7 +80,8 @@ TrialSet<SurgeRow> surge_rows(const Plant<double>& plant, const TablePlan& plan,
   return set;
 }
 
-/// Solves g3(r) = 2 l_f F' sin d_r for r, with F' reduced by the dead zone.
+/// Simulates steered turns: solves g3(r) = 2 l_f F' sin d_r for r, with F' reduced by the dead
+/// zone.
 TrialSet<TurningRow> turning_rows(const Plant<double>& plant, const TablePlan& plan,
                                   const RowNoise& noise, Random& random) {
   TrialSet<TurningRow> set{"simulated turning", {}, 0};
@@ -102,7 +104,8 @@ TrialSet<TurningRow> turning_rows(const Plant<double>& plant, const TablePlan& p
   return set;
 }
 
-/// Solves g3(r) = 2 d (F'R - F'L) for r, with each F' reduced by the dead zone.
+/// Simulates differential turns: solves g3(r) = 2 d (F'R - F'L) for r, with F' reduced by the dead
+/// zone.
 TrialSet<TurningRow> sides_turning_rows(const Plant<double>& plant, const TablePlan& plan,
                                         const RowNoise& noise, Random& random) {
   TrialSet<TurningRow> set{"simulated turning", {}, 0};
@@ -176,7 +179,8 @@ CoastCurve simulate_coastdown(const Plant<double>& plant, double speed_mps, doub
 
 namespace {
 
-/// Commands of thrust, left/right force difference and steering, each held for hold_s.
+/// Writes the commands of a drive into `log`. Every plan.hold_s, thrust, force difference and
+/// steering change at random.
 void command_drive(const Vehicle& vehicle, const DrivePlan& plan, DrivingLog& log) {
   Random random(plan.drive, 7);
   const auto rows = static_cast<int>(std::lround(plan.duration_s * plan.rate_hz));
@@ -189,7 +193,7 @@ void command_drive(const Vehicle& vehicle, const DrivePlan& plan, DrivingLog& lo
   log.steering_command_rad.emplace();
   for (int i = 0; i <= rows; ++i) {
     if (i % hold == 0) {
-      // One change in four is to coasting.
+      // One change in four switches the motors off, so that the vehicle coasts.
       const double level = random.uniform() < 0.25 ? 0.0 : most * (0.15 + 0.65 * random.uniform());
       const double apart = turn * (random.uniform() - 0.5) * 0.4 * level;
       steering = turn * radians(vehicle.steering_max_deg) * (1.6 * random.uniform() - 0.8);
@@ -219,10 +223,11 @@ double std_of(const SensorNoise& noise, LogChannel channel) {
     case LogChannel::kSteering:
       break;
   }
-  return 0.002;  // rad of a measured servo
+  return 0.002;  // rad, noise of a measured steering angle
 }
 
-/// The true values of a channel with noise, sampled every `stride` rows and held in between.
+/// Measurements of a channel: true values with noise, sampled every `stride` rows and held in
+/// between.
 Measured measured(const std::vector<State<double>>& truth, LogChannel channel, std::size_t stride,
                   NoiseSource source, Random& random) {
   Measured result{std::vector<double>(truth.size()), std::vector<bool>(truth.size(), false), 0,

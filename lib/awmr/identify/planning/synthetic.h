@@ -1,4 +1,5 @@
-/// Trials and logs simulated at known values with known noise, for recover, suggest and tests.
+/// Simulation of trials and logs with known parameters and known noise, for recover, suggest and
+/// tests.
 #pragma once
 
 #include <cstdint>
@@ -8,57 +9,59 @@
 
 namespace awmr {
 
-/// Sensor noise of a log: standard deviations, all >= 0.
+/// Sensor noise of a log. Standard deviations, all >= 0.
 struct SensorNoise {
   double speed_mps = 0.02;          ///< of wheel encoders
   double yaw_rate_radps = 0.00873;  ///< 0.5 deg/s, of a gyroscope
   double heading_rad = 0.01745;     ///< 1 deg, of a compass
-  double position_m = 0.05;         ///< of each of x and y, of a GNSS receiver with corrections
-  double position_rate_hz = 10.0;   ///< update rate, > 0; the position is held in between
+  double position_m = 0.05;         ///< of x and of y, of a GNSS receiver with corrections
+  double position_rate_hz = 10.0;   ///< update rate of the position, > 0
   double correlation_s = 0.0;       ///< correlation time of every sensor's error; 0: white
 };
 
-/// Settings of the runs of a table, in order.
+/// Settings of the runs of all tables, in order.
 struct TablePlan {
   std::vector<double> surge_tau_speed;       ///< dimensionless, > 0
   std::vector<double> turning_steering_rad;  ///< d_r, > 0: to the left
   double turning_wheel_force = 0.1;          ///< F' of every wheel, > 0
-  /// F' of each left and each right wheel of a vehicle without steering, the right one larger.
+  /// Wheel forces F' of the turns of a vehicle without steering, the right one larger.
   std::vector<SideForces<double>> turning_sides;
   double surge_distance_m = 10.0;     ///< timed distance of each surge run, > 0
   std::vector<double> stop_from_mps;  ///< initial speeds of the coast-downs, > 0
 };
 
-/// Errors of a table's rows: the quantity, and standard deviations, all >= 0.
+/// Errors of the rows of tables. Standard deviations, all >= 0.
 struct RowNoise {
-  ErrorModel error = ErrorModel::kLogForce;
-  double surge = 0.0;        ///< unit by `error`: 1 (of ln tau_speed), tau_speed, m/s or s
-  double turning = 0.0;      ///< unit by `error`: 1 (of ln tau_turn), m, rad/s or s
-  double stop_time_s = 0.0;  ///< of the stop watch, for every `error`
+  ErrorModel error = ErrorModel::kLogForce;  ///< quantity that has the error
+  double surge = 0.0;        ///< of surge rows, in the unit of `error`: 1 (force), m/s or s
+  double turning = 0.0;      ///< of turning rows, in the unit of `error`: 1, m, rad/s or s
+  double stop_time_s = 0.0;  ///< error of the stop watch in coast-downs, whatever `error` is
 };
 
-/// Rows at the steady rates of the plant. Excludes rows whose force does not move the vehicle.
+/// Simulates the tables: rows at the steady speeds and yaw rates of the plant, with noise. Omits
+/// rows whose force does not move the vehicle.
 TrialData simulate_tables(const Plant<double>& plant, const TablePlan& plan, const RowNoise& noise,
                           Random& random);
 
-/// A coast-down from speed_mps, recorded for duration_s at rate_hz.
+/// Simulates a coast-down from speed_mps, recorded for duration_s at rate_hz. `noise_mps`: standard
+/// deviation of the speed noise; `correlation_s`: its correlation time, 0: white.
 CoastCurve simulate_coastdown(const Plant<double>& plant, double speed_mps, double duration_s,
                               double rate_hz, double noise_mps, double correlation_s,
                               Random& random);
 
-/// A drive that makes all parameters identifiable: thrust and steering change every `hold_s` to
-/// random levels within the vehicle's limits, at times with different left and right forces.
-/// `drive` is the seed of the commands only.
+/// A drive that makes all parameters identifiable. Every `hold_s`, thrust and steering change to
+/// random values within the vehicle's limits, with different left and right forces.
 struct DrivePlan {
-  double duration_s = 60.0;     ///< > 0
-  double rate_hz = 100.0;       ///< > 0, of the log's rows
-  double hold_s = 1.5;          ///< > 0
+  double duration_s = 60.0;     ///< duration of the log, > 0
+  double rate_hz = 100.0;       ///< rate of the log's rows, > 0
+  double hold_s = 1.5;          ///< time between changes of the commands, > 0
   bool straight = false;        ///< no steering, equal left and right forces: only surge is
                                 ///< identifiable
   bool servo_measured = false;  ///< the steering angle is logged in addition to its command
-  std::uint64_t drive = 1;      ///< selects the commands
+  std::uint64_t drive = 1;      ///< seed of the random commands
 };
-/// Simulates a log from rest at the origin: x, y, heading, speed and yaw rate, each with its noise.
+/// Simulates a log of a drive from rest at the origin. Channels: x, y, heading, speed and yaw rate,
+/// each with its noise.
 DrivingLog simulate_log(const Plant<double>& plant, const Vehicle& vehicle, const DrivePlan& plan,
                         const SensorNoise& noise, Random& random);
 

@@ -12,12 +12,12 @@
 namespace awmr {
 namespace {
 
-/// Above this number of runs the profile interval equals the curvature interval, so its hundred or
-/// so fits are skipped.
+/// Largest number of runs with profile intervals, each of which takes about a hundred fits. With
+/// more runs the interval from the standard error is nearly the same.
 constexpr Eigen::Index kMaximumProfileRows = kExactRows;
 
-/// Profile interval of every coordinate with a standard error, in the parameter's scale. Absent if
-/// the data do not bound it at both ends.
+/// Adds the profile interval of every parameter that has a standard error to the report. Skips
+/// intervals that the data do not bound at both ends.
 void add_profiles(FamilyCandidate& candidate) {
   const std::vector<TransformedParameter> coordinates = coordinates_of(candidate.problem.family);
   for (std::size_t i = 0; i < candidate.report.parameters.size(); ++i) {
@@ -49,7 +49,7 @@ FamilyCandidate candidate_from(const Subject& subject, const SteadyProblem& prob
   return candidate;
 }
 
-/// The families and noise models to fit, in the order of the reports.
+/// The pairs of family and error model to fit, in the order of the reports.
 std::vector<std::pair<Family, ErrorModel>> plan(const Subject& subject,
                                                 const SubjectOptions& options, ErrorModel wanted) {
   std::vector<std::pair<Family, ErrorModel>> fits;

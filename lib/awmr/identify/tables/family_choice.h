@@ -1,4 +1,5 @@
-/// Nonlinear fits of all families and noise models, and the selection of one. Private to identify/.
+/// Nonlinear fits of a table under all resistance families and error models, and the selection of
+/// one of them. Private to identify/.
 #pragma once
 
 #include <cstddef>
@@ -12,42 +13,44 @@ struct SubjectOptions {
   Method method = Method::kLogLinear;
   /// Absent: time if every run was timed, else speed.
   std::optional<ErrorModel> noise;
-  /// The user requested a nonlinear fit with this noise. If false, the noise model is uncertain.
+  /// True if the user requested a nonlinear fit with `noise`. If false, intervals average over all
+  /// error models (noise_average.h).
   bool knows_noise = false;
   FamilyChoice family;
   Loss loss = Loss::kSquared;
   bool side_by_side = true;     ///< false: only the requested fit
-  bool keeps_outliers = false;  ///< gross outliers are fitted with the other runs
+  bool keeps_outliers = false;  ///< true keeps gross outliers in the fit
 };
 
-/// A nonlinear fit of one family under one noise model, and its entry of /estimates.
+/// A nonlinear fit of one family under one error model, with its report for /estimates.
 struct FamilyCandidate {
   SteadyProblem problem;
   SteadyFit fit;
   EstimatorReport report;
 };
 
+/// True if every run has a distance or an angle, and the time for it.
 bool all_timed(const std::vector<SteadyPoint>& points);
 
-/// Quantity with the error in the nonlinear fit.
+/// The requested error model; if none was requested, time if all runs were timed, else speed.
 ErrorModel wanted_noise(const Subject& subject, const SubjectOptions& options);
 
-/// With side_by_side: fits of the power law under every noise model and of the other families under
-/// the chosen one. Otherwise only the fits that can be selected. Excludes families with more
-/// parameters than runs. `line`: the log-linear fit of the power law, used as initial guess.
+/// With `options.side_by_side`, fits the power law under every error model, and the other families
+/// under the error model `wanted`. Otherwise fits only what can be selected. Skips families with
+/// more parameters than runs. `line`: log-linear fit of the power law, used as initial guess.
 std::vector<FamilyCandidate> fit_candidates(const Subject& subject, const SubjectOptions& options,
                                             ErrorModel wanted, const SteadyFit& line);
 
-/// The fit of a family under a noise model; null if there is none.
+/// The fit of a family under an error model; null if there is none.
 const FamilyCandidate* candidate_of(const std::vector<FamilyCandidate>& candidates, Family family,
                                     ErrorModel noise);
 
-/// The converged fit with the minimum AICc; of equal ones, the family with fewer terms. Null if no
-/// fit has an AICc.
+/// The converged fit with the smallest AICc under the error model `noise`. If two are equal, the
+/// one that was fitted first. Null if no fit has an AICc.
 const FamilyCandidate* best_candidate(const std::vector<FamilyCandidate>& candidates,
                                       ErrorModel noise);
 
-/// Description of a fit by noise, family and loss: "nonlinear, noise on time, coulomb-power,
+/// Describes a fit by its error model, family and loss: "nonlinear, noise on time, coulomb-power,
 /// Huber".
 std::string method_in_words(const SteadyProblem& problem);
 

@@ -14,7 +14,8 @@
 namespace awmr {
 namespace {
 
-/// Root mean square of ln(g(w) + z) - ln f; infinite where the curve is not finite.
+/// Root mean square of ln(g(w) + z) - ln f over the runs, with the curve g, the rate w, the dead
+/// zone z and the force f. Infinite if the curve is not finite.
 double log_misfit(const FamilyCandidate& candidate) {
   SteadyProblem problem = candidate.problem;
   problem.noise = ErrorModel::kLogForce;
@@ -23,8 +24,8 @@ double log_misfit(const FamilyCandidate& candidate) {
   return std::sqrt(rows->residuals.squaredNorm() / static_cast<double>(rows->residuals.size()));
 }
 
-/// Deviation of a run's time from the fit of the others' times, in standard deviations; infinite
-/// where the runs were not timed.
+/// Deviation of a run's time from the prediction by a fit of the other runs' times, in standard
+/// deviations. Infinite if the runs were not timed.
 double deviations_in_time(const Subject& subject, std::size_t point, const SteadyFit& of_others) {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   auto all = by_time({.points = subject.points, .beta_range = subject.beta_range});
@@ -76,7 +77,7 @@ std::optional<GrossOutlier> gross_outlier(const Subject& subject, const SubjectO
 Finding set_aside(const Subject& subject, const GrossOutlier& outlier) {
   return {subject.file, subject.points[outlier.point].line, Severity::kWarning, "outlier",
           fmt::format("this run deviates by {:.3g} standard deviations from the curve of the "
-                      "others and is set aside; correct it, or keep it with {}",
+                      "other runs and is excluded from the fit; correct it, or keep it with {}",
                       outlier.deviations, option_text("as-is"))};
 }
 

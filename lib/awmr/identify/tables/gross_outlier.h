@@ -1,4 +1,5 @@
-/// Detection of a gross outlier, which would dominate the fit. Private to identify/.
+/// Detection of a gross outlier: a run so far from the others that it would dominate the fit.
+/// Private to identify/.
 #pragma once
 
 #include <cstddef>
@@ -9,18 +10,19 @@
 namespace awmr {
 
 struct GrossOutlier {
-  std::size_t point = 0;    ///< index in the subject's points
-  double deviations = 0.0;  ///< distance from the power law of the others, in standard deviations
+  std::size_t point = 0;    ///< index of the run in Subject::points
+  double deviations = 0.0;  ///< from the power law of the other runs, in standard deviations
 };
 
-/// The run farthest from the power law of the others, if two conditions hold. (1) Its distance is
-/// more than ten standard deviations, and p < 0.001 by Student's t for the whole table; the time of a
-/// timed run has to deviate as much, because the shortest times have the largest errors of their
-/// logarithm. (2) No family fits all runs with a residual of less than three times that of the
-/// others' power law: a low speed off a power law can be due to Coulomb friction.
+/// Returns the run farthest from the power law of the other runs if it is a gross outlier:
+///   1. The run deviates by more than ten standard deviations, with p < 0.001 by Student's t for
+///      the whole table. If the runs were timed, the time also deviates by more than ten, because
+///      an equal error of all times is the largest in the logarithm of the shortest one.
+///   2. No family fits all runs, this one included, with a residual below three times that of the
+///      power law of the other runs. (A slow run can be off a power law by Coulomb friction.)
 std::optional<GrossOutlier> gross_outlier(const Subject& subject, const SubjectOptions& options);
 
-/// `outlier`: the run is excluded.
+/// The finding `outlier`, which reports that the run is excluded from the fit.
 Finding set_aside(const Subject& subject, const GrossOutlier& outlier);
 
 }  // namespace awmr

@@ -15,7 +15,7 @@ namespace {
 /// A row is influential if leaving it out changes a parameter by this many standard errors.
 constexpr double kInfluential = 1.0;
 
-/// Theta without the run; empty if the other runs do not determine a curve.
+/// Fitted coordinates without the run `row`; empty if the other runs do not determine a curve.
 std::optional<TransformedParameters> refit_without(std::size_t row, const Subject& subject,
                                                    const SteadyProblem& problem, bool log_linear,
                                                    const SteadyFit& fit) {
@@ -34,15 +34,15 @@ std::optional<TransformedParameters> refit_without(std::size_t row, const Subjec
   return without.theta;
 }
 
-/// Theta without each run in turn, by one Gauss-Newton step from the fit of all runs:
-///   theta_(i) = theta + (J^T J)^-1 j_i e_i/(1 - h_i),   e = curve - measured
-/// which is exact where the curve is linear in theta, as in the logarithms.    [Cook 1977]
+/// Coordinates theta without run i, by one Gauss-Newton step from the fit of all runs:
+///   theta_(i) = theta + (J^T J)^-1 j_i e_i/(1 - h_i),   e = curve - measured      [Cook 1977]
+/// with row j_i of the Jacobian J and the leverage h_i. The step is exact for a log-linear fit.
 class OneStep {
  public:
   OneStep(const SteadyProblem& problem, bool log_linear, const SteadyFit& fit)
       : problem_(problem), fit_(fit) {
     const double variance = fit.residual_std * fit.residual_std;
-    // Not for a robust loss, whose weights this step does not include.
+    // A robust loss weights the rows; this step does not include the weights.
     if (!fit.has_covariance() || !(variance > 0.0) || problem.loss != Loss::kSquared) return;
     inverse_ = fit.covariance / variance;
     if (log_linear) {
@@ -55,7 +55,8 @@ class OneStep {
     }
   }
 
-  /// Empty if a parameter depends on this run alone, or if the fit has no Jacobian.
+  /// Coordinates without the run `row`. Empty if a parameter depends on this run alone, or if the
+  /// fit has no Jacobian.
   std::optional<TransformedParameters> without(std::size_t row) const {
     constexpr double kAlone = 1e-12;
     const Eigen::Index i = eigen_index(row);
@@ -78,7 +79,8 @@ class OneStep {
   Eigen::MatrixXd jacobian_;  ///< runs x free; empty if not available
 };
 
-/// "surge.alpha becomes 0.3 (from 0.25), ..."; empty without a large change.
+/// Describes the parameters that change by more than kInfluential standard errors without a run:
+/// "surge.alpha becomes 0.3 (from 0.25), ...". Empty if none does.
 std::string what_moves(const Subject& subject, const std::vector<TransformedParameter>& coordinates,
                        const TransformedParameters& without, const SteadyFit& fit) {
   std::string moved;

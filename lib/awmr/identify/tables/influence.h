@@ -1,4 +1,5 @@
-/// Leave-one-out influence of runs on a fit. Private to identify/.
+/// Influence of each run on a fit of a table: the fit is repeated without the run. Private to
+/// identify/.
 #pragma once
 
 #include <vector>
@@ -8,18 +9,18 @@
 namespace awmr {
 
 struct Influence {
-  std::vector<LeaveOneOut> without;  ///< by run; without runs whose removal leaves no curve
+  std::vector<LeaveOneOut> without;  ///< by run; excludes runs without which there is no curve
   std::vector<Finding> findings;     ///< `influential-row`: a parameter changes by a standard error
 };
 
-/// Fits the curve without each run in turn, by the same method: log-linear if `log_linear`, else
-/// `problem` from the optimum of all runs. With more than kExactRows rows, by one step from that
-/// optimum, which is exact for log-linear fits; then not available under a robust loss.
-/// Precondition: two degrees of freedom, so that one remains without a run.
+/// Fits the curve without each run in turn: by log-linear least squares if `log_linear`, else by
+/// the method of `problem`, starting at the optimum `fit` of all runs. Above kExactRows rows, each
+/// fit is one Gauss-Newton step from `fit`. That is exact for log-linear fits, and not available
+/// for a robust loss. Precondition: at least two degrees of freedom, so that one remains.
 Influence leave_one_out(const Subject& subject, const SteadyProblem& problem, bool log_linear,
                         const SteadyFit& fit);
 
-/// True if the runs have two different forces, without which no curve can be fitted.
+/// True if the runs have at least two different forces. A curve cannot be fitted to fewer.
 bool has_two_forces(const std::vector<SteadyPoint>& points);
 
 }  // namespace awmr

@@ -7,7 +7,8 @@
 namespace awmr {
 namespace {
 
-/// s^2 (P^T P)^-1 = s^2 Pi R^-1 R^-T Pi^T, from the factors of P Pi = Q R.
+/// Covariance s^2 (P^T P)^-1 = s^2 Pi R^-1 R^-T Pi^T of the line's coefficients. P is the matrix
+/// of the rows (1, ln w), Pi the column permutation of its factors P Pi = Q R, s^2 the variance.
 Eigen::Matrix2d covariance_of(const PivotedQr& qr, double variance) {
   const Eigen::Matrix2d r = qr.r();
   const Eigen::Matrix2d r_inverse =

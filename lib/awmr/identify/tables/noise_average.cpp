@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// |d e/d ln w| of a run, e in the unit of the error.
+/// |d e/d ln w| of a run, with its residual e in the unit of the error and its rate w.
 double residual_by_log_rate(ErrorModel noise, const SteadyFit& fit, const SteadyPoint& point) {
   const Resistance<double> law = fit.law();
   const double w = point.rate;
@@ -29,7 +29,7 @@ double residual_by_log_rate(ErrorModel noise, const SteadyFit& fit, const Steady
   return w;
 }
 
-/// ln w_k up to a constant.
+/// ln w_k of one error model, up to a constant (noise_average.h).
 double log_evidence(const std::vector<SteadyPoint>& points, ErrorModel noise,
                     const SteadyFit& fit) {
   double sum = -static_cast<double>(points.size()) * std::log(fit.residual_std) +
@@ -44,8 +44,8 @@ bool has_evidence(const SteadyFit& fit) {
   return fit.usable && fit.has_covariance() && fit.residual_std > 0.0;
 }
 
-/// Converts logarithms to probabilities, of which the first is at least kLeastOwnWeight. Drops
-/// alternatives with probability 0.
+/// Sets the weights from their unnormalised logarithms. The first weight is at least
+/// kLeastOwnWeight. Removes alternatives with weight 0.
 void normalise(std::vector<NoiseAlternative>& alternatives, const std::vector<double>& logarithms) {
   const double largest = *std::max_element(logarithms.begin(), logarithms.end());
   double others = 0.0;

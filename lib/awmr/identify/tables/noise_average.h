@@ -1,17 +1,18 @@
-/// Average of one resistance law over the noise models. Private to identify/.
+/// Interval of a resistance law averaged over the error models. Private to identify/.
 ///
-/// A table does not state whether its errors are absolute or relative errors of the force (a wrong
-/// distance acts as a relative one), errors of the rate, or of the time. The fits under these noise
-/// models differ by more than their own intervals. The reported interval therefore averages over
-/// all of them, each weighted by its posterior probability. That is the likelihood with the
-/// parameters and the standard deviation s integrated out, with priors flat in the parameters and
-/// in ln s. It is a density of the logarithms of the measured rates, so that noise models of
-/// different units are comparable:
+/// A table does not show which quantity has the error: the force (absolute or relative), the rate
+/// or the time. A wrong distance acts like a relative error of the force. Fits under these error
+/// models can differ by more than their intervals. The reported interval therefore averages over
+/// all error models k, each weighted by its posterior probability:
 ///
 ///     ln w_k = -n ln s_k + 1/2 ln det C_k + sum_i ln |d e_ki/d ln w_i| + constant
 ///
-/// with e the residuals in the unit of the error: |d e/d ln w| is w g'/(g + z) for a relative error
-/// of the force, w g' for the force, w for the rate, t for the time.
+/// for n runs with the rates w_i, residuals e_ki of standard deviation s_k in the unit of the
+/// error, and the covariance C_k of the fit. This is the likelihood with the parameters and s_k
+/// integrated out under priors flat in the parameters and in ln s_k. It is a density of the ln w_i,
+/// so that error models of different units are comparable. |d e/d ln w| is w g'/(g + z) for a
+/// relative error of the force, w g' for an absolute one, w for the rate and t for the time; z:
+/// dead zone, t: time.
 #pragma once
 
 #include <vector>
@@ -21,26 +22,29 @@
 
 namespace awmr {
 
+/// A fit under one error model and the posterior probability of that error model.
 struct NoiseAlternative {
   ErrorModel noise = ErrorModel::kLogForce;
   SteadyFit fit;
   double weight = 1.0;  ///< in (0, 1]; they add up to 1
 };
 
-/// Smallest probability of the chosen fit, whose value is reported. Half of it is on either side of
-/// the value, so the value is always within the 95 % interval.
+/// Smallest probability of the chosen fit, whose value is reported. Half of this probability, 2.5
+/// %, lies on either side of the value, so the 95 % interval always contains the value.
 inline constexpr double kLeastOwnWeight = 0.05;
 
-/// The chosen fit, then the fits of the same family under the other noise models that are usable
-/// and have the same free parameters. Only the chosen fit if `options` select the noise or a robust
-/// loss, or if it has no degrees of freedom. `candidates`: existing fits, which are reused.
+/// Returns the chosen fit, then the usable fits of the same family under the other error models, if
+/// they have the same free parameters. Returns only the chosen fit if the user selected the error
+/// model or a robust loss, or if the chosen fit has no degrees of freedom. `candidates`: fits to
+/// reuse.
 std::vector<NoiseAlternative> noise_alternatives(const Subject& subject,
                                                  const SubjectOptions& options,
                                                  const SteadyProblem& problem,
                                                  const SteadyFit& chosen,
                                                  const std::vector<FamilyCandidate>& candidates);
 
-/// Over SteadyFit::free of the chosen fit; empty if it has no covariance.
+/// Mixture of the alternatives. Its coordinates are SteadyFit::free of the chosen fit. Empty if a
+/// fit has no covariance.
 Posterior posterior_of(const std::vector<NoiseAlternative>& alternatives);
 
 }  // namespace awmr

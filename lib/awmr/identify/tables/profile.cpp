@@ -11,14 +11,15 @@
 namespace awmr {
 namespace {
 
-/// A value x of the coordinate, and zeta(x).
+/// A value x of the coordinate, and zeta(x) as in Profile.
 struct Place {
   double x = 0.0;
   double zeta = 0.0;
 };
 
-/// zeta(x) = sqrt(profile(x) - minimum)/s equals |x - x0|/std_error for a linear model, so a secant
-/// method converges in few steps.
+/// Computes zeta(x) = sqrt(profile_cost(x) - minimum)/s, with the residual standard deviation s.
+/// For a linear model with the optimum x0, zeta(x) = |x - x0|/std_error, so that a secant method
+/// converges in few steps.
 struct Profile {
   const SteadyProblem& problem;
   const SteadyFit& fit;
@@ -31,10 +32,10 @@ struct Profile {
   }
 };
 
-/// Solves zeta(x) = t between `near`, where zeta is below t, and `far`, where it is above.
+/// Solves zeta(x) = t between `near`, where zeta < t, and `far`, where zeta > t.
 double crossing(const Profile& profile, Place near, Place far, double t, double std_error) {
   for (int i = 0; i < 60 && std::abs(far.x - near.x) > 1e-9 * std_error; ++i) {
-    // Regula falsi with a minimum distance from the ends, so that the bracket always shrinks.
+    // Regula falsi, at least 2 % of the bracket away from its ends, so that the bracket shrinks.
     const double share = std::isfinite(far.zeta) ? (t - near.zeta) / (far.zeta - near.zeta) : 0.5;
     const double x = near.x + std::clamp(share, 0.02, 0.98) * (far.x - near.x);
     const Place middle = profile.at(x);

@@ -1,4 +1,4 @@
-/// Profile-likelihood intervals, and AICc of a fit. Private to identify/.
+/// Profile-likelihood intervals and AICc of table fits. Private to identify/.
 #pragma once
 
 #include <optional>
@@ -7,17 +7,18 @@
 
 namespace awmr {
 
-/// The minimum sum of squares with one coordinate fixed. Infinite if the search fails.
+/// Minimum sum of squares with the coordinate `held` fixed at `value`. Infinite if the search
+/// fails.
 double profile_cost(const SteadyProblem& problem, const TransformedParameters& initial_guess,
                     TransformedParameter held, double value);
 
-/// Profile-likelihood interval of a coordinate: at each end the profile of the sum of squares is
-/// t^2 s^2 above its minimum. An end beyond a bound is set to the bound. Precondition: squared
-/// loss, degrees of freedom, `c` free.
+/// 95 % profile-likelihood interval of a coordinate. At each end, profile_cost() is t^2 s^2 above
+/// the minimum, with the residual standard deviation s and Student's t. An end beyond a bound is
+/// set to the bound. Precondition: squared loss, degrees of freedom, `c` free.
 Interval profile_interval(const SteadyProblem& problem, const SteadyFit& fit,
                           TransformedParameter c);
 
-/// AICc; counts the free coordinates, and the exponent if it is at a bound.
+/// AICc of a fit. An exponent at a bound counts as a free parameter.
 std::optional<double> aicc(const SteadyFit& fit);
 
 }  // namespace awmr

@@ -12,14 +12,14 @@
 namespace awmr {
 namespace {
 
-constexpr double kOutlierLevel = 0.05;  ///< for the whole table (Bonferroni)
+constexpr double kOutlierLevel = 0.05;  ///< significance level for the whole table (Bonferroni)
 
 Finding outside_range(const Subject& subject, double beta) {
   const Interval& range = subject.beta_range;
   return {
       subject.file, 0, Severity::kWarning, "exponent-at-bound",
-      fmt::format("the exponent {} = {:.4g} is outside the accepted range [{:g}, {:g}]: a power "
-                  "law of this range may not describe these runs",
+      fmt::format("the exponent {} = {:.4g} is outside the accepted range [{:g}, {:g}], so a power "
+                  "law may not describe these runs; try another family",
                   info(subject.beta).name, beta, range.lo, range.hi)};
 }
 
@@ -31,13 +31,13 @@ Finding held_exponent(const Subject& subject, const SteadyFit& fit) {
   const bool surge = subject.beta == ParameterId::kSurgeBeta;
   const std::string remedy =
       beta >= range.hi
-          ? fmt::format("\"{}\": [{:g}, {:g}] in the vehicle file lets it rise",
+          ? fmt::format("set \"{}\": [{:g}, {:g}] in the vehicle file to accept larger exponents",
                         surge ? "surge_beta_range" : "yaw_beta_range", range.lo, 2.0 * range.hi)
-          : std::string("a family with Coulomb friction has a force at rest without it");
+          : std::string("use a family with Coulomb friction, which describes a force at rest");
   return {
       subject.file, 0, Severity::kError, "exponent-at-bound",
-      fmt::format("the search for {} ended at {:.4g}, the end of the accepted range [{:g}, {:g}]: "
-                  "the data do not determine it, and the other estimates are conditional on it; {}",
+      fmt::format("the search for {} ended at {:.4g}, the end of the accepted range [{:g}, {:g}], "
+                  "so these runs do not determine the exponent and the fit is refused; {}",
                   info(subject.beta).name, beta, range.lo, range.hi, remedy)};
 }
 
@@ -46,8 +46,8 @@ std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit
   if (fit.degrees_of_freedom == 0) {
     findings.push_back(
         {subject.file, 0, Severity::kWarning, "no-degrees-of-freedom",
-         fmt::format("{} rows determine the {} parameters of {} exactly and leave no residuals for "
-                     "a standard error; record another run",
+         fmt::format("{} rows determine the {} parameters of {} exactly, so there are no residuals "
+                     "for a standard error; record another run",
                      subject.points.size(), fit.free.size(),
                      name_in(kFitSubjectNames, subject.name))});
   }
@@ -59,7 +59,7 @@ std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit
     if (c == TransformedParameter::kBeta) continue;
     findings.push_back(
         {subject.file, 0, Severity::kNote, "term-at-zero",
-         fmt::format("{} is 0, the end of its range: these runs do not need this term",
+         fmt::format("{} is 0, the lower end of its range: these runs do not need this term",
                      info(parameter_of(subject, c)).name)});
   }
   return findings;
@@ -93,8 +93,9 @@ std::vector<Finding> outlier_findings(const Subject& subject, const SteadyProble
     if (p > kOutlierLevel) continue;
     findings.push_back(
         {subject.file, subject.points[at(i)].line, Severity::kWarning, "outlier",
-         fmt::format("this run deviates by {:.1f} standard deviations from the curve of the others "
-                     "(p for one such run in {}: {:.2g}); check it, or use a robust loss ({})",
+         fmt::format("this run deviates by {:.1f} standard deviations from the curve of the other "
+                     "runs (p for one such run among {}: {:.2g}); check it, or use a robust loss "
+                     "({})",
                      std::abs(t(i)), t.size(), p, option_text("loss huber"))});
   }
   return findings;

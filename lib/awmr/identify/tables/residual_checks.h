@@ -1,5 +1,5 @@
-/// Checks of a fit of steady runs: active bounds, residuals that violate the method's assumptions,
-/// influential runs. Private to identify/.
+/// Checks of a table fit: parameters at bounds, residuals that violate the method's assumptions,
+/// outliers. Private to identify/.
 #pragma once
 
 #include <vector>
@@ -8,20 +8,22 @@
 
 namespace awmr {
 
-/// `no-degrees-of-freedom`, `exponent-at-bound`, `term-at-zero`.
-/// Error `exponent-at-bound`: why a fit with its exponent at a bound gives no value, and the range
-/// to set.
+/// The error `exponent-at-bound` of a fit whose exponent is at an end of its range, with the
+/// remedy.
 Finding held_exponent(const Subject& subject, const SteadyFit& fit);
 
+/// The warnings `no-degrees-of-freedom` and `exponent-at-bound` and the note `term-at-zero`, where
+/// they apply.
 std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit, Family family);
 
-/// Tests of the residuals for normality, curvature and lack of fit, as far as the number of runs
-/// allows. Precondition: degrees of freedom.
+/// Tests the residuals for normality, curvature and lack of fit. Skips a test if there are too few
+/// runs for it. Precondition: the fit has degrees of freedom.
 std::vector<Diagnostic> residual_tests(const Subject& subject, const SteadyFit& fit);
 
-/// `outlier`: runs that deviate from the curve of the others, by Student's t at 5 % for the whole
-/// table (Bonferroni). The times of timed runs have to deviate as well: equal errors of a stop-watch
-/// are unequal shares of the speed, so that the fastest run looks like an outlier.
+/// The warning `outlier` for each run that deviates significantly from the curve of the other runs:
+/// Student's t, 5 % for the whole table (Bonferroni). Of timed runs, the time has to deviate too.
+/// The same stop-watch error is a larger relative error of a faster run, which alone would make the
+/// fastest run look like an outlier.
 std::vector<Finding> outlier_findings(const Subject& subject, const SteadyProblem& problem,
                                       const SteadyFit& fit);
 

@@ -1,4 +1,4 @@
-/// Robust losses: definitions, and the covariance with them. Private to identify/.
+/// Robust losses and the covariance of fits with them. Private to identify/.
 #pragma once
 
 #include <ceres/loss_function.h>
@@ -10,16 +10,17 @@
 
 namespace awmr {
 
-/// Ceres' loss for residuals of this scale: tuned to 95 % efficiency under normal noise
-/// (Huber 1.345, Cauchy 2.385, Tukey 4.685 standard deviations). Null for Loss::kSquared.
+/// Ceres loss function for residuals with the standard deviation `scale`. Its threshold gives 95 %
+/// efficiency under normal noise: Huber 1.345, Cauchy 2.385, Tukey 4.685 standard deviations. Null
+/// for Loss::kSquared.
 std::unique_ptr<ceres::LossFunction> make_loss(Loss loss, double scale);
 
 /// 1.4826 median |e|: robust estimate of the standard deviation of normal residuals.
 double median_scale(const Eigen::VectorXd& residuals);
 
-/// Factor between (J^T J)^-1 and the covariance of an M-estimate:
-///   kappa^2 [sum psi^2/(n - p)] / [mean psi']^2,  kappa = 1 + (p/n) var(psi')/mean(psi')^2  [Huber
-///   1981, 7.6]
+/// Variance that multiplies (J^T J)^-1 in the covariance of an M-estimate [Huber 1981, 7.6]:
+///   kappa^2 [sum psi^2/(n - p)] / [mean psi']^2,  kappa = 1 + (p/n) var(psi')/mean(psi')^2
+/// for n residuals and p parameters; psi is the derivative of the loss by the residual.
 double m_estimate_variance(const ceres::LossFunction& loss, const Eigen::VectorXd& residuals,
                            int parameters);
 

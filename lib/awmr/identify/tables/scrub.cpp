@@ -18,7 +18,8 @@
 namespace awmr {
 namespace {
 
-/// Degrees of freedom of the yaw fit; those of a long record if g3 is from logs.
+/// Degrees of freedom of the yaw fit to a table. If g3 is from logs: a large number, as for a known
+/// variance.
 double degrees_of_law(const Model& model) {
   constexpr double kOfALog = 1e4;
   for (const EstimatorReport& report : model.record.reports) {
@@ -34,7 +35,7 @@ Interval range_of(const std::vector<double>& values) {
   return {*least, *most};
 }
 
-/// The rates that g3 was fitted to, rad/s; absent if g3 is from logs only.
+/// Range of the yaw rates that g3 was fitted to, rad/s; absent if g3 is from logs only.
 std::optional<Interval> fitted_rates(const TrialSet<TurningRow>& turning) {
   if (turning.rows.empty()) return std::nullopt;
   std::vector<double> rates;
@@ -42,11 +43,11 @@ std::optional<Interval> fitted_rates(const TrialSet<TurningRow>& turning) {
   return range_of(rates);
 }
 
-/// y = mean_y + slope (x - mean_x) by least squares.
+/// Least-squares line y = mean_y + slope (x - mean_x).
 struct StraightLine {
   double mean_x = 0.0, mean_y = 0.0, slope = 0.0;
   double xx = 0.0;                 ///< sum (x - mean_x)^2
-  double residual_variance = 0.0;  ///< with n - 2 degrees of freedom
+  double residual_variance = 0.0;  ///< variance of the residuals, n - 2 degrees of freedom
   double count = 0.0;
 
   double at(double x) const { return mean_y + slope * (x - mean_x); }
@@ -55,7 +56,7 @@ struct StraightLine {
   }
 };
 
-/// Precondition: three points or more.
+/// Fits a line. Precondition: three points or more.
 StraightLine line_through(const std::vector<double>& x, const std::vector<double>& y) {
   StraightLine line{.count = static_cast<double>(x.size())};
   line.mean_x = std::accumulate(x.begin(), x.end(), 0.0) / line.count;
@@ -71,8 +72,8 @@ StraightLine line_through(const std::vector<double>& x, const std::vector<double
   return line;
 }
 
-/// Tests at 95 % whether the moments y_i change with x_i. The test includes the error of g3(r_i),
-/// from which the moments are computed:
+/// True if the moments y_i change with x_i (t test of the slope at 95 %). The variance of the slope
+/// includes that of g3(r_i), which every moment y_i contains:
 ///   slope = sum_i w_i y_i,  w_i = (x_i - mean x)/sum (x - mean x)^2
 bool is_sloped(const std::vector<double>& x, const std::vector<double>& y,
                const std::vector<double>& rates_radps, const Model& model) {
@@ -87,9 +88,9 @@ bool is_sloped(const std::vector<double>& x, const std::vector<double>& y,
 
 /// Scrub moments of the differential turns, in the order of the rows.
 struct ScrubMoments {
-  std::vector<double> applied_m;  ///< tau_i
+  std::vector<double> applied_m;  ///< tau_i, the moment of the wheel forces
   std::vector<double> rates_radps;
-  std::vector<double> moments_m;  ///< c_i
+  std::vector<double> moments_m;  ///< c_i = tau_i - g3(r_i)
 };
 
 ScrubMoments met_by(const std::vector<SteadyPoint>& turns, const Resistance<double>& law) {
@@ -102,7 +103,7 @@ ScrubMoments met_by(const std::vector<SteadyPoint>& turns, const Resistance<doub
   return met;
 }
 
-/// The mean of the c_i; absent if its variance is 0.
+/// Mean scrub moment with its standard error and interval; absent if its variance is 0.
 std::optional<YawScrub> mean_scrub(const ScrubMoments& met, double of_law, double degrees_of_law) {
   const auto n = static_cast<double>(met.moments_m.size());
   const double mean = std::accumulate(met.moments_m.begin(), met.moments_m.end(), 0.0) / n;
@@ -123,9 +124,10 @@ std::optional<YawScrub> mean_scrub(const ScrubMoments& met, double of_law, doubl
                   .yaw_rate_radps = range_of(met.rates_radps)};
 }
 
-/// Range of the c_i between the slowest and the fastest turn if they change with the rate: it spans
-/// the 95 % intervals of a straight line at both ends. Noise of r makes c fall with r, and noise of
-/// tau makes it rise with tau; a real change shows over both.
+/// Range of the scrub moment from the slowest to the fastest turn, if the moment changes with the
+/// yaw rate. The range spans the 95 % intervals of a fitted line at both ends. A change counts only
+/// if the c_i slope over both r and tau: noise of r alone makes c fall with r, and noise of tau
+/// alone makes c rise with tau.
 std::optional<Interval> changing_scrub(const ScrubMoments& met, const Model& model) {
   for (const auto* over : {&met.rates_radps, &met.applied_m}) {
     if (!is_sloped(*over, met.moments_m, met.rates_radps, model)) return std::nullopt;
@@ -143,7 +145,7 @@ std::optional<Interval> changing_scrub(const ScrubMoments& met, const Model& mod
   return range_of(ends);
 }
 
-/// Moments, beyond the motors' dead zone, at which the vehicle did not turn.
+/// Differential turns in which the vehicle stood still. `force` excludes the wheels' dead zone.
 std::vector<SteadyPoint> standing_turns(const TrialSet<TurningRow>& turning, const Model& model) {
   return turning_points(turning.standing, *model[ParameterId::kWheelDeadZone].value);
 }
@@ -169,32 +171,32 @@ void note_standing(Model& model, const TrialSet<TurningRow>& turning,
     lines += fmt::format("{}{}", lines.empty() ? "" : ", ", turn.line);
   }
   note(model, turning, "scrub-holds",
-       fmt::format("the vehicle did not turn in {} of {} differential turns (line{} {}), the "
-                   "strongest with {:.3g} m, so the scrub is at least that. Use a larger force "
-                   "difference; awmr suggest lists forces",
+       fmt::format("the vehicle did not turn in {} of {} differential turns (line{} {}). The "
+                   "largest moment among them is {:.3g} m, so the tyre scrub is at least that. Use "
+                   "a larger force difference; awmr suggest lists forces",
                    standing.size(), standing.size() + turning.by_sides.size(),
                    standing.size() == 1 ? "" : "s", lines, *model.yaw_held_m));
 }
 
-/// Findings on turns outside the rates that g3 was fitted to, and on scrub that changes with the
-/// rate.
+/// Adds `scrub-beyond-trials` for turns outside the yaw rates that g3 was fitted to, and
+/// `scrub-grows` for scrub that changes with the yaw rate.
 void note_limits(Model& model, const TrialSet<TurningRow>& turning, const ScrubMoments& met) {
   const YawScrub& scrub = *model.yaw_scrub;
   const Interval rates = scrub.yaw_rate_radps;
   const auto range = fitted_rates(turning);
   if (range && (rates.hi > kLittleFurther * range->hi || kLittleFurther * rates.lo < range->lo)) {
     note(model, turning, "scrub-beyond-trials",
-         fmt::format("the differential turns are at {:.3g} to {:.3g} deg/s, the steered ones at "
-                     "{:.3g} to {:.3g}: the scrub is computed with an extrapolated yaw "
-                     "resistance; record both kinds of turns at the same rates",
+         fmt::format("the differential turns are at {:.3g} to {:.3g} deg/s, the steered turns at "
+                     "{:.3g} to {:.3g} deg/s, so the tyre scrub is computed with an extrapolated "
+                     "yaw resistance; record both kinds of turns at the same yaw rates",
                      degrees(rates.lo), degrees(rates.hi), degrees(range->lo), degrees(range->hi)));
   }
   if (scrub.changing_m) {
     const Interval moments = range_of(met.moments_m);
     note(model, turning, "scrub-grows",
-         fmt::format("the scrub of the differential turns changes with the yaw rate, from {:.3g} "
-                     "to {:.3g} m: its mean {:.3g} m is valid in the middle of {:.3g} to {:.3g} "
-                     "deg/s only; decisions use the whole range {:.3g} to {:.3g} m",
+         fmt::format("the tyre scrub of the differential turns changes with the yaw rate, from "
+                     "{:.3g} to {:.3g} m. The mean {:.3g} m is valid only in the middle of {:.3g} "
+                     "to {:.3g} deg/s; comparisons of modes use the whole range {:.3g} to {:.3g} m",
                      moments.lo, moments.hi, scrub.moment_m, degrees(rates.lo), degrees(rates.hi),
                      scrub.changing_m->lo, scrub.changing_m->hi));
   }
@@ -224,10 +226,10 @@ void measure_scrub(const TrialSet<TurningRow>& turning, Model& model) {
   if (scrub->ci95_m.hi < 0.0) {
     note(model, turning, "negative-scrub",
          fmt::format(
-             "the scrub of the differential turns is negative, {:.3g} m ({:.3g} to {:.3g}): "
-             "tyres that are dragged sideways cannot drive the turn; "
-             "check the yaw rates' unit, the forces and half_track_m of these rows, and that "
-             "the steered turns are not held back",
+             "the tyre scrub of the differential turns is negative, {:.3g} m ({:.3g} to {:.3g}), "
+             "but tyres that are dragged sideways cannot drive a turn; "
+             "check the unit of the yaw rates, the forces of these rows, half_track_m, and whether "
+             "something brakes the steered turns",
              scrub->moment_m, scrub->ci95_m.lo, scrub->ci95_m.hi));
     return;
   }

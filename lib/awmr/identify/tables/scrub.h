@@ -1,14 +1,15 @@
-/// The moment that differential turns need in addition to the resistance of steered turns. Private
+/// Tyre scrub: the yaw moment of differential turns beyond the resistance of steered turns. Private
 /// to identify/.
 ///
-/// A differential turn drags the tyres sideways, which g3 of steered turns does not include. Of
-/// each such turn i, at r_i under tau_i = 2 d (F'R - F'L), the moment in addition to g3 is
+/// A differential turn drags the tyres sideways, which g3 of steered turns does not include. For
+/// differential turn i, with the yaw rate r_i and the moment tau_i = 2 d (F'R - F'L), the scrub
+/// moment is
 ///
 ///     c_i = tau_i - g3(r_i),    c = mean c_i,    var c = s^2/n + h' C h
 ///
-/// with s the standard deviation of the c_i, C the covariance of the parameters of g3 and h the
-/// mean gradient of g3 by them. The interval is Student's t with the degrees of freedom of Welch
-/// and Satterthwaite.
+/// with s the standard deviation of the n moments c_i, C the covariance of g3's parameters and h
+/// the mean gradient of g3 by its parameters. The interval is Student's t with the degrees of
+/// freedom of Welch and Satterthwaite.
 #pragma once
 
 #include <vector>
@@ -18,13 +19,14 @@
 
 namespace awmr {
 
-/// Smallest number of differential turns, from which a scatter can be estimated.
+/// Smallest number of differential turns for a scrub estimate with an interval.
 inline constexpr std::size_t kFewestScrubRows = 3;
 
-/// Sets model.yaw_held_m, the largest moment at which the vehicle did not turn (`scrub-holds`), and
-/// model.yaw_scrub if the model has g3 and there are enough turns (else `few-scrub-rows`) whose
-/// interval is not all negative (else `negative-scrub`). Warns of turns beyond the yaw rates that
-/// g3 was fitted to (`scrub-beyond-trials`) and of c_i that change with r (`scrub-grows`).
+/// Sets model.yaw_held_m, the largest moment, in m, at which the vehicle did not turn, with the
+/// finding `scrub-holds`. Sets model.yaw_scrub if the model has g3. Exceptions: too few turns
+/// (`few-scrub-rows`), or an interval that is all negative (`negative-scrub`). Warns of turns
+/// beyond the yaw rates that g3 was fitted to (`scrub-beyond-trials`), and of moments c_i that
+/// change with the yaw rate (`scrub-grows`).
 void measure_scrub(const TrialSet<TurningRow>& turning, Model& model);
 
 }  // namespace awmr

@@ -20,15 +20,16 @@ bool is_at(double bound, double value) {
   return std::isfinite(bound) && std::abs(value - bound) <= kAtBound;
 }
 
-/// Condition number of J: largest over smallest singular value; infinite if J is rank deficient.
+/// Condition number of the Jacobian: largest over smallest singular value. Infinite if it is rank
+/// deficient.
 double condition_of(const Eigen::MatrixXd& jacobian) {
   const Eigen::VectorXd singular = singular_values(jacobian);
   const double least = jacobian.rows() >= jacobian.cols() ? singular(singular.size() - 1) : 0.0;
   return least > 0.0 ? singular(0) / least : std::numeric_limits<double>::infinity();
 }
 
-/// Sets rank, condition, leverages and covariance from residuals and Jacobian at the solution.
-/// False if one of them is not finite.
+/// Sets rank, condition number, leverages and covariance of `fit` at the end of `search`. Returns
+/// false if a residual, a derivative or one of the results is not finite.
 bool add_uncertainty(const SteadyProblem& problem, SteadySearch& search, SteadyFit& fit) {
   const Eigen::Index n = rows_of(problem.points);
   fit.condition_number = std::numeric_limits<double>::infinity();
@@ -56,7 +57,7 @@ bool add_uncertainty(const SteadyProblem& problem, SteadySearch& search, SteadyF
   return std::isfinite(variance) && fit.covariance.allFinite() && fit.leverages.allFinite();
 }
 
-/// The families that are special cases of this one: a term is 0 or the exponent is 1.
+/// The families that are special cases of `family`, with a term fixed at 0 or the exponent at 1.
 std::vector<Family> families_inside(Family family) {
   switch (family) {
     case Family::kPower:
@@ -72,8 +73,9 @@ std::vector<Family> families_inside(Family family) {
   return {};
 }
 
-/// Initial guess without another fit: the power law by QR (a fixed exponent is 1), half of the
-/// minimum force for Coulomb friction and dead zone, 0 for the quadratic term.
+/// Initial guess from the points: the log-linear fit for alpha and beta (beta is 1 in families
+/// without it), half of the smallest force for Coulomb friction and dead zone, and 0 for the
+/// quadratic term.
 TransformedParameters initial_guess_of(const SteadyProblem& problem) {
   const SteadyFit line = fit_log_linear(problem.points);
   TransformedParameters guess{line[TransformedParameter::kLogAlpha], 1.0, 0.0, 0.0, 0.0};

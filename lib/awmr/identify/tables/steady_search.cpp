@@ -15,11 +15,12 @@
 namespace awmr {
 namespace {
 
-/// Smallest beta with which the curve can be inverted.
+/// Lower bound of beta for errors of speed or time, whose residuals need the inverse curve.
 constexpr double kMinimumInvertibleBeta = 1e-3;
 
-/// g^-1(force) with its derivatives; 0 where the force does not overcome Coulomb friction. One
-/// Newton step from the root in double gives the exact derivatives of the implicit function.
+/// g^-1(force), the steady rate at a force, with its derivatives; 0 if the force is below Coulomb
+/// friction. The root is found in double. One Newton step in T from there gives the derivatives of
+/// the implicit function.
 template <class T>
 T inverse(const Resistance<T>& law, const T& force) {
   const Resistance<double> plain = value_of(law);
@@ -56,7 +57,7 @@ struct SteadyResidual {
       residual[0] = rate - point.rate;
       return true;
     }
-    if (!(rate > T(0.0))) return false;  // without motion the time is infinite: rejects this point
+    if (!(rate > T(0.0))) return false;  // no motion, infinite time: Ceres rejects this point
     residual[0] = *point.travel / rate - *point.elapsed_s;
     return true;
   }
@@ -64,7 +65,7 @@ struct SteadyResidual {
 
 using SteadyCost = ceres::AutoDiffCostFunction<SteadyResidual, 1, 1, 1, 1, 1, 1>;
 
-/// Ends a search if the same coordinates have been at their bounds for some iterations.
+/// Ends a search when the same coordinates have been at their bounds for kIterations iterations.
 class StopAtBound : public ceres::IterationCallback {
  public:
   explicit StopAtBound(std::function<std::vector<TransformedParameter>()> at_bound)
@@ -77,7 +78,7 @@ class StopAtBound : public ceres::IterationCallback {
     return iterations_ < kIterations ? ceres::SOLVER_CONTINUE
                                      : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
-  /// The coordinates for which it ended the search; empty if it did not.
+  /// Coordinates at a bound when this callback ended the search; empty if it did not end it.
   std::vector<TransformedParameter> held() const {
     return iterations_ < kIterations ? std::vector<TransformedParameter>() : held_;
   }
@@ -139,7 +140,7 @@ bool SteadySearch::is_at_bound(TransformedParameter c) const {
   return theta_[at(c)] <= bounds.lo || theta_[at(c)] >= bounds.hi;
 }
 
-/// Searches until it ends or coordinates have stayed at a bound for some iterations; returns these.
+/// Searches until convergence, or until coordinates stay at a bound. Returns those coordinates.
 std::vector<TransformedParameter> SteadySearch::search_until_at_bound() {
   StopAtBound stop([this] {
     std::vector<TransformedParameter> at_bound;
@@ -154,7 +155,7 @@ std::vector<TransformedParameter> SteadySearch::search_until_at_bound() {
   return stop.held();
 }
 
-/// True if the cost decreases from the bound into the interval: the bound is then not active.
+/// True if the cost of a coordinate at a bound decreases away from the bound.
 bool SteadySearch::falls_inwards(TransformedParameter c) {
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = {block(c)};
@@ -163,9 +164,8 @@ bool SteadySearch::falls_inwards(TransformedParameter c) {
   return theta_[at(c)] <= bounds_of(problem_, c).lo ? gradient[0] < 0.0 : gradient[0] > 0.0;
 }
 
-// A least-squares step beyond a bound is cut, which also shortens the step of the other
-// coordinates, so convergence is slow. With the coordinate fixed at the bound, the rest of the
-// search is unbounded.
+// Coordinates at a bound are fixed, because Ceres shortens a step that crosses a bound in all
+// coordinates, and convergence becomes slow.
 void SteadySearch::solve() {
   const std::vector<TransformedParameter> held = search_until_at_bound();
   if (held.empty()) return;

@@ -1,4 +1,4 @@
-/// Search of fit_steady() and of profiles. Private to identify/tables/.
+/// Ceres search behind fit_steady() and profile_cost(). Private to identify/tables/.
 #pragma once
 
 #include <ceres/ceres.h>
@@ -12,8 +12,9 @@
 
 namespace awmr {
 
-/// Ceres problem with one block per coordinate. Variable are the coordinates of the family except
-/// `held`. The initial guess is clamped to the bounds. Not movable. `problem` must outlive it.
+/// Ceres problem of a table fit, with one parameter block per coordinate. The coordinates of the
+/// family except `held` are variable. Clamps the initial guess to the bounds. Not movable.
+/// `problem` must outlive the object.
 class SteadySearch {
  public:
   SteadySearch(const SteadyProblem& problem, const TransformedParameters& initial_guess,
@@ -21,15 +22,17 @@ class SteadySearch {
   SteadySearch(const SteadySearch&) = delete;
   SteadySearch& operator=(const SteadySearch&) = delete;
 
-  /// Minimises until no coordinate changes. A coordinate at a bound is fixed there while the others
-  /// are fitted, and freed again if the cost decreases inwards.
+  /// Minimises until no coordinate changes. Fixes a coordinate that stays at a bound while it fits
+  /// the others. Frees the coordinate again if the cost then decreases away from the bound.
   void solve();
-  /// Repeats solve() until the scale of the loss, computed from the residuals, has converged.
+  /// Repeats solve() until the coordinates converge. Each round recomputes the scale of the robust
+  /// loss from the residuals.
   void solve_robustly();
 
-  /// By point, in the unit of the noise, without the loss. Empty if the curve cannot be evaluated.
+  /// Residuals by point, in the unit of the noise, without the loss. Empty if one is not finite.
   std::optional<Eigen::VectorXd> residuals();
-  /// Points by columns, without the loss. Empty if a derivative is not finite.
+  /// Derivatives of the residuals, points x `columns`, without the loss. Empty if one is not
+  /// finite.
   std::optional<Eigen::MatrixXd> jacobian(const std::vector<TransformedParameter>& columns);
 
   const TransformedParameters& theta() const { return theta_; }

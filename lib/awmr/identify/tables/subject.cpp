@@ -18,7 +18,7 @@ std::vector<SteadyPoint> surge_points(const std::vector<SurgeRow>& rows) {
   return points;
 }
 
-/// Ratio of the yaw moment after the wheels' dead zones to the commanded one.
+/// Ratio of the yaw moment after subtracting the wheels' dead zones to the commanded yaw moment.
 double share_beyond(const TurningRow& row, double dead_zone) {
   if (!row.sides && !(row.wheel_force > dead_zone)) return 0.0;
   if (!(dead_zone > 0.0)) return 1.0;
@@ -28,7 +28,7 @@ double share_beyond(const TurningRow& row, double dead_zone) {
   return (right - left) / (row.sides->right - row.sides->left);
 }
 
-/// The dead zone of tables assumes four driven wheels.
+/// Families for the surge table. Excludes `dead-zone` unless the vehicle has four driven wheels.
 std::vector<Family> surge_families(const Vehicle& vehicle) {
   const auto all = values_in(kFamilyNames);
   std::vector<Family> families(all.begin(), all.end());

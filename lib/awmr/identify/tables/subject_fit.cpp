@@ -16,14 +16,14 @@
 namespace awmr {
 namespace {
 
-/// Difference of AICc from which another family is significantly better: a likelihood ratio of e^5.
+/// AICc difference above which another family is significantly better (a likelihood ratio of e^5).
 constexpr double kTablesPlainlyBetter = 10.0;
 
-/// AICc divides by n - k - 2, with k free parameters in addition to the scatter: two in the
-/// smallest families.
+/// Smallest number of runs with an AICc. The denominator n - p - 2 is positive from 5 runs n on,
+/// with the p = 2 parameters of the smallest families.
 constexpr std::size_t kFewestToCompare = 5;
 
-/// The chosen fit and its index in the reports; no fit if none is accepted.
+/// The chosen fit and the index of its report; no fit if none is accepted.
 struct Choice {
   std::optional<SteadyFit> fit;
   SteadyProblem problem;
@@ -49,24 +49,26 @@ Choice choose_log_linear(const Subject& subject, const SubjectOptions& options,
           {}};
 }
 
-/// Finding: the power law was selected without a comparison.
+/// `families-not-compared`: the power law is used without a comparison, because there are too few
+/// rows.
 Finding not_compared(const Subject& subject) {
   return about(subject, Severity::kWarning, "families-not-compared",
-               fmt::format("{} rows of {} are too few to compare families by AICc, which needs {}: "
-                           "the power law is used; record another run",
+               fmt::format("{} rows of {} are too few to compare families by AICc, which needs {} "
+                           "rows; the power law is used. Record another run",
                            subject.points.size(), name_in(kFitSubjectNames, subject.name),
                            kFewestToCompare));
 }
 
-/// Reason why there is no fit to choose; `tried`: there were fits.
+/// Finding that no fit can be chosen. `tried`: at least one family was fitted.
 Finding nothing_to_choose(const Subject& subject, bool tried) {
   if (!tried) {
-    return about(
-        subject, Severity::kError, "too-few-rows",
-        fmt::format("{} rows are too few for the requested family", subject.points.size()));
+    return about(subject, Severity::kError, "too-few-rows",
+                 fmt::format("{} rows are too few for the requested family; record more runs",
+                             subject.points.size()));
   }
   return about(subject, Severity::kError, "not-converged",
-               fmt::format("no family's fit of {} converged with more runs than parameters",
+               fmt::format("no family has a converged fit of {} with more runs than parameters; "
+                           "record more runs",
                            name_in(kFitSubjectNames, subject.name)));
 }
 
@@ -80,7 +82,7 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
   const bool tried = std::ranges::any_of(
       candidates, [&](const FamilyCandidate& c) { return c.problem.noise == wanted; });
   if (!chosen && !options.family.family && subject.points.size() < kFewestToCompare) {
-    // Two free parameters; no other family has fewer.
+    // The power law has two free parameters, and no family has fewer.
     chosen = candidate_of(candidates, Family::kPower, wanted);
     choice.findings.push_back(not_compared(subject));
   }
@@ -118,15 +120,15 @@ std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wante
   const bool power_used = used == Family::kPower;
   const std::string_view better = name_of(best->problem.family);
   return {about(subject, power_used ? Severity::kWarning : Severity::kNote, "power-law-inadequate",
-                fmt::format("a power law does not describe these runs: {} is better by {:.1f} of "
-                            "AICc (residuals of {:.3g} against {:.3g}){}",
+                fmt::format("a power law does not describe these runs: the AICc of {} is lower by "
+                            "{:.1f} (residual standard deviation {:.3g}, power law {:.3g}){}",
                             better, difference, best->fit.residual_std, power->fit.residual_std,
                             power_used ? fmt::format("; use {}",
                                                      option_text(fmt::format("family {}", better)))
                                        : std::string()))};
 }
 
-/// Adds residual tests, outliers and influential runs to the chosen report and the findings.
+/// Adds residual tests and leave-one-out fits to the chosen report, and their findings.
 void add_diagnostics(const Subject& subject, std::size_t report, SubjectFit& result) {
   const SteadyFit& fit = *result.chosen;
   EstimatorReport& chosen = result.reports[report];
@@ -140,30 +142,30 @@ void add_diagnostics(const Subject& subject, std::size_t report, SubjectFit& res
     append(std::move(influence.findings), result.findings);
     if (rows_of(subject.points) > kExactRows) {
       chosen.stop_reason += chosen.leave_one_out.empty()
-                                ? "; too many rows to leave each out once"
-                                : "; each row left out by one step from the whole fit";
+                                ? "; no leave-one-out fits with a robust loss and this many rows"
+                                : "; leave-one-out by one step from the fit of all rows";
     }
   }
 }
 
-/// Reason against any fit although the rows determine a law.
+/// Finding that rules out every fit: the log-linear fit failed, or --noise time without times.
 std::optional<Finding> obstacle(const Subject& subject, const SubjectOptions& options,
                                 ErrorModel wanted, const SteadyFit& line) {
   if (!line.usable) {
     return about(subject, Severity::kError, "not-converged",
-                 fmt::format("the log-linear fit of {}: {}",
+                 fmt::format("the log-linear fit of {} gives no curve ({})",
                              name_in(kFitSubjectNames, subject.name), line.stop_reason));
   }
   const bool by_time = options.method != Method::kLogLinear && wanted == ErrorModel::kTime;
   if (by_time && !all_timed(subject.points)) {
     return about(subject, Severity::kError, "not-timed",
-                 fmt::format("{} needs a distance or turns and elapsed_s in every row",
+                 fmt::format("{} needs distance_m (or turns) and elapsed_s in every row",
                              option_text("noise time")));
   }
   return std::nullopt;
 }
 
-/// Copies the chosen fit into the result, with its warnings.
+/// Copies the choice and its findings into the result.
 void take(const Subject& subject, Choice choice, SubjectFit& result) {
   result.method = std::move(choice.method);
   if (!choice.fit) result.why_not = choice.findings.back().message;
@@ -174,7 +176,7 @@ void take(const Subject& subject, Choice choice, SubjectFit& result) {
   append(bound_findings(subject, *result.chosen, result.problem.family), result.findings);
 }
 
-/// Removes the gross outliers from the subject.
+/// Removes the gross outliers from the subject. Returns a finding for each.
 std::vector<Finding> set_outliers_aside(Subject& subject, const SubjectOptions& options) {
   constexpr std::size_t kOneIn = 10;
   std::vector<Finding> findings;
@@ -189,7 +191,7 @@ std::vector<Finding> set_outliers_aside(Subject& subject, const SubjectOptions& 
   return findings;
 }
 
-/// Writes the probability of each alternative into its report, if there is one.
+/// Writes the probability of each error model into the report of its fit, if there is one.
 void put_weights(std::size_t chosen_report, SubjectFit& result) {
   if (result.alternatives.size() < 2) return;
   const std::string family(name_of(result.problem.family));

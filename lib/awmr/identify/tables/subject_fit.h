@@ -1,4 +1,4 @@
-/// Fits of one resistance, surge or yaw, by all estimators. Private to identify/.
+/// Fits of the surge or yaw table by all estimators, and the choice of one. Private to identify/.
 #pragma once
 
 #include <optional>
@@ -10,24 +10,24 @@
 namespace awmr {
 
 struct SubjectFit {
-  std::optional<SteadyFit> chosen;  ///< absent: the rows cannot determine the law, or no fit is
-                                    ///< accepted
-  std::string why_not;              ///< why no fit is accepted; empty if the rows cannot determine
-                                    ///< the law
-  SteadyProblem problem;            ///< of the chosen fit
-  bool log_linear = false;          ///< the chosen fit is log-linear
-  std::string method;               ///< as text
-  /// The chosen fit, then those under the other noise models (noise_average.h); empty without a
-  /// chosen one.
+  /// Absent if the rows cannot determine the resistance law or no fit is accepted.
+  std::optional<SteadyFit> chosen;
+  /// Why no fit is accepted. Empty if a fit was chosen or the rows cannot determine the law.
+  std::string why_not;
+  SteadyProblem problem;    ///< of the chosen fit
+  bool log_linear = false;  ///< the chosen fit is log-linear
+  std::string method;       ///< description of the method
+  /// The chosen fit, then the fits under the other error models (noise_average.h). Empty without a
+  /// chosen fit.
   std::vector<NoiseAlternative> alternatives;
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
 };
 
-/// Fits by all estimators. The chosen one has diagnostics, outliers (`outlier`), the influence of
-/// single rows (`influential-row`) and the test of the power law (`power-law-inadequate`). Under
-/// squared loss, gross outliers are excluded before the fit: at most a tenth of the runs, but at
-/// least one is allowed.
+/// Fits the table by all estimators and chooses one. Checks the chosen fit for outliers
+/// (`outlier`), influential rows (`influential-row`) and a better family (`power-law-inadequate`).
+/// With squared loss, excludes gross outliers before the fit: at most a tenth of the runs, or one
+/// run if that is less than one.
 SubjectFit fit_subject(Subject subject, const SubjectOptions& options);
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// Coordinates of a resistance fit, and the corresponding model parameters. Private to identify/.
+/// Coordinates of a table fit and their conversion to model parameters. Private to identify/.
 #pragma once
 
 #include <array>
@@ -9,26 +9,26 @@
 
 namespace awmr {
 
-/// f = alpha w^beta + c + q w^2 at the force f + z. The coordinate of alpha is its logarithm,
-/// because alpha is positive and its error is relative.
+/// Coordinates of the curve alpha w^beta + c + q w^2 = f - z, with the force f, the dead zone z and
+/// the rate w. alpha is positive with a relative error, so its coordinate is ln alpha.
 enum class TransformedParameter {
-  kLogAlpha,   ///< ln alpha, without bounds
+  kLogAlpha,   ///< ln alpha, unbounded
   kBeta,       ///< beta, 1, within the accepted range
   kCoulomb,    ///< c, >= 0
   kQuadratic,  ///< q, >= 0
-  kDeadZone,   ///< z = 4 F'0, the dead zone of four wheels as tau_speed, >= 0
+  kDeadZone,   ///< z = 4 F'0: tau_speed within the dead zone F'0 of each of four wheels, >= 0
 };
 inline constexpr std::size_t kTransformedParameterCount = 5;
 /// One number for each TransformedParameter, in its order.
 using TransformedParameters = std::array<double, kTransformedParameterCount>;
 
-/// Parameters that a family frees, in the order of TransformedParameter.
+/// Coordinates that are free in a family, in the order of TransformedParameter.
 std::vector<TransformedParameter> coordinates_of(Family family);
 
-/// The parameter's value: alpha from its logarithm, F'0 = z/4, the others unchanged.
+/// Model parameter of a coordinate: alpha = exp(ln alpha), F'0 = z/4, the others unchanged.
 double value_from(TransformedParameter c, double coordinate);
 Interval values_from(TransformedParameter c, const Interval& coordinate);
-/// The derivative of the value by the coordinate.
+/// Derivative of value_from() by the coordinate.
 double jacobian_of(TransformedParameter c, double coordinate);
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// Akaike's criterion, by which families of resistance are compared. Private to identify/.
+/// Akaike's information criterion for the comparison of resistance families. Private to identify/.
 #pragma once
 
 #include <cmath>
@@ -6,13 +6,13 @@
 
 namespace awmr {
 
-/// AIC threshold: another family replaces the power law without a request if its AIC is lower by
-/// this much. For correlated errors it is twice the common threshold, because the chord at rest, an
-/// approximation in every family, also changes the AIC.
+/// Unless the user selects a family, another family replaces the power law if its AIC is lower by
+/// this value. It is twice the usual threshold of 10, because the approximation of every resistance
+/// by a chord near rest also changes the AIC.
 inline constexpr double kFamilyAicThreshold = 20.0;
 
-/// AICc of n normal errors with unknown standard deviation and the sum of squares SSE. `free`
-/// parameters are fitted in addition to the standard deviation, k = free + 1:
+/// AICc of a fit with n normal residuals, their sum of squares SSE and k = free + 1 estimated
+/// parameters, which include the standard deviation:
 ///
 ///     AICc = n ln(SSE/n) + 2 k + 2 k (k + 1)/(n - k - 1)
 ///

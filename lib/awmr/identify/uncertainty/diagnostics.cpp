@@ -21,7 +21,7 @@ double mean_of(std::span<const double> x) {
   return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
 }
 
-/// p of the modified statistic A* = A^2 (1 + 0.75/n + 2.25/n^2).
+/// p of the modified Anderson-Darling statistic A* = A^2 (1 + 0.75/n + 2.25/n^2).
 double anderson_darling_p(double a) {
   if (a >= 0.6) return std::exp(1.2937 - 5.709 * a + 0.0186 * a * a);
   if (a >= 0.34) return std::exp(0.9177 - 4.279 * a - 1.38 * a * a);
@@ -48,7 +48,7 @@ std::optional<Diagnostic> normality(std::span<const double> residuals) {
   const double size = static_cast<double>(n);
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    // In the tails the probability rounds to 0 or 1; clamped so that its logarithm is finite.
+    // Far in a tail a probability rounds to 0. The clamp keeps its logarithm finite.
     const double tiny = 1e-300;
     const double below = std::max(tiny, normal_cdf((x[i] - mean) / sd));
     const double above = std::max(tiny, normal_tail((x[n - 1 - i] - mean) / sd));
@@ -58,8 +58,8 @@ std::optional<Diagnostic> normality(std::span<const double> residuals) {
   const double p = std::clamp(anderson_darling_p(a), 0.0, 1.0);
   return Diagnostic{
       "normality", a, p,
-      verdict(p, "the residuals may be normal",
-              "the residuals are not normal: look for outliers, or use a robust loss")};
+      verdict(p, "no significant deviation from normal residuals",
+              "the residuals are not normal: check for outliers, or use a robust loss")};
 }
 
 std::optional<Diagnostic> whiteness(std::span<const double> residuals, int lags) {
@@ -82,7 +82,7 @@ std::optional<Diagnostic> whiteness(std::span<const double> residuals, int lags)
   const double p = chi_squared_tail(q, lags);
   return Diagnostic{
       "whiteness", q, p,
-      verdict(p, "the residuals may be white", "neighbouring residuals are correlated")};
+      verdict(p, "no significant correlation", "neighbouring residuals are correlated")};
 }
 
 std::optional<Diagnostic> curvature(std::span<const double> forces,
@@ -105,13 +105,13 @@ std::optional<Diagnostic> curvature(std::span<const double> forces,
   }
   if (!(squares > 0.0) || !std::isfinite(squares) || !std::isfinite(steps)) return std::nullopt;
   const double size = static_cast<double>(n);
-  const double ratio = steps / squares;  // 2 for white noise
+  const double ratio = steps / squares;  // expected value for white noise: 2
   const double deviation = std::sqrt(4.0 * (size - 2.0) / (size * size - 1.0));
   const double p = normal_cdf((ratio - 2.0) / deviation);
   return Diagnostic{"curvature", ratio, p,
-                    verdict(p, "the residuals scatter about the curve",
-                            "residuals of neighbouring forces are correlated: the curve has "
-                            "another shape")};
+                    verdict(p, "no significant deviation from the shape of the curve",
+                            "residuals of neighbouring forces are correlated: the resistance has "
+                            "another shape than the fitted curve")};
 }
 
 std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
@@ -134,8 +134,9 @@ std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
   if (!std::isfinite(f)) return std::nullopt;
   const double p = fisher_f_tail(f, between_dof, pure_dof);
   return Diagnostic{"lack of fit", f, p,
-                    verdict(p, "the curve misses the runs no more than repeats differ",
-                            "lack of fit: the curve misses the runs by more than repeats differ")};
+                    verdict(p, "no significant lack of fit",
+                            "lack of fit: the runs are farther from the curve than repeated runs "
+                            "from each other")};
 }
 
 Eigen::VectorXd studentised(const Eigen::VectorXd& residuals, const Eigen::VectorXd& leverages,
@@ -147,7 +148,7 @@ Eigen::VectorXd studentised(const Eigen::VectorXd& residuals, const Eigen::Vecto
     const double free = 1.0 - leverages(i);
     const double e = residuals(i);
     const double without = (sse - e * e / free) / (degrees_of_freedom - 1.0);
-    // A point that determines a parameter alone has no residual to test.
+    // A row with leverage 1 determines a parameter alone and has no residual to test.
     const double evaluated = free > 1e-12 && without > 0.0 ? e / std::sqrt(without * free) : 0.0;
     t(i) = std::isfinite(evaluated) ? evaluated : 0.0;
   }

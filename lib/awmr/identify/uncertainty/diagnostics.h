@@ -1,4 +1,4 @@
-/// Tests of a fit's assumptions about its residuals. Private to identify/.
+/// Statistical tests of the residuals of a fit. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,25 +9,27 @@
 
 namespace awmr {
 
-/// Anderson-Darling against the normal distribution, mean and variance estimated; p by D'Agostino &
-/// Stephens (1986), table 4.9. None below 8 residuals.
+/// Anderson-Darling test for normality with estimated mean and variance; p by D'Agostino & Stephens
+/// (1986), table 4.9. Empty for fewer than 8 residuals.
 std::optional<Diagnostic> normality(std::span<const double> residuals);
 
-/// Ljung-Box: are the first `lags` autocorrelations those of white noise?
+/// Ljung-Box test for white noise, over the first `lags` autocorrelations.
 std::optional<Diagnostic> whiteness(std::span<const double> residuals, int lags);
 
-/// Von Neumann's ratio of the residuals in order of force, normal approximation, one-sided:
-/// neighbours that err alike mean that the curve bends otherwise. None below 8 residuals.
-/// `forces`: of the runs, in any unit, as many as residuals.
+/// Von Neumann's ratio test (normal approximation, one-sided) of the residuals in the order of the
+/// forces. Similar residuals of neighbouring forces mean that the curve has another shape. Empty
+/// for fewer than 8 residuals. `forces`: one per residual, in any unit.
 std::optional<Diagnostic> curvature(std::span<const double> forces,
                                     const Eigen::VectorXd& residuals);
 
-/// F test of lack of fit against the scatter of repeats at the same force. None without repeats.
+/// F test of lack of fit: compares the distance of the curve from the mean of repeated runs with
+/// the scatter of the repeats. Empty without runs at equal forces.
 std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
                                       const Eigen::VectorXd& residuals, int parameters);
 
-/// Externally studentised: e_i / (s_(i) sqrt(1 - h_i)), Student's t with dof - 1 degrees of
-/// freedom. `leverages`: h_i in [0, 1], as many as residuals. Empty where dof < 2 or without leverages.
+/// Externally studentised residuals e_i / (s_(i) sqrt(1 - h_i)), with the leverages h_i in [0, 1]
+/// and the standard deviation s_(i) of the fit without row i. They have Student's t distribution
+/// with degrees_of_freedom - 1. Empty if degrees_of_freedom < 2 or without leverages.
 Eigen::VectorXd studentised(const Eigen::VectorXd& residuals, const Eigen::VectorXd& leverages,
                             int degrees_of_freedom);
 

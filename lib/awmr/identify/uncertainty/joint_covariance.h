@@ -1,5 +1,4 @@
-/// One covariance over everything identified, from independent pieces of evidence. Private to
-/// identify/.
+/// Covariance of all identified parameters, assembled from independent fits. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,21 +9,22 @@
 
 namespace awmr {
 
-/// Fitted parameters and derived ones are functions of independent blocks (the surge fit, the yaw
-/// fit, a timing error, ...): C = G B G^T with B the blocks on the diagonal and G the gradients.
+/// Every parameter is a function of independent blocks of numbers: the surge fit, the yaw fit, a
+/// timing error, ... The covariance of the parameters is C = G B G^T, with the blocks' covariances
+/// on the diagonal of B and the gradient of each parameter in a row of G.
 class JointCovariance {
  public:
-  /// The derivatives of a parameter by the elements of the blocks; absent ones are 0.
+  /// Derivatives of one parameter, by the index of the block element. Absent derivatives are 0.
   using Gradient = std::map<Eigen::Index, double>;
 
-  /// Puts a block after those before it and returns the place of its first element.
+  /// Appends a block and returns the index of its first element.
   Eigen::Index add_block(const Eigen::MatrixXd& covariance);
-  /// Sets the dependence of a parameter on the blocks; replaces an earlier one.
+  /// Sets the gradient of a parameter; replaces an earlier gradient.
   void set(ParameterId id, Gradient gradient) { gradients_[id] = std::move(gradient); }
   bool has(ParameterId id) const { return gradients_.contains(id); }
   double variance(const Gradient& gradient) const;
   const Gradient& gradient(ParameterId id) const { return gradients_.at(id); }
-  /// Over the parameters set, in the order of ParameterId; symmetric to the last bit.
+  /// Covariance of the parameters with a gradient, in the order of ParameterId. Exactly symmetric.
   Covariance covariance() const;
 
  private:

@@ -16,7 +16,7 @@ double scale_of(const Posterior::Alternative& alternative, Eigen::Index i) {
   return std::sqrt(alternative.covariance(i, i));
 }
 
-/// P(X_i <= x). A number of scale 0 is known exactly.
+/// P(X_i <= x). A number with variance 0 is known exactly.
 double probability_below(const Posterior& posterior, Eigen::Index i, double x) {
   double sum = 0.0;
   for (const Posterior::Alternative& alternative : posterior.alternatives) {
@@ -51,7 +51,8 @@ Eigen::MatrixXd Posterior::covariance() const {
 }
 
 double Posterior::quantile(Eigen::Index i, double p) const {
-  // It is between the smallest and the largest quantile of the alternatives.
+  // The quantile of a mixture is between the smallest and the largest of its alternatives'
+  // quantiles.
   Interval bracket;
   for (const Alternative& k : alternatives) {
     const double own = k.centre(i) + scale_of(k, i) * students_t_quantile(p, k.dof(i));
@@ -85,7 +86,7 @@ void set_uncertainty(const Posterior& posterior, Eigen::Index i, double slope,
   for (std::size_t q = 0; q < kQuantiles.size(); ++q) {
     quantiles[q] = to_value(posterior.quantile(i, kQuantiles[q].probability));
   }
-  // Up to rounding, the value is between them: METHODS.md, "Noise and intervals".
+  // The value is between these quantiles (kLeastOwnWeight); min and max only remove rounding.
   estimate.ci95 = Interval{std::min(quantiles.front(), *estimate.value),
                            std::max(quantiles.back(), *estimate.value)};
   estimate.quantiles = quantiles;

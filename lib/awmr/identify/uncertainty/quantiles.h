@@ -1,12 +1,13 @@
-/// Quantiles for intervals. Private to identify/.
+/// Quantiles of distributions, for intervals and tests. Private to identify/.
 #pragma once
 
 namespace awmr {
 
-inline constexpr double kNormalQuantile995 = 2.576;  ///< two-sided 99 % of the standard normal
+/// 99.5 % quantile of the standard normal distribution: two-sided 99 % interval.
+inline constexpr double kNormalQuantile995 = 2.576;
 
-/// Ratio of the half width of a 95 % interval to its standard error: the 97.5 % quantile of
-/// Student's t. Precondition: degrees_of_freedom > 0.
+/// 97.5 % quantile of Student's t: half width of a 95 % interval in standard errors. Precondition:
+/// degrees_of_freedom > 0.
 double t_quantile_95(double degrees_of_freedom);
 
 /// 95 % quantile of the chi-squared distribution. Precondition: degrees_of_freedom > 0.
