@@ -19,8 +19,8 @@ struct TableShape {
   uint32_t mantissa_bits;  ///< ResistanceTable::mantissa_bits
 };
 
-/// All parameters of the firmware. It has only 32-bit members and so no padding: its bytes, and
-/// their check sum, are the same on every little-endian machine.
+/// Parameters that every firmware has. All members have 32 bits, so there is no padding: the bytes
+/// and their check sum are the same on every little-endian machine.
 struct ParameterBlock {
   float surge_alpha_beta[2];  ///< a1, b1
   float yaw_alpha_beta[2];    ///< a3, b3
@@ -31,7 +31,7 @@ struct ParameterBlock {
 };
 
 /// Additional parameters for motors with a dead zone or back-EMF, or for friction that does not
-/// vanish at rest. It also has only 32-bit members.
+/// vanish at rest. All members have 32 bits.
 struct RestBlock {
   float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
   float surge_rest_speed;  ///< RestingTable::rest_speed of g1, m/s
@@ -41,8 +41,8 @@ struct RestBlock {
   float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
 };
 
-/// Additional parameters for gains that were tuned with a disturbance observer. It also has only
-/// 32-bit members.
+/// Additional parameters for gains that were tuned with a disturbance observer. All members have 32
+/// bits.
 struct ObserverBlock {
   float bandwidth_radps;  ///< L
   float yaw_max_m;        ///< largest moment that is compensated, over F_max
@@ -70,7 +70,7 @@ inline uint32_t crc32_of_parameters(const ParameterBlock* block, const Resistanc
   return ~(observer != 0 ? crc32_of_flash(crc, observer, sizeof *observer) : crc);
 }
 
-/// Sets the resistance in the compiled form: from the block's table, or from the block's alpha and
+/// Sets the resistance in the form that is compiled in: a table, or the power law with alpha and
 /// beta.
 inline void set_resistance(const TableShape* shape, const float* /*alpha_beta*/,
                            const ResistanceLine* lines, ResistanceTable& table) {

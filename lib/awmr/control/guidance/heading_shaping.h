@@ -1,4 +1,4 @@
-/// Heading reference shaping: a filter that gives psi_d with its rate and acceleration.
+/// Filter for the heading reference, which gives a smooth psi_d with its rate and acceleration.
 /// Freestanding C++14.
 #pragma once
 

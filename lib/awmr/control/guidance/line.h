@@ -66,8 +66,8 @@ struct LineMotion {
   T sample_time_s;  ///< of the guidance, > 0
 };
 
-/// Range of a law's parameter in files. In the law, it is `unit` times as large (rad in place of
-/// deg).
+/// Range of a law's parameter in scenario files. The law stores the file's value times `unit`, which
+/// is pi/180 for an angle in deg and otherwise 1.
 struct LawParameter {
   double min;
   double max;
@@ -75,7 +75,8 @@ struct LawParameter {
   double unit;
 };
 
-/// Lengths in files, m. Below the shortest one, a vehicle would turn for every rounding error.
+/// Range of lookahead distances in scenario files, m. With a shorter one, the vehicle would turn for
+/// every rounding error.
 constexpr LawParameter lookahead_range() { return {1e-3, 1e6, false, 1.0}; }
 
 /// Corners joined by line segments, driven from the first to the last. Two corners are one line.
@@ -84,12 +85,11 @@ constexpr LawParameter lookahead_range() { return {1e-3, 1e6, false, 1.0}; }
 ///   sideslip_compensation     true, as in the paper: beta is subtracted, so that the course over
 ///                             ground is controlled and a vehicle that slips stays on the line;
 ///                             false: for vehicles that cannot measure v
-///   kUsesCorner               whether corner_m below has a meaning
+///   kUsesCorner               whether the law uses corner_m below
 ///   name()                    its name in files
 ///   parameters(law, field)    calls field(key, parameter, LawParameter) for each parameter
-/// with the function approach_rad(law, segment, motion, memory), which guide() subtracts from the
-/// segment's direction, and, where the defaults below do not suit, is_passed() and
-/// distance_off_m().
+/// and the function approach_rad(law, segment, motion, memory), whose result guide() subtracts from
+/// the segment's direction. A law can also replace is_passed() and distance_off_m() below.
 template <class T, class Law>
 struct Polyline {
   const Position<T>* points_m;  ///< the corners in the world frame, m; not owned, `count` of them
@@ -98,7 +98,7 @@ struct Polyline {
   /// corner is rounded on its inside. The last segment is driven to its end. 0: corners are
   /// overshot.
   T corner_m;
-  Law law;  ///< approach to each segment
+  Law law;  ///< parameters of the law
 };
 
 /// Progress along the corners.
@@ -130,7 +130,8 @@ AWMR_INLINE bool is_passed(const Law&, const AlongSegment<T>& s, const T& corner
   return !(s.length_m - s.along_m > corner_m);
 }
 
-/// Distance from the line, m, as in AlongSegment, for the record. `segment`: the current one.
+/// Distance from the line for PolylineGuidance, m, left positive. `segment`: index of the current
+/// segment.
 template <class T, class Law>
 AWMR_INLINE T distance_off_m(const Polyline<T, Law>&, int /*segment*/,
                              const Position<T>& /*position_m*/, const AlongSegment<T>& s) {

@@ -1,4 +1,4 @@
-/// Parts of the guidance: for each law its parameters and its state. Freestanding C++14.
+/// Optional parts of the guidance: parameters and state of each. Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
@@ -13,7 +13,7 @@
 
 namespace awmr {
 
-/// Pose and motion of the vehicle for the guidance of one step. Time is the type of its clock: ms
+/// Pose and motion of the vehicle for the guidance of one step. Time is the type of the clock: ms
 /// that can wrap on the chip, s in the simulator.
 template <class T, class Time>
 struct VehiclePose {
@@ -49,10 +49,10 @@ struct PathFollower {
   bool is_started;  ///< the first step along the path was made
 };
 
-/// Reduces the speed before the last waypoint, or the line's end.
+/// Reduces the speed before the last waypoint, or before the end of the line.
 template <class T>
 struct SlowDown {
-  T distance_m;  ///< m before the end; 0: disabled
+  T distance_m;  ///< distance from the end at which the speed begins to fall, m; 0: disabled
 };
 
 /// Avoids obstacles.
