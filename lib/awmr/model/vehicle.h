@@ -1,4 +1,4 @@
-/// Vehicle data given before any trial. Its file: vehicle_file.h.
+/// Vehicle data that are known before any trial; vehicle_file.h reads them.
 #pragma once
 
 #include <map>
@@ -72,7 +72,7 @@ struct Vehicle {
   /// P_s, W, > 0: power of one motor under full voltage at standstill, where all of it becomes
   /// heat; absent: electrical work is not reported in joules.
   std::optional<double> motor_stall_power_w;
-  /// deg/s, > 0: the fastest turn for which yaw resistance is known; absent: the range of the
+  /// deg/s, > 0: largest yaw rate for which the yaw resistance is known; absent: the largest of the
   /// turning trials.
   std::optional<double> yaw_rate_max_degps;
 
