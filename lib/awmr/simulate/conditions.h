@@ -1,4 +1,4 @@
-/// Effects on a real vehicle that are not in the model: sensor noise, latency and actuator lag.
+/// Conditions for tuning that are not in the model: sensor noise, latency and motor lag.
 #pragma once
 
 #include "awmr/model/vehicle.h"
@@ -22,10 +22,10 @@ struct LoopConditions {
   double motor_time_constant_s = 0.02;
 };
 
-/// The conditions of the vehicle file, with the defaults above.
+/// The conditions that vehicle.json gives, with the defaults above for missing ones.
 LoopConditions conditions_of(const Vehicle& vehicle);
 
-/// The scenario under these conditions. Its own sensors and actuators are unchanged.
+/// The scenario with these conditions. Sensors or actuators that the scenario has are kept.
 Scenario under(const LoopConditions& conditions, Scenario scenario);
 
 }  // namespace awmr
