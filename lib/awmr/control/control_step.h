@@ -20,7 +20,7 @@ struct Command {
   Allocation<T> allocation;  ///< forces and angle, within their limits
 };
 
-/// Request to the allocation, its limits, and the command that it fills.
+/// Input of the allocation (request and limits), and the command that the allocation fills in.
 template <class T>
 struct AllocationRequest {
   const SteeringGeometry& geometry;

@@ -2,12 +2,12 @@
 ///
 /// Characters are received between the steps. The work on a sentence is spread over several steps,
 /// so that all take about the same time:
-///   1. Convert its numbers.
+///   1. Convert the numbers of the sentence.
 ///   2. Accept or reject the fix.
 ///   3. Publish position and speed, for the autopilot in this step.
-///   4. Compute the displacement along the heading.
-///   5. Compare it with command and speed.
-///   6. Compare it with the heading.
+///   4. Compare the displacement since the last fix with the command.
+///   5. Compare the displacement with the speed.
+///   6. Compare the displacement with the heading.
 ///   7. Compare the heading with the commanded one.
 /// If the next sentence ends earlier, a fix in step 1 or 2 is dropped, and the work of steps 3 to 7
 /// is done at once. With a long sample time (spreads_work false), one step does all of the work.

@@ -42,7 +42,7 @@ SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants
                   c.force_max)};
 }
 
-/// Motor commands that make these motor drives after the motors' dead zone.
+/// Motor commands whose parts beyond the dead zone are these drives.
 template <class T>
 SideForces<T> with_dead_zone(const SideForces<T>& drive, const T& dead_zone) {
   return {with_dead_zone(drive.left, dead_zone), with_dead_zone(drive.right, dead_zone)};

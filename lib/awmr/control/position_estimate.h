@@ -84,7 +84,7 @@ class PositionEstimate {
   T variance_m2_ = T(0.0);  // P
   uint16_t steps_ = 0;      // since the last fix
   uint8_t since_ = 0;       // steps since the newest element of the ring
-  uint8_t newest_ = 0;      // its index
+  uint8_t newest_ = 0;      // index of the newest element
   uint8_t newer_ = 0;       // index of the first element newer than z
   uint8_t phase_ = 0;       // next part of travel(): 0, 1 or 2
   uint8_t work_ = 0;        // steps of work left for the fix; 0: none

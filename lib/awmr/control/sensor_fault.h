@@ -21,11 +21,11 @@ namespace awmr {
 enum SensorFault : uint8_t {
   kSensorGood = 0,
   kGyroSilent = 1,         ///< the gyroscope does not answer
-  kGyroFrozen = 2,         ///< the same raw word for kFrozen_ms
-  kGyroRange = 3,          ///< its range register was changed: the sensor was reset
-  kGyroNotCalibrated = 4,  ///< not at rest long enough since the start
+  kGyroFrozen = 2,         ///< the raw word of the gyroscope did not change for kFrozen_ms
+  kGyroRange = 3,          ///< the range register of the gyroscope changed: the sensor was reset
+  kGyroNotCalibrated = 4,  ///< the vehicle was not at rest long enough since the start
   kCompassSilent = 5,      ///< no new field for kCompassSilent_ms
-  kCompassFrozen = 6,      ///< the same three raw words for kFrozen_ms
+  kCompassFrozen = 6,      ///< the raw words of the compass did not change for kFrozen_ms
   kHeadingOutOfStep = 7,   ///< compass heading and integrated yaw rate disagree
   kGpsSilent = 8,          ///< no complete sentence within GpsLimits::timeout_ms
   kGpsNoFix = 9,           ///< the receiver reports no fix, or fields are empty or damaged

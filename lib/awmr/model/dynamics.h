@@ -102,8 +102,8 @@ WheelSpeeds<T> wheel_speeds(const T& front_axle_m, const T& half_track_m, const 
   return {left_mps * cos_d + across_mps, right_mps * cos_d + across_mps, left_mps, right_mps};
 }
 
-/// F' of a motor whose wheel rolls at w m/s, over F_max. `drive` is e, its command beyond the dead
-/// zone: the voltage divided by the voltage for F_max at standstill.
+/// Force F' of a motor whose wheel rolls at w m/s, over F_max. `drive` is e, the motor command beyond
+/// the dead zone: the voltage divided by the voltage for F_max at standstill.
 ///   F' = e - k_e w    for e != 0: reduced by the back-EMF of the turning motor
 ///   F' = 0            for e  = 0: the motor is off and its wheel rolls freely
 template <class T>

@@ -111,7 +111,8 @@ struct EstimatorReport {
   /// Weight in the average over noise models, (0, 1]: the probability that this estimator's `noise`
   /// is right; absent: not averaged.
   std::optional<double> weight = {};
-  std::optional<double> aicc = {};  ///< corrected Akaike criterion; less is better, same noise only
+  /// Corrected Akaike criterion: less is better. Compare only estimators with the same `noise`.
+  std::optional<double> aicc = {};
   std::vector<Diagnostic> diagnostics = {};
   std::vector<LeaveOneOut> leave_one_out = {};
   std::vector<SearchStart> starts = {};

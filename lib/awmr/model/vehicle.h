@@ -56,7 +56,7 @@ struct Vehicle {
   double steering_time_constant_s = 0.0;   ///< T, s, > 0: the servo's first-order lag
   double sample_time_s = 0.0;              ///< T_s, s, > 0: between two steps of the controller
   std::optional<double> yaw_inertia_kgm2;  ///< Iz, kg m^2, > 0, measured; absent: the box formula
-  std::optional<double> sway_alpha;        ///< a_s of g2, s/m, > 0; absent: a log must identify it
+  std::optional<double> sway_alpha;        ///< a_s of g2, s/m, > 0; absent: common tyres, or a log
   Interval surge_beta_range{0.0, 2.5};     ///< range of b1 in fits, 0 <= lo < hi
   Interval yaw_beta_range{0.0, 4.0};       ///< range of b3 in fits, 0 <= lo < hi
 

@@ -216,7 +216,7 @@ Json vehicle_to_json(const Vehicle& vehicle) {
 }
 
 std::string vehicle_schema() {
-  return json_schema_text(kVehicleSchema, "A vehicle: what is known before any trial",
+  return json_schema_text(kVehicleSchema, "A vehicle: data known before any trial",
                           [](JsonObject& json) { vehicle_from_json(json); });
 }
 

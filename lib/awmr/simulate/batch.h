@@ -16,8 +16,8 @@
 
 namespace awmr {
 
-/// Standard normals by sample, for the sensor noise of a run. Runs that differ only in plant, gains
-/// or mode share them, because drawing them takes a tenth of the time of a run.
+/// Standard normal numbers for the sensor noise of a run, by sample. Runs that differ only in plant,
+/// gains or mode can share these numbers. Drawing them takes a tenth of the time of a run.
 struct DrawnNoise {
   std::vector<double> heading, yaw_rate, speed;  ///< empty: the sensor has no noise
 };
@@ -41,8 +41,8 @@ struct BatchRun {
 struct BatchArithmetic {
   /// "avx512", "avx2", "neon"; "scalar": by simulate(), one run at a time.
   std::string_view instructions;
-  /// Results of two machines have the same bytes only if this is the same: "fused" (a b + c is
-  /// rounded once) for every vector instruction set, "scalar" for simulate().
+  /// "fused" (a b + c is rounded once) for every vector instruction set, "scalar" for simulate().
+  /// Results of two machines have the same bytes only if their `rounding` is the same.
   std::string_view rounding;
 };
 

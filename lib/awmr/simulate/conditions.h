@@ -6,9 +6,9 @@
 
 namespace awmr {
 
-/// Noise and latency of the sensors, lag of the motors. vehicle.json gives them (`noise`,
-/// `noise_correlation_s`, `latency_s`, `motor`); these are the defaults: a compass, a MEMS gyro and
-/// a coarse encoder, with a latency of one sample, and small brushed motors.
+/// Noise and latency of the sensors, and lag of the motors. vehicle.json can give these values
+/// (`noise`, `noise_correlation_s`, `latency_s`, `motor`). The defaults are those of a compass, a
+/// MEMS gyroscope and a coarse encoder with 20 ms of latency, and of small brushed motors.
 struct LoopConditions {
   double heading_noise_deg = 1.0;
   double yaw_rate_noise_degps = 0.5;

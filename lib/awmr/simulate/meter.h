@@ -13,14 +13,14 @@ namespace awmr {
 /// Data of the vehicle that the metrics need, from the limits of its controller.
 template <class T>
 struct MetricsVehicle {
-  T front_axle_m;      ///< l_f
-  T half_track_m;      ///< d
+  T front_axle_m;      ///< l_f, m
+  T half_track_m;      ///< d, m
   T force_max;         ///< F'max of one wheel, without the dead zone
   T command_max;       ///< the command that makes F'max
   T command_min;       ///< the command that makes F'min
   T steering_max_rad;  ///< d_max; 0: no steering
-  T dead_zone;         ///< F'0 of the motors
-  T back_emf_s_per_m;  ///< k_e of the motors
+  T dead_zone;         ///< F'0 of the motors, over F_max
+  T back_emf_s_per_m;  ///< k_e of the motors, s/m
   T rear_driven;       ///< 1: all wheels are driven; 0: only the front wheels
 };
 
@@ -80,7 +80,7 @@ struct MetricsAccumulator {
   T speed_least_mps = T(0.0);
   T speed_itae_m_s = T(0.0);
   T steering_rate2_degps2 = T(0.0);  ///< sum of the squared rates of the commanded angle
-  // Headings: sums over all steps, then those of the current step.
+  // Heading steps: values over all steps, then values of the current step.
   T settling_s = T(0.0);
   T never_settled = T(0.0);  ///< flag: a step ended without settling
   T overshoot_deg = T(0.0);
@@ -107,7 +107,7 @@ namespace meter {
 constexpr double kReachedShare = 0.001;   ///< band of a reached speed, over the commanded speed
 constexpr double kSettledShare = 0.02;    ///< half width of the settling band, over the step's size
 constexpr double kSettledLeastDeg = 0.5;  ///< smallest half width of the settling band
-constexpr double kMovingMps = 0.05;       ///< below it the sideslip angle has no meaning
+constexpr double kMovingMps = 0.05;       ///< speed below which the sideslip angle is not evaluated
 
 using math::larger;
 
@@ -265,7 +265,7 @@ void measure_work(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, bo
     m.tyre_work += T(dt_s) * m.tyre_power_mps;
   } else {
     m.tyre_work += T(dt_s) * m.yaw_resistance_m * m.r_radps;
-    m.tyre_work += T(dt_s) * m.tyre_power_mps;  // of scrub
+    m.tyre_work += T(dt_s) * m.tyre_power_mps;  // the power of scrub
   }
   m.saturation_s = select(m.limited > T(0.0), T(m.saturation_s + T(dt_s)), m.saturation_s);
   m.steering_travel_deg += abs(degrees(row.state.steering_rad - m.steering_rad));

@@ -103,8 +103,8 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
 /// as Model::plant and check_observer_rate.
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
 
-/// Simulates the model with controller_for() it, at the vehicle's sample time. The scenario's corner
-/// changes the plant, but not the controller. A model without turning parameters
+/// Simulates the model with the controller of controller_for(), at the vehicle's sample time. The
+/// scenario's corner changes the plant, but not the controller. A model without turning parameters
 /// (Model::simulated_motion) can only drive straight. Errors (input): as plant_for, Model::plant,
 /// check_mode, failure_of and check_straight (straight.h).
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,

@@ -144,7 +144,7 @@ struct ControlOptions {
   struct Observer {
     double bandwidth_radps = 0.0;  ///< L of DisturbanceObserver, > 0
     double yaw_max_m = 0.0;        ///< largest estimated disturbance: moment over F_max, m, > 0
-    double surge_max = 0.0;        ///< the same along x: force over F_max, > 0
+    double surge_max = 0.0;  ///< largest estimated disturbance in surge: force over F_max, > 0
     /// true: the observer uses the command after the limits. false: it uses the command before them,
     /// so that a saturated actuator looks like a disturbance and the estimate winds up.
     bool anti_windup = true;

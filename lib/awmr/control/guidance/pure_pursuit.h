@@ -28,7 +28,7 @@ struct PurePursuit {
 ///   s_g = max(0, s + sqrt(L^2 - e^2))
 /// s and e are the vehicle's distances along and to the left of the segment. The goal is the farther
 /// of the two points of the line at the distance L from the vehicle. If the line is farther away
-/// than L, it is the nearest point of the line. It is never before the segment's start.
+/// than L, the goal is the nearest point of the line. The goal is never before the segment's start.
 template <class T>
 T goal_along_m(const PurePursuit<T>& law, const AlongSegment<T>& s) {
   using math::sqrt;

@@ -42,7 +42,8 @@ struct WaypointGuidance {
   bool finished;  ///< no waypoint is left: psi_d holds the last line of sight
 };
 
-/// True beyond the perpendicular to the leg through its end. Never true for a leg of zero length.
+/// True if the position is beyond the perpendicular to the leg through the end of the leg. Never
+/// true for a leg of zero length.
 template <class T>
 bool is_past(const Position<T>& position_m, const Position<T>& leg_start_m,
              const Position<T>& leg_end_m) {
