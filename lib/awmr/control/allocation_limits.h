@@ -38,7 +38,7 @@ struct AllocationLimits {
 template <class T>
 struct AllocationConstants {
   T tau_speed_min;       ///< n F'min of n driven wheels
-  T tau_speed_max;       ///< n F'max
+  T tau_speed_max;       ///< n F'max of n driven wheels
   T force_min;           ///< F'min
   T force_max;           ///< F'max
   T front_axle_m;        ///< l_f, m

@@ -12,7 +12,7 @@ namespace awmr {
 
 /// Why the vehicle is disarmed.
 enum class DisarmReason : uint8_t {
-  kNone = 0,     ///< it is armed
+  kNone = 0,     ///< the vehicle is armed
   kReset = 1,    ///< not armed since the start
   kStop = 2,     ///< the command STOP
   kTimeout = 3,  ///< no valid command for AWMR_COMMAND_TIMEOUT_MS

@@ -20,7 +20,7 @@ template <class G, class P = NoParts>
 struct Autopilot : GuidanceLaws<float, P>, P::Observation, P::Motors, P::Positioning {
   PreparedController<float, G> controller;
   SafetyLimits limits;
-  uint32_t last_step_ms;           ///< valid once has_stepped
+  uint32_t last_step_ms;           ///< time of the last step, valid if has_stepped
   DirectedSpeed<float> direction;  ///< direction of travel, for a speed without a sign
   uint32_t direction_ms;           ///< InputTimes::speed_ms of the last reading
   float mass_inverse;              ///< 1/m'

@@ -38,8 +38,8 @@ struct ControlConstants {
 /// The controller in the form that the laws use: resistances and precomputed constants.
 template <class T, class G = Resistance<T>>
 struct PreparedController {
-  G surge;  ///< g1
-  G yaw;    ///< g3
+  G surge;  ///< g1: surge resistance
+  G yaw;    ///< g3: yaw resistance
   ControlConstants<T> constants;
 };
 

@@ -27,7 +27,7 @@ class GpsReceiver {
  public:
   float x_m = 0.0F;
   float y_m = 0.0F;
-  float speed_mps = 0.0F;  ///< without a sign
+  float speed_mps = 0.0F;  ///< speed over ground, without a sign
   uint32_t time_ms = 0;    ///< arrival time of the fix's sentence, valid once has_fix()
 
   constexpr explicit GpsReceiver(const Limits& limits = Limits()) : check_(limits) {}

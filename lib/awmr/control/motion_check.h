@@ -12,7 +12,7 @@ namespace awmr {
 struct GpsContext {
   float psi_rad;      ///< heading
   float psi_ref_rad;  ///< commanded heading
-  int8_t direction;   ///< of the commanded speed: 1, 0 or -1
+  int8_t direction;   ///< sign of the commanded speed: 1, 0 or -1
   /// False: a position out of reach is accepted after ten fixes (2 s at 5 Hz). True: never.
   bool is_armed;
 };
@@ -130,15 +130,15 @@ class MotionCheck {
   GpsMotion motion_ = {0.0F, 0.0F, 0.0F, 0.0F};  // valid if a comparison is due
   GpsContext context_ = {0.0F, 0.0F, 0, false};
   float window_s_ = 0.0F;         // time since the window began
-  float window_m_ = 0.0F;         // along the heading since then
+  float window_m_ = 0.0F;         // displacement along the heading since then
   float window_left_m_ = 0.0F;    // to the left of the heading, sum over straight motions
   float travelled_m_ = 0.0F;      // integral of the speed since then
   float same_m_ = 0.0F;           // integral of the speed while the position did not change
-  float against_m_ = 0.0F;        // against the commanded direction
-  float ahead_m_ = 0.0F;          // of the last motion, valid from Due::kSpeed on
+  float against_m_ = 0.0F;        // displacement against the commanded direction
+  float ahead_m_ = 0.0F;          // of the last motion along the heading, from Due::kSpeed on
   float track_s_ = 0.0F;          // time of the motion since the track was compared
-  float track_ahead_m_ = 0.0F;    // sum of ahead since then
-  float track_left_m_ = 0.0F;     // sum of left
+  float track_ahead_m_ = 0.0F;    // displacement along the heading since then
+  float track_left_m_ = 0.0F;     // displacement to the left of the heading since then
   float track_psi_rad_ = 0.0F;    // heading at the previous fix
   float off_course_mrad_ = 0.0F;  // integral of the heading difference over the distance
   float course_rad_ = 0.0F;       // commanded heading at the previous fix

@@ -72,17 +72,17 @@ class PositionEstimate {
   static constexpr uint8_t kWait = 5;
 
   Filter filter_;
-  Position<T> travelled_m_ = {};         // D
+  Position<T> travelled_m_ = {};         // D: dead-reckoned displacement
   Position<T> step_m_ = {};              // increment of D per step
   Position<T> direction_ = {};           // (cos psi, sin psi)
-  Position<T> offset_m_ = {};            // o
-  Position<T> shown_m_ = {};             // c
+  Position<T> offset_m_ = {};            // o: estimated offset
+  Position<T> shown_m_ = {};             // c: applied correction
   Position<T> follow_m_ = {};            // increment of c per step
   Position<T> innovation_m_ = {};        // z, then nu
   Position<T> ring_m_[kTravelled] = {};  // D every `stride` steps
   T age_s_ = T(0.0);        // age of z; after locate(): fraction of the way from newer_ to older
-  T variance_m2_ = T(0.0);  // P
-  uint16_t steps_ = 0;      // since the last fix
+  T variance_m2_ = T(0.0);  // P: variance of o
+  uint16_t steps_ = 0;      // steps since the last fix
   uint8_t since_ = 0;       // steps since the newest element of the ring
   uint8_t newest_ = 0;      // index of the newest element
   uint8_t newer_ = 0;       // index of the first element newer than z

@@ -26,7 +26,7 @@ struct CompassCalibration {
   double residual = 0.0;         ///< standard deviation of |c| over `field`
   double heading_error_deg = 0;  ///< 97.5 % bound of the fit's heading uncertainty, worst direction
   double turned_deg = 0.0;       ///< from the first row to the last, left positive
-  double largest_gap_deg = 0.0;  ///< between two adjacent directions
+  double largest_gap_deg = 0.0;  ///< largest angle between two adjacent directions of the field
   double declination_deg = 0.0;  ///< from true north to magnetic north, east positive
 };
 

@@ -15,7 +15,7 @@ enum class Effect {
   kContradiction,  ///< a file contradicts itself or another in units, signs or left and right
   kDoubt,          ///< any other warning
   kAssumption,     ///< a value that is not supported by data
-  kNote,           ///< does not change any number
+  kNote,           ///< information that does not change any number
 };
 
 /// An error is a refusal. A warning has the effect of its code, else kDoubt; a note is kNote unless

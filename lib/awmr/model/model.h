@@ -21,7 +21,7 @@ namespace awmr {
 
 /// Origin of a number.
 enum class Source {
-  kGiven,    ///< by the user, in vehicle.json
+  kGiven,    ///< given by the user in vehicle.json
   kDerived,  ///< computed from other numbers of the model, such as I'z from m' and Iz
   kFitted,   ///< estimated from trials
 };
@@ -59,7 +59,7 @@ struct Estimate {
 
 /// The covariance of the fitted parameters.
 struct Covariance {
-  std::vector<ParameterId> parameters;      ///< of the rows and columns
+  std::vector<ParameterId> parameters;      ///< the parameters of the rows and columns, in order
   std::vector<std::vector<double>> matrix;  ///< square, symmetric, over `parameters`
 };
 
@@ -71,7 +71,7 @@ struct YawScrub {
   double std_error_m = 0.0;  ///< m, > 0: from the turns' scatter and g3
   Interval ci95_m;           ///< 95 % confidence interval
   int rows = 0;              ///< turns from which it was estimated, >= 3
-  Interval yaw_rate_radps;   ///< of those turns, > 0
+  Interval yaw_rate_radps;   ///< range of the yaw rates of these turns, > 0
   /// Range of the moment, with its uncertainty, from the slowest to the fastest of those turns, if
   /// it changes with the yaw rate; absent if no change is detected.
   std::optional<Interval> changing_m = {};
@@ -85,9 +85,9 @@ std::string_view trial_of(const Vehicle& vehicle, ParameterId id);
 /// Types of motion, by the parameters in their equations.
 enum class Motion {
   kSteadySurge,  ///< straight ahead at constant speed: g1
-  kSteadyTurn,   ///< a constant yaw rate: g3
+  kSteadyTurn,   ///< turn at constant yaw rate: g3
   kStraight,     ///< straight ahead, wheels straight, v = r = 0: g1 and m'
-  kPlanar,       ///< any: every parameter
+  kPlanar,       ///< any motion: all parameters
 };
 /// True if the motion's equations contain the parameter.
 bool takes(Motion motion, ParameterId id);

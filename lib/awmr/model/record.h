@@ -47,8 +47,8 @@ inline constexpr NameTable<FitSubject, 4> kFitSubjectNames{{{"surge", FitSubject
 enum class Estimator {
   kLogLinear,   ///< tables: a line through the logarithms, as in the paper
   kNonlinear,   ///< tables: nonlinear least squares
-  kStopTime,    ///< mass: the time to rest
-  kCurve,       ///< mass: a whole coast-down curve
+  kStopTime,    ///< mass: from the stop times of coast-downs
+  kCurve,       ///< mass: from whole coast-down curves
   kCombined,    ///< mass: weighted mean of stop time and curve
   kJoint,       ///< surge law and mass together
   kTrajectory,  ///< logs: the whole model, driven by the logged commands
@@ -102,7 +102,7 @@ struct EstimatorReport {
   std::string noise;  ///< noisy quantity: "log force", "force", "speed", "time", ...
   std::vector<EstimatorParameter> parameters;
   double residual_std = 0.0;      ///< in the unit of the noise
-  int rows_used = 0;              ///< of the tables or logs
+  int rows_used = 0;              ///< number of rows of the tables or logs that were used
   int degrees_of_freedom = 0;     ///< of the residuals: rows minus parameters
   int rank = 0;                   ///< number of parameter combinations that the data determine
   double condition_number = 0.0;  ///< of the problem, >= 1; infinite if rank-deficient
@@ -120,7 +120,7 @@ struct EstimatorReport {
 
 /// One row of a trial as used. The model stores it so that later steps need no CSV.
 struct TrialPoint {
-  TrialKind kind = TrialKind::kSurge;  ///< of a table
+  TrialKind kind = TrialKind::kSurge;  ///< not kLog
   std::string file;
   int line = 0;
   /// surge: tau_speed; turning: tau_turn in m; coastdown: initial speed in m/s

@@ -19,8 +19,8 @@ namespace awmr {
 /// Deceleration by Coulomb friction: c divided by the inertia.
 template <class T>
 struct FrictionRates {
-  T surge_mps2;  ///< c1/m', >= 0
-  T yaw_radps2;  ///< c3/I'z, >= 0
+  T surge_mps2;  ///< c1/m', m/s^2, >= 0
+  T yaw_radps2;  ///< c3/I'z, rad/s^2, >= 0
   bool any() const { return value_of(surge_mps2) > 0.0 || value_of(yaw_radps2) > 0.0; }
 };
 

@@ -35,7 +35,7 @@ struct LoopOptions {
   double sample_time_s = 0.01;
   std::size_t samples = 0;           ///< index of the last sample, from 0
   std::optional<int> substeps = {};  ///< RK4 steps per sample; absent: substeps_for() each vehicle
-  bool keeps_rows = false;           ///< take_run() has rows
+  bool keeps_rows = false;           ///< the runs of take_run() have rows
   bool has_metrics = false;          ///< metrics() may be called
 };
 
@@ -64,7 +64,7 @@ class ClosedLoop {
     RunDisturbance disturbance;
     Sensed sensed = {};
     std::optional<ScenarioGuidance> guidance = {};  ///< set after the first measurement
-    PathRow path = {};                              ///< of the present sample
+    PathRow path = {};                              ///< guidance columns of the present sample
     /// Reason why the current sample ends the run; kDuration: it does not.
     RunEnd ending = RunEnd::kDuration;
     std::vector<RunRow> rows = {};

@@ -15,7 +15,7 @@ template <class Row>
 struct LoopRuns {
   ControllerSetup control;
   MetricsTask task;
-  MetricsTime time;  ///< of the present sample
+  MetricsTime time;  ///< time data of the present sample
 
   Vehicles<Row> vehicles;
   RunController<Row> controller;

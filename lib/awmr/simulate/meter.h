@@ -18,7 +18,7 @@ struct MetricsVehicle {
   T force_max;         ///< F'max of one wheel, without the dead zone
   T command_max;       ///< the command that makes F'max
   T command_min;       ///< the command that makes F'min
-  T steering_max_rad;  ///< d_max; 0: no steering
+  T steering_max_rad;  ///< d_max, rad; 0: no steering
   T dead_zone;         ///< F'0 of the motors, over F_max
   T back_emf_s_per_m;  ///< k_e of the motors, s/m
   T rear_driven;       ///< 1: all wheels are driven; 0: only the front wheels
@@ -38,9 +38,9 @@ struct MetricsTask {
 template <class T>
 struct MetricsRow {
   State<T> state;
-  SideForces<T> force;     ///< commanded
+  SideForces<T> force;     ///< commanded forces, over F_max
   WheelForces<T> acting;   ///< applied over the sample that ends here: RunRow::acting
-  T steering_command_rad;  ///< d_ro
+  T steering_command_rad;  ///< d_ro: commanded steering angle
   T yaw_resistance_m;      ///< g3(r) of the controller's model
   T goal_rad;              ///< the heading commanded by the guidance
   T cross_track_m;         ///< distance from the current leg, line or path
@@ -76,7 +76,7 @@ struct MetricsAccumulator {
   T cross_track_m2 = T(0.0);
   T strayed = T(0.0);  ///< flag: beyond the tolerance in the second half
   T clearance_min_m = T(0.0);
-  T speed_reached = T(0.0);  ///< flag
+  T speed_reached = T(0.0);  ///< flag: the commanded speed was reached
   T speed_least_mps = T(0.0);
   T speed_itae_m_s = T(0.0);
   T steering_rate2_degps2 = T(0.0);  ///< sum of the squared rates of the commanded angle
@@ -97,7 +97,7 @@ struct MetricsAccumulator {
   WheelSpeeds<T> rolling{T(0.0), T(0.0), T(0.0), T(0.0)};
   T yaw_resistance_m = T(0.0), r_radps = T(0.0);
   T tyre_power_mps = T(0.0);
-  T limited = T(0.0);  ///< flag
+  T limited = T(0.0);  ///< flag: a command was at a limit
   T x_m = T(0.0), y_m = T(0.0), steering_rad = T(0.0);
   T steering_command_rad = T(0.0), left = T(0.0), right = T(0.0);
 };

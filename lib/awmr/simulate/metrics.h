@@ -20,7 +20,7 @@ struct Metrics {
   std::optional<double> settling_time_s;
   /// Largest travel beyond a commanded heading in the direction of its step, deg, >= 0.
   std::optional<double> overshoot_deg;
-  std::optional<double> heading_iae_degs;    ///< integral of |e|
+  std::optional<double> heading_iae_degs;    ///< integral of the heading error |e|, deg s
   std::optional<double> heading_itae_degs2;  ///< integral of t |e|, t from each step (for tuning)
   std::optional<double> cross_track_rms_m;   ///< RMS distance from the current leg, line or path
   double path_length_m = 0.0;                ///< length of the driven path
@@ -30,7 +30,7 @@ struct Metrics {
   double speed_itae_m_s = 0.0;  ///< integral of t |u_d - u| (for tuning)
   /// Largest sideslip |atan2(v, |u|)|, for driving forward and backward, at speeds above 0.05 m/s.
   double sideslip_max_deg = 0.0;
-  double yaw_rate_max_degps = 0.0;  ///< largest |r|
+  double yaw_rate_max_degps = 0.0;  ///< largest |r|, deg/s
   /// Total variation of the commanded d_r/d_max, F'L/F'max and F'R/F'max, summed, per second.
   double control_variation = 0.0;
   double control_effort = 0.0;            ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run

@@ -23,7 +23,7 @@ struct ExternalForces {
 /// c:
 ///   F(t) = c + (F - c) exp(-t/tau),   mean = c + (F - c) (1 - exp(-T_s/tau)) tau/T_s
 struct MotorLag {
-  double left_over = 0.0;   ///< exp(-T_s/tau)
+  double left_over = 0.0;   ///< exp(-T_s/tau); 0: no lag
   double mean_share = 0.0;  ///< (1 - exp(-T_s/tau)) tau/T_s; 0: no lag
 };
 

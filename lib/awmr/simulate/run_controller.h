@@ -17,7 +17,7 @@ struct ControllerSetup {
   bool holds_tau_speed = false;  ///< a constant tau_speed replaces the speed law
   bool is_lqi = false;           ///< an LQI replaces the sliding mode
   bool is_observed = false;      ///< any run has an observer
-  bool anti_windup = true;       ///< as in Observers
+  bool anti_windup = true;       ///< Observers::anti_windup
   double sample_time_s = 0.0;
 };
 
@@ -25,9 +25,9 @@ struct ControllerSetup {
 template <class T>
 struct RunController {
   PreparedController<T> laws;
-  T steering_share;         ///< YawSplit of the mode
-  T dead_zone;              ///< F'0
-  T back_emf_s_per_m;       ///< k_e
+  T steering_share;         ///< YawSplit::steering_share of the mode
+  T dead_zone;              ///< F'0 of the motors, over F_max
+  T back_emf_s_per_m;       ///< k_e of the motors, s/m
   T tau_speed, tau_turn_m;  ///< the constant values that replace a law
   LqiGains<T> lqi;
   DisturbanceObserver<T> yaw_observer, surge_observer;  ///< bandwidth 0: none

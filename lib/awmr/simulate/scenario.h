@@ -25,13 +25,13 @@ namespace awmr {
 
 /// Open loop: constant generalised forces, which are allocated and limited as in the mode.
 struct OpenLoop {
-  double tau_speed = 0.0;   ///< dimensionless, forward positive
-  double tau_turn_m = 0.0;  ///< m, counter-clockwise positive
+  double tau_speed = 0.0;   ///< thrust over F_max, dimensionless, forward positive
+  double tau_turn_m = 0.0;  ///< yaw moment over F_max, m, counter-clockwise positive
 };
 
 /// A heading and the time from which it is commanded.
 struct HeadingStep {
-  double t_s = 0.0;      ///< s, >= 0
+  double t_s = 0.0;      ///< start of the command, s, >= 0
   double psi_rad = 0.0;  ///< rad, counter-clockwise from the world's x axis
 };
 
@@ -47,7 +47,7 @@ struct HeadingSteps {
 /// Waypoints, approached by line of sight. The run ends when the last is reached.
 struct WaypointPath {
   std::vector<Position<double>> points_m;  ///< not empty
-  double acceptance_m = 0.0;               ///< > 0
+  double acceptance_m = 0.0;               ///< a point is reached within this distance, > 0
   bool skip_passed = false;                ///< see Waypoints::skip_passed
   /// m: within this distance of the last point, the speed is reduced in proportion to the distance,
   /// but not below a tenth. Absent: the speed is not reduced.
@@ -65,7 +65,7 @@ std::vector<std::string> line_law_names();
 
 /// A line or polyline to follow. The run ends when the vehicle has passed its end.
 struct LinePath {
-  std::vector<Position<double>> points_m;  ///< at least two
+  std::vector<Position<double>> points_m;  ///< corners, at least two
   AnyLineLaw law{};
   double corner_m = 0.0;              ///< >= 0, see Polyline::corner_m; 0 for a law without corner
                                       ///< rounding
@@ -134,7 +134,7 @@ inline bool estimates_position(const Scenario& scenario) {
 /// Options of heading_steps().
 struct HeadingStepsOptions {
   double hold_s = 10.0;    ///< > 0: duration of each heading
-  double speed_mps = 1.0;  ///< u_d, >= 0
+  double speed_mps = 1.0;  ///< u_d: commanded speed, >= 0
   std::string name = "heading steps";
 };
 

@@ -46,10 +46,10 @@ class Sensing {
     Channel channel;
     std::size_t latency;  ///< whole samples of the latency
     double part;          ///< remaining fraction of a sample of the latency, [0, 1)
-    double correlation;   ///< rho
-    double noise = 0.0;   ///< n_{k-1}
+    double correlation;   ///< rho: correlation of the noise of two successive samples
+    double noise = 0.0;   ///< n_{k-1}: noise of the previous sample, over its standard deviation
     Random random;
-    const std::vector<double>* normals;  ///< null: drawn from `random`
+    const std::vector<double>* normals;  ///< w_k by sample; null: drawn from `random`
   };
   /// The true quantity at the time of the k-th sample minus the latency, interpolated linearly
   /// between samples. Before the first sample it has the value of the first.

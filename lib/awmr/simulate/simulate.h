@@ -29,12 +29,12 @@ struct PathRow {
 struct RunRow {
   double t_s = 0.0;
   State<double> state{};
-  SideForces<double> force{};         ///< commanded, over F_max
-  double steering_command_rad = 0.0;  ///< d_ro, rad, left positive
+  SideForces<double> force{};         ///< commanded forces, over F_max
+  double steering_command_rad = 0.0;  ///< d_ro: commanded steering angle, rad, left positive
   double tau_speed = 0.0;             ///< requested by the law, before any limit
   double tau_turn_m = 0.0;            ///< requested by the law, before any limit
-  double psi_ref_rad = 0.0;           ///< 0 in open loop
-  double u_ref_mps = 0.0;             ///< 0 in open loop
+  double psi_ref_rad = 0.0;           ///< psi_d: heading reference of the law; 0 in open loop
+  double u_ref_mps = 0.0;             ///< u_d: speed reference of the law; 0 in open loop
   PathRow path = {};
   Measurement<double> measured = {};          ///< measurements of the controller
   Position<double> measured_position_m = {};  ///< position that the guidance uses

@@ -30,8 +30,8 @@ struct Vehicles {
   Row active;  ///< 1; 0 if the run has ended or failed, or for an unused lane
 
   // Constant over a run.
-  Plant<Row> plant;  ///< with its chord through rest
-  Row step_s;        ///< h
+  Plant<Row> plant;  ///< with the chords through rest (resolved_at_rest())
+  Row step_s;        ///< h: integration step, s
   Row substeps;
   Row force_most;  ///< largest F' of a wheel, with the dead zone
 

@@ -26,8 +26,8 @@ using BodyLoad = BodyLoadOf<double>;
 
 /// Time window [from_s, to_s).
 struct Window {
-  double from_s = 0.0;  ///< >= 0
-  /// > from_s; infinity: to the end of the run.
+  double from_s = 0.0;  ///< start, >= 0
+  /// End, > from_s; infinity: to the end of the run.
   double to_s = std::numeric_limits<double>::infinity();
   bool holds(double t_s) const { return t_s >= from_s && t_s < to_s; }
 };
@@ -40,14 +40,14 @@ struct DisturbanceTerm {
   /// kConstant: the value; kSine: the amplitude; kNoise: the standard deviation. Its sign matters.
   double value = 0.0;
   Window window;                    ///< a step is a constant with from_s > 0
-  double frequency_hz = 0.0;        ///< kSine, > 0
-  std::optional<double> phase_rad;  ///< kSine, at t = 0; absent: drawn from the seed
+  double frequency_hz = 0.0;        ///< kSine: frequency, > 0
+  std::optional<double> phase_rad;  ///< kSine: phase at t = 0; absent: drawn from the seed
   double bandwidth_hz = 0.0;        ///< kNoise, > 0: corner of the first-order low pass
 };
 
 /// Uniform slope of the ground.
 struct Slope {
-  double angle_rad = 0.0;     ///< rad, below the horizontal
+  double angle_rad = 0.0;     ///< angle from the horizontal, rad, >= 0
   double downhill_rad = 0.0;  ///< rad: heading of the steepest descent in the world frame
 };
 
@@ -74,15 +74,15 @@ struct WheelFault {
 struct SlipperyPatch {
   Position<double> centre_m{};
   double radius_m = 0.0;   ///< > 0
-  double force_max = 0.0;  ///< >= 0, over F_max
+  double force_max = 0.0;  ///< largest force of a wheel on the disc, over F_max, >= 0
 };
 
 /// Battery discharge: the largest force of a motor decreases linearly from F'max at `from_s` to
 /// `share_end` of it at `to_s`, and is then constant. In addition, the voltage sags under the
 /// motors' current. The controller measures neither.
 struct Battery {
-  double from_s = 0.0;     ///< >= 0
-  double to_s = 1.0;       ///< > from_s
+  double from_s = 0.0;     ///< start of the decrease, >= 0
+  double to_s = 1.0;       ///< end of the decrease, > from_s
   double share_end = 1.0;  ///< largest force at the end, over F'max, [0, 1]
   /// Ratio of the battery's internal resistance to that of one motor's winding, >= 0: approximately
   /// the relative voltage drop with one stalled motor. 0: no sag.
@@ -140,7 +140,7 @@ struct CornerParameter {
 
 /// Options of the simulated controller.
 struct ControlOptions {
-  CombinedSplit split = CombinedSplit::kRedistribute;  ///< of the combined mode
+  CombinedSplit split = CombinedSplit::kRedistribute;  ///< action of the combined mode at limits
   struct Observer {
     double bandwidth_radps = 0.0;  ///< L of DisturbanceObserver, > 0
     double yaw_max_m = 0.0;        ///< largest estimated disturbance: moment over F_max, m, > 0
@@ -151,7 +151,7 @@ struct ControlOptions {
   };
   std::optional<Observer> observer;
   std::optional<LqiWeights<double>> lqi;     ///< absent: the heading law is sliding mode
-  std::optional<AllocationForm> allocation;  ///< absent: the vehicle's
+  std::optional<AllocationForm> allocation;  ///< absent: the form of the vehicle
 };
 
 }  // namespace awmr

@@ -10,7 +10,7 @@ namespace awmr {
 /// The guidance's laws and their state. P lists the parts (autopilot_parts.h).
 template <class T, class P>
 struct GuidanceLaws : P::Line, P::Path, P::Arrival, P::Avoidance, P::Shaping {
-  Waypoints<T> waypoints;        ///< count 0: none
+  Waypoints<T> waypoints;        ///< count 0: no waypoints
   T acceptance_m2;               ///< the square of waypoints.acceptance_m
   WaypointProgress<T> progress;  ///< valid once is_leg_started
   bool is_leg_started;           ///< the first step towards the waypoints was made

@@ -61,9 +61,9 @@ AWMR_INLINE AlongSegment<T> along_segment(const Position<T>& a, const Position<T
 /// Motion of the vehicle that the laws use.
 template <class T>
 struct LineMotion {
-  T sideslip_rad;   ///< beta
-  T u_mps;          ///< u
-  T sample_time_s;  ///< of the guidance, > 0
+  T sideslip_rad;   ///< beta, rad
+  T u_mps;          ///< u, m/s: surge speed
+  T sample_time_s;  ///< time between two guidance steps, > 0
 };
 
 /// Range of a law's parameter in scenario files. The law stores the file's value times `unit`, which

@@ -72,8 +72,8 @@ struct Avoidance {
 /// Range of headings that one obstacle blocks.
 template <class T>
 struct Sector {
-  T bearing_rad;  ///< of the obstacle's centre
-  T half_rad;     ///< alpha_i
+  T bearing_rad;  ///< bearing of the obstacle's centre, in the world frame
+  T half_rad;     ///< alpha_i: half angle of the sector
   bool counts;    ///< false: the obstacle is too far, or beyond the target
 };
 
@@ -167,9 +167,9 @@ struct Surroundings {
   const Obstacle<T>* obstacles;  ///< `count` of them
   Sector<T>* sectors;            ///< one for each obstacle
   int count;
-  Position<T> position_m;  ///< p
+  Position<T> position_m;  ///< p: position of the vehicle
   T psi_rad;               ///< the vehicle's heading
-  T mmd_m;                 ///< MMD(u)
+  T mmd_m;                 ///< MMD(u): minimum manoeuvring distance
   T reach_m;               ///< largest D_obs that counts: MMD, plus the hysteresis once active
   T target_m;              ///< distance to the guidance target
 

@@ -22,7 +22,7 @@ struct VehiclePose {
   Time now;
 };
 
-/// Seconds since `start`.
+/// Time from `start` to `now`, s.
 inline float elapsed_s(uint32_t start_ms, uint32_t now_ms) {
   return 0.001F * static_cast<float>(now_ms - start_ms);
 }
@@ -32,8 +32,8 @@ inline double elapsed_s(double start_s, double now_s) { return now_s - start_s; 
 template <class T, class Law = LineOfSight<T>>
 struct LineFollower {
   typedef Polyline<T, Law> Route;
-  Route line;                    ///< count 0: none
-  T sample_time_s;               ///< of the guidance, > 0
+  Route line;                    ///< count 0: no line
+  T sample_time_s;               ///< time between two guidance steps, > 0
   PolylineProgress<T> progress;  ///< valid once is_started
   bool is_started;               ///< the first step along the line was made
 };
