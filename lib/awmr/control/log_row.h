@@ -32,7 +32,7 @@ struct LogRow {
   uint8_t sync[2];
   uint16_t crc;       ///< written by seal(), outside of the control step
   uint32_t sequence;  ///< number of this row since the start; lost rows are counted
-  uint32_t step;      ///< sample times since the start
+  uint32_t step;      ///< time since the start, in sample times
   float force_left;   ///< command of each left wheel, over F_max
   float force_right;  ///< command of each right wheel, over F_max
   float steering_rad;

@@ -24,7 +24,7 @@ ControllerSetup controller_setup(const Scenario& scenario, const Controller<doub
 RunController<double> run_controller(const Scenario& scenario, const Controller<double>& controller,
                                      YawMode mode);
 
-/// Largest F' of a wheel over F_max, including the dead zone.
+/// Largest command of a wheel over F_max: F'max plus the dead zone.
 double largest_force(const Controller<double>& controller);
 
 /// Distance from the vehicle's circle to the nearest obstacle, m; < 0 if they overlap.

@@ -39,7 +39,8 @@ class Sensing {
     Sensor(const Channel& channel, double sample_time_s, const Random& random,
            const std::vector<double>* normals);
     double read(std::size_t k, double truth);
-    /// The next standard normal of the noise:
+    /// The next value n_k of the noise, over its standard deviation. With independent standard
+    /// normals w_k and the correlation time tau:
     ///   n_0 = w_0,   n_k = rho n_{k-1} + sqrt(1 - rho^2) w_k,   rho = exp(-T_s/tau)
     double next_noise(std::size_t k);
 

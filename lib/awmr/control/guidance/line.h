@@ -106,7 +106,7 @@ template <class T>
 struct PolylineProgress {
   int segment;  ///< from points_m[segment] to points_m[segment + 1]
   T psi_rad;    ///< the last psi_d, held if there is none
-  T memory;     ///< the law's own, 0 at the start of each segment
+  T memory;     ///< state of the law, such as an integral; 0 at the start of each segment
 };
 
 /// The progress before the first step: `psi_rad` is the vehicle's heading.

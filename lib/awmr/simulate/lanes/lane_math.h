@@ -64,7 +64,7 @@ AWMR_LANE_INLINE Split split(const Lanes& x) {
   Split result;
   for (int i = 0; i < kRegisters; ++i) {
     const Bits bits = to_bits(x.part[i]);
-    // The biased exponent of x/sqrt(1/2), and below it its mantissa.
+    // The biased exponent of x/sqrt(1/2).
     const Bits biased = (bits + Bits(kOne - kRootHalf)) >> 52;
     // An integer n < 2^52 in the mantissa of 2^52 gives 2^52 + n.
     result.k.part[i] =
