@@ -137,7 +137,7 @@ TEST_F(DifferentialDrive, RefusesTheModesThatSteer) {
       const ProcessResult result = with_model(command + " --mode " + mode + loop);
       EXPECT_EQ(result.exit_code, 2) << command << mode;
       EXPECT_THAT(result.err, AllOf(HasSubstr("--mode"), HasSubstr("no steering"),
-                                    HasSubstr("its mode is differential")));
+                                    HasSubstr("give mode differential")));
       EXPECT_FALSE(std::filesystem::exists(path("out")));
     }
   }

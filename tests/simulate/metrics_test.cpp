@@ -216,7 +216,7 @@ TEST(Validity, DoesNotAdviseALimitThatIsSet) {
   ASSERT_EQ(findings.size(), 2U);
   EXPECT_NE(findings[0].message.find("--heading-rate-limit measured"), std::string::npos);
   EXPECT_EQ(findings[1].message.find("--heading-rate-limit measured"), std::string::npos);
-  EXPECT_NE(findings[1].message.find("lower the limit"), std::string::npos);
+  EXPECT_NE(findings[1].message.find("lower --heading-rate-limit"), std::string::npos);
 }
 
 TEST(Validity, WarnsIfHeadingsAreNotRateLimited) {

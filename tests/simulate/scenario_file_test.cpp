@@ -46,7 +46,7 @@ TEST(ScenarioFile, NamesEveryFaultByPointer) {
       {replaced(kHeading, "\"speed_mps\": 1", "\"speed_mps\": -1"), "/speed_mps"},
       {replaced(kHeading, "speed_mps", "sped_mps"), "did you mean \"speed_mps\""},
       {replaced(kHeading, "\"t_s\": 2", "\"t_s\": 0"), "/guidance/steps"},
-      {replaced(kHeading, "\"t_s\": 0", "\"t_s\": 1"), "first step has to be at t_s = 0"},
+      {replaced(kHeading, "\"t_s\": 0", "\"t_s\": 1"), "first step must be at t_s = 0"},
       {replaced(kHeading, "\"heading\"", "\"heding\""), "did you mean heading"},
       {replaced(kHeading, "\"x_m\": 1, ", ""), "/initial/x_m"},
   };

@@ -191,7 +191,7 @@ TEST(Scenarios, LqiWeightsTooFastForTheControllersSamplesAreRefused) {
   scenario->control.lqi->tau_turn_m *= 1000.0;
   const auto refused = plant_for(*scenario, model);
   ASSERT_FALSE(refused);
-  EXPECT_NE(to_text(refused.error()).find("held over sample_time_s"), std::string::npos);
+  EXPECT_NE(to_text(refused.error()).find("unstable at sample_time_s"), std::string::npos);
 }
 
 TEST(MissingIntervals, NamesFittedParametersWithoutOneAndWhatWithdrewThem) {

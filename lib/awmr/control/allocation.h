@@ -16,7 +16,7 @@ namespace awmr {
 
 namespace detail {
 
-/// q of a moment, and where a limit changes it.
+/// The q (steering_geometry.h) that makes a moment, and the limits that changed it.
 template <class T>
 struct Steering {
   T q;
@@ -24,7 +24,7 @@ struct Steering {
   Mask<T> powerless;
 };
 
-/// Makes moment_m with tau_speed: q = moment/(l_f tau_speed), |q| <= limit.
+/// Computes the q that makes the moment with tau_speed: q = moment/(l_f tau_speed), |q| <= limit.
 template <class T>
 AWMR_INLINE Steering<T> steer(const AllocationConstants<T>& c, const T& tau_speed,
                               const T& moment_m, const T& limit) {
@@ -35,7 +35,7 @@ AWMR_INLINE Steering<T> steer(const AllocationConstants<T>& c, const T& tau_spee
   return {clipped, math::is_different(clipped, q), powerless};
 }
 
-/// d_r of q; exactly +-d_max where q was clipped to +-q_max.
+/// The steering angle d_r for q; exactly +-d_max if q was clipped to +-q_max.
 template <class T>
 AWMR_INLINE T steering_angle_rad(const SteeringGeometry& geometry, const AllocationConstants<T>& c,
                                  const T& q, const Mask<T>& at_stop) {
@@ -48,10 +48,10 @@ AWMR_INLINE T steering_angle_rad(const SteeringGeometry& geometry, const Allocat
 
 }  // namespace detail
 
-/// The commands that make tau_speed (dimensionless, forward positive) and tau_turn (m,
-/// counter-clockwise positive). The three modes are one formula with the steering's share s of the
-/// yaw moment: 0 (differential), 1 (steering) or 1/2 (combined). q and k depend on d_r
-/// (steering_geometry.h): with four driven wheels, q = tan(d_r/2) and k = (1 + q^2)/4.
+/// Computes the commands that make tau_speed (dimensionless, forward positive) and tau_turn (m,
+/// counter-clockwise positive). The three modes are one formula, in which s is the share of the yaw
+/// moment that steering makes: 0 (differential), 1 (steering) or 1/2 (combined). q and k depend on
+/// d_r (steering_geometry.h): with four driven wheels, q = tan(d_r/2) and k = (1 + q^2)/4.
 ///   l_f tau_speed q = s tau_turn
 ///   F'R,L           = (tau_speed +- (1 - s) tau_turn/d) k                 [paper (42), corrected]
 /// Inverse of generalised_forces(). Corrected: the paper prints the combined mode with L and R
@@ -86,8 +86,9 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
   a.force_limited =
       math::is_different(a.force.left, left) || math::is_different(a.force.right, right);
 
-  // The rest of clipped forces goes back to the steering, if it has room: they make tau_speed =
-  // (F'L + F'R)/(2 k) and tau_diff = d (F'R - F'L)/(2 k), so 2 k times the rest goes by F'L + F'R.
+  // The moment that clipped forces do not make goes back to the steering, up to its stop. Clipped
+  // forces make tau_speed = (F'L + F'R)/(2 k) and tau_diff = d (F'R - F'L)/(2 k). In
+  // q = rest/(l_f tau_speed), numerator and denominator are therefore multiplied by 2 k.
   const Mask<T> returns = split.redistributes && a.force_limited && !leaves;
   if (any(returns)) {
     const T rest_m = (k + k) * tau_turn_m - c.half_track_m * (a.force.right - a.force.left);
@@ -102,8 +103,8 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
       geometry, c, steering.q, a.steering_limited && !math::is_different(limit, c.q_max));
 }
 
-/// allocate() at the speed u, m/s, on which the limits depend if the motors have back-EMF.
-/// `constants`: prepared(limits).
+/// As above, for a mode. The speed u, m/s, matters if the motors have back-EMF, which lowers the
+/// force limits. `constants`: prepared(limits).
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits, const T& u_mps,
@@ -115,7 +116,7 @@ Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
   return a;
 }
 
-/// As above from the limits, where computing time does not matter.
+/// As above; computes the constants from the limits, where computing time does not matter.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits, const T& u_mps = T(0.0)) {

@@ -23,8 +23,8 @@ struct AllocationLimits {
   CombinedSplit split = CombinedSplit::kRedistribute;
   /// The chip supports only kExact.
   AllocationForm form = AllocationForm::kExact;
-  /// F'0 of every wheel, over F_max, >= 0. The allocated forces and the limits above exclude it;
-  /// the motor command is with_dead_zone() of them.
+  /// F'0 of every wheel, over F_max, >= 0. The allocated forces and the limits above exclude the
+  /// dead zone; with_dead_zone() adds it to the motor command.
   T dead_zone = T(0.0);
   /// k_e of every motor, s/m, >= 0 (motor_force() in model/dynamics.h): a wheel that rolls at u m/s
   /// can make forces in [F'min - k_e u, F'max - k_e u].
@@ -34,11 +34,11 @@ struct AllocationLimits {
 };
 
 /// Constants of the allocation, computed once from the limits. All members are of type T, so there
-/// is no padding and a check sum can cover it.
+/// is no padding and a check sum can cover the struct.
 template <class T>
 struct AllocationConstants {
   T tau_speed_min;       ///< n F'min of n driven wheels
-  T tau_speed_max;       ///< n F'max
+  T tau_speed_max;       ///< n F'max of n driven wheels
   T force_min;           ///< F'min
   T force_max;           ///< F'max
   T front_axle_m;        ///< l_f, m
@@ -82,9 +82,11 @@ constexpr T steering_authority_full() {
   return T(0.0625);
 }
 
-/// Limit of |q| at tau_speed: q_max sat(tau_speed/authority_full, [0, 1]). The q for a moment grows
-/// as 1/tau_speed, but is 0 for tau_speed <= 0: a constant limit would make it jump there from the
-/// stop to straight. The reduced limit costs at most 1/256 of the steering moment at full thrust.
+/// Limit of |q| (steering_geometry.h) at tau_speed:
+///   q_max sat(tau_speed/steering_authority_full(), [0, 1])
+/// The q of a given moment grows as 1/tau_speed and is 0 for tau_speed <= 0. With a constant limit,
+/// the wheels would jump there from the stop to straight. The reduced limit costs at most 1/256 of
+/// the steering moment at full thrust.
 template <class T>
 AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed) {
   using math::any;

@@ -12,7 +12,7 @@ namespace awmr {
 
 /// Why the vehicle is disarmed.
 enum class DisarmReason : uint8_t {
-  kNone = 0,     ///< it is armed
+  kNone = 0,     ///< the vehicle is armed
   kReset = 1,    ///< not armed since the start
   kStop = 2,     ///< the command STOP
   kTimeout = 3,  ///< no valid command for AWMR_COMMAND_TIMEOUT_MS
@@ -27,7 +27,8 @@ struct Arming {
 
   bool is_armed() const { return reason == DisarmReason::kNone; }
 
-  /// `fault` and `cause` are those of the last step. False: refused, the state is unchanged.
+  /// Arms the vehicle, unless the last step had a sensor fault or a fault other than the command
+  /// time-out. False: refused, the state is unchanged.
   bool arm(uint8_t step_fault, uint8_t sensor_fault) {
     if ((step_fault & ~static_cast<unsigned>(kFaultCommandTimeout)) != 0 || sensor_fault != 0) {
       return false;

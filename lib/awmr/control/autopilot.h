@@ -20,8 +20,7 @@ namespace detail {
 /// Maximum magnitude of a position coordinate, m: its square cannot overflow.
 constexpr float kPositionMax = 1e6F;
 
-/// kFaultStepLate if too much time has passed since the last step; the first step has no
-/// predecessor.
+/// Returns kFaultStepLate if too much time has passed since the last step, never in the first step.
 template <class G, class P>
 AWMR_INLINE uint8_t check_period(Autopilot<G, P>& a, uint32_t now_ms) {
   const bool is_late = a.has_stepped && is_older(now_ms, a.last_step_ms, a.limits.step_timeout_ms);
@@ -61,7 +60,7 @@ AWMR_INLINE bool update_reference(Autopilot<G, P>& a, const AutopilotInput& in,
   return target.arrived;
 }
 
-/// Predicts the vehicle's speed by the model between two steps, for a speed without a sign.
+/// Predicts the signed speed at this step by the model, for a speed sensor without a sign.
 template <class G, class P>
 AWMR_CALLED void predict_direction(Autopilot<G, P>& a, uint32_t now_ms) {
   if (!a.has_stepped) return;
@@ -79,8 +78,9 @@ AWMR_CALLED void read_speed(Autopilot<G, P>& a, const AutopilotInput& in) {
   correct_speed(a.direction, {in.measured.u_mps, in.position_m, in.measured.psi_rad, is_new});
 }
 
-/// True if the reference and both laws are finite. The command alone cannot show this: in steering
-/// mode the wheels are straight while the vehicle brakes, even if the reference is NaN.
+/// True if the heading reference and the outputs of both laws are finite. A check of the command
+/// alone is not sufficient: in steering mode the wheels are straight while the vehicle brakes, even
+/// if the reference is NaN.
 inline bool is_finite(const AutopilotOutput& out) {
   const uint16_t infinity = static_cast<uint16_t>(float_math::kInfinityBits >> 16U);
   return float_math::leading_bits(out.psi_ref_rad) < infinity &&
@@ -88,7 +88,8 @@ inline bool is_finite(const AutopilotOutput& out) {
          float_math::leading_bits(out.tau_speed) < infinity;
 }
 
-/// Force applied until the next step: the law's, limited to the range of four wheels.
+/// tau_speed that acts until the next step: the request of the law, limited to the range of four
+/// motors.
 inline float acting_force(const AllocationConstants<float>& c, float tau_speed) {
   return math::clamp(tau_speed, c.tau_speed_min, c.tau_speed_max);
 }
@@ -121,7 +122,8 @@ void autopilot_step(Autopilot<G, P>& a, const AutopilotInput& in, AutopilotOutpu
   if (is_directed) detail::predict_direction(a, in.times.now_ms);
   if (P::kIsDirected) a.direction.tau_speed = 0.0F;
   out.fault = detail::check_input(a, in);
-  // While only the command is too old, as before a drive, direction and position are estimated on.
+  // Direction and position are also estimated while the command time-out is the only fault, as
+  // before a drive.
   const bool is_sensed = (out.fault & static_cast<uint8_t>(~kFaultCommandTimeout)) == 0;
   if (is_directed && is_sensed) detail::read_speed(a, in);
   typename P::Positioning& positioning = part_of<typename P::Positioning>(a);

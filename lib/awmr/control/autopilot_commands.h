@@ -1,5 +1,5 @@
-/// Commands that the autopilot follows from its next step on: routes, obstacles, shaping, observer.
-/// Freestanding C++14.
+/// Functions that give the autopilot a route, obstacles, a filter or an observer, in effect from its
+/// next step on. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/autopilot_state.h"
@@ -16,7 +16,7 @@ void follow_waypoints(Autopilot<G, P>& a, const Waypoints<float>& waypoints) {
   disable(part_of<typename P::Path>(a));
 }
 
-/// Follows this line from the next step on. `sample_time_s`: between two steps.
+/// Follows this line from the next step on. `sample_time_s`: time between two steps.
 template <class G, class P>
 void follow_line(Autopilot<G, P>& a, const typename P::Line::Route& line, float sample_time_s) {
   follow_waypoints(a, Waypoints<float>{0, 0, 0.0F, false});
@@ -60,7 +60,7 @@ void shape_headings(Autopilot<G, P>& a, const HeadingShaping<float>& filter, flo
   part.is_started = false;
 }
 
-/// Estimates the position with this filter from the next step with a fix on.
+/// Estimates the position with this filter, starting at the next step that has a fix.
 template <class G, class P>
 void filter_position(Autopilot<G, P>& a, const PositionFilter<float>& filter) {
   part_of<Positioner<>>(a).estimate = PositionEstimate<float>(filter);

@@ -1,5 +1,5 @@
-/// Optional features of a firmware in addition to heading hold and waypoints: those of the guidance
-/// (guidance/parts.h), the disturbance observer and the motors' curve. Freestanding C++14.
+/// Optional parts of a firmware: the disturbance observer, the motors' curve and the position
+/// estimate; the parts of the guidance are in guidance/parts.h. Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
@@ -34,10 +34,11 @@ struct MotorCurve {
 template <class Filter = PositionFilter<float>>
 struct Positioner {
   PositionEstimate<float, Filter> estimate{};
-  uint32_t fix_ms = 0;  ///< when the last fix was taken, valid in an estimate that is started
+  uint32_t fix_ms = 0;  ///< time of the last fix
 };
 
-/// List of the compiled parts. A firmware defines its own struct with these names.
+/// List of parts for a firmware without optional parts. A firmware with some of them defines its own
+/// struct with these names.
 struct NoParts {
   typedef Disabled<LineFollower<float>> Line;
   typedef Disabled<PathFollower<float, uint32_t>> Path;
@@ -51,7 +52,7 @@ struct NoParts {
   static constexpr bool kIsDirected = true;  ///< AutopilotInput::speed_unsigned is supported
 };
 
-/// All parts, with either split.
+/// List of all parts, for either split of the combined mode.
 template <CombinedSplit split = CombinedSplit::kRedistribute>
 struct AllParts {
   typedef LineFollower<float> Line;
@@ -91,7 +92,8 @@ AWMR_INLINE void reset(Positioner<Filter>& part) {
   part.estimate.restart();
 }
 
-/// The position now, for a step without a fault. `speed_mps` has the sign of the direction of travel.
+/// The present position. Call it only if the input has no fault except the command time-out. The
+/// sign of `speed_mps` is the direction of travel.
 template <class Filter>
 AWMR_INLINE const Position<float>& position_now(const Disabled<Positioner<Filter>>&,
                                                 const AutopilotInput& in, const float&) {

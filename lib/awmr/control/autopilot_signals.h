@@ -14,13 +14,13 @@ namespace awmr {
 struct AutopilotInput {
   uint8_t mode;                 ///< a YawMode
   Measurement<float> measured;  ///< motion of the vehicle from the sensors
-  Position<float> position_m;   ///< read only if guidance or a flag below needs it
+  Position<float> position_m;   ///< world frame; used only if guidance or a flag below needs it
   Reference<float> reference;   ///< its heading is ignored while guidance is active
   InputTimes times;             ///< time stamps of all inputs
   /// Not 0: measured.u_mps is |u|, as from a GPS; its sign is computed (directed_speed.h).
   uint8_t speed_unsigned = 0;
-  /// Not 0: position_m is the last fix of a receiver, taken at fix_ms: the position now is estimated
-  /// from it and the motion (position_estimate.h). 0: it is the position now.
+  /// Not 0: position_m is the last fix of a receiver, taken at fix_ms, and the step estimates the
+  /// present position (position_estimate.h). 0: position_m is the present position.
   uint8_t position_is_fix = 0;
   uint32_t fix_ms = 0;
 };

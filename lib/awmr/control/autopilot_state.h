@@ -1,4 +1,5 @@
-/// State of the autopilot between two steps, and its start from the parameters. Freestanding C++14.
+/// State of the autopilot between two steps, and the function that initialises it from the
+/// parameters. Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
@@ -19,15 +20,15 @@ template <class G, class P = NoParts>
 struct Autopilot : GuidanceLaws<float, P>, P::Observation, P::Motors, P::Positioning {
   PreparedController<float, G> controller;
   SafetyLimits limits;
-  uint32_t last_step_ms;           ///< valid once has_stepped
-  DirectedSpeed<float> direction;  ///< for a speed without a sign
+  uint32_t last_step_ms;           ///< time of the last step, valid if has_stepped
+  DirectedSpeed<float> direction;  ///< direction of travel, for a speed without a sign
   uint32_t direction_ms;           ///< InputTimes::speed_ms of the last reading
   float mass_inverse;              ///< 1/m'
   bool has_stepped;                ///< at least one step since the start
   bool are_parameters_good;        ///< the check sum was correct at the start
 };
 
-/// Sets the motors' curve, if it is compiled in.
+/// Sets dead zone and back-EMF of the motors, if MotorCurve is compiled in.
 inline void set_motors(const RestBlock*, Disabled<MotorCurve>&) {}
 inline void set_motors(const RestBlock* rest, MotorCurve& part) {
   part.dead_zone = rest != 0 ? flash_float(&rest->dead_zone) : 0.0F;
@@ -45,10 +46,10 @@ inline void set_observer(const ObserverBlock* tuned, Observer& part) {
          read.sample_time_s);
 }
 
-/// Reads the parameters and checks them against `crc`, the check sum in the emitted header. If they
-/// differ, returns false, and every step then gives the safe command. On an AVR, the block, the
-/// lines, `rest` and `observer` are in flash. `rest` is for RestingTable and MotorCurve, `observer`
-/// for Observer.
+/// Reads the parameters and compares their check sum with `crc`, the one in the emitted header. If
+/// the two differ, returns false, and every step then gives the safe command. `rest` has the
+/// parameters of RestingTable and MotorCurve, `observer` those of Observer. On an AVR, the block,
+/// the lines, `rest` and `observer` are in flash.
 template <class G, class P>
 bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
                      const ResistanceLine* surge_lines, size_t surge_count,

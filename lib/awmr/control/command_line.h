@@ -30,11 +30,11 @@ enum class CommandWord : uint8_t {
   kKeep,     ///< KEEP, or K: continue; resets the command time-out
   kGo,       ///< G: start the route or the run
   kNext,     ///< N: skip this run
-  kYes,      ///< Y
-  kHeading,  ///< H deg
-  kSpeed,    ///< S m/s
-  kMode,     ///< M 0, 1 or 2
-  kForce     ///< T share of F_max
+  kYes,      ///< Y: yes
+  kHeading,  ///< H: heading, deg
+  kSpeed,    ///< S: speed, m/s
+  kMode,     ///< M: YawMode, 0, 1 or 2
+  kForce     ///< T: wheel force, over F_max
 };
 
 enum class CommandVerdict : uint8_t {
@@ -44,7 +44,7 @@ enum class CommandVerdict : uint8_t {
   kTooLong,    ///< more than kCommandLength characters
   kDamaged,    ///< a frame with a wrong check sum or form
   kRepeated,   ///< a frame with an old sequence number
-  kTextLocked  ///< text after the first frame
+  kTextLocked  ///< text is refused after the first frame
 };
 
 /// Maximum length of a line, without its end.
@@ -55,7 +55,7 @@ class CommandReader {
   CommandWord word = CommandWord::kNone;
   float value = 0.0F;      ///< 0 if the command has none
   bool is_framed = false;  ///< the last line was a frame
-  uint8_t sequence = 0;    ///< of the last accepted frame
+  uint8_t sequence = 0;    ///< sequence number of the last accepted frame
 
   /// Result for the line that this character completes; kNone within a line.
   CommandVerdict take(char c) {

@@ -1,5 +1,5 @@
-/// One sample of the controller after its guidance: laws, disturbance observer, allocation.
-/// Freestanding C++14.
+/// One sample of the controller for a given reference: control laws, disturbance observer,
+/// allocation. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/allocation.h"
@@ -20,7 +20,7 @@ struct Command {
   Allocation<T> allocation;  ///< forces and angle, within their limits
 };
 
-/// Request to the allocation, its limits, and the command that it fills.
+/// Input of the allocation (request and limits), and the command that the allocation fills in.
 template <class T>
 struct AllocationRequest {
   const SteeringGeometry& geometry;
@@ -31,7 +31,7 @@ struct AllocationRequest {
   Allocation<T>& command;
 };
 
-/// Motion of the controller's model, as the observers need it.
+/// Momentum, resistance and coupling force by the controller's model, for the observers.
 template <class T, class G>
 ObservedMotion<T> observed_motion(const PreparedController<T, G>& c, const Measurement<T>& m) {
   const ControlConstants<T>& k = c.constants;
@@ -40,7 +40,7 @@ ObservedMotion<T> observed_motion(const PreparedController<T, G>& c, const Measu
           k.mass_norm * m.r_radps * m.v_mps};
 }
 
-/// Generalised forces of allocated commands.
+/// Generalised forces that allocated wheel forces and steering angle make.
 template <class T>
 GeneralisedForces<T> allocated_forces(const SteeringGeometry& geometry,
                                       const AllocationConstants<T>& c, const Allocation<T>& a) {

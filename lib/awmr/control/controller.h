@@ -1,5 +1,5 @@
 /// Model, gains and limits of the controller. Freestanding C++14: the same source runs in the
-/// simulator (double), in its float version and on the AVR.
+/// simulator (double), on the host in float, and on the AVR.
 #pragma once
 
 #include "awmr/control/allocation_limits.h"
@@ -8,8 +8,8 @@
 
 namespace awmr {
 
-/// Model and gains of the controller. G is the type of a resistance: the law itself, or a table of
-/// it (resistance_table.h). It must return g for a speed.
+/// Model, gains and limits of the controller. G is the type of a resistance: the law itself or a
+/// table of it (resistance_table.h). A call g(w) returns the resistance at the speed w.
 template <class T, class G = Resistance<T>>
 struct Controller {
   G surge;                     ///< g1 of the model, dimensionless, of u in m/s: fed forward
@@ -20,9 +20,8 @@ struct Controller {
   AllocationLimits<T> limits;  ///< limits of the vehicle
 };
 
-/// Constants of the laws and the allocation, computed once from model, gains and limits, with m'
-/// and I'z multiplied in. All members are of type T, so there is no padding and a check sum can
-/// cover it.
+/// Constants of the laws and the allocation: products of model, gains and limits, computed once. All
+/// members are of type T, so there is no padding and a check sum can cover the struct.
 template <class T>
 struct ControlConstants {
   T mass_norm;      ///< m', s^2/m
@@ -36,11 +35,11 @@ struct ControlConstants {
   AllocationConstants<T> allocation;
 };
 
-/// The controller as the laws use it.
+/// The controller in the form that the laws use: resistances and precomputed constants.
 template <class T, class G = Resistance<T>>
 struct PreparedController {
-  G surge;  ///< g1
-  G yaw;    ///< g3
+  G surge;  ///< g1: surge resistance
+  G yaw;    ///< g3: yaw resistance
   ControlConstants<T> constants;
 };
 

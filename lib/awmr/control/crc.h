@@ -18,11 +18,12 @@ inline uint32_t crc32_with(uint32_t crc, uint8_t byte) {
   return crc;
 }
 
-/// CRC-16 of CCITT with start 0xFFFF: "123456789" gives 0x29B1. For frames.
+/// CRC-16 of CCITT with start 0xFFFF: "123456789" gives 0x29B1. For command frames and log rows.
 constexpr uint16_t kCrc16Start = 0xFFFFU;
 
 inline uint16_t crc16_with(uint16_t crc, uint8_t byte) {
-  // Four shifts instead of eight: the polynomial x^16 + x^12 + x^5 + 1 can be folded by nibbles.
+  // Shifts by whole nibbles replace a loop over eight bits; the polynomial x^16 + x^12 + x^5 + 1
+  // permits this.
   uint8_t high = static_cast<uint8_t>((crc >> 8U) ^ byte);
   high = static_cast<uint8_t>(high ^ (high >> 4U));
   const uint16_t folded = static_cast<uint16_t>((static_cast<uint16_t>(high) << 12U) ^

@@ -1,16 +1,18 @@
 /// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
 ///
-/// The speed law needs a signed speed. With |u| it accelerates a vehicle that rolls backward
-/// without limit if m' mu_s/eps_s > g1(u)/u. Here the sign is predicted from the commanded force
-/// through the identified model,
+/// The speed law needs a signed speed. With |u| as its input, the law would accelerate a vehicle
+/// that rolls backward, without limit if m' mu_s/eps_s > g1(u)/u. The sign is that of a predicted
+/// speed u, computed from the commanded force by the identified model:
 ///   m' u_dot = tau_speed - g1(u)
-/// corrected by the sensor's magnitude, and verified by the displacement along the heading. Rules:
-///   - Force against the direction of travel (braking) needs a known direction.
+/// The sensor corrects the magnitude of the prediction; the displacement along the heading verifies
+/// its sign. Rules:
+///   - Braking (a force against the direction of travel) requires a known direction.
 ///   - The predicted speed of a braking vehicle stops at 0: braking cannot become driving backward.
 ///   - A direction is verified only while the vehicle does not brake, after 1 m along the heading.
-///   - Without a known direction, a vehicle that is too fast coasts: tau_speed is 0.
-///   - At u_ref = 0, tau_speed is 0 within kStandstill_mps.
-/// A vehicle on a slope therefore brakes in pulses, each no longer than the model's braking time.
+///   - If the direction is unknown and the vehicle is too fast, it coasts: tau_speed is 0.
+///   - At u_ref = 0, tau_speed is 0 while |u| <= kStandstill_mps.
+/// On a slope, a vehicle therefore brakes in pulses: each ends when the predicted speed is 0, and
+/// the next starts when the displacement has verified the direction again.
 #pragma once
 
 #include <stdint.h>
@@ -27,19 +29,19 @@ namespace awmr {
 constexpr float kDirected_mps = 0.1F;
 /// Distance along the heading that verifies a direction, m.
 constexpr float kVerified_m = 1.0F;
-/// Time after the last braking before a direction can be verified, s: longer than the latency of a
-/// GPS and the vehicle's braking.
+/// Time after the last braking before a displacement can verify a direction, s. It is longer than
+/// the latency of a GPS plus the time in which the vehicle stops.
 constexpr float kSettled_s = 1.0F;
 
 /// Direction of travel between two steps. All zero: at rest, direction unknown.
 template <class T>
 struct DirectedSpeed {
-  T predicted_mps;    ///< u by the model, signed; 0: direction unknown
-  T tau_speed;        ///< applied since the last step, dimensionless
-  T along_m;          ///< displacement along the heading without braking, m
-  T settled_s;        ///< time since the last braking, s, at most kSettled_s
-  Position<T> fix_m;  ///< of the last reading, valid once has_fix
-  bool has_fix;
+  T predicted_mps;    ///< u predicted by the model, signed; 0: direction unknown
+  T tau_speed;        ///< command applied since the last step, dimensionless
+  T along_m;          ///< displacement along the heading since the last braking, m
+  T settled_s;        ///< time since the last braking, s, counted up to kSettled_s
+  Position<T> fix_m;  ///< position of the last reading, valid if has_fix
+  bool has_fix;       ///< at least one reading since the start
 };
 
 /// Reading of a speed sensor without a sign.
@@ -62,7 +64,7 @@ inline float magnitude(const float& value) { return float_of(float_math::magnitu
 
 /// Predicts the speed over the step of `dt_s` that ends now:
 ///   u = u0 + dt (tau_speed - g1(u0))/m'
-/// Friction and braking bring it to 0 without reversing it.
+/// Friction and braking can bring u to 0 but do not reverse it.
 template <class T, class G>
 void predict_speed(DirectedSpeed<T>& d, const G& surge, const T& mass_inverse,
                    const T& speed_max_mps, const T& dt_s) {
@@ -110,7 +112,8 @@ void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
   d.predicted_mps = math::with_sign(size, d.predicted_mps);
 }
 
-/// Replaces |u| in `m` by the signed speed. Sets both speeds to 0 if no force is permitted.
+/// Replaces |u| in `m` by the signed speed. Where the rules above forbid a force, sets the measured
+/// and the reference speed to 0, so that the vehicle coasts.
 template <class T>
 void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>& ref) {
   const T speed = detail::magnitude(m.u_mps);
@@ -128,9 +131,9 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
   m.u_mps = math::with_sign(speed, is_known ? d.predicted_mps : ref.speed_mps);
 }
 
-/// True if the speed law, with |u| as its input, accelerates a vehicle that rolls backward at the
-/// speed u. At u_ref = 0, in the layer of sat, its command -m' mu_s/eps_s u exceeds the resistance
-/// if
+/// True if the speed law, with |u| as its input, would accelerate a vehicle that rolls backward at
+/// the speed u. At u_ref = 0, within the boundary layer, the law commands -m' mu_s/eps_s |u|, which
+/// pushes such a vehicle on. This force exceeds the resistance if
 ///   m' mu_s/eps_s > g1(u)/u
 template <class T, class G>
 bool runs_away_unsigned(const G& surge, const T& mass_norm, const SpeedGains<T>& gains,

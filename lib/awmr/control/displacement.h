@@ -14,7 +14,7 @@ inline double displacement_ahead_m(double dx_m, double dy_m, double psi_rad) {
   return dx_m * ::cos(psi_rad) + dy_m * ::sin(psi_rad);
 }
 
-/// The part to the left of it, m:
+/// The part of a displacement to the left of a heading, m:
 ///   left = dy cos psi - dx sin psi
 inline float displacement_left_m(float dx_m, float dy_m, float psi_rad) {
   return displacement_ahead_m(dy_m, -dx_m, psi_rad);

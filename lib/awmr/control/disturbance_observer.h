@@ -1,5 +1,5 @@
-/// Estimates the disturbance that the printed laws omit, so that it can be subtracted from the
-/// command. Freestanding C++14.
+/// Disturbance observer for surge and yaw. The estimated disturbance, which the control laws omit,
+/// is subtracted from their outputs. Freestanding C++14.
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -35,8 +35,8 @@ ObserverState<T> start_observer(const DisturbanceObserver<T>& observer, const T&
   return {-observer.bandwidth_radps * momentum};
 }
 
-/// d_hat, in the unit of tau. At the limit the state is reset, so that d_hat leaves the limit
-/// immediately when d decreases.
+/// d_hat, in the unit of tau. At the limit, z is set to the value that gives the limit, so that
+/// d_hat decreases immediately when d does.
 template <class T>
 T estimate(const DisturbanceObserver<T>& observer, const T& momentum, ObserverState<T>& state) {
   const T share = observer.bandwidth_radps * momentum;
@@ -58,8 +58,8 @@ template <class T>
 struct Observers {
   DisturbanceObserver<T> yaw;    ///< limit in m
   DisturbanceObserver<T> surge;  ///< dimensionless limit
-  /// true: the observers use the limited command. false, to show the effect of anti-windup: the
-  /// requested command.
+  /// true: the observers use the limited command. false: they use the requested command and wind up
+  /// at a limit, for comparison.
   bool anti_windup;
 };
 
@@ -99,8 +99,8 @@ AWMR_CALLED AxisForces<T> estimate(const Observers<T>& observers, const Observed
           estimate(observers.yaw, motion.momentum.yaw_m, state.yaw)};
 }
 
-/// Advances both states by one sample. `requested` is the request: the command minus d_hat, `allocated`
-/// the forces from the allocation.
+/// Advances both states by one sample. `requested`: the outputs of the laws minus d_hat.
+/// `allocated`: the forces that the allocation makes of this request.
 template <class T>
 AWMR_CALLED void advance(const Observers<T>& observers, const AxisForces<T>& d_hat,
                          const AxisForces<T>& requested, const GeneralisedForces<T>& allocated,

@@ -1,4 +1,4 @@
-/// Resistance that a law feeds forward. Freestanding C++14.
+/// Resistance that the heading and speed laws feed forward. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/resistance_table.h"
@@ -10,9 +10,10 @@ namespace awmr {
 /// Resistance that a law adds to its command, at the speed w:
 ///   g(w)                                        for |w| >= rest_speed
 ///   g(rest_speed) sat((w + intent)/rest_speed)  below
-/// The second line is for curves that jump at rest (feed_forward() in resistance.h). There the
-/// curve does not give the force that starts the motion, but the sign of `intent`, the speed error,
-/// gives its direction. w + intent has no noise of w: in the heading law it is psi_d_dot + lambda e.
+/// The second line is for resistances that jump at rest (feed_forward() in resistance.h). Below
+/// rest_speed, the direction of the force is the one in which the vehicle is to move, and not the
+/// sign of w, which is noise. `intent` is the speed error, or S in the heading law. Noise of w
+/// cancels in w + intent: in the heading law the sum is psi_d_dot + lambda e.
 template <class T>
 T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
   using math::abs;

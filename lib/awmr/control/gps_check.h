@@ -1,5 +1,5 @@
-/// Plausibility checks of GPS fixes: a state machine with time stamps of one clock in ms that can
-/// wrap. Freestanding C++14.
+/// Plausibility checks of GPS fixes. All time stamps are of one clock in ms that can wrap.
+/// Freestanding C++14.
 #pragma once
 
 #include "awmr/control/motion_check.h"
@@ -9,10 +9,10 @@ namespace awmr {
 /// Bounds that a healthy vehicle and its GPS do not exceed.
 struct GpsLimits {
   float speed_max_mps;    ///< largest speed
-  float on_course_rad;    ///< largest difference of heading and commanded heading in steady motion
-  float off_course_mrad;  ///< integral over the distance of the difference beyond it, m rad
+  float on_course_rad;    ///< e0: largest heading error in steady motion
+  float off_course_mrad;  ///< largest integral over the distance of the error beyond e0, m rad
   uint32_t timeout_ms;    ///< longest time without a fix
-  /// The work on a fix is spread over several steps (GpsReceiver).
+  /// True: the work on a fix is spread over several steps (GpsReceiver).
   static constexpr bool spreads_work = true;
 };
 
@@ -43,7 +43,7 @@ class GpsCheck {
   bool accept_fix(const GpsFix& fix, float x_m, float y_m, uint32_t now_ms, const GpsContext& at) {
     sentence_ms_ = now_ms;
     if (has_utc_) {
-      // Both are times of day.
+      // utc_ms is a time of day, which starts at 0 again at midnight.
       uint32_t advance_ms = fix.utc_ms - utc_ms_;
       if (fix.utc_ms < utc_ms_) advance_ms += kDay_ms;
       if (advance_ms == 0) return refuse(kGpsRepeated);
@@ -67,7 +67,7 @@ class GpsCheck {
       motion_.restart();
       has_fix_ = false;
     }
-    // At rest after a contradiction: reset for the next arming.
+    // Disarmed and at rest: clear a fault for the next arming.
     if (!at.is_armed && fix.speed_mps < kStandstill_mps) motion_.restart();
     elsewhere_ = 0;
     if (has_fix_) motion_.take(motion, at);
@@ -77,7 +77,7 @@ class GpsCheck {
     return true;
   }
 
-  /// As MotionCheck::check(), with the last accepted fix.
+  /// Does the next comparison of MotionCheck::check(), for the last accepted fix.
   bool check_motion() { return motion_.check(limits_); }
   void finish_motion() {
     while (check_motion()) {
@@ -98,7 +98,7 @@ class GpsCheck {
     uint32_t time_ms;
   };
 
-  /// Maximum lag of fixes behind the earliest, ms.
+  /// Maximum increase of the fixes' latency above its smallest value, ms.
   static constexpr int32_t kGpsLag_ms = 500;
   /// Displacement between two fixes that counts as noise, m.
   static constexpr float kNoise_m = 3.0F;
@@ -113,7 +113,7 @@ class GpsCheck {
   int32_t lag_ms_ = 0;
   Place fix_ = {0.0F, 0.0F, 0.0F, 0};  // last accepted fix
   MotionCheck motion_;
-  uint8_t elsewhere_ = 0;  // consecutive fixes that were too far away
+  uint8_t elsewhere_ = 0;  // consecutive fixes out of reach
   uint8_t unsettled_ = 0;  // fixes to wait for after UTC ran back
   SensorFault last_ = kSensorGood;
   bool has_utc_ = false;
@@ -124,9 +124,9 @@ class GpsCheck {
     return false;
   }
 
-  /// Updates the lag of the fixes behind the earliest. It grows by the advance of the clock minus
-  /// that of UTC, and decreases by 1/64 of the time, because a board's clock can be wrong by up to
-  /// 0.5 %.
+  /// Updates the increase of the fixes' latency above its smallest value. Between two fixes, this
+  /// increase grows by the advance of the board's clock minus that of UTC. 1/64 of the time is
+  /// deducted, because a board's clock can be wrong by up to 0.5 %.
   void note_lag(uint32_t wait_ms, uint32_t advance_ms) {
     lag_ms_ += static_cast<int32_t>(wait_ms - advance_ms) - static_cast<int32_t>(advance_ms / 64U);
     if (lag_ms_ < 0) lag_ms_ = 0;
@@ -138,7 +138,8 @@ class GpsCheck {
             1e-3F * static_cast<float>(detail::elapsed_ms(to.time_ms, fix_.time_ms)), to.speed_mps};
   }
 
-  /// True within noise plus 1.5 times the larger of both speeds and 1 m/s.
+  /// True if the displacement is at most
+  ///   kNoise_m + (1.5 u + 1 m/s) t,   u: the larger speed of both fixes, t: the time between them
   bool is_reachable(const Place& to, const GpsMotion& motion) const {
     float speed_mps = to.speed_mps > fix_.speed_mps ? to.speed_mps : fix_.speed_mps;
     if (speed_mps > limits_.speed_max_mps) speed_mps = limits_.speed_max_mps;

@@ -2,22 +2,22 @@
 ///
 /// Characters are received between the steps. The work on a sentence is spread over several steps,
 /// so that all take about the same time:
-///   1. Convert its numbers.
+///   1. Convert the numbers of the sentence.
 ///   2. Accept or reject the fix.
 ///   3. Publish position and speed, for the autopilot in this step.
-///   4. Compute the displacement along the heading.
-///   5. Compare it with command and speed.
-///   6. Compare it with the heading.
+///   4. Compare the displacement since the last fix with the command.
+///   5. Compare the displacement with the speed.
+///   6. Compare the displacement with the heading.
 ///   7. Compare the heading with the commanded one.
-/// If the next sentence ends earlier, a fix in step 1 or 2 is dropped and the rest is done at once.
-/// A long sample time has room for all of it in one step, and too few steps to spread it.
+/// If the next sentence ends earlier, a fix in step 1 or 2 is dropped, and the work of steps 3 to 7
+/// is done at once. With a long sample time (spreads_work false), one step does all of the work.
 #pragma once
 
 #include "awmr/control/gps_check.h"
 
 namespace awmr {
 
-/// Position in the plane of the autopilot.
+/// Position in the autopilot's world frame, m.
 struct GpsPlace {
   float x_m, y_m;
 };
@@ -27,24 +27,25 @@ class GpsReceiver {
  public:
   float x_m = 0.0F;
   float y_m = 0.0F;
-  float speed_mps = 0.0F;  ///< without a sign
-  uint32_t time_ms = 0;    ///< arrival time of its sentence, valid once has_fix()
+  float speed_mps = 0.0F;  ///< speed over ground, without a sign
+  uint32_t time_ms = 0;    ///< arrival time of the fix's sentence, valid once has_fix()
 
   constexpr explicit GpsReceiver(const Limits& limits = Limits()) : check_(limits) {}
 
   void begin(uint32_t now_ms) { check_.begin(now_ms); }
   bool has_fix() const { return has_fix_; }
-  /// Reason why fixes are rejected; kSensorGood: they are accepted.
+  /// Reason why fixes are rejected; kSensorGood: fixes are accepted.
   SensorFault fault(uint32_t now_ms) const { return check_.fault(now_ms); }
 
-  /// Call as often as the port's buffer needs, never during step(): reads all characters that have
-  /// arrived. `port` has available() and read(), like Arduino's Stream.
+  /// Reads all characters that have arrived. Call it before the port's buffer is full, and never
+  /// during step(). `port` has available() and read(), like Arduino's Stream.
   template <class Port>
   void receive(Port& port, uint32_t now_ms) {
     while (port.available() > 0) take(static_cast<char>(port.read()), now_ms);
   }
 
-  /// Call once per step. `project` converts a GpsFix to a GpsPlace.
+  /// Does the next part of the work on the fix. Call it once per step. `project` converts a GpsFix
+  /// to a GpsPlace.
   template <class Projection>
   void step(Projection& project, const GpsContext& at) {
     do {
@@ -57,9 +58,9 @@ class GpsReceiver {
 
   RmcReader reader_;
   GpsCheck<Limits> check_;
-  RmcNumbers numbers_ = {};           // of the current sentence
-  GpsPlace believed_ = {0.0F, 0.0F};  // not published yet, valid from Work::kAccept on
-  GpsFix fix_ = {};                   // of the same sentence
+  RmcNumbers numbers_ = {};           // numbers of the current sentence
+  GpsPlace believed_ = {0.0F, 0.0F};  // its position, valid from Work::kAccept on
+  GpsFix fix_ = {};                   // its fix, valid from Work::kAccept on
   uint32_t sentence_ms_ = 0;
   Work due_ = Work::kNone;
   bool has_fix_ = false;

@@ -1,7 +1,7 @@
 /// Strict reader for the RMC sentence of a GPS (NMEA 0183). An empty or malformed field, or a
-/// missing or wrong check sum, makes the whole sentence unusable. It works character by character
-/// and in integers, so that its cost is spread over the steps in which the sentence arrives.
-/// Freestanding C++14.
+/// missing or wrong check sum, makes the whole sentence unusable. The reader works character by
+/// character and in integers, so that its computing time is spread over the steps in which the
+/// sentence arrives. Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
@@ -31,8 +31,9 @@ constexpr uint32_t kDay_ms = 1000 * kDay_s;
 /// Units of GpsFix::lat_e7 in a degree.
 constexpr uint32_t kDegree_e7 = 10000000;
 
-/// A number of a sentence: the digits before its point, and those behind it in units of the last
-/// place kept. Two-digit groups below 60 are combined with base 60: 1234 is 12 60 + 34.
+/// A number of a sentence: its digits before the point, and its digits behind the point in units of
+/// the last place that is kept. Degrees, minutes and seconds are combined with base 60: the digits
+/// 1234 of 12 deg 34 min become 12 * 60 + 34.
 struct RmcNumber {
   uint32_t whole;
   uint32_t part;
@@ -40,10 +41,10 @@ struct RmcNumber {
 
 /// The numbers of a sentence before they are converted.
 struct RmcNumbers {
-  RmcNumber utc;    ///< s since midnight, and ms
-  RmcNumber lat;    ///< minutes of arc, and 1e-7 of one
-  RmcNumber lon;    ///< minutes of arc, and 1e-7 of one
-  RmcNumber knots;  ///< kn, and 1e-3 kn
+  RmcNumber utc;    ///< in s since midnight, and ms
+  RmcNumber lat;    ///< in minutes of arc, and 1e-7 minutes of arc
+  RmcNumber lon;    ///< in minutes of arc, and 1e-7 minutes of arc
+  RmcNumber knots;  ///< in knots, and 1e-3 knots
   bool is_south;
   bool is_west;
 };
@@ -60,7 +61,8 @@ inline uint8_t hex_value(char c) {
   return 16;
 }
 
-/// 1e7 (whole + 1e-7 part)/60, computed by degrees and minutes to stay within 32 bits.
+/// Minutes of arc in 1e-7 deg: 1e7 (whole + 1e-7 part)/60. Degrees and minutes are converted
+/// separately to stay within 32 bits.
 inline int32_t degrees_e7(const RmcNumber& minutes, bool is_negative) {
   const uint16_t whole = static_cast<uint16_t>(minutes.whole);
   const uint16_t degrees = static_cast<uint16_t>(whole / 60U);
@@ -144,12 +146,12 @@ class RmcReader {
   enum SumPlace : uint8_t { kSummed, kHighDigit, kLowDigit, kComplete, kTooMuch };
 
   RmcNumbers numbers_ = {};
-  RmcNumber* number_ = 0;  // of this field; 0: it is not a number
-  uint32_t value_ = 0;     // of its digits since the last point
+  RmcNumber* number_ = 0;  // number that this field fills in; 0: the field is not a number
+  uint32_t value_ = 0;     // value of the field's digits since its start or its point
   uint8_t field_ = kTalker;
   uint8_t size_ = 0;         // characters of this field
-  uint8_t digits_left_ = 0;  // before the point
-  uint8_t places_left_ = 0;  // behind it
+  uint8_t digits_left_ = 0;  // digits still expected before the point
+  uint8_t places_left_ = 0;  // digits still kept behind the point
   uint8_t sixties_ = 0;      // bit 0: next digit begins a group below 60; bit 1: the one after
   uint8_t length_ = 0;
   uint8_t sum_ = 0;

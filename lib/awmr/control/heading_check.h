@@ -1,17 +1,18 @@
-/// Plausibility checks of compass and gyroscope: state machines over raw readings with time stamps
-/// of one clock in ms that can wrap. Freestanding C++14.
+/// Plausibility checks of compass and gyroscope on their raw readings. All time stamps are of one
+/// clock in ms that can wrap. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/sensor_fault.h"
 
 namespace awmr {
 
-/// Raw words of a working sensor vary by noise: five counts RMS for the gyroscope, four for the
-/// compass. 50 equal words in a row mean a frozen sensor.
+/// Time without a change of the raw word after which a sensor counts as frozen, ms: 50 words at 100
+/// Hz. The noise of a working sensor changes its word, by 5 counts RMS (gyroscope) or 4 (compass).
 constexpr uint32_t kFrozen_ms = 500;
+/// Longest time without a new field of the compass, ms.
 constexpr uint32_t kCompassSilent_ms = 500;
 
-/// Detects words that do not change.
+/// Detects a raw word that does not change for kFrozen_ms.
 class FrozenCheck {
  public:
   AWMR_CALLED_MEMBER void take(uint32_t words, uint32_t now_ms) {
@@ -33,12 +34,11 @@ class FrozenCheck {
   bool is_frozen_ = false;
 };
 
-/// Measures the zero-rate offset of a gyroscope during one second at rest; retries until it is at
-/// rest.
+/// Measures the zero-rate offset of a gyroscope during one second. If the vehicle turned in this
+/// second, the measurement starts again.
 class GyroCalibration {
  public:
-  /// Processes the word of one sample, at rest or not; `heading_rad` is the compass's, valid with
-  /// `has_heading`.
+  /// Processes the word of one sample. `heading_rad` is the compass heading, valid if `has_heading`.
   void take(int16_t word, float rate_per_word, bool has_heading, float heading_rad) {
     if (is_done_) return;
     if (count_ == 0) start(word);
@@ -62,9 +62,10 @@ class GyroCalibration {
 
  private:
   static constexpr uint8_t kSamples = 100;
-  /// Six times the peak-to-peak noise of an MPU9250 with its 41 Hz filter.
+  /// Largest difference of two readings at rest: six times the peak-to-peak noise of an MPU9250 with
+  /// its 41 Hz filter.
   static constexpr float kSpreadMax_radps = 0.05F;
-  /// The data sheet specifies a zero-rate offset of 5 deg/s.
+  /// Largest zero-rate offset, 5.2 deg/s; the data sheet specifies 5 deg/s.
   static constexpr float kBiasMax_radps = 0.09F;
   /// Maximum change of the compass heading from first to last reading, rad: 3.4 deg, of which 1.4
   /// deg can be noise.
@@ -94,9 +95,9 @@ class GyroCalibration {
   }
 };
 
-/// Compares compass and gyroscope. The heading is the integral of the gyroscope, corrected by the
-/// compass with the time constant T. Its innovation e = wrap(compass - heading) is T times the
-/// difference of their rates.
+/// Compares compass and gyroscope. The heading is the integral of the gyroscope's yaw rate,
+/// corrected by the compass with the time constant T. In the steady state, the innovation
+/// e = wrap(compass - heading) is T times the difference of the two sensors' yaw rates.
 class StepCheck {
  public:
   /// Processes one innovation, `dt_s` after the last.
@@ -110,10 +111,12 @@ class StepCheck {
   bool is_apart() const { return is_apart_; }
 
  private:
-  /// Compass jump, or wrong gyroscope scale in a turn: 20 deg for 0.2 s.
+  /// An innovation above 20 deg for 0.2 s: the compass jumped, or the scale of the gyroscope is wrong
+  /// in a turn.
   static constexpr float kJump_rad = 0.35F;
   static constexpr float kJump_s = 0.2F;
-  /// Frozen compass, or gyroscope drift: 6 deg, which is 3 deg/s for T = 2 s, as a mean over 5 s.
+  /// A mean innovation above 6 deg (low pass of 5 s), which is 3 deg/s for T = 2 s: the compass is
+  /// frozen, or the gyroscope drifts.
   static constexpr float kSlow_per_s = 0.2F;
   static constexpr float kSlowMax_rad = 0.105F;
 
@@ -122,18 +125,17 @@ class StepCheck {
   bool is_apart_ = false;
 };
 
-/// Compares the yaw rate with the commanded yaw moment: swapped left and right motors, a reversed
-/// servo, or a gyroscope with the wrong sign turn the vehicle away from the commanded heading. A
-/// yaw rate against the moment that decreases is a turn being braked: only a quarter turn at a rate
-/// that does not decrease by a quarter is a fault.
+/// Compares the yaw rate with the commanded yaw moment, to detect swapped left and right motors, a
+/// reversed servo, or a gyroscope with the wrong sign. The fault is a turn of 90 deg against the
+/// moment in which the yaw rate never falls by a quarter: if it falls, the moment brakes a turn.
 class TurnCheck {
  public:
   /// rate_per_word: rad/s per count of the gyroscope. dt_s: time between two readings, s.
   void begin(float rate_per_word, float dt_s) {
     quarter_turn_words_ = static_cast<int32_t>(float_math::kPiBy2 / (rate_per_word * dt_s));
   }
-  /// Adds a reading of the gyroscope without its offset, and the moment commanded since the last
-  /// one, m; 0: the motors are off. Integer arithmetic, which is fast on the chip.
+  /// Adds a reading of the gyroscope, with its offset removed. `moment_m` is the yaw moment commanded
+  /// since the last reading, m; 0: the motors are off. Integer arithmetic, which is fast on the chip.
   AWMR_CALLED_MEMBER void take(int16_t word, float moment_m) {
     if (word <= kTurning && word >= -kTurning) {
       if (is_wrong_ && float_math::magnitude_bits(moment_m) == 0) restart();
@@ -154,11 +156,11 @@ class TurnCheck {
   bool is_wrong() const { return is_wrong_; }
 
  private:
-  /// 5.7 deg/s of an MPU9250 at +-500 deg/s, above the noise.
+  /// Smallest word that counts as turning: 5.7 deg/s for an MPU9250 at +-500 deg/s, above the noise.
   static constexpr int16_t kTurning = 375;
-  int32_t quarter_turn_words_ = 0;  // sum of the words over a quarter of a turn
-  int32_t against_words_ = 0;
-  uint16_t fastest_ = 0;  // size of the fastest word since against_words_ was 0
+  int32_t quarter_turn_words_ = 0;  // sum of the words over a turn of 90 deg
+  int32_t against_words_ = 0;       // sum of the words against the moment
+  uint16_t fastest_ = 0;            // largest |word| since against_words_ was 0
   bool is_wrong_ = false;
 
   void restart() {
@@ -168,7 +170,7 @@ class TurnCheck {
   }
 };
 
-/// Compass and gyroscope together.
+/// All checks of compass and gyroscope together.
 class HeadingCheck {
  public:
   GyroCalibration calibration;
@@ -189,8 +191,8 @@ class HeadingCheck {
   /// Processes a new field of the compass, as three raw words.
   void take_field(int16_t x, int16_t y, int16_t z, uint32_t now_ms) {
     field_ms_ = now_ms;
-    // One word of 32 bits replaces three of 16. A change of any of them changes it, except pairs of
-    // changes that cancel; not all changes within half a second do so.
+    // The three words of 16 bits are hashed to one of 32 bits. Simultaneous changes of two words can
+    // cancel, but not in all readings of half a second.
     const uint32_t low = static_cast<uint16_t>(x);
     const uint32_t high = static_cast<uint16_t>(y);
     field_.take(

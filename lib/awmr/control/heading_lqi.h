@@ -14,8 +14,8 @@ namespace awmr {
 template <class T>
 struct LqiWeights {
   T heading_rad;     ///< e_max, rad, > 0: of the heading error e
-  T yaw_rate_radps;  ///< r_max, rad/s, > 0: of its rate e_dot
-  T integral_rad_s;  ///< z_max, rad s, > 0: of its integral z
+  T yaw_rate_radps;  ///< r_max, rad/s, > 0: of the rate e_dot of e
+  T integral_rad_s;  ///< z_max, rad s, > 0: of the integral z of e
   /// tau_max, m, > 0: of the requested yaw moment beyond the resistance and the reference's
   /// acceleration.
   T tau_turn_m;
@@ -65,14 +65,14 @@ LqiGains<T> lqi_gains(const LqiWeights<T>& weights, const T& inertia_norm) {
   return {a0, a1, sqrt(c2 + T(2.0) * a1)};
 }
 
-/// True if the sampled law, with T_s = sample_time_s > 0, is stable. With w held and z advanced by
-/// T_s e,
+/// True if the sampled closed loop, with T_s = sample_time_s > 0, is stable. During a sample w is
+/// constant, so the loop is
 ///   e+ = e + T_s e_dot - w T_s^2/2,  e_dot+ = e_dot - w T_s,  z+ = z + T_s e
-/// has over l = (eigenvalue) - 1 the characteristic polynomial
+/// Its characteristic polynomial in l = (eigenvalue) - 1 is
 ///   l^3 + A l^2 + B l + C,  A = a2 T_s + a1 T_s^2/2,  B = a1 T_s^2 + a0 T_s^3/2,  C = a0 T_s^3
-/// whose zeros are within the unit circle if those of its bilinear image l = 2 s/(1 - s),
+/// The eigenvalues are within the unit circle if all zeros s of the bilinear image l = 2 s/(1 - s),
 ///   (8 - 4 A + 2 B - C) s^3 + (4 A - 4 B + 3 C) s^2 + (2 B - 3 C) s + C,
-/// are in the left half-plane (Hurwitz).
+/// are in the left half-plane, which is tested by Hurwitz's criterion.
 template <class T>
 bool settles_when_sampled(const LqiGains<T>& gains, const T& sample_time_s) {
   const T a = gains.rate_per_s * sample_time_s +
@@ -107,7 +107,7 @@ T lqi_law(const G& yaw, const T& inertia_norm, const LqiGains<T>& gains, const M
          inertia_norm * (ref.psi_accel_radps2 + w);
 }
 
-/// Moments whose relative difference is below this are equal except for rounding.
+/// Relative difference of two moments below which they count as equal: rounding.
 template <class T>
 constexpr T same_moment_share() {
   return T(1e-6);

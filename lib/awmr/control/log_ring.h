@@ -1,7 +1,7 @@
-/// Ring buffer for log rows between the control step, which must not wait, and a card, which can
-/// block for a quarter of a second. Freestanding C++11.
+/// Ring buffer for log rows: the control step, which must not wait, writes rows; the idle loop
+/// stores them on a card, which can block for a quarter of a second. Freestanding C++11.
 ///
-/// One writer (the control step, an interrupt) and one reader (the idle loop) need no lock: each
+/// The writer (the control step, an interrupt) and the reader (the idle loop) need no lock. Each
 /// changes only its own counter, a byte, which an 8-bit processor reads and writes atomically.
 #pragma once
 
@@ -14,16 +14,16 @@ namespace awmr {
 /// Rows per block of a card.
 constexpr uint8_t kLogBlockRows = 8;
 
-/// kBlocks of 512 bytes. At one row per sample time it covers (kBlocks - 1) * 8 sample times
-/// without a write: 0.56 s with 8 blocks at 10 ms.
+/// A ring of kBlocks blocks of 512 bytes. At one row per sample time, no row is lost while the card
+/// blocks for up to (kBlocks - 1) * 8 sample times: 0.56 s with 8 blocks and 10 ms.
 template <uint8_t kBlocks>
 class LogRing {
   static_assert(kBlocks >= 2 && kBlocks <= 16 && (kBlocks & (kBlocks - 1)) == 0,
                 "2, 4, 8 or 16 blocks: counters of a byte run through all rows");
 
  public:
-  /// The row to fill in, or 0 if the ring is full: the row is lost, and the sequence numbers show
-  /// the gap.
+  /// Returns the row to fill in, or 0 if the ring is full. A lost row also gets a sequence number,
+  /// which is then missing in the log.
   LogRow* begin_row() {
     const uint32_t sequence = sequence_++;
     if (static_cast<uint8_t>(written_ - read_) == kRows) return 0;
@@ -31,28 +31,29 @@ class LogRing {
     row.sequence = sequence;
     return &row;
   }
-  /// Completes the row.
+  /// Makes the row of begin_row() available to the reader.
   void end_row() {
     barrier();
     written_ = static_cast<uint8_t>(written_ + 1);
   }
 
-  /// Number of rows that can be read at once: those up to the end of a block if all are complete;
-  /// with `rest`, those that are complete.
+  /// Number of rows that can be read at once: the rows up to the end of a block once all of them are
+  /// complete, else 0. With `rest`, the complete rows of an unfinished block, too.
   uint8_t ready(bool rest = false) const {
     const uint8_t there = static_cast<uint8_t>(written_ - read_);
     const uint8_t whole = static_cast<uint8_t>(kLogBlockRows - read_ % kLogBlockRows);
     if (there >= whole) return whole;
     return rest ? there : static_cast<uint8_t>(0);
   }
-  /// The first of `count` ready rows, contiguous and sealed.
+  /// Computes the check sums of the next `count` ready rows and returns the first; the others follow
+  /// it in memory.
   const LogRow* sealed(uint8_t count) {
     barrier();
     LogRow* first = rows_ + (read_ & kMask);
     for (uint8_t i = 0; i < count; ++i) seal(first[i]);
     return first;
   }
-  /// Frees their space for writing.
+  /// Frees the space of these `count` rows for writing.
   void release(uint8_t count) {
     barrier();
     read_ = static_cast<uint8_t>(read_ + count);
@@ -67,8 +68,8 @@ class LogRing {
 
   LogRow rows_[kRows];
   uint32_t sequence_ = 0;
-  volatile uint8_t written_ = 0;  ///< rows since the start, modulo 256
-  volatile uint8_t read_ = 0;
+  volatile uint8_t written_ = 0;  ///< rows written since the start, modulo 256
+  volatile uint8_t read_ = 0;     ///< rows released since the start, modulo 256
 };
 
 }  // namespace awmr

@@ -3,7 +3,7 @@
 ///
 ///     file = headers and rows in any order, the first header before the first row
 ///     header = kLogHeaderBytes: kLogMagic, JSON padded with spaces, CRC-32 of all before it
-///     row = sync, CRC-16 of what follows, sequence, the columns as the header lists them
+///     row = sync, CRC-16 of all bytes after it, sequence, the columns as the header lists them
 ///
 /// All numbers are little-endian.
 #pragma once
@@ -15,14 +15,14 @@
 
 namespace awmr {
 
-/// Start of a header; its first byte is not UTF-8, so that no text starts like it.
+/// Start of a header. The first byte is not valid UTF-8, so that no text file starts with it.
 constexpr uint8_t kLogMagic[4] = {0xA7, 'A', 'W', 'L'};
 /// Size of a header: four blocks of a card.
 constexpr size_t kLogHeaderBytes = 2048;
 
 /// Start of a row.
 constexpr uint8_t kLogSync[2] = {0xB5, 0x62};
-/// Sync, CRC and sequence, before a row's columns.
+/// Number of bytes before a row's columns: sync, CRC and sequence.
 constexpr size_t kLogRowHead = 8;
 /// Offset of the first byte that a row's CRC covers.
 constexpr size_t kLogRowCovered = 4;
@@ -31,10 +31,10 @@ constexpr size_t kLogRowCovered = 4;
 struct LogRow {
   uint8_t sync[2];
   uint16_t crc;       ///< written by seal(), outside of the control step
-  uint32_t sequence;  ///< of the rows since the start, including lost ones
-  uint32_t step;      ///< sample times since the start
-  float force_left;   ///< of each wheel on that side, over F_max
-  float force_right;
+  uint32_t sequence;  ///< number of this row since the start; lost rows are counted
+  uint32_t step;      ///< time since the start, in sample times
+  float force_left;   ///< command of each left wheel, over F_max
+  float force_right;  ///< command of each right wheel, over F_max
   float steering_rad;
   float x_m;
   float y_m;
@@ -48,12 +48,12 @@ struct LogRow {
   uint8_t mode;         ///< a YawMode
   uint8_t fault;        ///< SafetyFault bits
   uint8_t limits;       ///< 1: speed, 2: steering, 4: force, 8: too little force to steer with;
-                        ///< the upper four bits are a SensorFault (sensor_fault.h)
+                        ///< upper four bits: SensorFault (sensor_fault.h) modulo 16
   uint8_t reset_cause;  ///< as reported by the board; the same in every row
 };
 static_assert(sizeof(LogRow) == 64, "eight rows fill a block of 512 bytes");
 
-/// Converts a row in memory to its file form. Precondition: a little-endian machine.
+/// Completes a row for the file with sync and check sum. Precondition: a little-endian machine.
 inline void seal(LogRow& row) {
   uint8_t* bytes = reinterpret_cast<uint8_t*>(&row);
   row.sync[0] = kLogSync[0];

@@ -1,6 +1,5 @@
-/// Comparison of the displacement between two GPS fixes with the speed, the command and the
-/// heading.
-/// Freestanding C++14.
+/// Plausibility of the motion between GPS fixes: compares the displacement with the measured speed,
+/// the command and the heading. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/displacement.h"
@@ -9,33 +8,34 @@
 
 namespace awmr {
 
-/// The vehicle's command at the time of a fix.
+/// Heading and command of the vehicle at the time of a fix.
 struct GpsContext {
   float psi_rad;      ///< heading
   float psi_ref_rad;  ///< commanded heading
-  int8_t direction;   ///< of the commanded speed: 1, 0 or -1
-  /// False: a new position is accepted after ten fixes, 2 s at 5 Hz.
+  int8_t direction;   ///< sign of the commanded speed: 1, 0 or -1
+  /// False: a position out of reach is accepted after ten fixes (2 s at 5 Hz). True: never.
   bool is_armed;
 };
 
 /// Motion from one fix to the next.
 struct GpsMotion {
   float dx_m, dy_m, time_s;
-  float speed_mps;  ///< at its end, without a sign
+  float speed_mps;  ///< measured speed at the second fix, without a sign
 };
 
-/// Plausibility of the motion that fixes show. A fault lasts until restart().
+/// Checks of the motion between fixes. A fault lasts until restart().
 class MotionCheck {
  public:
+  /// Starts the four comparisons of check() for this motion.
   void take(const GpsMotion& motion, const GpsContext& at) {
     motion_ = motion;
     context_ = at;
     due_ = Due::kDirection;
   }
 
-  /// Compares the displacement of the last motion with the command (first call), with the speed
-  /// (second) and with the heading (third), and the heading with the commanded one (fourth). False:
-  /// done. `limits` as GpsLimits.
+  /// Does the next comparison for the last motion. The first call compares the displacement with the
+  /// command, the second with the speed, the third with the heading. The fourth compares the heading
+  /// with the commanded one. False: all are done. Limits: GpsLimits, or its names as constants.
   template <class Limits>
   bool check(const Limits& limits) {
     switch (due_) {
@@ -68,7 +68,7 @@ class MotionCheck {
 
   SensorFault fault() const { return fault_; }
 
-  /// Clears the contradiction for the next arming.
+  /// Clears the fault and all sums, for the next arming.
   AWMR_CALLED_MEMBER void restart() {
     restart_window();
     same_m_ = against_m_ = 0.0F;
@@ -82,71 +82,72 @@ class MotionCheck {
   /// Next comparison of the last motion.
   enum class Due : uint8_t { kNothing, kDirection, kSpeed, kTrack, kCourse };
 
-  /// Maximum gap between fixes across which motion is evaluated, s.
+  /// Maximum time between two fixes whose motion is evaluated, s.
   static constexpr float kGap_s = 4.0F;
   /// Length of the windows in which displacement and speed are compared, m and s.
   static constexpr float kWindow_m = 12.0F;
   static constexpr float kWindow_s = 90.0F;
   /// Displacement along the heading that is permitted beyond 1.25 times the distance travelled, m.
-  /// A
-  /// position that wanders by 1.5 m RMS, correlated over a minute, drifts by
+  /// It covers the drift of the fixes: an error of 1.5 m RMS with a correlation time of 60 s changes
+  /// in the time t by
   ///   1.5 sqrt(2 (1 - exp(-t/60 s))) m RMS
-  /// to one side in the time t: 1.9 m in a window.
+  /// which is 1.9 m in a window of kWindow_s.
   static constexpr float kFurther_m = 6.0F;
-  /// Displacement along the heading that is required, as a share of the distance travelled. With a
-  /// compass
-  /// 30 deg off and three times that drift, a healthy vehicle reaches 0.39.
+  /// Displacement that is required, as a share of the distance travelled. A healthy vehicle reaches
+  /// 0.39 even with a compass error of 30 deg and three times the RMS drift above.
   static constexpr float kNotFurther = 0.25F;
-  /// At u_ref = 0 a window is limited to this time, s, because the noise of an unsigned speed
-  /// accumulates.
+  /// At u_ref = 0, longest window whose displacement is compared, s. In a longer one, the noise of
+  /// the unsigned speed alone would add up to kWindow_m.
   static constexpr float kMoving_s = kWindow_m / kStandstill_mps;
-  /// Maximum distance travelled without any change of position, m. With a commanded motion, the
-  /// speed counts as at least kStill_mps (10 s), which detects a receiver that froze at rest.
+  /// Maximum distance travelled by the speed while the position does not change, m. While a motion
+  /// is commanded, a speed at standstill counts as kStill_mps. So a receiver that froze at rest is
+  /// detected after 10 s.
   static constexpr float kSame_m = 1.5F;
   static constexpr float kStill_mps = 0.15F;
-  /// Maximum displacement against the commanded direction, m, in as many consecutive fixes. At most
-  /// kAhead_m of displacement ahead is deducted. It exceeds the drift of the position while the
-  /// vehicle moves.
+  /// Maximum displacement against the commanded direction, m: a fault if kAgainstFixes consecutive
+  /// fixes exceed it. Earlier displacement in the commanded direction counts up to kAhead_m. The
+  /// maximum is larger than the drift of the fixes while the vehicle moves.
   static constexpr float kAgainst_m = 2.0F;
   static constexpr float kAhead_m = 1.0F;
   static constexpr uint8_t kAgainstFixes = 3;
-  /// Track and heading are compared over this displacement, |ahead| + |left|: 10 m and 0.1 m/s.
-  /// kOffTrack of it to the side is at least 3.5 times the drift (kFurther_m), also at low speed.
+  /// The direction of travel is compared with the heading after a displacement |ahead| + |left| of
+  /// kTrack_m plus kTrack_mps times the time. The sideways part that is a fault (kOffTrack) is then
+  /// at least 3.5 times the RMS drift of the fixes (kFurther_m), also at low speed.
   static constexpr float kTrack_m = 10.0F;
   static constexpr float kTrack_mps = 0.1F;
-  /// tan 30 deg: more than the sideslip of a vehicle plus the change of heading in 0.5 s of
-  /// latency, in a turn of kStraight_rad per fix.
+  /// Maximum |left|/|ahead|: tan 30 deg. It exceeds the sideslip of a vehicle plus the change of
+  /// heading in 0.5 s of latency in a turn of kStraight_rad per fix.
   static constexpr float kOffTrack = 0.577F;
-  /// Displacements over which the heading changes by more than this, rad, are left out.
+  /// Largest change of the heading between two fixes whose displacement is compared, rad.
   static constexpr float kStraight_rad = 0.1F;
   /// A change of the commanded heading between two fixes by more than this, rad, is a new command.
   static constexpr float kNewCourse_rad = 0.35F;
-  /// After a change of the commanded direction, longest time of braking, s, and largest increase of
-  /// the speed, m/s.
+  /// After a change of the commanded direction, the vehicle may brake for this time, s, while its
+  /// speed increases by at most kFaster_mps.
   static constexpr float kBraking_s = 10.0F;
   static constexpr float kFaster_mps = 0.5F;
 
   GpsMotion motion_ = {0.0F, 0.0F, 0.0F, 0.0F};  // valid if a comparison is due
   GpsContext context_ = {0.0F, 0.0F, 0, false};
   float window_s_ = 0.0F;         // time since the window began
-  float window_m_ = 0.0F;         // along the heading since then
-  float window_left_m_ = 0.0F;    // to the left of it, where the motion is straight
+  float window_m_ = 0.0F;         // displacement along the heading since then
+  float window_left_m_ = 0.0F;    // to the left of the heading, sum over straight motions
   float travelled_m_ = 0.0F;      // integral of the speed since then
   float same_m_ = 0.0F;           // integral of the speed while the position did not change
-  float against_m_ = 0.0F;        // against the commanded direction
-  float ahead_m_ = 0.0F;          // of the last motion, valid from Due::kSpeed on
+  float against_m_ = 0.0F;        // displacement against the commanded direction
+  float ahead_m_ = 0.0F;          // of the last motion along the heading, from Due::kSpeed on
   float track_s_ = 0.0F;          // time of the motion since the track was compared
-  float track_ahead_m_ = 0.0F;    // sum of ahead since then
-  float track_left_m_ = 0.0F;     // sum of left
+  float track_ahead_m_ = 0.0F;    // displacement along the heading since then
+  float track_left_m_ = 0.0F;     // displacement to the left of the heading since then
   float track_psi_rad_ = 0.0F;    // heading at the previous fix
   float off_course_mrad_ = 0.0F;  // integral of the heading difference over the distance
   float course_rad_ = 0.0F;       // commanded heading at the previous fix
-  float braking_s_ = 0.0F;        // left of kBraking_s
+  float braking_s_ = 0.0F;        // time left for braking
   float braked_from_mps_ = 0.0F;  // speed when the commanded direction changed
   int8_t direction_ = 0;
   uint8_t against_fixes_ = 0;        // consecutive fixes beyond kAgainst_m
   SensorFault fault_ = kSensorGood;  // the first detected fault
-  bool is_straight_ = false;         // the last motion, valid from Due::kTrack on
+  bool is_straight_ = false;         // of the last motion, valid from Due::kTrack on
   Due due_ = Due::kNothing;
 
   AWMR_CALLED_MEMBER void note(SensorFault fault) {
@@ -157,11 +158,11 @@ class MotionCheck {
     window_s_ = window_m_ = window_left_m_ = travelled_m_ = 0.0F;
   }
 
-  /// |int ahead| <= 1.25 int u dt + the drift since the window began, and at the end of a window
-  /// that
-  /// was driven one way
-  ///   |int ahead| + |int left| >= 0.25 int u dt
-  /// where left allows for a compass error (kOffHeading).
+  /// Compares the displacement with the distance travelled, both since the window began:
+  ///   |sum of ahead| <= 1.25 int |u| dt + kFurther_m
+  /// and at the end of a window that was driven in one direction
+  ///   |sum of ahead| + |sum of left| >= 0.25 int |u| dt
+  /// The sum of left is included so that a compass error is not reported here but as kOffHeading.
   AWMR_CALLED_MEMBER void compare_with_speed() {
     const bool is_long = travelled_m_ > kWindow_m;
     if (is_long && (direction_ != 0 || window_s_ < kMoving_s) &&
@@ -185,7 +186,7 @@ class MotionCheck {
     if (same_m_ > kSame_m) note(kGpsInconsistent);
   }
 
-  /// Restarts when the commanded direction changes. A moving vehicle must brake first.
+  /// Restarts the sums when the commanded direction changes. A moving vehicle gets time to brake.
   void follow_command() {
     const bool is_moving = motion_.speed_mps > kStandstill_mps;
     if (context_.direction != direction_) {
@@ -240,7 +241,7 @@ class MotionCheck {
     restart_track();
   }
 
-  /// Integral over the distance of the heading difference beyond e0, m rad:
+  /// Integral over the distance driven of the heading error beyond e0, m rad:
   ///   off = max(0, off + int (|psi_d - psi| - e0) |u| dt),  e0 = on_course_rad
   /// It grows without limit if the vehicle does not turn to the commanded heading, for any reason:
   /// a gyroscope with the wrong sign, a failed or reversed servo or motor, a target inside the

@@ -1,4 +1,5 @@
-/// Commands of motors with back-EMF and a dead zone that make allocated forces. Freestanding C++14.
+/// Motor commands that make the allocated forces, for motors with back-EMF and a dead zone.
+/// Freestanding C++14.
 #pragma once
 
 #include "awmr/control/allocation_limits.h"
@@ -9,7 +10,7 @@
 namespace awmr {
 
 /// Constants of the allocation at the speed u, m/s, for motors with back-EMF: each force limit is
-/// reduced by k_e u. motor_drives() handles the turn's part of a wheel's speed, +- d r.
+/// reduced by k_e u. The part +- d r of a wheel's speed, from the yaw rate, is in motor_drives().
 template <class T>
 AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_per_m, const T& u_mps,
                                 double driven_wheels = 4.0) {
@@ -25,9 +26,10 @@ AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_pe
 
 /// Motor drives e that make these forces at the speed u, m/s, and yaw rate r, rad/s:
 ///   e = sat(F' + k_e w, [F'min, F'max]),   w = u -+ d r           upper sign: left, lower: right
-/// w is the speed of a rear wheel; a front wheel's differs by d_r^2/2 of it and by l_f r d_r.
-/// A drive of 0 switches the motor off: a vehicle that cannot reverse its motors (F'min = 0) brakes
-/// by back-EMF while its drive is above 0, and rolls freely otherwise. NaN stays NaN.
+/// w is the speed of a rear wheel. The speed of a front wheel differs by w d_r^2/2 and by l_f r d_r,
+/// which are neglected. A drive of 0 switches the motor off: a vehicle that cannot reverse its
+/// motors (F'min = 0) brakes by back-EMF while its drive is above 0, and rolls freely otherwise. NaN
+/// stays NaN.
 template <class T>
 SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants<T>& c,
                            const T& back_emf_s_per_m, const T& u_mps, const T& r_radps) {
@@ -40,13 +42,13 @@ SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants
                   c.force_max)};
 }
 
-/// Motor commands that make these drives with a dead zone.
+/// Motor commands whose parts beyond the dead zone are these drives.
 template <class T>
 SideForces<T> with_dead_zone(const SideForces<T>& drive, const T& dead_zone) {
   return {with_dead_zone(drive.left, dead_zone), with_dead_zone(drive.right, dead_zone)};
 }
 
-/// Motor commands that make these forces, with dead zone and back-EMF.
+/// Motor commands that make these forces with motors that have a dead zone and back-EMF.
 template <class T>
 SideForces<T> motor_commands(const SideForces<T>& force, const AllocationConstants<T>& c,
                              const T& dead_zone, const T& back_emf_s_per_m, const T& u_mps,

@@ -1,10 +1,10 @@
-/// Optional features of a firmware. Freestanding C++14.
+/// Parts: features of a firmware that are compiled in or left out. Freestanding C++14.
 #pragma once
 
 namespace awmr {
 
-/// Empty stand-in for a part that is not compiled in. It needs no flash, RAM or time: each operation
-/// on a part has a no-op overload for it.
+/// Empty stand-in for a part that is not compiled in. Each operation on a part has a no-op overload
+/// for the stand-in, which therefore needs no flash, RAM or time.
 template <class Part>
 struct Disabled {};
 
@@ -18,7 +18,8 @@ struct Optional<false, Part> {
   typedef Disabled<Part> type;
 };
 
-/// A part of an object that inherits from its parts, or its Disabled stand-in.
+/// Returns the base class `Part` of an object that inherits from its parts. `Part` can also be the
+/// Disabled stand-in.
 template <class Part, class Whole>
 Part& part_of(Whole& whole) {
   return static_cast<Part&>(whole);
@@ -28,8 +29,8 @@ Part& part_of(Whole& whole) {
 template <class Part>
 void disable(Disabled<Part>&) {}
 
-/// Resets a part after a step with the safe command: its memory of the vehicle's motion is no longer
-/// valid.
+/// Resets a part after a step with the safe command, because its stored state no longer matches the
+/// vehicle's motion.
 template <class Part>
 void reset(Disabled<Part>&) {}
 

@@ -19,35 +19,35 @@ struct TableShape {
   uint32_t mantissa_bits;  ///< ResistanceTable::mantissa_bits
 };
 
-/// All parameters of the firmware. It has only 32-bit members and so no padding: its bytes, and
-/// their check sum, are the same on every little-endian machine.
+/// Parameters that every firmware has. All members have 32 bits, so there is no padding: the bytes
+/// and their check sum are the same on every little-endian machine.
 struct ParameterBlock {
-  float surge_alpha_beta[2];  ///< a1, b1
-  float yaw_alpha_beta[2];    ///< a3, b3
+  float surge_alpha_beta[2];  ///< a1, b1 of g1(u) = a1 u^b1
+  float yaw_alpha_beta[2];    ///< a3, b3 of g3(r) = a3 r^b3
   ControlConstants<float> constants;
   SafetyLimits safety;
-  TableShape surge_table;  ///< of g1
-  TableShape yaw_table;    ///< of g3
+  TableShape surge_table;  ///< table of g1
+  TableShape yaw_table;    ///< table of g3
 };
 
 /// Additional parameters for motors with a dead zone or back-EMF, or for friction that does not
-/// vanish at rest. It also has only 32-bit members.
+/// vanish at rest. All members have 32 bits.
 struct RestBlock {
   float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
   float surge_rest_speed;  ///< RestingTable::rest_speed of g1, m/s
   float surge_at_rest;     ///< RestingTable::at_rest of g1
-  float yaw_rest_speed;    ///< of g3, rad/s
-  float yaw_at_rest;       ///< of g3, m
+  float yaw_rest_speed;    ///< RestingTable::rest_speed of g3, rad/s
+  float yaw_at_rest;       ///< RestingTable::at_rest of g3, m
   float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
 };
 
-/// Additional parameters for gains that were tuned with a disturbance observer. It also has only
-/// 32-bit members.
+/// Additional parameters for gains that were tuned with a disturbance observer. All members have 32
+/// bits.
 struct ObserverBlock {
-  float bandwidth_radps;  ///< L
+  float bandwidth_radps;  ///< L of DisturbanceObserver, rad/s
   float yaw_max_m;        ///< largest moment that is compensated, over F_max
   float surge_max;        ///< largest force that is compensated, over F_max
-  float sample_time_s;    ///< T_s
+  float sample_time_s;    ///< T_s, s: time between two steps
 };
 
 /// Continues the CRC-32 `crc` over `size` bytes, which are in flash on an AVR.
@@ -70,7 +70,7 @@ inline uint32_t crc32_of_parameters(const ParameterBlock* block, const Resistanc
   return ~(observer != 0 ? crc32_of_flash(crc, observer, sizeof *observer) : crc);
 }
 
-/// Sets the resistance in the compiled form: from the block's table, or from the block's alpha and
+/// Sets the resistance in the form that is compiled in: a table, or the power law with alpha and
 /// beta.
 inline void set_resistance(const TableShape* shape, const float* /*alpha_beta*/,
                            const ResistanceLine* lines, ResistanceTable& table) {

@@ -1,21 +1,22 @@
-/// Position of the vehicle from noisy fixes with latency and from the measured motion. Freestanding
-/// C++14.
+/// Estimate of the vehicle's position from GPS fixes, which have noise and latency, and from the
+/// measured motion. Freestanding C++14.
 ///
-/// Between fixes the position follows the travelled distance D (dead reckoning):
+/// Between fixes, the position p follows the dead-reckoned displacement D. c is the correction that
+/// has been applied so far:
 ///   p  = D + c
 ///   D += T_s (u cos psi - v sin psi, u sin psi + v cos psi)
-/// A fix z that was taken `age_s` ago is compared with the position at that time, from a ring of
-/// travelled positions. A Kalman filter estimates the offset o = p - D, with one variance for both
-/// axes:
+/// A fix z that was taken `age_s` ago is compared with D at that time, from a ring buffer of past
+/// values of D. A Kalman filter estimates the offset o of the true position from D, with one
+/// variance P for both axes and the variance R of a fix:
 ///   P += q t                        t: time since the previous fix
 ///   K  = P/(P + R),   nu = z - D(age_s ago) - o
 ///   o += K nu,   P -= K P
-/// The first fix starts it with P = R, so that the first fixes are averaged. c follows o linearly
-/// within kSpread_s, so that the direction to a near waypoint does not jump with each fix.
+/// The first fix sets P = R, so that the first fixes are averaged. c follows o linearly within
+/// kSpread_s, so that the direction to a near waypoint does not jump with each fix.
 ///
 /// A fix is rejected if |nu| > kInnovationMax sqrt(P + R). After kRejections in a row, the estimate
-/// is assumed wrong and reset to the last fix (`resets`). This rule is statistical; whether a
-/// vehicle can have moved that far is checked before, by gps_check.h.
+/// is assumed wrong and reset to the last fix (`resets`). gps_check.h tests before whether the
+/// vehicle can have moved to a fix at all.
 #pragma once
 
 #include <stdint.h>
@@ -40,15 +41,15 @@ struct PositionFix {
 template <class T, class Filter = PositionFilter<T>>
 class PositionEstimate {
  public:
-  uint8_t resets = 0;  ///< since the start, up to 255
+  uint8_t resets = 0;  ///< number of resets since the start, up to 255
 
   constexpr explicit PositionEstimate(const Filter& filter = Filter()) : filter_(filter) {}
 
   /// Restarts the estimate with the fix of the next step.
   void restart() { is_started_ = false; }
 
-  /// The position now. Call it once per step, with the last fix and the measured motion. A fix that
-  /// arrives while the previous one is being processed is not used.
+  /// Returns the present position. Call step() once per step, with the last fix and the measured
+  /// motion. A fix that arrives while the previous one is being processed is not used.
   Position<T> step(const PositionFix<T>& fix, const Measurement<T>& m) {
     if (!is_started_) {
       start(fix.position_m);
@@ -65,30 +66,30 @@ class PositionEstimate {
   }
 
  private:
-  /// A fix is processed in the last of these steps after its arrival; gps_receiver.h uses the steps
-  /// before.
+  /// With spread work, the processing of a fix starts kWait steps after its arrival, because
+  /// gps_receiver.h uses these for its checks. It takes kWorkSteps steps.
   static constexpr uint8_t kWorkSteps = 4;
   static constexpr uint8_t kWait = 5;
 
   Filter filter_;
-  Position<T> travelled_m_ = {};         // D
-  Position<T> step_m_ = {};              // D's in a step
+  Position<T> travelled_m_ = {};         // D: dead-reckoned displacement
+  Position<T> step_m_ = {};              // increment of D per step
   Position<T> direction_ = {};           // (cos psi, sin psi)
-  Position<T> offset_m_ = {};            // o
-  Position<T> shown_m_ = {};             // c
-  Position<T> follow_m_ = {};            // c's in a step
+  Position<T> offset_m_ = {};            // o: estimated offset
+  Position<T> shown_m_ = {};             // c: applied correction
+  Position<T> follow_m_ = {};            // increment of c per step
   Position<T> innovation_m_ = {};        // z, then nu
   Position<T> ring_m_[kTravelled] = {};  // D every `stride` steps
-  T age_s_ = T(0.0);        // of z, then its share of the way to the older element of the ring
-  T variance_m2_ = T(0.0);  // P
-  uint16_t steps_ = 0;      // since the last fix
+  T age_s_ = T(0.0);        // age of z; after locate(): fraction of the way from newer_ to older
+  T variance_m2_ = T(0.0);  // P: variance of o
+  uint16_t steps_ = 0;      // steps since the last fix
   uint8_t since_ = 0;       // steps since the newest element of the ring
-  uint8_t newest_ = 0;      // its index
-  uint8_t newer_ = 0;       // index of the element after z
-  uint8_t phase_ = 0;       // of reading the motion
-  uint8_t work_ = 0;        // left for the fix; 0: none
-  uint8_t steps_left_ = 0;  // of following o
-  uint8_t rejected_ = 0;    // fixes in a row
+  uint8_t newest_ = 0;      // index of the newest element
+  uint8_t newer_ = 0;       // index of the first element newer than z
+  uint8_t phase_ = 0;       // next part of travel(): 0, 1 or 2
+  uint8_t work_ = 0;        // steps of work left for the fix; 0: none
+  uint8_t steps_left_ = 0;  // steps until c equals o
+  uint8_t rejected_ = 0;    // fixes rejected in a row
   bool is_started_ = false;
 
   void start(const Position<T>& position_m) {
@@ -101,8 +102,8 @@ class PositionEstimate {
     is_started_ = true;
   }
 
-  /// cos psi, sin psi and the product with the speed are computed in three different steps, without
-  /// loss of accuracy.
+  /// Adds the motion of one step to D. With spread work, cos psi, sin psi and their products with
+  /// the speed are each updated in every third step.
   void travel(const Measurement<T>& m) {
     if (phase_ == 0 || !filter_.spreads_work) direction_.x_m = math::quick_cos(m.psi_rad);
     if (phase_ == 1 || !filter_.spreads_work) direction_.y_m = math::quick_sin(m.psi_rad);
@@ -135,9 +136,9 @@ class PositionEstimate {
     if (left == 1) correct();
   }
 
-  /// Place of the fix in the ring. A fix younger than the newest element is extrapolated. The
-  /// oldest
-  /// element can be replaced before the next step of work.
+  /// Finds the ring elements before and after the time of the fix. A fix younger than the newest
+  /// element is extrapolated. The oldest element is not used, because travel() can replace it before
+  /// the next step of work.
   void locate() {
     const T waited = filter_.spreads_work ? T(kWait) : T(0.0);
     const T steps = age_s_ * filter_.sample_rate_hz + (waited - T(since_));

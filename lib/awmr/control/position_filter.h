@@ -5,7 +5,8 @@
 
 namespace awmr {
 
-/// q, m^2/s: growth of the variance of dead reckoning due to errors of heading and speed.
+/// q, m^2/s: rate at which the variance of the dead-reckoned position grows, because of errors of
+/// heading and speed.
 constexpr double kDrift_m2ps = 0.05;
 /// Time over which a correction is spread, s.
 constexpr double kSpread_s = 0.08;
@@ -15,19 +16,20 @@ constexpr double kFixNoiseMin_m = 0.01;
 constexpr double kInnovationMax = 5.0;
 /// Number of consecutive rejected fixes that resets the estimate.
 constexpr uint8_t kRejections = 5;
-/// Travelled positions in the ring, a power of two.
+/// Number of past dead-reckoned positions in the ring buffer, a power of two.
 constexpr uint8_t kTravelled = 8;
 
+/// Constants of the estimate, computed once by position_filter().
 template <class T>
 struct PositionFilter {
   T sample_time_s;       ///< T_s, s
   T sample_rate_hz;      ///< 1/T_s
-  T fix_variance_m2;     ///< R, of one axis of a fix
+  T fix_variance_m2;     ///< R, variance of a fix per axis
   T drift_m2;            ///< q T_s, growth of P in a step
   T stride_inverse;      ///< 1/stride
   T spread_inverse;      ///< 1/spread_steps
-  uint8_t stride;        ///< steps between two travelled positions of the ring
-  uint8_t spread_steps;  ///< over which a correction is spread
+  uint8_t stride;        ///< steps between two positions of the ring
+  uint8_t spread_steps;  ///< steps over which a correction is spread
   bool spreads_work;     ///< the work on a fix is spread over several steps, as in GpsLimits
 };
 
@@ -42,15 +44,15 @@ constexpr PositionFilter<T> position_filter(double sample_time_s, double varianc
       sample_time_s < 0.0151};
 }
 constexpr double squared(double x) { return x * x; }
-/// x in 1 to 255, rounded down.
+/// x clamped to [1, 255], rounded down.
 constexpr uint8_t to_count(double x) {
   return static_cast<uint8_t>(x > 255.0 ? 255.0 : x < 1.0 ? 1.0 : x);
 }
 
 }  // namespace detail
 
-/// The filter for fixes with this standard deviation per axis and with the latency `latency_s`. The
-/// ring covers 0.1 s more, because the processing of a fix is delayed.
+/// The filter for fixes with the standard deviation `noise_m` per axis and the latency `latency_s`.
+/// The ring covers the latency plus 0.1 s, because the processing of a fix takes several steps.
 template <class T>
 constexpr PositionFilter<T> position_filter(double noise_m, double latency_s,
                                             double sample_time_s) {

@@ -1,10 +1,10 @@
 /// Resistance as a table, which replaces powf on the chip. Freestanding C++14.
 ///
 /// A cell contains the speeds with the same float exponent and leading m mantissa bits: 2^m cells
-/// per octave, evenly spaced in it. So the error scales with the curve, and the index is a shift of
-/// the float's bits, without a logarithm. In a cell the curve is the chord between its ends, stored
-/// as a line: one multiplication and one addition. Below the first cell it is the chord to the
-/// origin. It is odd: g(-w) = -g(w).
+/// per octave, evenly spaced in the octave. So the relative error is similar at all speeds, and the
+/// index is a shift of the float's bits, without a logarithm. Within a cell, the table gives the
+/// chord between the ends of the curve, stored as a line: one multiplication and one addition. Below
+/// the first cell it gives the chord to the origin. The table is odd: g(-w) = -g(w).
 #pragma once
 
 #include <stdint.h>
@@ -14,8 +14,8 @@
 
 namespace awmr {
 
-/// g(w) = offset + slope w for the speeds w >= 0 of a cell. It has no padding, so that a check sum
-/// can cover it.
+/// g(w) = offset + slope w for the speeds w >= 0 of a cell. The struct has no padding, so that a
+/// check sum can cover it.
 struct ResistanceLine {
   float slope;   ///< in the unit of g over that of w
   float offset;  ///< in the unit of g
@@ -26,8 +26,8 @@ struct ResistanceTable {
   /// In flash on an AVR. The first line is the chord to the origin, below all cells; then one line
   /// per cell, ascending.
   const ResistanceLine* lines;
-  uint16_t count;         ///< of lines, >= 2
-  uint16_t first;         ///< cell_of() of the speeds of lines[1]
+  uint16_t count;         ///< number of lines, >= 2
+  uint16_t first;         ///< cell_of() of the speeds in the first cell, lines[1]
   uint8_t mantissa_bits;  ///< m, in [0, 7]
 
   /// The exponent and the leading mantissa bits of a speed, as one number.
@@ -47,11 +47,11 @@ struct ResistanceTable {
   }
 };
 
-/// A resistance that jumps at rest: a table from `rest_speed` on, and the chord to the origin below
-/// it.
+/// A resistance that jumps at rest: a table from `rest_speed` on, and the chord to the origin at
+/// lower speeds.
 struct RestingTable {
   ResistanceTable table;
-  float rest_speed;  ///< m/s or rad/s; 0: it does not jump
+  float rest_speed;  ///< m/s or rad/s; 0: the resistance does not jump
   float at_rest;     ///< g(rest_speed)
 
   float operator()(const float& speed) const {

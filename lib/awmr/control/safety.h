@@ -39,9 +39,9 @@ Allocation<T> safe_command() {
 
 namespace detail {
 
-/// kFaultNotFinite if the value is infinite or NaN, kFaultRange if |value| > largest, else
-/// kFaultNone. It compares bits, whose order is that of the magnitudes; on the chip this takes a
-/// tenth of the time of a float comparison.
+/// Returns kFaultNotFinite if the value is infinite or NaN, kFaultRange if |value| > largest, else
+/// kFaultNone. The bits are compared as integers, which have the order of the magnitudes. On the
+/// chip this takes a tenth of the time of a float comparison.
 AWMR_SHARED inline uint8_t check_magnitude_at_edge(float value, float largest) {
   const uint32_t magnitude = float_math::magnitude_bits(value);
   if (magnitude >= float_math::kInfinityBits) return kFaultNotFinite;
@@ -61,8 +61,8 @@ inline bool is_older(uint32_t now_ms, uint32_t then_ms, uint32_t limit_ms) {
 
 }  // namespace detail
 
-/// The largest yaw rate (rad/s) and acceleration (rad/s^2, m/s^2) of a reference. It is far above
-/// any vehicle's, and only prevents overflow of products.
+/// Largest yaw rate (rad/s) and acceleration (rad/s^2, m/s^2) of a reference. The value is far above
+/// that of any vehicle and only prevents overflow of products.
 constexpr float kReferenceMax = 1e6F;
 
 /// Faults of a measurement: a value that is not finite or out of range.

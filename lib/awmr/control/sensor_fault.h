@@ -1,10 +1,14 @@
-/// Faults of compass, gyroscope and GPS: a reading is used only while it passes its checks.
-/// Freestanding C++14.
+/// Fault codes of compass, gyroscope and GPS. Freestanding C++14.
 ///
-/// Readings of a sensor with a fault are not used, so their time stamp ages and the autopilot gives
-/// the safe command (safety.h). SensorFault is the reason. A fault lasts as long as its cause.
-/// Faults of compass agreement and displaced position also last until the readings have agreed
-/// again for a while.
+/// While a sensor has a fault, its readings are not used. Their time stamp becomes too old, and the
+/// autopilot gives the safe command (safety.h). A fault ends with its cause, with these exceptions:
+///   kHeadingOutOfStep           compass and gyroscope have to agree again for a while
+///   kWrongTurn                  the vehicle does not turn and its motors are off
+///   kGpsOld                     if UTC ran backward: ten fixes with advancing UTC
+///   kGpsJump                    a fix is within reach again; or the vehicle is disarmed, and ten
+///                               fixes in a row were out of reach
+///   kGpsInconsistent, kWrongWay, kOffHeading, kOffCourse
+///                               the vehicle is disarmed and at rest
 #pragma once
 
 #include <stdint.h>
@@ -17,22 +21,22 @@ namespace awmr {
 enum SensorFault : uint8_t {
   kSensorGood = 0,
   kGyroSilent = 1,         ///< the gyroscope does not answer
-  kGyroFrozen = 2,         ///< the same raw word for kFrozen_ms
-  kGyroRange = 3,          ///< its range register was changed: the sensor was reset
-  kGyroNotCalibrated = 4,  ///< not at rest long enough since the start
+  kGyroFrozen = 2,         ///< the raw word of the gyroscope did not change for kFrozen_ms
+  kGyroRange = 3,          ///< the range register of the gyroscope changed: the sensor was reset
+  kGyroNotCalibrated = 4,  ///< the vehicle was not at rest long enough since the start
   kCompassSilent = 5,      ///< no new field for kCompassSilent_ms
-  kCompassFrozen = 6,      ///< the same three raw words for kFrozen_ms
-  kHeadingOutOfStep = 7,   ///< compass and gyroscope turn differently
-  kGpsSilent = 8,          ///< no complete sentence within the time-out of the speed
+  kCompassFrozen = 6,      ///< the raw words of the compass did not change for kFrozen_ms
+  kHeadingOutOfStep = 7,   ///< compass heading and integrated yaw rate disagree
+  kGpsSilent = 8,          ///< no complete sentence within GpsLimits::timeout_ms
   kGpsNoFix = 9,           ///< the receiver reports no fix, or fields are empty or damaged
   kGpsRepeated = 10,       ///< sentences arrive, but their UTC does not change
-  kGpsOld = 11,            ///< fixes lag behind by more than kGpsLag_ms, or their UTC runs back
+  kGpsOld = 11,            ///< fixes arrive kGpsLag_ms late, or their UTC time runs backward
   kGpsJump = 12,           ///< a displacement that the vehicle cannot achieve
   kGpsInconsistent = 13,   ///< speed and displacement contradict each other
-  kWrongWay = 14,          ///< moves against the commanded direction
-  kOffHeading = 15,        ///< the track of the positions is 30 deg and more off the heading
+  kWrongWay = 14,          ///< the vehicle moves against the commanded direction
+  kOffHeading = 15,        ///< the direction of travel is 30 deg or more off the heading
   kWrongTurn = 16,         ///< the vehicle turns against the commanded yaw moment
-  kOffCourse = 17          ///< does not turn to the commanded heading
+  kOffCourse = 17          ///< the vehicle does not turn to the commanded heading
 };
 constexpr uint8_t kSensorFaultCount = 18;
 

@@ -8,7 +8,8 @@
 
 namespace awmr {
 
-/// The end of [0, u_d + eps_s], or of [u_d - eps_s, 0], on the side of u. Rarely called.
+/// Limit of the fed-forward speed: max(0, u_d + eps_s) for u > 0, else min(0, u_d - eps_s). Rarely
+/// called.
 template <class T>
 AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& epsilon_mps) {
   using math::select;
@@ -20,10 +21,10 @@ AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& eps
 ///   w = 0                     at u_d = 0
 ///   w = max(0, u_d + eps_s)   if the vehicle is faster than that, forward; backward likewise
 ///   w = u                     else
-/// With g1(u) at every speed, the law would accelerate a vehicle that rolls down a slope by g1(u) -
-/// m' mu_s: without limit if it is faster than u_d, and at u_d = 0 if g1(u) exceeds the correction.
-/// `wanted` and `limit`: the correction before and at its saturation. `epsilon`: a function that
-/// returns eps_s.
+/// Do not feed forward g1(u) at every speed: a vehicle that rolls down a slope faster than u_d would
+/// get tau_speed = g1(u) - m' mu_s, which drives it on without limit where g1(u) > m' mu_s.
+/// `wanted`: the correction before saturation. `limit`: its largest magnitude. `epsilon`: a function
+/// that returns eps_s.
 template <class T, class Epsilon>
 AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T& error_mps,
                                 const T& wanted, const T& limit, const Epsilon& epsilon) {

@@ -1,11 +1,13 @@
 /// Steering angle and wheel forces as functions of q. Freestanding C++14.
 ///
-/// q and k are defined by, and with four driven wheels follow from (41) in model/dynamics.h:
+/// q and k are defined by the left column. With four driven wheels, the right column follows from
+/// (41) in model/dynamics.h:
 ///   tau_steering = l_f tau_speed q       q = sin d_r/(1 + cos d_r) = tan(d_r/2)
 ///   F'L + F'R    = 2 k tau_speed         k = 1/(2 (1 + cos d_r))   = (1 + q^2)/4
 /// If only the front wheels are driven (front_wheel_forces() in model/dynamics.h):
 ///   q = tan d_r,   k = 1/(2 cos d_r) = sqrt(1 + q^2)/2
-/// For small angles, sin d_r = d_r and cos d_r = 1: q = d_r/2 and k = 1/4, or q = d_r and k = 1/2.
+/// The small-angle form has sin d_r = d_r and cos d_r = 1: with four driven wheels q = d_r/2 and
+/// k = 1/4, with two q = d_r and k = 1/2.
 #pragma once
 
 #include "awmr/model/allocation_form.h"
@@ -26,7 +28,7 @@ struct SteeringGeometry {
   bool is_rear_driven;  ///< false: only the front wheels are driven
   AllocationForm form;  ///< kPaper: for small angles
 
-  /// n, of which tau_speed = n F' straight ahead.
+  /// n: straight ahead, with the force F' at each driven wheel, tau_speed = n F'.
   constexpr double driven_wheels() const { return is_rear_driven ? 4.0 : 2.0; }
 
   template <class T>
@@ -50,7 +52,7 @@ struct SteeringGeometry {
   }
 };
 
-/// The geometry on the chip.
+/// The geometry that the firmware supports.
 constexpr SteeringGeometry kFourWheelSteering = {true, AllocationForm::kExact};
 
 }  // namespace awmr

@@ -6,11 +6,11 @@
 
 namespace awmr {
 
-/// Maximum number of turns that wrap_angle removes one by one; above it uses atan2.
+/// Number of turns up to which wrap_angle() subtracts 2 pi repeatedly. Above, it uses atan2.
 constexpr int kTurnsOneByOne = 64;
 
-/// The equivalent angle in (-pi, pi], in constant time. NaN stays NaN, and an infinite angle
-/// becomes NaN.
+/// The equivalent angle in (-pi, pi], in bounded time. NaN stays NaN, and an infinite angle becomes
+/// NaN.
 template <class T>
 T wrap_angle(T angle_rad) {
   using math::atan2;
@@ -36,7 +36,8 @@ AWMR_CALLED T called_wrap_angle(const T& angle_rad) {
   return wrap_angle(angle_rad);
 }
 
-/// An angle that accumulates. float wraps it, because full turns would use up its resolution.
+/// An angle that is integrated over many steps. A float is wrapped, because full turns would use up
+/// its resolution.
 template <class T>
 T without_turns(const T& angle_rad) {
   return angle_rad;

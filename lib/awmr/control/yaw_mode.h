@@ -11,20 +11,20 @@ enum class YawMode {
   kCombined,      ///< half of the moment by each method
 };
 
-/// Action of the combined mode when one of its two paths saturates.
+/// Action of the combined mode when one of its two paths, steering or wheel forces, saturates.
 enum class CombinedSplit {
   kFixedHalf,     ///< as in the paper: half of tau_turn each way, regardless of limits
   kRedistribute,  ///< the part that the saturated path cannot make goes to the other path
 };
 
-/// Shares of the two paths in a yaw moment.
+/// Split of a yaw moment between its two paths, steering and wheel forces.
 template <class T>
 struct YawSplit {
   T steering_share;       ///< s: 0 differential, 1/2 combined, 1 steering
-  Mask<T> redistributes;  ///< what one path cannot make goes to the other
+  Mask<T> redistributes;  ///< the moment that one path cannot make goes to the other
 };
 
-/// The shares in a mode.
+/// The split in a mode.
 template <class T>
 YawSplit<T> yaw_split(YawMode mode, CombinedSplit split) {
   const bool combined = mode == YawMode::kCombined;

@@ -11,22 +11,22 @@ struct WithInterval {
   Interval ci95 = {};
 };
 
-/// While the vehicle turns, the field f in its plane (ahead and left, in any unit) describes an
-/// ellipse. Magnets that turn with the vehicle shift its centre (hard iron); iron deforms it (soft
-/// iron).
+/// While the vehicle turns, the measured field f (ahead and left, in any unit) describes an ellipse.
+/// Magnets on the vehicle shift the centre o of the ellipse (hard iron); iron deforms the ellipse
+/// (soft iron). The calibrated field c describes a circle:
 ///     c = S (f - o),  S symmetric, det S = 1,  |c| = field
 ///     heading = atan2(-c_left, c_ahead) - declination, counter-clockwise from true north
 struct CompassCalibration {
-  WithInterval centre_ahead;  ///< o, in the unit of f
-  WithInterval centre_left;
-  WithInterval gain_ahead;  ///< S
-  WithInterval gain_cross;
-  WithInterval gain_left;
+  WithInterval centre_ahead;     ///< o ahead, in the unit of f
+  WithInterval centre_left;      ///< o to the left
+  WithInterval gain_ahead;       ///< S: gain from ahead to ahead
+  WithInterval gain_cross;       ///< S: gain from left to ahead, and from ahead to left
+  WithInterval gain_left;        ///< S: gain from left to left
   WithInterval field;            ///< strength in the plane, in the unit of f, > 0
   double residual = 0.0;         ///< standard deviation of |c| over `field`
   double heading_error_deg = 0;  ///< 97.5 % bound of the fit's heading uncertainty, worst direction
   double turned_deg = 0.0;       ///< from the first row to the last, left positive
-  double largest_gap_deg = 0.0;  ///< between two adjacent directions
+  double largest_gap_deg = 0.0;  ///< largest angle between two adjacent directions of the field
   double declination_deg = 0.0;  ///< from true north to magnetic north, east positive
 };
 

@@ -43,10 +43,8 @@ struct Plant {
   T back_emf_s_per_m = T(0.0);
   /// 1: all four wheels are driven, as in the paper; 0: only the front wheels. Given.
   T rear_driven = T(1.0);
-  /// c, m, >= 0: Coulomb yaw moment over F_max that the tyres' scrub adds to g3 in a turn by left
-  /// and
-  /// right wheel forces alone, see scrub_moment_m(). 0: none, as in the paper. From differential
-  /// turns.
+  /// c, m, >= 0: Coulomb yaw moment over F_max that tyre scrub adds to g3 in a differential turn, see
+  /// scrub_moment_m(). 0: none, as in the paper. From trials with differential turns.
   T yaw_scrub_m = T(0.0);
 };
 
@@ -62,7 +60,7 @@ Resistance<T> yaw_with_scrub(const Plant<T>& p) {
 /// wheels are dragged sideways; in a steered turn they roll. c is measured in differential turns,
 /// so it is scaled by the differential share of the moment:
 ///   N_c = c q sgn r,   q = |tau_diff|/(|tau_diff| + |tau_steering|),   q = 0 without a moment
-/// Below the yaw resistance's rest speed N_c is its chord, as g3 is.
+/// Below p.yaw.rest_speed, N_c falls in proportion to r, as g3 does.
 template <class T>
 T scrub_moment_m(const Plant<T>& p, const T& yaw_rate_radps, const T& tau_steering_m,
                  const T& tau_diff_m) {
@@ -75,13 +73,13 @@ T scrub_moment_m(const Plant<T>& p, const T& yaw_rate_radps, const T& tau_steeri
          (yaw_rate_radps / larger(larger(T(abs(yaw_rate_radps)), p.yaw.rest_speed), tiny));
 }
 
-/// n, of which tau_speed = n F' straight ahead.
+/// n, the number of driven wheels: straight ahead, with the force F' at each, tau_speed = n F'.
 template <class T>
 T driven_wheels(const Plant<T>& p) {
   return T(2.0) + T(2.0) * p.rear_driven;
 }
 
-/// Rolling speed of each wheel: m/s along the wheel, forward positive.
+/// Rolling speed of each wheel, m/s, forward positive.
 template <class T>
 struct WheelSpeeds {
   T front_left;
@@ -104,8 +102,8 @@ WheelSpeeds<T> wheel_speeds(const T& front_axle_m, const T& half_track_m, const 
   return {left_mps * cos_d + across_mps, right_mps * cos_d + across_mps, left_mps, right_mps};
 }
 
-/// F' of a motor whose wheel rolls at w m/s, over F_max. `drive` is e, its command beyond the dead
-/// zone: the voltage divided by the voltage for F_max at standstill.
+/// Force F' of a motor whose wheel rolls at w m/s, over F_max. `drive` is e, the motor command beyond
+/// the dead zone: the voltage divided by the voltage for F_max at standstill.
 ///   F' = e - k_e w    for e != 0: reduced by the back-EMF of the turning motor
 ///   F' = 0            for e  = 0: the motor is off and its wheel rolls freely
 template <class T>
@@ -114,8 +112,8 @@ T motor_force(const T& drive, const T& back_emf_s_per_m, const T& wheel_mps) {
   return select(drive > T(0.0) || drive < T(0.0), T(drive - back_emf_s_per_m * wheel_mps), T(0.0));
 }
 
-/// The fastest rate of braking by back-EMF, 1/s: of the surge, 4 k_e/m', or an upper bound for the
-/// yaw rate, k_e (4 d^2 + 2 l_f^2)/I'z. 0 without back-EMF.
+/// Upper bound of the rate at which back-EMF slows the vehicle, 1/s: the larger of 4 k_e/m' (surge)
+/// and k_e (4 d^2 + 2 l_f^2)/I'z (yaw). 0 without back-EMF.
 inline double back_emf_rate(const Plant<double>& p) {
   const double surge = 4.0 / p.mass_norm;
   const double yaw =
@@ -152,7 +150,7 @@ State<T> rates(const Plant<T>& p, const State<T>& s, const T& surge_force, const
   return d;
 }
 
-/// Force of each wheel's motor at the wheel's rolling speed.
+/// Force of each motor with back-EMF, at the rolling speed of its wheel.
 template <class T>
 AWMR_COLD WheelForces<T> motor_forces(const Plant<T>& p, const State<T>& s,
                                       const WheelForces<T>& drive) {
@@ -207,7 +205,7 @@ YawMoments<T> yaw_moments(const Plant<T>& p, const WheelForces<T>& e, const T& c
           p.half_track_m * (e.rear_right - e.rear_left)};
 }
 
-/// scrub_moment_m() of these moments.
+/// scrub_moment_m() for these moments.
 template <class T>
 T scrub_of(const Plant<T>& p, const State<T>& s, const YawMoments<T>& tau) {
   return scrub_moment_m(p, s.r_radps, tau.steering_m, T(tau.front_diff_m + tau.rear_diff_m));
@@ -263,8 +261,8 @@ GeneralisedForces<T> generalised_forces(const T& front_axle_m, const T& half_tra
           half_track_m * (f.right - f.left) * one_plus_cos};
 }
 
-/// The generalised forces with only the front wheels driven: the terms 1 of the rear wheels in (41)
-/// are omitted.
+/// The generalised forces with only the front wheels driven: as (41), without the terms + 1, which
+/// come from the rear wheels.
 ///   tau_speed    =     (F'L + F'R) cos d_r
 ///   tau_steering = l_f (F'L + F'R) sin d_r
 ///   tau_diff     = d   (F'R - F'L) cos d_r
@@ -295,7 +293,7 @@ T differential_moment_m(const T& half_track_m, const T& right_less_left) {
   return T(2.0) * half_track_m * right_less_left;
 }
 
-/// Forces of motors with a dead zone for the commands of both sides.
+/// Left and right forces of motors with a dead zone for these commands.
 template <class T>
 SideForces<T> beyond_dead_zone(const SideForces<T>& command, const T& zone) {
   return {beyond_dead_zone(command.left, zone), beyond_dead_zone(command.right, zone)};
@@ -337,8 +335,9 @@ T scrub_power_mps(const Plant<T>& p, const State<T>& s, const SideForces<T>& f) 
   return detail::scrub_of(p, s, tau) * s.r_radps;
 }
 
-/// Rates of the state if both wheels of a side have the same command. Uses the equations by wheel
-/// with back-EMF or undriven rear wheels, where front and rear forces differ, and with scrub.
+/// Rates of the state if both wheels of a side have the same command. With back-EMF or undriven rear
+/// wheels, front and rear forces differ: then, and with scrub, the equations for single wheels are
+/// used.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                      const T& steering_command_rad) {

@@ -12,18 +12,18 @@ namespace awmr {
 enum class Effect {
   kRefusal,        ///< a request could not be fulfilled
   kWithdrawn,      ///< a value or an interval is invalid or withheld
-  kContradiction,  ///< units, signs or sides of a file are contradictory; for one row: kDoubt
+  kContradiction,  ///< a file contradicts itself or another in units, signs or left and right
   kDoubt,          ///< any other warning
   kAssumption,     ///< a value that is not supported by data
-  kNote,           ///< does not change any number
+  kNote,           ///< information that does not change any number
 };
 
 /// An error is a refusal. A warning has the effect of its code, else kDoubt; a note is kNote unless
 /// its code is an assumption.
 Effect effect_of(const Finding& finding);
 
-/// Sorted by effect; within one effect the first finding of each code, then the others, each in the
-/// order of the list. The list must outlive the result.
+/// Returns the findings sorted by effect. Within an effect, the first finding of each code precedes
+/// the repeated ones; otherwise the order of the list is kept. The list must outlive the result.
 std::vector<const Finding*> by_effect(const std::vector<Finding>& findings);
 
 }  // namespace awmr

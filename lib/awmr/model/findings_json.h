@@ -11,7 +11,7 @@ namespace awmr {
 
 Json findings_to_json(const std::vector<Finding>& findings);
 
-/// Describes `findings` of an object for a schema.
+/// Adds the key `findings` and its members to the JSON Schema of an object.
 void describe_findings(JsonObject& json);
 
 /// The findings of a document, each with its position; empty if there are none.

@@ -8,8 +8,8 @@
 
 namespace awmr {
 
-/// A law is used up to this factor beyond the fastest fitted rate; above that it is an
-/// extrapolation.
+/// A resistance law is an extrapolation at rates above this factor times the largest fitted rate, or
+/// below the smallest one divided by this factor.
 inline constexpr double kLittleFurther = 1.2;
 
 /// The model's parameters of a law:
@@ -17,7 +17,7 @@ inline constexpr double kLittleFurther = 1.2;
 struct LawParameters {
   ParameterId alpha, beta, coulomb, quadratic;
 };
-/// g3 for turning, g1 for the other kinds.
+/// The parameters of g3 for turning trials, of g1 for the other kinds.
 LawParameters law_parameters(TrialKind kind);
 
 /// The law with the model's values, without the wheels' dead zone; absent if alpha or beta has no
@@ -28,19 +28,19 @@ std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind)
 /// a rate:
 ///   h' C h,  h = sum_i weight_i (dg/dalpha, dg/dbeta, dg/dc, dg/dq, dg/dF'0)
 ///              = sum_i weight_i (w^beta, alpha w^beta ln w, 1, w^2, z)
-/// C is the covariance as far as the model has it. z is the number of driven wheels, whose dead
-/// zones F'0 a straight run must overcome; z = 0 for turns, whose moments already exclude the dead
-/// zone. >= 0, in the squared unit of g times that of a weight. Precondition: the law is fitted; as
-/// many weights as rates.
+/// C is the model's covariance; parameters that it does not contain count as exact. z is the number
+/// of driven wheels, whose dead zones F'0 a straight run must overcome; z = 0 for turns, whose
+/// moments already exclude the dead zone. The result is >= 0, in the squared unit of g times that of
+/// a weight. Precondition: the law is fitted; as many weights as rates.
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates,
                        std::span<const double> weights);
 
 /// Variance of the mean of g over these rates.
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates);
 
-/// The fastest turn, deg/s, for which yaw resistance was measured: the vehicle's
-/// yaw_rate_max_degps, else the fastest turning trial of the record, in tables or logs. Absent if
-/// neither is available.
+/// The largest yaw rate, deg/s, for which the yaw resistance was measured: the vehicle's
+/// yaw_rate_max_degps, else the largest of the turning trials and logs in the record. Absent if
+/// there is none.
 std::optional<double> measured_yaw_rate_degps(const Model& model);
 
 }  // namespace awmr

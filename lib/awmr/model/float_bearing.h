@@ -1,7 +1,8 @@
 /// The direction of a vector for float, with 16-bit integers. Freestanding C++14.
 ///
-/// A steering direction needs no more than a sensor's accuracy, and an 8-bit processor divides 16
-/// bits in half the time of a float. Integer results are the same on every machine.
+/// A direction to steer to needs only the accuracy of a heading sensor, and an 8-bit processor
+/// divides 16-bit integers in half the time of floats. Integer results are the same on every
+/// machine.
 #pragma once
 
 #include <stdint.h>
@@ -17,9 +18,9 @@ inline uint16_t mantissa16(uint32_t bits) {
   return static_cast<uint16_t>(bits >> 8U) | static_cast<uint16_t>(0x8000U);
 }
 
-/// small/large times 2^16, rounded to nearest, from the bits of two magnitudes, small <= large:
-/// long division of the mantissas, one bit shorter for each power of two between the exponents; 0
-/// if these differ by more than 16.
+/// small/large times 2^16, rounded to nearest, from the bits of two magnitudes, small <= large. The
+/// mantissas are divided by long division, with one bit less for each power of two between the
+/// exponents. 0 if the exponents differ by more than 16.
 inline uint16_t ratio16(uint32_t small, uint32_t large) {
   const uint16_t divisor = mantissa16(large);
   uint16_t rest = mantissa16(small);
@@ -65,7 +66,7 @@ inline uint32_t atan17(uint16_t t) {
 constexpr int32_t kQuarterTurn17 = 205887;  ///< pi/2 times 2^17
 constexpr int32_t kHalfTurn17 = 411774;     ///< pi times 2^17, rounded down: no angle is above pi
 
-constexpr uint32_t kExponent17 = static_cast<uint32_t>(17) << 23U;  ///< of 2^17 in a float's bits
+constexpr uint32_t kExponent17 = static_cast<uint32_t>(17) << 23U;  ///< 17 in a float's exponent
 
 /// whole / 2^17, exact for |whole| < 2^24.
 inline float by_two_to_17(int32_t whole) {

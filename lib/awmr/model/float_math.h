@@ -15,7 +15,7 @@
 #include <string.h>
 
 #if defined(__GNUC__) && __GNUC__ == 7
-// GCC 7, used by the Arduino IDE, confuses another overload with an earlier declaration without the
+// GCC 7, used by the Arduino IDE, gives a false warning about overloads of which only one has an
 // attribute.
 #pragma GCC diagnostic ignored "-Wattributes"
 #endif
@@ -24,8 +24,8 @@
 /// without tight time limits.
 #ifdef __AVR__
 #define AWMR_CALLED __attribute__((noinline, optimize("Os")))
-/// Also never specialised for its object: access relative to the object's address is half as long as by
-/// absolute addresses.
+/// As AWMR_CALLED, for member functions. They must also not be cloned for one object: code with
+/// absolute addresses is twice as long as code with addresses relative to the object.
 #define AWMR_CALLED_MEMBER __attribute__((noinline, noclone, optimize("Os")))
 #else
 #define AWMR_CALLED
@@ -49,8 +49,8 @@ inline float float_of(uint32_t bits) {
 
 namespace float_math {
 
-/// The bits of |x|, which have the order of magnitudes: an integer comparison takes half the cycles
-/// of a float comparison on the chip. Above kInfinityBits: NaN.
+/// The bits of |x|. As integers, they have the order of the magnitudes, and comparing them takes
+/// half the cycles of a float comparison on the chip. Above kInfinityBits: NaN.
 inline uint32_t magnitude_bits(float x) { return bits_of(x) & 0x7FFFFFFFUL; }
 constexpr uint32_t kInfinityBits = 0x7F800000UL;
 
@@ -62,12 +62,13 @@ inline int32_t order_of(float x) {
 }
 inline bool is_nan(float x) { return magnitude_bits(x) > kInfinityBits; }
 
-/// The leading 16 bits of |x|: exponent and seven bits of mantissa. If those of two magnitudes
-/// differ, they have the order of the magnitudes, at half the cycles.
+/// The leading 16 bits of |x|: exponent and seven bits of mantissa. If the leading bits of two
+/// numbers differ, they have the order of the magnitudes; comparing them takes half the cycles of
+/// magnitude_bits().
 inline uint16_t leading_bits(float x) {
   return static_cast<uint16_t>(bits_of(x) >> 16U) & static_cast<uint16_t>(0x7FFFU);
 }
-/// The leading 16 bits for order_of.
+/// The leading 16 bits with the sign of x: order_of() for leading_bits().
 inline int16_t leading_order_of(float x) {
   const int16_t magnitude = static_cast<int16_t>(leading_bits(x));
   return (bits_of(x) & 0x80000000UL) != 0 ? static_cast<int16_t>(-magnitude) : magnitude;

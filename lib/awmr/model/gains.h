@@ -15,15 +15,16 @@ struct HeadingGains {
   /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
   /// is proportional to S. Larger: less chattering, a softer response.
   T epsilon;
-  /// w0, rad/s, >= 0.02: with Coulomb friction in yaw, the rest_speed of the g3 that is fed forward
-  /// (fed_forward()). Larger: less heading noise in the command, and a larger error at rest.
+  /// w0, rad/s, >= 0.02: with Coulomb friction in yaw, yaw rate below which the friction is fed
+  /// forward in proportion (fed_forward()). Larger: less heading noise in the command, and a larger
+  /// error at rest.
   T friction_width_radps = feed_forward_rest_speed<T>();
 
   /// T1, s: on the surface S = 0 the error falls as exp(-t/T1).
   ///   T1 = 1/lambda                                                              [paper (90)-(91)]
   T sliding_time_constant_s() const { return T(1.0) / lambda; }
 
-  /// T2, s: in the boundary layer V = S^2/2 falls as exp(-t/T2), so S itself with 2 T2.
+  /// T2, s: in the boundary layer V = S^2/2 falls as exp(-t/T2), so S falls as exp(-t/(2 T2)).
   ///   T2 = epsilon/(2 mu)                                             [paper (92)-(95), corrected]
   /// Corrected: the paper calls this phase sliding; the surface is still being reached.
   T reaching_time_constant_s() const { return epsilon / (T(2.0) * mu); }
@@ -34,11 +35,11 @@ struct HeadingGains {
 template <class T>
 struct SpeedGains {
   T mu;       ///< mu_s, m/s^2, > 0: largest corrective acceleration
-  T epsilon;  ///< eps_s, m/s, > 0: half width of the layer |e_u| <= eps_s, proportional inside
+  T epsilon;  ///< eps_s, m/s, > 0: for |e_u| <= eps_s, the correction is proportional to e_u
 };
 
-/// The disturbance observer used with both laws (control/disturbance_observer.h), if one was tuned
-/// with them.
+/// The disturbance observer for both laws (control/disturbance_observer.h), if one was tuned with
+/// the gains.
 template <class T>
 struct ObserverGains {
   /// L, rad/s, L T_s < 1; 0: none. Larger: disturbances are compensated sooner, and more noise

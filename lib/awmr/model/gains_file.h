@@ -1,4 +1,5 @@
-/// gains.json (`awmr.gains/1`): the gains used by later commands. tune/ adds the tuning results.
+/// Reads and writes the gains in gains.json (`awmr.gains/1`). Its tuning results are written by
+/// tune/.
 #pragma once
 
 #include <filesystem>
@@ -17,17 +18,17 @@ namespace awmr {
 /// and ignored. Errors: as read_json_file; gains that are missing or not above 0.
 Result<Gains<double>> read_gains(const std::filesystem::path& path);
 
-/// Reads `/certificate`; absent in files that were not tuned, and in older files. Errors: as
+/// Reads `/certificate`, which files without tuning results and older files do not have. Errors: as
 /// read_gains; a certificate in another form.
 Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path);
 
-/// Read-back of gains.json (core/file.h).
+/// Checks a text of gains.json after writing by reading it back (core/file.h).
 Status check_gains_text(std::string_view text, const std::string& file);
 
 /// As above, for a controller with this sample time. Errors also: as check_observer_rate.
 Result<Gains<double>> read_gains_for(const std::filesystem::path& path, double sample_time_s);
 
-/// Writes gains that were not tuned here; gains_text() in tune/tune.h makes the complete file.
+/// Writes a file with gains only. Tuned gains are written by gains_text() in tune/tune.h.
 /// Errors: as write_file.
 Status write_gains(const Gains<double>& gains, const std::filesystem::path& path);
 

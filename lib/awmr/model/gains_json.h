@@ -8,9 +8,9 @@ namespace awmr {
 
 inline constexpr std::string_view kGainsSchema = "awmr.gains/1";
 
-/// {"heading": {lambda, mu, epsilon}, "speed": {mu, epsilon}}; "friction_width_radps" of the
-/// heading if it is not the default, and with an observer "observer": {bandwidth_radps, yaw_max_m,
-/// surge_max}.
+/// {"heading": {lambda, mu, epsilon}, "speed": {mu, epsilon}}. "heading" also has
+/// "friction_width_radps" if it is not the default. With an observer, there is also "observer":
+/// {bandwidth_radps, yaw_max_m, surge_max}.
 inline Json gains_to_json(const Gains<double>& gains) {
   Json json = {{"heading",
                 {{"lambda", gains.heading.lambda},

@@ -9,7 +9,7 @@
 namespace awmr {
 namespace {
 
-/// Substitute for an unknown parameter that is not needed: see Model::plant_as_known().
+/// Value of a parameter that has none in Model::plant_as_known().
 double none_of(ParameterId id) {
   switch (id) {
     case ParameterId::kSurgeBeta:
@@ -32,7 +32,7 @@ Result<Plant<double>> plant_with(const Model& model, IsNeeded is_needed) {
     if (!has(model.vehicle, parameter.id)) continue;
     faults.push_back(
         {ErrorCode::kNotIdentified, fmt::format("{}:{}", model.file, parameter.pointer),
-         fmt::format("no value for {} ({}, {}), which this needs; identify again with {}",
+         fmt::format("no value for {} ({}, {}), which is needed here; identify again with {}",
                      parameter.name, parameter.symbol, parameter.meaning,
                      trial_of(model.vehicle, parameter.id))});
   }

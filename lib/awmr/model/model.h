@@ -21,14 +21,14 @@ namespace awmr {
 
 /// Origin of a number.
 enum class Source {
-  kGiven,    ///< by the user, in vehicle.json
+  kGiven,    ///< given by the user in vehicle.json
   kDerived,  ///< computed from other numbers of the model, such as I'z from m' and Iz
   kFitted,   ///< estimated from trials
 };
 inline constexpr NameTable<Source, 3> kSourceNames{
     {{"given", Source::kGiven}, {"derived", Source::kDerived}, {"fitted", Source::kFitted}}};
 
-/// A quantile that model.json may have of an estimate.
+/// A quantile of an estimate's uncertainty that model.json can contain.
 struct QuantileInfo {
   std::string_view key;       ///< in model.json
   double probability = 0.5;   ///< in (0, 1)
@@ -59,7 +59,7 @@ struct Estimate {
 
 /// The covariance of the fitted parameters.
 struct Covariance {
-  std::vector<ParameterId> parameters;      ///< of the rows and columns
+  std::vector<ParameterId> parameters;      ///< the parameters of the rows and columns, in order
   std::vector<std::vector<double>> matrix;  ///< square, symmetric, over `parameters`
 };
 
@@ -71,7 +71,7 @@ struct YawScrub {
   double std_error_m = 0.0;  ///< m, > 0: from the turns' scatter and g3
   Interval ci95_m;           ///< 95 % confidence interval
   int rows = 0;              ///< turns from which it was estimated, >= 3
-  Interval yaw_rate_radps;   ///< of those turns, > 0
+  Interval yaw_rate_radps;   ///< range of the yaw rates of these turns, > 0
   /// Range of the moment, with its uncertainty, from the slowest to the fastest of those turns, if
   /// it changes with the yaw rate; absent if no change is detected.
   std::optional<Interval> changing_m = {};
@@ -79,15 +79,15 @@ struct YawScrub {
 
 /// False for a parameter that the vehicle does not have: the servo of a vehicle without steering.
 bool has(const Vehicle& vehicle, ParameterId id);
-/// The trial that identifies a parameter of this vehicle, as text for a refusal.
+/// The trial that identifies a parameter of this vehicle, as text for messages.
 std::string_view trial_of(const Vehicle& vehicle, ParameterId id);
 
 /// Types of motion, by the parameters in their equations.
 enum class Motion {
   kSteadySurge,  ///< straight ahead at constant speed: g1
-  kSteadyTurn,   ///< a constant yaw rate: g3
+  kSteadyTurn,   ///< turn at constant yaw rate: g3
   kStraight,     ///< straight ahead, wheels straight, v = r = 0: g1 and m'
-  kPlanar,       ///< any: every parameter
+  kPlanar,       ///< any motion: all parameters
 };
 /// True if the motion's equations contain the parameter.
 bool takes(Motion motion, ParameterId id);
@@ -97,8 +97,8 @@ Motion motion_of(TrialKind kind);
 /// The identified vehicle: the data given before the trials, the resistance families, every
 /// quantity with its uncertainty.
 struct Model {
-  /// A model without any identified quantity. Only the terms that a power law does not have are
-  /// set, to 0.
+  /// A model without any identified quantity. Only the optional terms (ParameterInfo::term) have a
+  /// value, 0.
   Model();
 
   std::string file = "model.json";  ///< name in errors: the path that it was read from
@@ -111,8 +111,8 @@ struct Model {
   /// friction kTyreFriction: g1(u)/(mu g). Absent if the identified m' is plausible.
   std::optional<double> mass_norm_by_grip;
   std::optional<YawScrub> yaw_scrub;  ///< absent: no turning trial determines it
-  /// The largest yaw moment by left and right wheel forces, m, > 0, for which the vehicle did not
-  /// turn; absent: it always turned.
+  /// The largest yaw moment by left and right wheel forces, m, > 0, at which the vehicle did not
+  /// turn; absent: the vehicle turned in every trial.
   std::optional<double> yaw_held_m;
   /// g3 was fitted to differential turns of a vehicle that also steers: it includes the tyre scrub.
   bool yaw_by_sides_alone = false;
@@ -131,8 +131,9 @@ struct Model {
   /// The plant for all motions measured by the trials in the record.
   Result<Plant<double>> plant_of_trials() const;
 
-  /// The plant without checks. A parameter without a value is replaced: no resistance, an inertia
-  /// and a time constant of 1. In a motion whose equations do not contain it, it multiplies zeros.
+  /// The plant without checks. Parameters without a value are replaced: a resistance by 0, an
+  /// inertia, an exponent or a time constant by 1. Use it only for motions whose equations do not
+  /// contain these parameters.
   Plant<double> plant_as_known() const;
 
   /// The most general motion for which the model can be simulated: kStraight if a parameter of
@@ -140,7 +141,7 @@ struct Model {
   Motion simulated_motion() const;
 };
 
-/// True for a term that the model's family does not have: model.json does not contain it.
+/// True for an optional term that this model does not have and model.json does not contain.
 bool is_absent_term(const Model& model, ParameterId id);
 
 /// The largest force of one motor, N:

@@ -41,7 +41,7 @@ Json estimate_to_json(const Estimate& estimate, std::string_view unit) {
   return json;
 }
 
-/// Reads all five, which must be ascending and in the parameter's range.
+/// Reads the five quantiles, which must be ascending and in the parameter's range.
 Quantiles quantiles_from_json(JsonObject json, const ParameterInfo& parameter) {
   Quantiles quantiles{};
   for (std::size_t q = 0; q < kQuantileCount; ++q) {
@@ -236,22 +236,22 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
   check(ci.contains(scrub.moment_m), "ci95_m",
         fmt::format("[{:g}, {:g}] does not contain moment_m {:g}", ci.lo, ci.hi, scrub.moment_m));
   check(ci.hi >= 0.0, "ci95_m",
-        fmt::format("[{:g}, {:g}] is all below 0: scrub does not help to turn", ci.lo, ci.hi));
+        fmt::format("[{:g}, {:g}] is below 0, but scrub cannot drive a turn", ci.lo, ci.hi));
   // Student's quantile: 12.7 with one degree of freedom, 1.96 with many.
   const double quantile = 0.5 * (ci.hi - ci.lo) / scrub.std_error_m;
   check(quantile >= 1.95 && quantile <= 12.8, "std_error_m",
-        fmt::format("{:g} does not make ci95_m [{:g}, {:g}], which is {:.3g} of it either side: "
-                    "1.96 to 12.7 are possible",
+        fmt::format("{:g} does not match ci95_m [{:g}, {:g}], whose half width is {:.3g} times "
+                    "std_error_m; 1.96 to 12.7 times is possible",
                     scrub.std_error_m, ci.lo, ci.hi, quantile));
   check(std::abs(0.5 * (ci.lo + ci.hi) - scrub.moment_m) <= 0.01 * (ci.hi - ci.lo), "moment_m",
         fmt::format("{:g} is not the middle of ci95_m [{:g}, {:g}]", scrub.moment_m, ci.lo, ci.hi));
   check(scrub.yaw_rate_radps.lo > 0.0 && scrub.yaw_rate_radps.hi < 1e3, "yaw_rate_radps",
-        "the rates of turns lie above 0 and below 1000 rad/s");
+        "yaw rates must be above 0 and below 1000 rad/s");
   // The scrub moment cannot exceed the largest moment of the wheel forces.
   const Interval force = model.vehicle.wheel_force;
   const double most_m = differential_moment_m(model.vehicle.half_track_m, force.hi - force.lo);
   check(scrub.moment_m <= most_m, "moment_m",
-        fmt::format("{:g} is more than the left and right wheels can apply, {:.4g} m",
+        fmt::format("{:g} exceeds the largest moment of the left and right wheels, {:.4g} m",
                     scrub.moment_m, most_m));
 }
 
@@ -265,7 +265,7 @@ std::vector<Fault> self_contradictions(const Model& model) {
     if (!estimate.value || !estimate.ci95 || estimate.ci95->contains(*estimate.value)) continue;
     faults.push_back(
         {ErrorCode::kContradiction, fmt::format("{}:{}/ci95", model.file, parameter.pointer),
-         fmt::format("[{:g}, {:g}] does not contain the value {:g}; null is no interval",
+         fmt::format("[{:g}, {:g}] does not contain the value {:g}; write null for no interval",
                      estimate.ci95->lo, estimate.ci95->hi, *estimate.value)});
   }
   if (model.yaw_scrub) add_scrub_contradictions(*model.yaw_scrub, model, faults);

@@ -1,4 +1,4 @@
-/// model.json (`awmr.model/1`).
+/// Reads and writes model.json (`awmr.model/1`).
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ Result<Model> read_model(const std::filesystem::path& path);
 
 /// As read_model(), from text; `file` names it in errors.
 Result<Model> model_from_text(std::string_view text, const std::string& file);
-/// Read-back check of model.json (core/file.h).
+/// Checks a text of model.json after writing by reading it back (core/file.h).
 Status check_model_text(std::string_view text, const std::string& file);
 
 /// Text of model.json.

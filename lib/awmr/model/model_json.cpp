@@ -59,7 +59,7 @@ std::vector<std::vector<double>> matrix_from_json(JsonObject& json, const Json& 
   return rows;
 }
 
-/// False if correlations are contradictory: a correlation matrix has no eigenvalue below 0.
+/// False if the correlations contradict each other: a correlation matrix has no eigenvalue below 0.
 bool are_correlations(const std::vector<std::vector<double>>& m) {
   constexpr double kRounding = 1e-6;
   const auto n = static_cast<Eigen::Index>(m.size());
@@ -249,7 +249,8 @@ Covariance covariance_from_json(JsonObject json) {
       json.fault(ErrorCode::kUnknownName, "parameters",
                  fmt::format("no parameter is called '{}'", name));
     } else if (std::count(names.begin(), names.end(), name) > 1) {
-      json.fault(ErrorCode::kGivenTwice, "parameters", fmt::format("'{}' is there twice", name));
+      json.fault(ErrorCode::kGivenTwice, "parameters",
+                 fmt::format("'{}' is listed twice; remove one", name));
     } else {
       covariance.parameters.push_back(*id);
     }

@@ -23,7 +23,7 @@ enum class ParameterId {
   kYawCoulomb,
   kYawQuadratic,
   kWheelDeadZone,
-  kBackEmf,  ///< of the motors; not part of a family: see VEHICLES.md
+  kBackEmf,  ///< k_e of the motors, in no family; see VEHICLES.md
 };
 inline constexpr std::size_t kParameterCount = 14;
 
@@ -35,11 +35,11 @@ struct ParameterInfo {
   std::string_view symbol;   ///< "a1"
   std::string_view unit;     ///< "1" if dimensionless
   std::string_view meaning;  ///< description for messages
-  std::string_view trial;    ///< the trial that identifies it, as text for a refusal
-  bool term = false;         ///< 0 and absent from model.json unless the vehicle has it
+  std::string_view trial;    ///< the trial that identifies it, as text for messages
+  bool term = false;         ///< true: optional term, 0 and not in model.json unless it was fitted
 };
 
-/// Further quantities that a fit of logs can estimate; only in /estimates.
+/// Names of further quantities that a fit of logs can estimate; only in /estimates of model.json.
 inline constexpr std::string_view kInputDelayName = "input_delay_s";
 inline constexpr std::string_view kSteeringDelayName = "steering.delay_s";
 inline constexpr std::string_view kMotorLagName = "motor.time_constant_s";

@@ -1,5 +1,5 @@
-/// Converts parameters and vehicle to the quantities of the equations of motion. A template on the
-/// scalar.
+/// Converts identified parameters and vehicle data to the Plant of the equations of motion. A
+/// template on the scalar.
 #pragma once
 
 #include <array>
@@ -15,8 +15,7 @@ namespace awmr {
 template <class T>
 using ParameterValues = std::array<T, kParameterCount>;
 
-/// The plant from these values and the vehicle's geometry and steering limits. All conversions from
-/// parameters to the equations of motion are made here.
+/// The plant from these values and the vehicle's geometry and steering limits.
 template <class T>
 Plant<T> plant_of(const Vehicle& vehicle, const ParameterValues<T>& values) {
   const auto value = [&values](ParameterId id) { return values[static_cast<std::size_t>(id)]; };

@@ -30,7 +30,7 @@ constexpr std::array<Guess, 5> kInertia{{{1e-4, "looks like kg cm^2"},
                                          {1e-7, "looks like g cm^2"},
                                          {1e-9, "looks like g mm^2"}}};
 
-/// The guess that brings a ratio nearest to the usual one, if the result is in the usual range.
+/// The guess whose factor brings a ratio nearest to `usual`, among those that bring it into `range`.
 std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interval range,
                             double usual) {
   std::optional<Guess> best;
@@ -42,10 +42,10 @@ std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interv
   return best;
 }
 
-/// "; it looks like mm: 0.32", or another remedy.
+/// "; the value looks like mm: 0.32", or another remedy.
 std::string remedy(double value, const std::optional<Guess>& guess) {
   if (!guess) return "; measure it again";
-  return fmt::format("; it {}: {:.4g}", guess->words, value * guess->factor);
+  return fmt::format("; the value {}: {:.4g}", guess->words, value * guess->factor);
 }
 
 /// Unit factors of the sizes and the mass.
@@ -54,8 +54,8 @@ struct Scale {
   double mass;
 };
 
-/// Uses only the mass over the footprint, if length and width are consistent: the scale that makes
-/// it most similar to a robot's.
+/// The scale that brings the mass per footprint area nearest to that of a robot. Precondition:
+/// length and width are consistent.
 std::optional<Scale> likely_scale(double mass_per_area) {
   static constexpr std::array<Scale, 5> kScales{
       {{1e-3, 1.0}, {1e-2, 1.0}, {1.0, 1e-3}, {1e-3, 1e-3}, {1e-2, 1e-3}}};
@@ -82,8 +82,9 @@ void check_shape(Vehicle& vehicle, std::vector<Implausible>& found) {
   double& larger = is_long ? vehicle.length_m : vehicle.width_m;
   const auto guess = likely(is_long ? ratio : 1.0 / ratio, kLengths, {0.3, 6.0}, 1.5);
   found.push_back({is_long ? "/length_m" : "/width_m",
-                   fmt::format("length_m {:g} and width_m {:g} are {:.3g} to 1{}", vehicle.length_m,
-                               vehicle.width_m, ratio, remedy(larger, guess))});
+                   fmt::format("length_m {:g} and width_m {:g} have the ratio {:.3g}, where 0.2 to "
+                               "10 is plausible{}",
+                               vehicle.length_m, vehicle.width_m, ratio, remedy(larger, guess))});
   if (guess) larger *= guess->factor;
 }
 
@@ -93,7 +94,7 @@ void check_mass(Vehicle& vehicle, std::vector<Implausible>& found) {
   const double per_area = vehicle.mass_kg / (vehicle.length_m * vehicle.width_m);
   if (kMassPerArea.contains(per_area)) return;
   const std::string compared =
-      fmt::format("{:g} kg on {:g} m x {:g} m are {:.3g} kg/m^2, where robots have 5 to 500",
+      fmt::format("{:g} kg on {:g} m x {:g} m is {:.3g} kg/m^2, where robots have 5 to 500",
                   vehicle.mass_kg, vehicle.length_m, vehicle.width_m, per_area);
   const auto scale = likely_scale(per_area);
   if (!scale) {
@@ -101,7 +102,7 @@ void check_mass(Vehicle& vehicle, std::vector<Implausible>& found) {
     return;
   }
   if (scale->mass != 1.0) {
-    found.push_back({"/mass_kg", fmt::format("{}; it looks like g: {:.4g}", compared,
+    found.push_back({"/mass_kg", fmt::format("{}; mass_kg looks like g: {:.4g}", compared,
                                              vehicle.mass_kg * scale->mass)});
     vehicle.mass_kg *= scale->mass;
   }
@@ -109,7 +110,7 @@ void check_mass(Vehicle& vehicle, std::vector<Implausible>& found) {
   const std::string_view unit = scale->size == 1e-3 ? "mm" : "cm";
   for (const auto& [pointer, size] :
        {std::pair{"/length_m", &vehicle.length_m}, std::pair{"/width_m", &vehicle.width_m}}) {
-    found.push_back({pointer, fmt::format("{}; it looks like {}: {:.4g}", compared, unit,
+    found.push_back({pointer, fmt::format("{}; the size looks like {}: {:.4g}", compared, unit,
                                           *size * scale->size)});
     *size *= scale->size;
   }
@@ -130,8 +131,8 @@ void check_axles(const Vehicle& vehicle, std::vector<Implausible>& found) {
     found.push_back(
         {"/front_axle_m",
          fmt::format(
-             "front_axle_m {:g} is {:.3g} times half of the length {:.3g} m: the front axle, "
-             "from the centre of gravity, is nearer than the bumper{}",
+             "front_axle_m {:g} is {:.3g} times half of the length {:.3g} m, but the front axle "
+             "is between the centre of gravity and the front end{}",
              vehicle.front_axle_m, front, vehicle.length_m,
              remedy(vehicle.front_axle_m, likely(front, kFrontAxle, {0.1, 1.0}, 0.6)))});
   }
@@ -149,28 +150,31 @@ void check_inertia(const Vehicle& vehicle, std::vector<Implausible>& found) {
        fmt::format("yaw_inertia_kgm2 is {:.3g} times that of a box of this mass and size, {:.4g} "
                    "kg m^2 (all mass in the corners makes 3 times){}",
                    ratio, box.inertia_kgm2(),
-                   guess ? remedy(*vehicle.yaw_inertia_kgm2, guess)
-                         : "; is it another vehicle's? Without this key the box is used")});
+                   guess
+                       ? remedy(*vehicle.yaw_inertia_kgm2, guess)
+                       : "; is it another vehicle's? Without this key, that of the box is used")});
 }
 
 void check_steering(const Vehicle& vehicle, std::vector<Implausible>& found) {
   if (!vehicle.has_steering()) return;
   if (vehicle.steering_max_deg < 2.0) {
     found.push_back({"/steering/max_deg",
-                     fmt::format("a steering stop of {:g} deg; it looks like "
+                     fmt::format("a steering stop of {:g} deg is implausible; the value looks like "
                                  "radians: {:.4g}",
                                  vehicle.steering_max_deg, degrees(vehicle.steering_max_deg))});
   }
   if (vehicle.steering_max_rate_degps < 8.0) {
     found.push_back(
         {"/steering/max_rate_degps",
-         fmt::format("a steering rate of {:g} deg/s; it looks like rad/s: {:.4g}",
+         fmt::format("a steering rate of {:g} deg/s is implausible; the value looks like rad/s: "
+                     "{:.4g}",
                      vehicle.steering_max_rate_degps, degrees(vehicle.steering_max_rate_degps))});
   }
   if (vehicle.steering_time_constant_s > kSlowestServo_s) {
     found.push_back(
         {"/steering/time_constant_s",
-         fmt::format("a servo with a time constant of {:g} s; it looks like ms: {:.4g}",
+         fmt::format("a servo time constant of {:g} s is implausible; the value looks like ms: "
+                     "{:.4g}",
                      vehicle.steering_time_constant_s, 1e-3 * vehicle.steering_time_constant_s)});
   }
 }

@@ -6,9 +6,9 @@
 ///     track 2 d over width                        0.2 to 1.2: wheels at the sides of the body
 ///     front axle l_f over half of the length      0.02 to 1
 ///     Iz over the box's m (length^2 + width^2)/12 1/20 to 3: all mass in the corners makes 3
-///     steering stop                               2 deg and more: 90 deg are 1.6 rad
-///     steering rate                               8 deg/s and more: 300 deg/s are 5.2 rad/s
-///     steering time constant                      at most 2 s: 20 ms are 20
+///     steering stop                               at least 2 deg; a smaller number is in rad
+///     steering rate                               at least 8 deg/s; a smaller number is in rad/s
+///     steering time constant                      at most 2 s; a larger number is in ms
 #pragma once
 
 #include <string>
@@ -21,9 +21,10 @@
 
 namespace awmr {
 
-/// Iz divided by that of a box of the same mass and size: all mass in the corners makes 3.
+/// Plausible range of Iz divided by that of a uniform box of the same mass and size. With all mass
+/// in the corners, the ratio is 3.
 inline constexpr Interval kInertiaOverBox{0.05, 3.0};
-/// Time constant of a steering servo: a larger one is in ms.
+/// Largest plausible time constant of a steering servo; a larger number is probably in ms.
 inline constexpr double kSlowestServo_s = 2.0;
 
 /// A number that is impossible or very unlikely.
@@ -32,16 +33,16 @@ struct Implausible {
   std::string message;  ///< the comparison, the likely unit and the resulting value
 };
 
-/// In the order of the table above. If a size or the mass is in another unit, the remaining checks
-/// use the converted value. Empty for any vehicle that can be built.
+/// Returns the implausible values in the order of the table above, none for a vehicle that can be
+/// built. If a size or the mass is in another unit, the remaining checks use the converted value.
 std::vector<Implausible> implausible_values(const Vehicle& vehicle);
 
-/// Errors (input): all implausible values, each with its place, which is `place` followed by its
-/// pointer. `remedy`: what to do about it, a clause.
+/// Errors (input): all implausible values, each at `place` followed by its pointer. `remedy`: a
+/// sentence for the end of each message that says what the user can do.
 Status check_plausible(const Vehicle& vehicle, const std::string& place, const std::string& remedy);
 
-/// The implausible values as findings (`implausible-vehicle`), for a file or, if `file` is empty,
-/// for none.
+/// Returns the implausible values as findings (`implausible-vehicle`) in `file`; if `file` is empty,
+/// the findings name no place.
 std::vector<Finding> plausibility_findings(const Vehicle& vehicle, Severity severity,
                                            const std::string& file = {});
 

@@ -1,7 +1,8 @@
 /// sin and cos for float, with 16-bit integers. Freestanding C++14.
 ///
-/// A displacement along a heading needs no more than a sensor's accuracy, at a seventh of the cycles of
-/// float_math::sin on an 8-bit processor. Integer results are the same on every machine.
+/// For displacements along a heading, the accuracy of a sensor is sufficient. On an 8-bit processor,
+/// these functions take a seventh of the cycles of float_math::sin. Integer results are the same on
+/// every machine.
 #pragma once
 
 #include <stdint.h>
@@ -29,7 +30,7 @@ AWMR_CALLED inline uint16_t sin15(uint16_t t) {
 /// sin(x + quarters pi/2), |x| <= kAngleMax, within 9e-5 for |x| <= 100; NaN beyond kAngleMax.
 AWMR_CALLED inline float quick_sin(float x, uint8_t quarters) {
   if (!(magnitude_bits(x) <= bits_of(kAngleMax))) return not_a_number();
-  // Quarter turns times 2^16.
+  // x in quarter turns, times 2^16.
   const int32_t turn = static_cast<int32_t>(x * 41721.5137F);
   const uint8_t quarter = static_cast<uint8_t>((static_cast<uint32_t>(turn) >> 16U) + quarters);
   const uint16_t t = static_cast<uint16_t>(turn);

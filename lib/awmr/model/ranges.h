@@ -21,26 +21,27 @@ inline constexpr NumberRule kSensorNoise{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kLatency_s{.min = 0.0, .max = 1.0};
 /// Time constant of the correlation of a sensor's noise; 0: none.
 inline constexpr NumberRule kCorrelation_s{.min = 0.0, .max = 1e3};
-/// 1/k_e is the speed at which a motor under full voltage has no force left: at least 1 mm/s.
 inline constexpr NumberRule kStallPower_w{.min = 0.0, .max = 1e6, .min_excluded = true};
+/// 1/k_e, the speed at which a motor under full voltage has no force left, is at least 1 mm/s.
 inline constexpr NumberRule kBackEmf_s_per_m{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kFastestTurn_degps{.min = 1e-3, .max = 1e6};
 /// Coefficients of resistance, m' and I'z, each in its own unit.
 inline constexpr NumberRule kCoefficient{.min = 1e-9, .max = 1e9};
 inline constexpr NumberRule kTerm{.min = 0.0, .max = 1e9};
 inline constexpr NumberRule kExponent{.min = 0.0, .max = 20.0};
-/// Of tyres: from ice to more than rubber holds, from a soft tyre to a rigid wheel.
+/// Tyres: friction from ice to above rubber on dry asphalt, stiffness from a soft tyre to a rigid
+/// wheel.
 inline constexpr NumberRule kTyreFrictionRule{.min = 0.01, .max = 5.0};
 inline constexpr NumberRule kCorneringStiffnessRule_per_rad{.min = 0.1, .max = 100.0};
 inline constexpr NumberRule kGain{.min = 1e-9, .max = 1e9};
 inline constexpr NumberRule kFrictionWidth_radps{.min = feed_forward_rest_speed<double>(),
                                                  .max = 1e3};
-/// Also below 1/sample_time_s, which is not known when gains are read.
+/// check_observer_rate() also requires a bandwidth below 1/sample_time_s.
 inline constexpr NumberRule kObserverBandwidth{.min = 1e-6, .max = 1e4};
 inline constexpr NumberRule kObserverLimit{.min = 1e-9, .max = 1e6};
 
-/// The values of a parameter for which the equations of motion are meaningful; dynamics.h and
-/// resistance.h have the bounds of each field.
+/// The valid range of a parameter in model.json. The fields in dynamics.h and resistance.h state the
+/// narrower bounds of the equations.
 NumberRule rule_of(ParameterId id);
 
 }  // namespace awmr

@@ -1,4 +1,5 @@
-/// Names, in /estimates, of ratios of a family's terms that a coast-down alone can identify.
+/// Names in /estimates of model.json of the ratios that a coast-down without a surge trial can
+/// identify.
 #pragma once
 
 #include <string_view>

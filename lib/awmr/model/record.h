@@ -47,9 +47,9 @@ inline constexpr NameTable<FitSubject, 4> kFitSubjectNames{{{"surge", FitSubject
 enum class Estimator {
   kLogLinear,   ///< tables: a line through the logarithms, as in the paper
   kNonlinear,   ///< tables: nonlinear least squares
-  kStopTime,    ///< mass: the time to rest
-  kCurve,       ///< mass: a whole coast-down curve
-  kCombined,    ///< mass: both, weighted
+  kStopTime,    ///< mass: from the stop times of coast-downs
+  kCurve,       ///< mass: from whole coast-down curves
+  kCombined,    ///< mass: weighted mean of stop time and curve
   kJoint,       ///< surge law and mass together
   kTrajectory,  ///< logs: the whole model, driven by the logged commands
 };
@@ -77,7 +77,7 @@ struct Diagnostic {
   std::string name;  ///< "normality", "whiteness of yaw_rate_radps", "lack of fit"
   double statistic = 0.0;
   double p_value = 1.0;  ///< in [0, 1]: small if the assumption is doubtful
-  std::string meaning;   ///< its consequence, in one sentence
+  std::string meaning;   ///< what a small p-value means for the fit, in one sentence
 };
 
 /// The estimates without one row of a table, or without one log.
@@ -99,18 +99,20 @@ struct SearchStart {
 struct EstimatorReport {
   FitSubject subject = FitSubject::kSurge;
   Estimator estimator = Estimator::kLogLinear;
-  std::string noise;  ///< quantity with the error: "log force", "force", "speed", "time", ...
+  std::string noise;  ///< noisy quantity: "log force", "force", "speed", "time", ...
   std::vector<EstimatorParameter> parameters;
   double residual_std = 0.0;      ///< in the unit of the noise
-  int rows_used = 0;              ///< of the tables or logs
+  int rows_used = 0;              ///< number of rows of the tables or logs that were used
   int degrees_of_freedom = 0;     ///< of the residuals: rows minus parameters
   int rank = 0;                   ///< number of parameter combinations that the data determine
   double condition_number = 0.0;  ///< of the problem, >= 1; infinite if rank-deficient
   std::string stop_reason;        ///< reason why the solver stopped
   std::string family = {};        ///< of resistance; empty: the paper's power law
-  /// Probability that the errors lie where this estimator puts them, (0, 1]; absent: not averaged.
+  /// Weight in the average over noise models, (0, 1]: the probability that this estimator's `noise`
+  /// is right; absent: not averaged.
   std::optional<double> weight = {};
-  std::optional<double> aicc = {};  ///< corrected Akaike criterion; less is better, same noise only
+  /// Corrected Akaike criterion: less is better. Compare only estimators with the same `noise`.
+  std::optional<double> aicc = {};
   std::vector<Diagnostic> diagnostics = {};
   std::vector<LeaveOneOut> leave_one_out = {};
   std::vector<SearchStart> starts = {};
@@ -118,7 +120,7 @@ struct EstimatorReport {
 
 /// One row of a trial as used. The model stores it so that later steps need no CSV.
 struct TrialPoint {
-  TrialKind kind = TrialKind::kSurge;  ///< of a table
+  TrialKind kind = TrialKind::kSurge;  ///< not kLog
   std::string file;
   int line = 0;
   /// surge: tau_speed; turning: tau_turn in m; coastdown: initial speed in m/s
@@ -133,8 +135,8 @@ struct IdentificationRecord {
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
   std::vector<TrialPoint> trials;
-  /// The fastest turn in the logs that g3 was fitted to, rad/s, > 0; absent if it was not fitted to
-  /// logs.
+  /// The largest yaw rate in the logs to which g3 was fitted, rad/s, > 0; absent if g3 was not fitted
+  /// to logs.
   std::optional<double> logged_yaw_rate_radps;
   Provenance provenance;
 };

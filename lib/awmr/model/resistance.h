@@ -1,11 +1,12 @@
-/// Resistance to motion: one odd curve; the families are special cases. Freestanding C++14.
+/// Resistance to motion as an odd function of the speed; the families of family.h are special cases.
+/// Freestanding C++14.
 #pragma once
 
 #include "awmr/model/scalar_math.h"
 
 namespace awmr {
 
-/// The force or moment that resists a speed w, positive against motion in w's direction:
+/// The force or moment that resists the speed w. For w > 0 it is positive and acts backward:
 ///   g(w) = (c + alpha |w|^beta + q w^2) sgn w                                   [paper (47), (63)]
 /// The paper has c = q = 0 and only w > 0; its law is extended here to an odd curve.
 ///
@@ -19,10 +20,10 @@ struct Resistance {
   /// beta, dimensionless, >= 0: steepness of the resistance. Surge: b1, in [0, 1] in the paper;
   /// yaw: b3. Below 1 the slope at rest is infinite.
   T beta;
-  /// Surge: m/s, yaw: rad/s; >= 0: below it the curve is replaced by its chord to the origin. 0,
-  /// for fits and steady states, keeps the law exact. A simulation sets it (see rest_speed() in
-  /// steady.h): at rest the slope is infinite for beta < 1 and the curve jumps for c > 0. Steps of
-  /// h seconds cannot resolve time constants below h.
+  /// Speed below which the curve is replaced by its chord to the origin, >= 0; surge: m/s, yaw:
+  /// rad/s. 0 keeps the law exact, for fits and steady states. A simulation needs a chord, because
+  /// the curve jumps at rest for c > 0 and has an infinite slope there for beta < 1: rest_speed() in
+  /// steady.h computes the value for its steps.
   T rest_speed = T(0.0);
   /// c, in the unit of g, >= 0: Coulomb friction, the same at every speed. 0 in the paper.
   T coulomb = T(0.0);
@@ -43,8 +44,8 @@ struct Resistance {
     using math::select;
     const T magnitude = abs(speed);
     if (!MaskOf<T>::kOneLane) {
-      // Without branches, which would have to be equal in all lanes: speed/reached is 1 or -1
-      // beyond the chord, and the fraction of the chord before its end.
+      // A batch has one vehicle per lane and therefore no branches. speed/reached is 1 or -1 beyond
+      // the chord; on the chord, it is speed/rest_speed.
       const T reached = larger(larger(magnitude, rest_speed), T(1e-30));
       return at(reached) * (speed / reached);
     }
@@ -55,21 +56,23 @@ struct Resistance {
   }
 };
 
-/// Below this speed (m/s, rad/s), a controller uses the chord of a curve with Coulomb friction for
-/// feed-forward: the curve jumps at rest, so the command would otherwise chatter between +c and -c.
+/// Default speed (m/s, rad/s) below which a controller feeds forward the chord of a resistance with
+/// Coulomb friction. With the curve itself, which jumps at rest, the command would chatter between
+/// +c and -c.
 template <class T>
 constexpr T feed_forward_rest_speed() {
   return T(0.02);
 }
-/// The law for a controller's feed-forward: with a chord below rest_speed if it would jump at rest.
+/// The law that a controller feeds forward: with a chord below rest_speed if the law has Coulomb
+/// friction.
 template <class T>
 Resistance<T> feed_forward(Resistance<T> law, const T& rest_speed = feed_forward_rest_speed<T>()) {
   if (law.coulomb > T(0.0)) law.rest_speed = rest_speed;
   return law;
 }
 
-/// The command for which a motor with a dead zone makes `force`; 0 for 0. Both are over F_max, and
-/// zone = F'0 >= 0. The inverse of beyond_dead_zone() for every force except 0.
+/// The command for which a motor with a dead zone makes `force`; 0 for the force 0. Both are over
+/// F_max; zone = F'0 >= 0. Inverse of beyond_dead_zone() for every force except 0.
 template <class T>
 T with_dead_zone(const T& force, const T& zone) {
   using math::select;

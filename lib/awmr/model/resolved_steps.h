@@ -1,5 +1,5 @@
-/// Runge-Kutta steps with halving if the motion is too fast for the step. Templates on the scalar:
-/// a double, or a batch with a trajectory per lane (simulate/vehicle_steps.h).
+/// Runge-Kutta steps that are halved if the motion is too fast for them. Templates on the scalar: a
+/// double, or a batch with one trajectory per lane (simulate/vehicle_steps.h).
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -7,17 +7,18 @@
 
 namespace awmr {
 
-/// Largest product of a rate (1/s) and an RK4 step, with which deviations decay without a change of
-/// sign. Runge-Kutta is stable up to 2.78.
+/// Largest product of a rate of decay (1/s) and a Runge-Kutta step (s). With it, deviations decay
+/// without a change of sign; the method is stable up to 2.78.
 inline constexpr double kMostRateTimesStep = 1.0;
 
 /// Largest number of halvings of a step, and of halved steps in a run.
 inline constexpr int kMostHalvings = 40;
 inline constexpr double kMostHalves = 5e7;
 
-/// Rate at which a deviation from the speed w decays, g'(w)/inertia:
+/// Rate at which a deviation from the speed w decays, 1/s: g'(w)/inertia with
 ///   g'(w) = alpha beta |w|^(beta-1) + 2 q |w|
-/// For beta <= 1 it decreases with |w|, and beyond the chord it is below 1/h, by the choice of h.
+/// Returns 0 on the chord, and for beta < 1 with q = 0: rest_speed() in steady.h chooses the chord
+/// so that the rate is then at most 1/h at every speed.
 template <class T>
 T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   using math::abs;
@@ -27,7 +28,8 @@ T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   const T w = abs(speed);
   const Mask<T> counts = (law.beta >= T(1.0) || law.quadratic > T(0.0)) && !(w < law.rest_speed);
   if (!any(counts)) return T(0.0);
-  // Lanes without a result, or at rest, compute with a speed of 1, which is replaced below.
+  // Lanes whose result is 0, or that are at rest, compute with the speed 1; select() replaces their
+  // result below.
   const Mask<T> moves = w > T(0.0);
   const T power = pow(select(counts && moves, w, T(1.0)), T(law.beta - T(1.0)));
   const T share = select(moves || !(law.beta > T(1.0)), power, T(0.0));
@@ -35,8 +37,8 @@ T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   return select(counts, T((slope + T(2.0) * law.quadratic * w) / inertia), T(0.0));
 }
 
-/// Upper bound of the rates of change of the plant at `at`: of the resistances, and of the rotation
-/// of the velocity in the vehicle's frame (m' r v and m' r u), which is r.
+/// Upper bound of the rates of change at the state `at`, 1/s: the rates of decay by g1 and g3, and
+/// r, with which the velocity rotates in the vehicle's frame (m' r v and m' r u).
 template <class T>
 T fastest_rate(const Plant<T>& plant, const State<T>& at) {
   using math::abs;
@@ -61,7 +63,7 @@ State<T> blend(const Mask<T>& mask, const State<T>& a, const State<T>& b) {
           select(mask, a.steering_rad, b.steering_rad)};
 }
 
-/// Result of the step control: whether the integration steps of a run were short enough.
+/// Result of the step control: whether the integration steps were short enough.
 template <class T>
 struct Resolution {
   T halves = T(0.0);                 ///< steps that were halved so far
@@ -73,8 +75,8 @@ template <class Body, class T, class Rates>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution);
 
-/// Two steps of half the length, if `requested`; marks the run as unresolved if that exceeds the
-/// limit.
+/// Makes two steps of half the length in the lanes of `requested`. A lane that exceeds kMostHalvings
+/// or kMostHalves is marked as unresolved.
 template <class Body, class T, class Rates>
 AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates, Mask<T> requested,
                                      int halvings, Resolution<T>& resolution) {
@@ -92,8 +94,8 @@ AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates,
   return blend(halved, end, from);
 }
 
-/// One step of the classical Runge-Kutta method if it resolves the rates at both of its ends, else
-/// two of half the length. Lanes outside `requested` are undefined.
+/// Makes one step of the classical Runge-Kutta method if the step resolves the rates at both of its
+/// ends, else two steps of half the length. Lanes outside `requested` are undefined.
 template <class Body, class T, class Rates>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution) {
@@ -111,7 +113,7 @@ State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates
                advance_by_halves(body, from, h, rates, requested && !fits, halvings, resolution));
 }
 
-/// True if every number is finite, because only then 0 times the number is not NaN.
+/// True if every number is finite: 0 times an infinite number or NaN is NaN.
 template <class T>
 Mask<T> is_finite(const State<T>& s) {
   using math::abs;
@@ -129,8 +131,8 @@ T settled(const T& speed) {
   return select(abs(speed) < T(1e-150), T(0.0), speed);
 }
 
-/// Integrates the state by `substeps` steps of h, if `requested`, with the rates at constant
-/// commands. If the motion is not resolved, the state is unchanged.
+/// Integrates the state by `substeps` steps of h seconds at constant commands, in the lanes of
+/// `requested`. If the motion is not resolved, the state is unchanged.
 template <class Body, class T, class Rates>
 void integrate(const Body& body, const T& h, const T& substeps, const Rates& rates,
                const Mask<T>& requested, State<T>& state, Resolution<T>& resolution) {

@@ -1,4 +1,4 @@
-/// A plant that a simulation can integrate to rest.
+/// Chords through rest, so that a simulation can integrate a plant until it stops.
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -16,9 +16,9 @@ Resistance<double> value_of(const Resistance<T>& law) {
           value_of(law.quadratic)};
 }
 
-/// The plant with chords through rest that Runge-Kutta steps of step_s seconds need: see
-/// rest_speed(). The start of the chord depends on the steps, not on the motion: it has no
-/// derivatives.
+/// The plant with the chords through rest that Runge-Kutta steps of step_s seconds need; see
+/// rest_speed(). The length of a chord has no derivatives, because it depends on the steps and not
+/// on the motion.
 template <class T>
 Plant<T> resolved_at_rest(Plant<T> plant, double step_s) {
   plant.surge.rest_speed = T(rest_speed(value_of(plant.surge), value_of(plant.mass_norm), step_s));

@@ -23,14 +23,12 @@
 namespace awmr {
 
 /// Result type of a comparison of two T: bool. A batch, whose lanes can differ, has its own mask
-/// type with any(), all(), select(), !, && and
-///
-/// (simulate/lanes/lanes.h).
+/// type with any(), all(), select() and the operators !, && and || (simulate/lanes/lanes.h).
 ///
 /// A branch that can differ between lanes is written as
 ///   if (any(m)) { if (MaskOf<T>::kOneLane || all(m)) return a;  x = select(m, a, x); }
-/// For bool this is the ordinary branch, without computing the other alternative. The constant is
-/// known before the compiler decides on inlining, which affects the chip's flash size.
+/// For bool this is an ordinary branch. The condition uses the constant kOneLane, because a constant
+/// is known before the compiler decides on inlining, which affects the flash size on the chip.
 template <class T>
 struct MaskOf {
   using Type = bool;
@@ -92,8 +90,8 @@ T larger(const T& x, const T& y) {
   return select(x < y, y, x);
 }
 
-/// x. For float, 0 if |x| < 2^-90, so that no quotient of it by a force is subnormal: an AVR rounds
-/// subnormal numbers differently from a host.
+/// Returns x; for float, 0 if |x| < 2^-90. So no quotient of the result and a force is a subnormal
+/// number, which an AVR rounds differently from a host.
 template <class T>
 T flushed(const T& x) {
   return x;
@@ -129,7 +127,8 @@ AWMR_CALLED inline bool is_above(float x, float y) {
          !float_math::is_nan(y);
 }
 
-/// x < y or x > y; false for NaN. For float by the bits of a y that is x or a limit of it.
+/// x < y or x > y; false for NaN. For float, the bits are compared; x must be y, or a limit to which
+/// y was clipped.
 template <class T>
 Mask<T> is_different(const T& x, const T& y) {
   return x < y || x > y;
@@ -145,7 +144,7 @@ inline bool is_beyond(float x, float limit) {
   return float_math::magnitude_bits(x) > bits_of(limit);
 }
 
-/// `size` with the sign of `of`; size for 0. For float by the bits.
+/// `size` with the sign of `of`; `size` itself if `of` is 0. For float, the bits decide.
 template <class T>
 T with_sign(const T& size, const T& of) {
   using math::select;
@@ -153,14 +152,14 @@ T with_sign(const T& size, const T& of) {
 }
 inline float with_sign(float size, float of) { return bits_of(of) > 0x80000000UL ? -size : size; }
 
-/// x = 0. For float by the bits.
+/// True if x = 0. For float, the bits decide.
 template <class T>
 Mask<T> is_zero(const T& x) {
   return !(x > T(0.0)) && !(x < T(0.0));
 }
 inline bool is_zero(float x) { return float_math::magnitude_bits(x) == 0; }
 
-/// True if one is positive and the other negative. For float by the signs.
+/// True if one number is positive and the other negative. For float, the sign bits decide.
 template <class T>
 Mask<T> is_opposite(const T& x, const T& y) {
   return x * y < T(0.0);

@@ -1,5 +1,5 @@
-/// Names of fitted errors of the commands, and of a sensor's delay and filter time constant, in
-/// /estimates.
+/// Names in /estimates of model.json of errors that a fit of logs can estimate: steering trim,
+/// imbalance of left and right motors, delay and filter time constant of a sensor.
 #pragma once
 
 #include <string_view>

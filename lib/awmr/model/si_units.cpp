@@ -8,8 +8,8 @@
 namespace awmr {
 namespace {
 
-/// A variance that is smaller than this share of the terms of which it is the difference is their
-/// rounding error: the quantity does not depend on m'.
+/// A variance below this share of its terms counts as 0: it is only their rounding error, for a
+/// quantity that does not depend on m'.
 constexpr double kRounding = 1e-14;
 
 /// True for parameters divided by F_max in the equations of motion: neither exponents nor times.
@@ -18,7 +18,8 @@ bool is_over_max_force(ParameterId id) {
          id != ParameterId::kSteeringTimeConstant;
 }
 
-/// C_ab of the model's covariance. Given values are exact; none without covariance.
+/// C_ab of the model's covariance: 0 for given values, which are exact; none if the covariance does
+/// not contain a or b.
 std::optional<double> covariance_of(const Model& model, ParameterId a, ParameterId b) {
   if (model[a].source == Source::kGiven || model[b].source == Source::kGiven) return 0.0;
   const std::vector<ParameterId>& ids = model.covariance.parameters;

@@ -1,4 +1,4 @@
-/// Converts a model's quantities to newtons, newton metres and kilograms, as far as m' is known.
+/// Converts the quantities of a model with a known m' to newtons, newton metres and kilograms.
 #pragma once
 
 #include <string>
@@ -22,9 +22,9 @@ struct SiQuantity {
 ///   Q     = p F_max = p m/m'      of each quantity p over F_max
 /// The covariance of p and m' is propagated: with the gradient (m/m', -p m/m'^2),
 ///   Var Q = (m/m')^2 (C_pp - 2 (p/m') C_pm' + (p/m')^2 C_m'm')
-/// so that Iz, from which I'z = m' Iz/m was computed, is exact again. The interval uses the wider
-/// of the quantiles of p and m'. No standard error if one of the two was not given and has no
-/// covariance in the model.
+/// For p = I'z = m' Iz/m, the terms cancel and Iz is exact again. The interval uses the wider of the
+/// quantiles of p and m'. There is no standard error if p or m' was estimated but the model has no
+/// covariance of it.
 ///
 /// F_max is the force of one of four wheels: if one motor drives both wheels of a side, its largest
 /// force is twice F_max.

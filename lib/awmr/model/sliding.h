@@ -1,12 +1,14 @@
-/// Coulomb friction when a vehicle stops, reverses and is held. Templates on the scalar.
+/// Exact Coulomb friction at rest: a vehicle stops, is held, and starts again. Templates on the
+/// scalar.
 ///
-/// The curve g jumps by c in both directions at rest. Over a step the friction keeps its direction,
+/// At rest, the resistance g1 jumps from -c to c. During a step, the friction keeps its direction s,
+/// which is that of the motion, 1 or -1. With the surge force X of the wheels,
 ///
-///     u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v,   s: 1 or -1, the direction of sliding
+///     u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v
 ///
-/// and a step in which u passes 0 ends there: the vehicle is held, u_dot = 0, while the driving
-/// force |X + m' r v| is at most c. Yaw likewise. With a chord instead of the jump, the vehicle
-/// would creep.
+/// A step in which u passes 0 ends there. Then friction holds the vehicle, u_dot = 0, while the
+/// driving force |X + m' r v| is at most c. Yaw likewise. With a chord instead of the jump, the
+/// vehicle would creep.
 #pragma once
 
 #include "awmr/model/rest.h"
@@ -14,11 +16,11 @@
 
 namespace awmr {
 
-/// c divided by inertia.
+/// Deceleration by Coulomb friction: c divided by the inertia.
 template <class T>
 struct FrictionRates {
-  T surge_mps2;  ///< c1/m', >= 0
-  T yaw_radps2;  ///< c3/I'z, >= 0
+  T surge_mps2;  ///< c1/m', m/s^2, >= 0
+  T yaw_radps2;  ///< c3/I'z, rad/s^2, >= 0
   bool any() const { return value_of(surge_mps2) > 0.0 || value_of(yaw_radps2) > 0.0; }
 };
 
@@ -34,8 +36,7 @@ Plant<T> without_friction(Plant<T> plant) {
   return plant;
 }
 
-/// resolved_at_rest() for steps with friction: the chords are those of the resistance without
-/// friction.
+/// resolved_at_rest() for steps with friction: the chords are those of the resistance without c.
 template <class T>
 Plant<T> resolved_beside_friction(Plant<T> plant, double step_s) {
   const Plant<T> resolved = resolved_at_rest(without_friction(plant), step_s);
@@ -50,7 +51,8 @@ struct Sliding {
   double yaw = 0.0;
 };
 
-/// `rate`: of `speed` without friction; `friction`: the change of rate by friction.
+/// Direction of sliding: the sign of `speed`. At rest, it is the sign of the acceleration `rate`
+/// without friction, or 0 if |rate| <= friction, the deceleration by friction.
 inline double slides(double speed, double rate, double friction) {
   if (!(friction > 0.0)) return 0.0;
   if (speed > 0.0) return 1.0;
@@ -58,14 +60,14 @@ inline double slides(double speed, double rate, double friction) {
   return rate > friction ? 1.0 : rate < -friction ? -1.0 : 0.0;
 }
 
-/// `rates`: those at s without friction.
+/// Directions of sliding in the state s. `rates`: the rates in this state without friction.
 template <class T>
 Sliding sliding(const FrictionRates<T>& friction, const State<T>& s, const State<T>& rates) {
   return {slides(value_of(s.u_mps), value_of(rates.u_mps), value_of(friction.surge_mps2)),
           slides(value_of(s.r_radps), value_of(rates.r_radps), value_of(friction.yaw_radps2))};
 }
 
-/// True if friction holds the vehicle in surge, or in yaw.
+/// True if friction holds the motion, in surge or in yaw: there is friction, and no sliding.
 inline bool is_held(double way, double friction) { return friction > 0.0 && way == 0.0; }
 
 /// Rates with friction, computed from those without.
@@ -80,8 +82,9 @@ State<T> with_friction(const FrictionRates<T>& friction, const Sliding& way, Sta
   return rates;
 }
 
-/// The fraction of a step from `from` to `to` after which a speed with sliding direction `way` is
-/// 0; 1: it does not reach 0. A speed that starts at 0 does not stop in the step.
+/// Fraction of a step after which a speed is 0 that changes from `from` to `to`, with the sliding
+/// direction `way`; 1: the speed does not reach 0. A speed that starts at 0 does not stop in the
+/// step.
 inline double share_until_rest(double way, double from, double to) {
   if (!(way * from > 0.0) || !(way * to < 0.0)) return 1.0;
   return from / (from - to);

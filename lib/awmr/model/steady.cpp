@@ -15,9 +15,8 @@ std::optional<double> finite(double value) {
 
 /// Solves alpha w^beta + v w + q w^2 = excess for w, v = `viscous`, by Newton's method on
 ///   h(s) = ln((alpha e^(s beta) + v e^s + q e^(2 s))/excess),   w = e^s
-/// h is increasing and convex, as a logarithm of a sum of exponentials: the steps from above the
-/// root decrease monotonically towards it. So the iteration ends when rounding would reverse a
-/// step.
+/// h is increasing and convex, because it is the logarithm of a sum of exponentials. So the iteration
+/// from above falls monotonically to the root, and ends when rounding would reverse a step.
 std::optional<double> rate_above_coulomb(const Resistance<double>& law, double excess,
                                          double viscous) {
   constexpr double kFastest = 1e9;
@@ -37,7 +36,7 @@ std::optional<double> rate_above_coulomb(const Resistance<double>& law, double e
     if (!(next < w)) return finite(next);
     w = next;
   }
-  // Faster than any vehicle, or a curve that jumps at rest (beta = 0) by more than the force.
+  // The speed exceeds that of any vehicle, or g jumps at rest (beta = 0) by more than the force.
   return std::nullopt;
 }
 

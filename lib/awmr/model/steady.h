@@ -7,11 +7,11 @@
 
 namespace awmr {
 
-/// The w > 0 at which the resistance equals a force: g(w) = force. For g1 and force = tau_speed it
-/// is the steady speed in m/s, for g3 and force = tau_turn in m the steady yaw rate in rad/s. With
-/// `viscous` > 0, in the unit of g over that of w: g(w) + viscous w = force, which applies to
-/// motors with back-EMF, with force = tau_speed and viscous = 4 k_e.
-/// None if the force does not exceed Coulomb friction c, or the curve never reaches it.
+/// The speed w > 0 at which the resistance equals a force: g(w) = force. With g1 and
+/// force = tau_speed, w is the steady speed in m/s; with g3 and force = tau_turn in m, the steady yaw
+/// rate in rad/s. With `viscous` > 0, in the unit of g over that of w, the solution of
+/// g(w) + viscous w = force: for motors with back-EMF, viscous = 4 k_e.
+/// None if the force does not exceed the Coulomb friction c, or if g never reaches the force.
 std::optional<double> steady_rate(const Resistance<double>& law, double force,
                                   double viscous = 0.0);
 
@@ -32,8 +32,8 @@ inline double relaxation_time_s(const Resistance<double>& law, double inertia, d
 /// resistance by its chord (Resistance::rest_speed). `inertia` is m' for surge and I'z for yaw.
 ///
 /// On the chord that ends at w, the speed decays at the rate g(w)/(w inertia). The Runge-Kutta
-/// method is stable if rate times h is below 2.78 and monotone if it is below about 1, so w is
-/// where the rate is 1/h:
+/// method is stable if the rate times h is below 2.78, and its solution is monotone if the product
+/// is below about 1. So w is chosen for a rate of 1/h:
 ///   w = g(w) h/inertia                        with Coulomb friction: solved by iteration
 ///   w = (alpha h/inertia)^(1/(1 - beta))      for a power law of beta < 1
 ///   w = 0: the law needs no chord             in other cases

@@ -1,10 +1,11 @@
-/// The coordinate in which a parameter is searched and sampled, and in which its error is normal.
+/// The coordinate of a parameter in searches and samples: in it, the error of the parameter is
+/// normally distributed.
 ///
 ///     linear:       coordinate = value        d value / d coordinate = 1
 ///     logarithmic:  coordinate = ln value     d value / d coordinate = value
 ///
-/// A positive quantity known up to a factor is normal in its logarithm. An exponent is not, because
-/// it has a fixed range. Nor is a family's term, because it can be exactly zero.
+/// Positive quantities have the logarithmic coordinate. Exponents, which have a fixed range, and
+/// terms of a resistance family, which can be exactly zero, have the linear one.
 #pragma once
 
 #include <cmath>

@@ -52,9 +52,9 @@ T sliding_moment_m(const Plant<T>& plant) {
   return T(kTyreFriction * kGravity_mps2) * plant.mass_norm * plant.front_axle_m;
 }
 
-/// Sliding speed of each wheel to its left, m/s, perpendicular to its rolling direction
-/// (wheel_speeds()). The rear axle is assumed as far behind the centre of gravity as the front one
-/// is before it:
+/// Sideways speed of each wheel, m/s, left positive, perpendicular to its rolling direction
+/// (wheel_speeds()). The rear axle is assumed as far behind the centre of gravity as the front axle
+/// is ahead of it:
 ///   s_rear  = v - l_f r
 ///   s_front = (v + l_f r) cos d_r - (u -+ d r) sin d_r         upper sign: left, lower: right
 template <class T>
@@ -68,9 +68,9 @@ WheelSpeeds<T> side_speeds(const T& front_axle_m, const T& half_track_m, const S
           across_mps - (s.u_mps + half_track_m * s.r_radps) * sin_d, rear_mps, rear_mps};
 }
 
-/// The side force of a tyre over F_max, positive to the left. The wheel rolls at `rolls_mps`,
-/// slides to its left at `slides_mps` and has the longitudinal force F'x (`along`, |F'x| <= mu
-/// F'z):
+/// The side force F'y of a tyre over F_max, positive to the left. The wheel carries the load F'z,
+/// rolls at w (`rolls_mps`), slides to its left at s (`slides_mps`) and has the longitudinal force
+/// F'x (`along`), |F'x| <= mu F'z:
 ///   F'm = sqrt((mu F'z)^2 - F'x^2)                  remainder of the circle of friction
 ///   sigma = s/sqrt(w^2 + v_0^2)                     the tangent of the slip angle
 ///   z = min(c_a F'z |sigma|/(3 F'm), 1)             1: all of the contact slides
@@ -86,7 +86,7 @@ T side_force(const Tyres<T>& tyres, const T& load, const T& along, const T& roll
   const T left_over = sqrt(larger(T(0.0), T(grip * grip - along * along)));
   const T rolls = sqrt(rolls_mps * rolls_mps + tyres.rest_speed_mps * tyres.rest_speed_mps);
   const T elastic = tyres.cornering_per_rad * load * abs(slides_mps) / rolls;
-  // If nothing remains, the quotient is undefined, and the force is 0.
+  // If F'm is 0, the quotient is undefined, and the force is 0.
   const Mask<T> slides = !(elastic < T(3.0) * left_over);
   const T sticks = T(1.0) - elastic / select(slides, T(1.0), T(T(3.0) * left_over));
   const T force = select(slides, left_over, T(left_over * (T(1.0) - sticks * sticks * sticks)));
@@ -178,8 +178,8 @@ State<T> state_rates(const FourWheels<T>& p, const State<T>& s, const Forces& f,
   return d;
 }
 
-/// Smallest effective inertia over F_max, s^2/m, for four equal resistances along the wheels, in
-/// surge or yaw. A wheel's lever is at most its distance from the centre of gravity.
+/// Smallest effective mass m'_w that resistances along the four wheels slow down, in surge or yaw,
+/// over F_max, s^2/m. The lever of a wheel is at most its distance from the centre of gravity:
 ///   m'_w = min(m', I'z/(l_f^2 + d^2))
 template <class T>
 T rolling_inertia(const Plant<T>& p) {
@@ -199,8 +199,9 @@ inline Plant<double> resolved_at_rest_on_tyres(const Plant<double>& body, double
 /// Upper bound of the rate at which the tyres damp a sideways motion, 1/s: their stiffness c_a F'z
 /// divided by each wheel's rolling speed,
 ///   max(1/m' sum_i c_a F'z/V_i,  1/I'z sum_i a_i^2 c_a F'z/V_i),   V_i = sqrt(w_i^2 + v_0^2)
-/// with a_i = l_f at the rear and, for any steering angle, sqrt(l_f^2 + d^2) at the front. The two
-/// sums are those of sway and yaw; coupled, they are at most twice the larger.
+/// with the lever a_i = l_f at the rear and, for any steering angle, sqrt(l_f^2 + d^2) at the front.
+/// The first term is the rate of sway, the second that of yaw. The rates of the coupled motion are at
+/// most twice the larger one.
 template <class T>
 T tyre_rate(const FourWheels<T>& p, const State<T>& s) {
   using math::sqrt;
@@ -218,8 +219,8 @@ T tyre_rate(const FourWheels<T>& p, const State<T>& s) {
                                   T((wheel_m2 * front + axle_m2 * rear) / p.body.inertia_norm));
 }
 
-/// Upper bound of the rates of change of the vehicle at `at`: of the rotation of the velocity in
-/// its frame, of the tyres, and of the resistance of the drives at the speed of the fastest wheel.
+/// Upper bound of the rates of change at the state `at`, 1/s: of the rotation of the velocity in the
+/// vehicle's frame, of the tyres, and of the resistance g1 at the speed of the fastest wheel.
 template <class T>
 T fastest_rate(const FourWheels<T>& vehicle, const State<T>& at) {
   using math::abs;

@@ -1,4 +1,4 @@
-/// Vehicle data given before any trial. Its file: vehicle_file.h.
+/// Vehicle data that are known before any trial; vehicle_file.h reads them.
 #pragma once
 
 #include <map>
@@ -56,7 +56,7 @@ struct Vehicle {
   double steering_time_constant_s = 0.0;   ///< T, s, > 0: the servo's first-order lag
   double sample_time_s = 0.0;              ///< T_s, s, > 0: between two steps of the controller
   std::optional<double> yaw_inertia_kgm2;  ///< Iz, kg m^2, > 0, measured; absent: the box formula
-  std::optional<double> sway_alpha;        ///< a_s of g2, s/m, > 0; absent: a log must identify it
+  std::optional<double> sway_alpha;        ///< a_s of g2, s/m, > 0; absent: common tyres, or a log
   Interval surge_beta_range{0.0, 2.5};     ///< range of b1 in fits, 0 <= lo < hi
   Interval yaw_beta_range{0.0, 4.0};       ///< range of b3 in fits, 0 <= lo < hi
 
@@ -72,7 +72,7 @@ struct Vehicle {
   /// P_s, W, > 0: power of one motor under full voltage at standstill, where all of it becomes
   /// heat; absent: electrical work is not reported in joules.
   std::optional<double> motor_stall_power_w;
-  /// deg/s, > 0: the fastest turn for which yaw resistance is known; absent: the range of the
+  /// deg/s, > 0: largest yaw rate for which the yaw resistance is known; absent: the largest of the
   /// turning trials.
   std::optional<double> yaw_rate_max_degps;
 

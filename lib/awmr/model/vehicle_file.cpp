@@ -21,7 +21,7 @@ Interval beta_range_from_json(JsonObject& json, std::string_view key, Interval a
   const Interval range = json.optional_interval(key).value_or(absent);
   if (range.lo < 0.0) {
     json.fault(ErrorCode::kOutOfRange, key,
-               fmt::format("an exponent below 0 is a resistance that falls with speed; found "
+               fmt::format("with an exponent below 0, the resistance falls with speed; found "
                            "[{}, {}], give a lower end of at least 0",
                            range.lo, range.hi));
   } else if (range.hi > kExponent.max) {
@@ -30,7 +30,8 @@ Interval beta_range_from_json(JsonObject& json, std::string_view key, Interval a
                            range.hi));
   } else if (range.lo == range.hi) {
     json.fault(ErrorCode::kWrongOrder, key,
-               fmt::format("must not be empty, found [{}, {}]", range.lo, range.hi));
+               fmt::format("the lower end must be below the upper end, found [{}, {}]", range.lo,
+                           range.hi));
   }
   return range;
 }
@@ -138,7 +139,7 @@ constexpr SmallerUnit kSmallerUnits[] = {{"/length_m", kSize_m, 1e-3, "mm"},
                                          {"/half_track_m", kSize_m, 1e-3, "mm"},
                                          {"/sample_time_s", kSampleTime_s, 1e-3, "ms"}};
 
-/// Adds to each fault of a too large number its value in a smaller unit.
+/// Completes the message about a number above its range by its value in the likely, smaller unit.
 void name_units(const Json& document, const std::string& file, std::vector<Fault>& faults) {
   for (Fault& fault : faults) {
     for (const SmallerUnit& unit : kSmallerUnits) {
@@ -147,7 +148,8 @@ void name_units(const Json& document, const std::string& file, std::vector<Fault
       if (!document.contains(pointer) || !document.at(pointer).is_number()) continue;
       const double value = document.at(pointer).get<double>();
       if (value <= unit.rule.max || value * unit.factor > unit.rule.max) continue;
-      fault.message += fmt::format("; it looks like {}: {:.4g}", unit.words, value * unit.factor);
+      fault.message +=
+          fmt::format("; the number looks like {}: {:.4g}", unit.words, value * unit.factor);
     }
   }
 }
@@ -172,7 +174,7 @@ Vehicle vehicle_from_json(JsonObject& json) {
     steering_from_json(json.object("steering"), vehicle);
   } else if (json.has("steering")) {
     json.fault(ErrorCode::kConflict, "steering",
-               "a vehicle of drive \"differential\" has none; remove it, or choose "
+               "a vehicle with drive \"differential\" has no steering; remove this key, or choose "
                "another drive");
   }
   vehicle.sample_time_s = json.number("sample_time_s", kSampleTime_s);
@@ -214,7 +216,7 @@ Json vehicle_to_json(const Vehicle& vehicle) {
 }
 
 std::string vehicle_schema() {
-  return json_schema_text(kVehicleSchema, "A vehicle: what is known before any trial",
+  return json_schema_text(kVehicleSchema, "A vehicle: data known before any trial",
                           [](JsonObject& json) { vehicle_from_json(json); });
 }
 

@@ -1,4 +1,4 @@
-/// vehicle.json (`awmr.vehicle/1`).
+/// Reads vehicle.json (`awmr.vehicle/1`).
 #pragma once
 
 #include <filesystem>

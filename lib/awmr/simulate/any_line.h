@@ -1,5 +1,5 @@
-/// Line guidance with a law that is selected at run time. Private to the program: a firmware has
-/// one law compiled in.
+/// Line guidance with a law that is selected at run time, for the simulator. A firmware has one law
+/// compiled in.
 #pragma once
 
 #include <variant>
@@ -20,7 +20,7 @@ struct AnyLineFollower {
   T sample_time_s;
   PolylineProgress<T> progress;
   bool is_started;
-  PolylineGuidance<T> guided;  ///< of the last step
+  PolylineGuidance<T> guided;  ///< output of the last step
 };
 
 template <class T>

@@ -34,8 +34,8 @@ const Kernel* kernel_of(const BatchArithmetic& arithmetic) {
   return nullptr;
 }
 
-/// Calls take(i, metrics, run) for each run. Without metrics if the run failed or there is no
-/// kernel for it.
+/// Simulates the runs in blocks and calls take(i, metrics, run) for each. `metrics` is empty if the
+/// run failed or there is no kernel.
 template <class Take>
 void drive_by_blocks(std::span<const BatchRun> runs, const Scenario& scenario, double sample_time_s,
                      const BatchArithmetic& arithmetic, bool keeps_rows, const Take& take) {

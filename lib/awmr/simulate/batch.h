@@ -1,8 +1,8 @@
-/// Batches of runs of the closed loop of simulate() (closed_loop.h), one run per lane of the
-/// processor's vector registers.
+/// Simulates many runs of a scenario at once, one run per lane of the processor's vector registers,
+/// in the closed loop of simulate() (closed_loop.h).
 ///
-/// The results of a run do not depend on the other runs or on its position. They equal those of
-/// simulate() up to rounding, because powers and angles are computed by other polynomials.
+/// The results of a run do not depend on the other runs or on its lane. They equal those of
+/// simulate() except for rounding, because powers and angles are computed by other polynomials.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@
 
 namespace awmr {
 
-/// Standard normals by sample, for the sensor noise of a run. Runs that differ only in plant, gains
-/// or mode share them, because drawing them takes a tenth of the time of a run.
+/// Standard normal numbers for the sensor noise of a run, by sample. Runs that differ only in plant,
+/// gains or mode can share these numbers. Drawing them takes a tenth of the time of a run.
 struct DrawnNoise {
   std::vector<double> heading, yaw_rate, speed;  ///< empty: the sensor has no noise
 };
 
-/// The numbers that a run with this seed and sample draws, about 24 bytes per sample.
+/// The numbers that the sensors of a run with this seed and sample draw: up to 24 bytes per sample.
 DrawnNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std::uint64_t seed,
                              std::uint64_t sample);
 
@@ -41,22 +41,22 @@ struct BatchRun {
 struct BatchArithmetic {
   /// "avx512", "avx2", "neon"; "scalar": by simulate(), one run at a time.
   std::string_view instructions;
-  /// Results of two machines have the same bytes only if this is the same: "fused" (a b + c is
-  /// rounded once) for every vector instruction set, "scalar" for simulate().
+  /// "fused" (a b + c is rounded once) for every vector instruction set, "scalar" for simulate().
+  /// Results of two machines have the same bytes only if their `rounding` is the same.
   std::string_view rounding;
 };
 
-/// Number of runs that fill the registers.
+/// Number of runs in a full block.
 inline constexpr std::size_t kBatchRuns = 16;
 
-/// The widest instruction set of this processor, or the one in the environment variable
-/// AWMR_INSTRUCTIONS, for tests. Errors (input): the processor does not have that one.
+/// The widest instruction set of this processor, or, for tests, the one in the environment variable
+/// AWMR_INSTRUCTIONS. Errors (input): the requested instruction set is not available.
 Result<BatchArithmetic> batch_arithmetic();
-/// Its rounding; empty on an error.
+/// `rounding` of batch_arithmetic(); empty on an error.
 std::string batch_rounding();
 
-/// The metrics of each run, in order. Errors (input) of a run: as failure_of(). All controllers
-/// have the same driven wheels, split and form of the allocation.
+/// The metrics of each run, in order. Errors (input) of a run: as failure_of(). Precondition: all
+/// controllers have the same driven wheels, split and form of the allocation.
 std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
                                             const Scenario& scenario, double sample_time_s,
                                             const BatchArithmetic& arithmetic);
@@ -66,7 +66,8 @@ struct DrivenRun {
   Run run;
   Metrics metrics;
 };
-/// The same runs with their rows. A run that fails is the result of simulate().
+/// As simulate_batch(), with the rows of each run. If a run fails in the batch, its result is that
+/// of simulate().
 std::vector<DrivenRun> drive_batch(std::span<const BatchRun> runs, const Scenario& scenario,
                                    double sample_time_s, const BatchArithmetic& arithmetic);
 

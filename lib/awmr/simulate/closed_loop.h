@@ -1,7 +1,8 @@
 /// The closed loop of a single run (Row = double) and of sixteen runs at a time (lanes::Row):
 ///   sensors -> guidance -> controller -> actuators -> rows and metrics -> vehicle
-/// Sensors, guidance, disturbances and the ground are computed run by run; controller, motors,
-/// motion and metrics by steps on rows (loop_steps.h, vehicle_steps.h). Private to this folder.
+/// Sensors, guidance, disturbances and the ground are computed run by run. Controller, motors,
+/// motion and metrics are computed for all runs at once, by the steps in loop_steps.h and
+/// vehicle_steps.h. Private to this folder.
 #pragma once
 
 #include <cmath>
@@ -24,7 +25,7 @@
 
 namespace awmr {
 
-/// The steps for a single run.
+/// The steps of loop_steps.h for a single run.
 inline constexpr LoopSteps<double> kOneRunSteps = {
     "scalar", [](LoopRuns<double>& runs) { steps::control(OneRun{}, runs); },
     [](LoopRuns<double>& runs) { steps::measure(OneRun{}, runs); }, kOneVehicleSteps};
@@ -32,9 +33,9 @@ inline constexpr LoopSteps<double> kOneRunSteps = {
 /// Options of the closed loop.
 struct LoopOptions {
   double sample_time_s = 0.01;
-  std::size_t samples = 0;           ///< the last one, counted from 0
-  std::optional<int> substeps = {};  ///< absent: substeps_for() each vehicle
-  bool keeps_rows = false;           ///< take_run() has rows
+  std::size_t samples = 0;           ///< index of the last sample, from 0
+  std::optional<int> substeps = {};  ///< RK4 steps per sample; absent: substeps_for() each vehicle
+  bool keeps_rows = false;           ///< the runs of take_run() have rows
   bool has_metrics = false;          ///< metrics() may be called
 };
 
@@ -49,10 +50,10 @@ class ClosedLoop {
   /// Simulates all runs to their ends.
   void drive();
 
-  /// End of a run, with its rows if they are kept. RunEnd::kFailed: a number was not finite, or no
-  /// step was short enough.
+  /// Result of a run, with its rows if they are kept. RunEnd::kFailed: a number was not finite, or
+  /// no step was short enough.
   Run take_run(std::size_t run);
-  /// Empty if the run failed.
+  /// Metrics of a run; empty if the run failed.
   std::optional<Metrics> metrics(std::size_t run) const;
 
  private:
@@ -63,11 +64,11 @@ class ClosedLoop {
     RunDisturbance disturbance;
     Sensed sensed = {};
     std::optional<ScenarioGuidance> guidance = {};  ///< set after the first measurement
-    PathRow path = {};                              ///< of the present sample
-    RunEnd ending =
-        RunEnd::kDuration;  ///< how the current sample ends the run; kDuration: it continues
+    PathRow path = {};                              ///< guidance columns of the present sample
+    /// Reason why the current sample ends the run; kDuration: it does not.
+    RunEnd ending = RunEnd::kDuration;
     std::vector<RunRow> rows = {};
-    std::optional<Ending> end = {};  ///< absent: it continues, or it failed
+    std::optional<Ending> end = {};  ///< absent: the run continues, or it failed
   };
 
   void set_up_controller(const BatchRun& run, std::size_t index);
@@ -105,7 +106,7 @@ ClosedLoop<Row>::ClosedLoop(std::span<const BatchRun> runs, const Scenario& scen
   runs_->task = metrics_task(scenario);
   runs_->vehicles.setup = vehicle_setup(scenario, options.sample_time_s);
   for (std::size_t i = 0; i < kRunsOf<Row>; ++i) {
-    // An unused lane has a copy of the first run, so that its numbers are valid.
+    // An unused lane gets a copy of the first run, so that it has valid numbers.
     const bool has_run = i < runs.size();
     const BatchRun& run = has_run ? runs[i] : runs.front();
     set_up_controller(run, i);
@@ -141,8 +142,8 @@ void ClosedLoop<Row>::set_up_vehicle(const BatchRun& run, std::size_t index) {
                        index, runs_->vehicles);
 }
 
-/// True if each run needs its own guidance. False if it is the same for all runs and no row needs
-/// it.
+/// True if the guidance must be computed run by run. False in open loop, and for plain heading steps
+/// without rows: their reference is the same for all runs.
 template <class Row>
 bool ClosedLoop<Row>::has_own_guidance() const {
   if (runs_->control.is_open_loop) return false;
@@ -159,7 +160,7 @@ void ClosedLoop<Row>::for_active(const Body& body) {
   }
 }
 
-/// Measurements of the controllers.
+/// Computes the measurements for the controllers.
 template <class Row>
 void ClosedLoop<Row>::sense(std::size_t k, double t_s) {
   const State<Row>& state = runs_->vehicles.state;
@@ -175,7 +176,7 @@ void ClosedLoop<Row>::sense(std::size_t k, double t_s) {
   });
 }
 
-/// References of the laws.
+/// Computes the references of the control laws.
 template <class Row>
 void ClosedLoop<Row>::guide(std::size_t k, double t_s) {
   if (has_own_guidance()) {

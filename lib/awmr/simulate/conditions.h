@@ -1,4 +1,4 @@
-/// Effects on a real vehicle that are not in the model: sensor noise, latency and actuator lag.
+/// Conditions for tuning that are not in the model: sensor noise, latency and motor lag.
 #pragma once
 
 #include "awmr/model/vehicle.h"
@@ -6,9 +6,9 @@
 
 namespace awmr {
 
-/// Noise and latency of the sensors, lag of the motors. vehicle.json gives them (`noise`,
-/// `noise_correlation_s`, `latency_s`, `motor`); these are the defaults: a compass, a MEMS gyro and
-/// a coarse encoder, with a latency of one sample, and small brushed motors.
+/// Noise and latency of the sensors, and lag of the motors. vehicle.json can give these values
+/// (`noise`, `noise_correlation_s`, `latency_s`, `motor`). The defaults are those of a compass, a
+/// MEMS gyroscope and a coarse encoder with 20 ms of latency, and of small brushed motors.
 struct LoopConditions {
   double heading_noise_deg = 1.0;
   double yaw_rate_noise_degps = 0.5;
@@ -22,10 +22,10 @@ struct LoopConditions {
   double motor_time_constant_s = 0.02;
 };
 
-/// The conditions of the vehicle file, with the defaults above.
+/// The conditions that vehicle.json gives, with the defaults above for missing ones.
 LoopConditions conditions_of(const Vehicle& vehicle);
 
-/// The scenario under these conditions. Its own sensors and actuators are unchanged.
+/// The scenario with these conditions. Sensors or actuators that the scenario has are kept.
 Scenario under(const LoopConditions& conditions, Scenario scenario);
 
 }  // namespace awmr

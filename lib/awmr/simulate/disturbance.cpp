@@ -7,7 +7,7 @@
 namespace awmr {
 namespace {
 
-/// Streams of RunSeed::random: at most 200 terms per axis.
+/// First streams of RunSeed::random for each axis, with room for 200 terms.
 constexpr std::uint64_t kSurgeUse = 100;
 constexpr std::uint64_t kSwayUse = 300;
 constexpr std::uint64_t kYawUse = 500;
@@ -24,8 +24,8 @@ DisturbanceSource::DisturbanceSource(const std::vector<DisturbanceTerm>& terms,
           term.phase_rad ? *term.phase_rad : 2.0 * pi<double>() * running.random.uniform();
     }
     if (term.kind == DisturbanceTerm::Kind::kNoise) {
-      // x(t + T_s) = c x(t) + sqrt(1 - c^2) sigma n,  c = exp(-2 pi f T_s): the low pass at the
-      // sample times, stationary from the start.
+      // Low pass at the sample times, stationary from the start, with a standard normal n:
+      //   x(t + T_s) = c x(t) + sqrt(1 - c^2) sigma n,  c = exp(-2 pi f T_s)
       running.keep = std::exp(-2.0 * pi<double>() * term.bandwidth_hz * sample_time_s);
       running.value = term.value * running.random.normal();
     }

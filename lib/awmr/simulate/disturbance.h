@@ -1,4 +1,4 @@
-/// Disturbances over time, one value per sample. Private to this folder.
+/// Disturbances of a run as functions of time, one value per sample. Private to this folder.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace awmr {
 
-/// Random streams of a run: one per use, independent of the others.
+/// Random streams of a run. Each use (a sensor, a disturbance term) has its own stream.
 struct RunSeed {
   std::uint64_t seed = 0;
   std::uint64_t sample = 0;
-  /// `use` < 1024. Different from the streams of compare/, which are small numbers and those with
-  /// bit 63.
+  /// The stream of `use` < 1024. It has bit 62 and so differs from the streams of compare/, which are
+  /// small numbers or have bit 63.
   Random random(std::uint64_t use) const {
     return {seed, (std::uint64_t{1} << 62U) | (sample << 10U) | use};
   }
@@ -26,10 +26,10 @@ inline RunSeed run_seed(std::uint64_t scenario_seed, std::uint64_t seed, std::ui
   return {scenario_seed + seed * 0x9E3779B97F4A7C15U, sample};
 }
 
-/// The sum of one axis's terms, sample by sample.
+/// The sum of the disturbance terms of one axis, sample by sample.
 class DisturbanceSource {
  public:
-  /// `first_use`: of RunSeed::random, one per term.
+  /// `first_use`: stream of RunSeed::random for the first term; the others have the next ones.
   DisturbanceSource(const std::vector<DisturbanceTerm>& terms, double sample_time_s,
                     const RunSeed& seed, std::uint64_t first_use);
   /// The value over the sample that begins at `t_s`; call it once per sample, in order.
@@ -40,8 +40,8 @@ class DisturbanceSource {
     DisturbanceTerm term;
     Random random;
     double phase_rad = 0.0;
-    double keep = 0.0;   ///< of the low pass, over one sample
-    double value = 0.0;  ///< of the low pass
+    double keep = 0.0;   ///< c of the low pass: factor over one sample
+    double value = 0.0;  ///< state of the low pass
   };
   std::vector<Running> terms_;
 };
@@ -50,8 +50,8 @@ class DisturbanceSource {
 class RunDisturbance {
  public:
   RunDisturbance(const Disturbance& disturbance, double sample_time_s, const RunSeed& seed);
-  /// Over the sample that begins at `t_s`, without the slope's share; call it once per sample, in
-  /// order.
+  /// Forces and moment over the sample that begins at `t_s`, without those of a slope. Call it once
+  /// per sample, in order.
   BodyLoad next(double t_s) { return {surge_.next(t_s), sway_.next(t_s), yaw_.next(t_s)}; }
 
  private:

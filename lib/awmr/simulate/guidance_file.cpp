@@ -1,4 +1,4 @@
-// scenario.json: guidance, obstacles, avoidance, shaping.
+// Reads these parts of scenario.json: guidance, obstacles, avoidance, shaping.
 
 #include <fmt/format.h>
 
@@ -34,11 +34,11 @@ HeadingSteps read_heading_steps(JsonObject& json) {
     step.reject_unknown_keys();
   }
   if (heading.steps.empty() || heading.steps.front().t_s > 0.0) {
-    json.fault(ErrorCode::kWrongOrder, "steps", "the first step has to be at t_s = 0");
+    json.fault(ErrorCode::kWrongOrder, "steps", "the first step must be at t_s = 0");
   }
   for (std::size_t i = 1; i < heading.steps.size(); ++i) {
     if (heading.steps[i].t_s <= heading.steps[i - 1].t_s) {
-      json.fault(ErrorCode::kWrongOrder, "steps", "the steps' times have to increase");
+      json.fault(ErrorCode::kWrongOrder, "steps", "t_s must increase from step to step");
       break;
     }
   }
@@ -75,9 +75,8 @@ std::vector<Position<double>> read_points(JsonObject& json, const char* key, std
     json.fault(ErrorCode::kWrongType, key,
                "expected an array of points [[x, y], ...] in m, at least " + std::to_string(least));
   } else if (!in_range) {
-    json.fault(
-        ErrorCode::kOutOfRange, key,
-        fmt::format("a coordinate is beyond {:g} m; give points within it", kCoordinate_m.max));
+    json.fault(ErrorCode::kOutOfRange, key,
+               fmt::format("the magnitude of a coordinate exceeds {:g} m", kCoordinate_m.max));
   }
   return points;
 }
@@ -91,14 +90,14 @@ WaypointPath read_waypoints(JsonObject& json) {
   return path;
 }
 
-/// A segment of zero length has no direction.
+/// Refuses successive points that are equal, because a segment of zero length has no direction.
 void check_segments(JsonObject& json, const char* key,
                     const std::vector<Position<double>>& points_m) {
   for (std::size_t i = 1; i < points_m.size(); ++i) {
     if (points_m[i].x_m != points_m[i - 1].x_m || points_m[i].y_m != points_m[i - 1].y_m) continue;
     json.fault(ErrorCode::kGivenTwice, key,
-               fmt::format("the points {} and {} are the same, [{}, {}]: a line needs two "
-                           "different ones",
+               fmt::format("the points {} and {} are the same, [{}, {}]; remove one of them, or "
+                           "give different points",
                            i - 1, i, points_m[i].x_m, points_m[i].y_m));
   }
 }
@@ -149,7 +148,8 @@ LissajousPath read_lissajous(JsonObject& json) {
   path.closed_loop = json.boolean("closed_loop");
   if (const auto gain = json.optional_number("position_gain_per_s", kRate)) {
     if (!path.closed_loop) {
-      json.fault(ErrorCode::kConflict, "position_gain_per_s", "is for closed_loop true only");
+      json.fault(ErrorCode::kConflict, "position_gain_per_s",
+                 "has no effect if closed_loop is false; remove it");
     }
     path.position_gain_per_s = *gain;
   }

@@ -1,6 +1,6 @@
-/// Controllers and meters of runs that are simulated together, as steps on rows (row_view.h).
-/// Together with vehicle_steps.h this is the arithmetic of the closed loop, for a double and for a
-/// register of doubles. Private to this folder.
+/// Controllers and metrics of runs that are simulated together, as steps on rows (row_view.h).
+/// Together with vehicle_steps.h, this is the arithmetic of the closed loop, for a single run and
+/// for a register of runs. Private to this folder.
 #pragma once
 
 #include "awmr/simulate/meter.h"
@@ -9,13 +9,13 @@
 
 namespace awmr {
 
-/// All numbers of runs of one scenario. Plain data, because the kernels of lanes/ are compiled for
-/// other instruction sets and share no code with the rest of the program.
+/// All numbers of the runs that are simulated together. Plain data, because the kernels of lanes/
+/// are compiled for other instruction sets and must not share code with the rest of the program.
 template <class Row>
 struct LoopRuns {
   ControllerSetup control;
   MetricsTask task;
-  MetricsTime time;  ///< of the present sample
+  MetricsTime time;  ///< time data of the present sample
 
   Vehicles<Row> vehicles;
   RunController<Row> controller;
@@ -23,23 +23,23 @@ struct LoopRuns {
   MetricsVehicle<Row> metered;
   MetricsAccumulator<Row> sums;
 
-  // Values of the current sample: measurements, references and requests of the controller. Its
-  // commands are in the vehicles' rows.
+  // Values of the current sample: measurements, references and outputs of the control laws. The
+  // commands are in `vehicles`.
   Measurement<Row> measured;
   Reference<Row> reference;
   Row tau_speed, tau_turn_m;
-  // Inputs of the meter.
+  // Further inputs of the metrics.
   Row goal_rad, cross_track_m, off_target_m, clearance_m;
 };
 
-/// The steps of a sample for one kind of row, in this order. Runs that are not active do not
-/// change.
+/// The steps of a sample for one type of row, in the order in which they are called. Runs that are
+/// not active do not change.
 template <class Row>
 struct LoopSteps {
   const char* name;
   /// Computes the commands from `measured` and `reference`.
   void (*control)(LoopRuns<Row>& runs);
-  /// Adds the sample to the sums of the meter.
+  /// Adds the sample to the sums of the metrics.
   void (*measure)(LoopRuns<Row>& runs);
   VehicleSteps<Row> vehicle;
 };

@@ -1,5 +1,5 @@
-/// Streaming metrics accumulator: takes each row of a run once, so no row is stored. Templates on
-/// the scalar: a double, or a batch with a run per lane. Private to this folder.
+/// Streaming metrics accumulator: processes each row of a run once, so no row is stored. Templates
+/// on the scalar: a double, or a batch with one run per lane. Private to this folder.
 #pragma once
 
 #include "awmr/control/controller.h"
@@ -10,49 +10,50 @@
 
 namespace awmr {
 
-/// Data of the vehicle for the meter: the controller's limits and law.
+/// Data of the vehicle that the metrics need, from the limits of its controller.
 template <class T>
 struct MetricsVehicle {
-  T front_axle_m;      ///< l_f
-  T half_track_m;      ///< d
-  T force_max;         ///< F'max of one wheel, beyond the dead zone
-  T command_max;       ///< the command that makes it
+  T front_axle_m;      ///< l_f, m
+  T half_track_m;      ///< d, m
+  T force_max;         ///< F'max of one wheel, without the dead zone
+  T command_max;       ///< the command that makes F'max
   T command_min;       ///< the command that makes F'min
-  T steering_max_rad;  ///< d_max; 0: no steering
-  T dead_zone;         ///< F'0 of the motors
-  T back_emf_s_per_m;  ///< k_e of the motors
-  T rear_driven;       ///< 1; 0 for front-wheel drive
+  T steering_max_rad;  ///< d_max, rad; 0: no steering
+  T dead_zone;         ///< F'0 of the motors, over F_max
+  T back_emf_s_per_m;  ///< k_e of the motors, s/m
+  T rear_driven;       ///< 1: all wheels are driven; 0: only the front wheels
 };
 
 /// Properties of the scenario that the metrics need; the same for all lanes.
 struct MetricsTask {
   bool has_headings = false;  ///< the guidance has heading steps
-  double speed_mps = 0.0;     ///< reference speed of a speed drop
-  /// Timed path: largest allowed distance from its point in the second half of the run.
+  double speed_mps = 0.0;     ///< commanded speed, from which a speed drop is measured
+  /// Timed path: largest allowed distance from the path's point in the second half of the run.
   double tolerance_m = 0.0;
-  bool is_on_tyres = false;  ///< true: tyre work is of the tyres' lateral forces; false: against g3
+  /// true: tyre work is that of the lateral tyre forces; false: the work against g3 and scrub.
+  bool is_on_tyres = false;
 };
 
-/// Input of the meter for one row.
+/// Input of the metrics for one row.
 template <class T>
 struct MetricsRow {
   State<T> state;
-  SideForces<T> force;     ///< commanded
+  SideForces<T> force;     ///< commanded forces, over F_max
   WheelForces<T> acting;   ///< applied over the sample that ends here: RunRow::acting
-  T steering_command_rad;  ///< d_ro
+  T steering_command_rad;  ///< d_ro: commanded steering angle
   T yaw_resistance_m;      ///< g3(r) of the controller's model
   T goal_rad;              ///< the heading commanded by the guidance
-  T cross_track_m;         ///< from the current leg, line or path
-  T off_target_m;          ///< from the target point
-  T clearance_m;           ///< to the nearest obstacle; 0 without obstacles
+  T cross_track_m;         ///< distance from the current leg, line or path
+  T off_target_m;          ///< distance from the target point
+  T clearance_m;           ///< distance to the nearest obstacle; 0 without obstacles
   T speed_ref_mps;         ///< u_d, reference of the speed law
-  T tyre_power_mps;        ///< of the tyres' lateral forces; without tyres, of scrub
+  T tyre_power_mps;        ///< RunRow::tyre_power_mps
 };
 
 /// Time of a row; the same for all lanes.
 struct MetricsTime {
   double t_s = 0.0;
-  double since_last_s = 0.0;  ///< time since the previous row; not for the first row
+  double since_last_s = 0.0;  ///< time since the previous row; 0 in the first row
   bool is_first = false;
   bool starts_step = false;  ///< the commanded heading differs from that of the previous row
   bool is_in_second_half = false;
@@ -75,20 +76,20 @@ struct MetricsAccumulator {
   T cross_track_m2 = T(0.0);
   T strayed = T(0.0);  ///< flag: beyond the tolerance in the second half
   T clearance_min_m = T(0.0);
-  T speed_reached = T(0.0);  ///< flag
+  T speed_reached = T(0.0);  ///< flag: the commanded speed was reached
   T speed_least_mps = T(0.0);
   T speed_itae_m_s = T(0.0);
-  T steering_rate2_degps2 = T(0.0);  ///< squares of the commanded angle's rates
-  // Headings: sums over all steps, then those of the current step.
+  T steering_rate2_degps2 = T(0.0);  ///< sum of the squared rates of the commanded angle
+  // Heading steps: values over all steps, then values of the current step.
   T settling_s = T(0.0);
-  T never_settled = T(0.0);  ///< flag: at the end of a step
+  T never_settled = T(0.0);  ///< flag: a step ended without settling
   T overshoot_deg = T(0.0);
   T iae_degs = T(0.0);
   T itae_degs2 = T(0.0);
   T step_start_s = T(0.0);
   T step_deg = T(0.0);
-  T out_of_band = T(0.0);  ///< flag
-  T settled_s = T(0.0);    ///< time from the step's start
+  T out_of_band = T(0.0);  ///< flag: the error is outside the settling band
+  T settled_s = T(0.0);    ///< time from the step's start to the last entry into the band
   // Values of the previous row.
   T error_deg = T(0.0);
   T speed_error_m = T(0.0);  ///< t |u_d - u|
@@ -96,25 +97,25 @@ struct MetricsAccumulator {
   WheelSpeeds<T> rolling{T(0.0), T(0.0), T(0.0), T(0.0)};
   T yaw_resistance_m = T(0.0), r_radps = T(0.0);
   T tyre_power_mps = T(0.0);
-  T limited = T(0.0);  ///< flag
+  T limited = T(0.0);  ///< flag: a command was at a limit
   T x_m = T(0.0), y_m = T(0.0), steering_rad = T(0.0);
   T steering_command_rad = T(0.0), left = T(0.0), right = T(0.0);
 };
 
 namespace meter {
 
-constexpr double kReachedShare = 0.001;   ///< of the commanded speed
-constexpr double kSettledShare = 0.02;    ///< of the step's size
-constexpr double kSettledLeastDeg = 0.5;  ///< band of the smallest steps
-constexpr double kMovingMps = 0.05;       ///< below it the sideslip angle has no meaning
+constexpr double kReachedShare = 0.001;   ///< band of a reached speed, over the commanded speed
+constexpr double kSettledShare = 0.02;    ///< half width of the settling band, over the step's size
+constexpr double kSettledLeastDeg = 0.5;  ///< smallest half width of the settling band
+constexpr double kMovingMps = 0.05;       ///< speed below which the sideslip angle is not evaluated
 
 using math::larger;
 
-/// Power and copper loss of the motors over a sample.
+/// Power and relative copper loss of the motors.
 template <class T>
 struct MotorWork {
   T power_mps;  ///< power of the four wheels over F_max: sum of max(0, F' w)
-  T copper;     ///< half the sum of the wheels' F'^2
+  T copper;     ///< half the sum of the squared wheel forces F'^2
 };
 
 template <class T>
@@ -155,7 +156,7 @@ Mask<T> at_a_limit(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle) {
           abs(row.steering_command_rad) >= vehicle.steering_max_rad);
 }
 
-/// Commanded angle over the largest; 0 without steering.
+/// A steering angle divided by the largest one; 0 without steering.
 template <class T>
 T share_of_stop(const T& steering_rad, const T& steering_max_rad) {
   using math::select;
@@ -172,7 +173,7 @@ void close_step(MetricsAccumulator<T>& m) {
   m.settling_s = select(settled, larger(m.settling_s, m.settled_s), m.settling_s);
 }
 
-/// Settling, overshoot, IAE and ITAE.
+/// Adds a row to settling time, overshoot, IAE and ITAE of the heading.
 template <class T>
 void measure_heading(const MetricsRow<T>& row, const MetricsTime& time, MetricsAccumulator<T>& m) {
   using math::abs;
@@ -199,7 +200,7 @@ void measure_heading(const MetricsRow<T>& row, const MetricsTime& time, MetricsA
   m.error_deg = error_deg;
 }
 
-/// Smallest speed after the commanded one was first reached within 0.1 %.
+/// Updates the smallest speed since the commanded speed was first reached within 0.1 %.
 template <class T>
 void measure_speed(const T& u_mps, const MetricsTask& task, MetricsAccumulator<T>& m) {
   using math::select;
@@ -210,7 +211,7 @@ void measure_speed(const T& u_mps, const MetricsTask& task, MetricsAccumulator<T
   m.speed_reached = select(counts, T(1.0), T(0.0));
 }
 
-/// Integral of t |u_d - u|, by trapezoids.
+/// Updates the integral of t |u_d - u|, by the trapezoidal rule.
 template <class T>
 void measure_speed_error(const MetricsRow<T>& row, const MetricsTime& time,
                          MetricsAccumulator<T>& m) {
@@ -222,7 +223,7 @@ void measure_speed_error(const MetricsRow<T>& row, const MetricsTime& time,
   m.speed_error_m = error_m;
 }
 
-/// Motion, and variation of the commands.
+/// Updates path length, sideslip, yaw rate, control effort and control variation.
 template <class T>
 void measure_motion(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, bool is_first,
                     MetricsAccumulator<T>& m) {
@@ -250,7 +251,8 @@ void measure_motion(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, 
       (abs(row.force.left - m.left) + abs(row.force.right - m.right)) / vehicle.force_max;
 }
 
-/// Energy, wear and limits of the sample that ends here: forces are held over each.
+/// Updates energy, tyre work, time in saturation and steering travel by the sample that ends here.
+/// Forces are constant over a sample.
 template <class T>
 void measure_work(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, bool is_on_tyres,
                   double dt_s, MetricsAccumulator<T>& m) {
@@ -263,7 +265,7 @@ void measure_work(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, bo
     m.tyre_work += T(dt_s) * m.tyre_power_mps;
   } else {
     m.tyre_work += T(dt_s) * m.yaw_resistance_m * m.r_radps;
-    m.tyre_work += T(dt_s) * m.tyre_power_mps;  // of scrub
+    m.tyre_work += T(dt_s) * m.tyre_power_mps;  // the power of scrub
   }
   m.saturation_s = select(m.limited > T(0.0), T(m.saturation_s + T(dt_s)), m.saturation_s);
   m.steering_travel_deg += abs(degrees(row.state.steering_rad - m.steering_rad));

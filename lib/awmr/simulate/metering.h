@@ -1,4 +1,5 @@
-/// Inputs of the meter from a scenario, and metrics from its sums. Private to this folder.
+/// Constants and times that the metrics accumulator (meter.h) needs, and the metrics computed from
+/// its sums. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +9,14 @@
 
 namespace awmr {
 
-/// End of a run.
+/// How and when a run ended.
 struct Ending {
   RunEnd end = RunEnd::kDuration;
-  double t_s = 0.0;  ///< of its last row
+  double t_s = 0.0;  ///< time of the last row
   int missed_waypoints = 0;
 };
 
-/// Times of the rows of a run, in sequence.
+/// Gives the time data of each row of a run, in sequence.
 class MeterClock {
  public:
   /// `last`: index of the last row of a full run, from 0. The scenario must outlive the clock.
@@ -30,7 +31,7 @@ class MeterClock {
   double goal_before_rad_ = 0.0;
 };
 
-/// Constants of a run's metering (meter.h), and the metrics computed from its sums.
+/// Constants of the accumulator for a vehicle and a scenario, and the metrics from the final sums.
 MetricsVehicle<double> metered_vehicle(const AllocationLimits<double>& limits);
 MetricsTask metrics_task(const Scenario& scenario);
 Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending, const Scenario& scenario);

@@ -17,7 +17,7 @@ double goal_rad(const RunRow& row, const Scenario& scenario) {
   return scenario.shaping || scenario.avoidance ? row.path.psi_goal_rad : row.psi_ref_rad;
 }
 
-/// True if the commanded speed is constant, so that a speed drop is defined.
+/// True if the commanded speed is constant in this scenario: only then a speed drop is defined.
 bool asks_for_one_speed(const Scenario& scenario) {
   if (scenario.avoidance || std::holds_alternative<LissajousPath>(scenario.guidance)) return false;
   const auto* waypoints = std::get_if<WaypointPath>(&scenario.guidance);

@@ -15,21 +15,22 @@ struct Metrics {
   /// Waypoints: all reached. Line: end reached. Timed path: within the tolerance in the second half
   /// of the run.
   bool completed = true;
-  /// Settling time, the longest of all steps: from the step until |e| stays within 2 % of the
-  /// step's size (at least 0.5 deg).
+  /// Settling time, s, the longest of all heading steps: from the step until the heading error |e|
+  /// stays within 2 % of the step's size (at least 0.5 deg).
   std::optional<double> settling_time_s;
   /// Largest travel beyond a commanded heading in the direction of its step, deg, >= 0.
   std::optional<double> overshoot_deg;
-  std::optional<double> heading_iae_degs;    ///< integral of |e|
+  std::optional<double> heading_iae_degs;    ///< integral of the heading error |e|, deg s
   std::optional<double> heading_itae_degs2;  ///< integral of t |e|, t from each step (for tuning)
-  std::optional<double> cross_track_rms_m;   ///< from the current leg, line or path
+  std::optional<double> cross_track_rms_m;   ///< RMS distance from the current leg, line or path
   double path_length_m = 0.0;                ///< length of the driven path
-  /// Commanded speed minus the smallest speed after it was first reached within 0.1 %, >= 0.
+  /// Commanded speed minus the smallest speed after the commanded one was first reached within
+  /// 0.1 %, m/s, >= 0.
   std::optional<double> speed_drop_mps;
   double speed_itae_m_s = 0.0;  ///< integral of t |u_d - u| (for tuning)
   /// Largest sideslip |atan2(v, |u|)|, for driving forward and backward, at speeds above 0.05 m/s.
   double sideslip_max_deg = 0.0;
-  double yaw_rate_max_degps = 0.0;
+  double yaw_rate_max_degps = 0.0;  ///< largest |r|, deg/s
   /// Total variation of the commanded d_r/d_max, F'L/F'max and F'R/F'max, summed, per second.
   double control_variation = 0.0;
   double control_effort = 0.0;            ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run
@@ -46,9 +47,10 @@ struct Metrics {
   double energy_electric = 0.0;
   double saturation_s = 0.0;             ///< time with a command at a limit of F' or of d_r
   double steering_travel_deg = 0.0;      ///< total variation of the angle d_r
-  double steering_rate_rms_degps = 0.0;  ///< of the commanded angle (for tuning)
-  /// Work that wears the tyres, over F_max, m. Against the yaw resistance: integral of g3(r) r. On
-  /// tyres (Scenario::tyres): work of their lateral forces, integral of RunRow::tyre_power_mps.
+  double steering_rate_rms_degps = 0.0;  ///< RMS rate of the commanded angle (for tuning)
+  /// Work that wears the tyres, over F_max, m. 3-DOF model: the work against yaw resistance and
+  /// scrub, integral of g3(r) r plus RunRow::tyre_power_mps. On tyres (Scenario::tyres): work of the
+  /// lateral tyre forces, integral of RunRow::tyre_power_mps.
   double tyre_work = 0.0;
   /// Electrical work of the motors, J; absent if the vehicle has no stall power.
   std::optional<double> electric_work_j;

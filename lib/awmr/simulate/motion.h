@@ -1,5 +1,5 @@
-/// Forces on the vehicle over one sample: of its motors, of disturbances and slopes. Templates on
-/// the scalar: a double, or a batch with a trajectory per lane (vehicle_steps.h). Private to this
+/// Forces on the vehicle over one sample: motor lag and battery, disturbances and slopes. Templates
+/// on the scalar: a double, or a batch with one run per lane (vehicle_steps.h). Private to this
 /// folder.
 #pragma once
 
@@ -12,10 +12,10 @@ namespace awmr {
 /// External forces (disturbance, slope) over one sample.
 template <class T>
 struct ExternalForces {
-  BodyLoadOf<T> load;               ///< of the disturbances
-  bool is_loaded = false;           ///< false: neither load nor slope
+  BodyLoadOf<T> load;               ///< forces and moment of the disturbances
+  bool is_loaded = false;           ///< false: neither disturbances nor slope
   bool is_sloped = false;           ///< there is a slope
-  double slope_accel_mps2 = 0.0;    ///< m g sin(slope) over m: the same for every vehicle
+  double slope_accel_mps2 = 0.0;    ///< g sin(slope)
   double slope_downhill_rad = 0.0;  ///< heading of the steepest descent
 };
 
@@ -23,7 +23,7 @@ struct ExternalForces {
 /// c:
 ///   F(t) = c + (F - c) exp(-t/tau),   mean = c + (F - c) (1 - exp(-T_s/tau)) tau/T_s
 struct MotorLag {
-  double left_over = 0.0;   ///< exp(-T_s/tau)
+  double left_over = 0.0;   ///< exp(-T_s/tau); 0: no lag
   double mean_share = 0.0;  ///< (1 - exp(-T_s/tau)) tau/T_s; 0: no lag
 };
 
@@ -40,15 +40,15 @@ SideForces<T> through_motors(const MotorLag& lag, const SideForces<T>& command,
   return {command.left + behind.left * mean_share, command.right + behind.right * mean_share};
 }
 
-/// Distributes the forces of the sides to the wheels: both wheels of a side have the same force;
-/// the rear ones only if they are driven (Plant::rear_driven).
+/// Distributes left and right forces to the wheels. Both wheels of a side have the same force; rear
+/// wheels that are not driven (Plant::rear_driven) have none.
 template <class T>
 WheelForces<T> at_all_wheels(const SideForces<T>& force, const T& rear_driven) {
   return {force.left, force.right, rear_driven * force.left, rear_driven * force.right};
 }
 
-/// Commands of motors with back-EMF after the lag. A motor with the command 0 is off at once; with
-/// a remaining force from the lag it would brake (motor_force() in dynamics.h).
+/// Motor commands after the lag, with motors of command 0 switched off if they have back-EMF.
+/// Otherwise the rest of the lag would let such a motor brake (motor_force() in dynamics.h).
 template <class T>
 SideForces<T> switched_off(const T& back_emf_s_per_m, const SideForces<T>& command,
                            const SideForces<T>& arriving) {
@@ -65,14 +65,13 @@ SideForces<T> up_to(const SideForces<T>& force, const T& most) {
   return {math::saturate(force.left, most), math::saturate(force.right, most)};
 }
 
-/// Scales both forces by the voltage s of a sagging battery, over that without current. The current
-/// of motor i, over its stall current, is s c_i - k_e w_i, of which the battery carries the share
-/// c_i for which the motor is on:
+/// Scales both forces by the voltage s of a sagging battery, relative to the voltage without current:
 ///   s = 1 - rho sum c_i (s c_i - k_e w_i)
 ///     = (1 + rho k_e sum c_i w_i) / (1 + rho sum c_i^2)
-/// c: commands F'; rho: Battery::sag; w_i = u -+ d r of the sample's start, m/s, as if the wheels
-/// were straight.
-/// The voltage is that over the whole sample.
+/// rho: Battery::sag; c_i: command F' of motor i, which is also the fraction of time in which PWM
+/// connects the motor to the battery. s c_i - k_e w_i: current of the motor over its stall current.
+/// w_i = u -+ d r, m/s: wheel speed at the start of the sample, without the steering angle. s is
+/// constant over the sample.
 template <class T>
 SideForces<T> under_sag(double sag, const T& motors_a_side, const T& back_emf_s_per_m,
                         const T& half_track_m, const State<T>& at, const SideForces<T>& force) {
@@ -109,7 +108,7 @@ State<T> pushed_rates(const Plant<T>& plant, const ExternalForces<T>& push, cons
   return with_push(state_rates(plant, at, force, steering_command_rad), plant, push, at);
 }
 
-/// The same on tyres.
+/// As above, for a vehicle on tyres.
 template <class T, class Forces>
 State<T> pushed_rates(const FourWheels<T>& vehicle, const ExternalForces<T>& push,
                       const State<T>& at, const Forces& force, const T& steering_command_rad) {

@@ -1,4 +1,4 @@
-/// Set-up of a closed loop, and quantities of one sample. Private to this folder.
+/// Functions that set up a closed loop, and that evaluate one sample of it. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ inline constexpr double kStopped_mps = 1e-3;
 /// The controller with the scenario's changes.
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller);
 
-/// Properties common to the controllers of a scenario; the allocation is that of any of them.
-/// is_observed depends on the runs and is left false.
+/// Properties common to the controllers of the runs of a scenario; `controller` is any of them.
+/// is_observed depends on the single runs and is left false.
 ControllerSetup controller_setup(const Scenario& scenario, const Controller<double>& controller,
                                  double sample_time_s);
 
@@ -24,10 +24,10 @@ ControllerSetup controller_setup(const Scenario& scenario, const Controller<doub
 RunController<double> run_controller(const Scenario& scenario, const Controller<double>& controller,
                                      YawMode mode);
 
-/// Largest F' of a wheel over F_max, including the dead zone.
+/// Largest command of a wheel over F_max: F'max plus the dead zone.
 double largest_force(const Controller<double>& controller);
 
-/// Distance from the vehicle's circle to the nearest obstacle; < 0 inside of it.
+/// Distance from the vehicle's circle to the nearest obstacle, m; < 0 if they overlap.
 double clearance_m(const Scenario& scenario, const State<double>& state);
 
 /// True if every number of the row is finite.

@@ -7,7 +7,7 @@
 namespace awmr {
 namespace {
 
-/// Margin by which a disc is shrunk inside its distance from an end.
+/// Radius of a shrunk disc over its distance from the point that it must exclude.
 constexpr double kShrunk = 1.0 - 1e-9;
 
 /// Twice the signed area of a, b, c.
@@ -15,15 +15,16 @@ double turn(const Position<double>& a, const Position<double>& b, const Position
   return (b.x_m - a.x_m) * (c.y_m - a.y_m) - (b.y_m - a.y_m) * (c.x_m - a.x_m);
 }
 
-/// True if the segments cross. A point on a line counts as left of it, so that a chain through a
-/// vertex on the other segment crosses it once.
+/// True if the segments a-b and c-d cross. A point on a line counts as left of the line, so that a
+/// chain whose vertex lies on the other segment crosses that segment once.
 bool cross(const Position<double>& a, const Position<double>& b, const Position<double>& c,
            const Position<double>& d) {
   const auto left = [](double area) { return area >= 0.0; };
   return left(turn(a, b, c)) != left(turn(a, b, d)) && left(turn(c, d, a)) != left(turn(c, d, b));
 }
 
-/// Union-find with parities: the parity of an element is that of the path to its root.
+/// Union-find with parities. The parity of an element says whether the path to its root has an odd
+/// number of odd edges.
 class ParitySets {
  public:
   explicit ParitySets(std::size_t count) : parent_(count), odd_(count, false) {

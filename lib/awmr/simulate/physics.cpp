@@ -11,12 +11,12 @@
 namespace awmr {
 namespace {
 
-/// RK4 steps per smallest time constant of the smooth part of the plant. The local error of a mode
-/// with the time constant T is (h/T)^5/120 of its excursion, 1e-6 for 6 steps, and decays with T.
-/// Tests compare the positions after a minute with CVODE's, within 1e-5 m.
+/// RK4 steps per smallest time constant of the smooth part of the plant. For a mode with the time
+/// constant T, the error of a step h is (h/T)^5/120 of the excursion, 1e-6 for h = T/6, and decays
+/// with T. tests/peers compares positions after a minute with an independent integrator: 1e-5 m.
 constexpr double kStepsPerTimeConstant = 6.0;
 
-/// Largest speed (m/s, rad/s) below which a resistance can be replaced by its chord.
+/// Largest speed (m/s, rad/s) up to which a chord may replace a resistance.
 constexpr double kChordSpeed = 1e-3;
 
 double step_for_chord(const Resistance<double>& law, double inertia) {
@@ -24,9 +24,8 @@ double step_for_chord(const Resistance<double>& law, double inertia) {
   return relaxation_time_s(law, inertia, kChordSpeed);
 }
 
-/// Limits a command such that the wheel's force, beyond the dead zone, is at most `most`. With
-/// back-EMF the force depends on the rolling speed w: F' = e - k_e w, so the command is that of e =
-/// F' + k_e w.
+/// Limits the command of a motor so that the magnitude of its force is at most `most`. With back-EMF
+/// and the rolling speed w, F' = e - k_e w (motor_force()), so the drive e = F' + k_e w is limited.
 double slipping(const Plant<double>& plant, double command, double wheel_mps, double most) {
   const double k = plant.back_emf_s_per_m;
   const double drive = beyond_dead_zone(command, plant.wheel_dead_zone);
@@ -43,9 +42,9 @@ double steps_of_sample(const Plant<double>& plant, bool on_tyres, double sample_
 
 }  // namespace
 
-/// h <= T/6 for the time constants that do not depend on speed, m'/a_s of sway, T of the servo and
-/// that of back-EMF; and h such that a resistance is its chord only below kChordSpeed (rest_speed()
-/// solved for h):
+/// The limit is the smallest of
+///   h <= T/6 for each time constant that does not depend on speed: sway (m'/a_s), servo, back-EMF
+/// and, so that a chord replaces a resistance only below kChordSpeed (rest_speed() solved for h),
 ///   h <= inertia kChordSpeed / g(kChordSpeed)
 StepLimit step_limit(const Plant<double>& plant, bool on_tyres) {
   StepLimit limit{plant.steering_time_constant_s / kStepsPerTimeConstant,

@@ -1,5 +1,5 @@
-/// Vehicles with their environment, simulated sample by sample: those of the closed loop, and a
-/// single one for an external controller (on a chip).
+/// Motion of vehicles in the environment of a scenario, sample by sample: for the closed loop, and
+/// for an external controller (Physics), such as one on a chip.
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -12,13 +12,13 @@ namespace awmr {
 
 struct SimulateOptions;
 
-/// The steps of a single vehicle.
+/// The steps of vehicle_steps.h for a single vehicle.
 inline constexpr VehicleSteps<double> kOneVehicleSteps = {
     [](Vehicles<double>& v) { steps::dissipate(OneRun{}, v); },
     [](Vehicles<double>& v) { steps::actuate(OneRun{}, v); },
     [](Vehicles<double>& v) { steps::move(OneRun{}, v); }};
 
-/// A single vehicle.
+/// A single vehicle for an external controller.
 class Physics {
  public:
   /// `force_max` is F'max of the vehicle's motors, for the battery.
@@ -47,7 +47,7 @@ WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>&
                                   const State<double>& state, double t_s,
                                   const SideForces<double>& force);
 
-/// The lag of the motors; no lag without actuators.
+/// The lag of the scenario's motors over a sample; no lag without actuators.
 MotorLag motor_lag(const std::optional<Actuators>& actuators, double sample_time_s);
 
 /// Ratio of the largest force at `t_s` to F'max.
@@ -58,26 +58,28 @@ double battery_share(const Battery& battery, double t_s);
 void quantise(const Actuators& actuators, double force_max, SideForces<double>& force,
               double& steering_command_rad);
 
-/// The plant with its chord through rest (rest.h), for the steps of a run; on tyres the chord of g1
-/// at the wheels.
+/// The plant with the chords through rest (rest.h) that steps of step_s seconds need; on tyres, with
+/// the chord of g1 at the wheels.
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario, double step_s);
 
-/// Longest RK4 step that resolves the time constants which do not depend on speed, and the
-/// parameter that limits it. On tyres: without the resistances that they replace.
+/// Longest RK4 step that resolves the time constants which do not depend on speed, and the parameter
+/// that limits the step.
 struct StepLimit {
   double step_s = 0.0;
   ParameterId parameter{};
 };
+/// Computes the limit for a plant; with `on_tyres`, without g2 and g3, which the tyres replace.
 StepLimit step_limit(const Plant<double>& plant, bool on_tyres);
 
-/// RK4 steps of a run from start to end, with those of its last row.
+/// Number of RK4 steps of a complete run.
 double steps_of_run(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
-/// Properties common to the vehicles of a scenario; set_up_vehicle() adds those that any of them
-/// has.
+/// Properties common to the vehicles of a scenario. set_up_vehicle() adds back-EMF, scrub and
+/// front-wheel drive if any vehicle has them.
 VehicleSetup vehicle_setup(const Scenario& scenario, double sample_time_s);
 
-/// Sets a vehicle to its initial state. `force_max` is F'max of its motors, for the battery.
+/// Sets the vehicle of a run to its initial state. `force_max` is F'max of its motors, for the
+/// battery.
 template <class Row>
 void set_up_vehicle(const Plant<double>& plant, double force_max, const Scenario& scenario,
                     double sample_time_s, int substeps, std::size_t run, Vehicles<Row>& v) {

@@ -19,19 +19,21 @@ namespace {
 
 constexpr int kMostTries = 1000;
 
-/// Stream of the scrub, separate from that of the other parameters.
+/// Random stream of the scrub, separate from that of the other parameters.
 constexpr std::uint64_t kScrubStream = std::uint64_t{1} << 61U;
 
-/// Relative tolerance for a negative eigenvalue caused by rounding: the file's matrix has 17
-/// digits, a derived parameter (m' from a1, b1) makes it singular.
+/// Relative tolerance for negative eigenvalues: a derived parameter (m' from a1, b1) makes the
+/// covariance singular, so rounding can make an eigenvalue negative.
 constexpr double kSingularTolerance = 1e-9;
 
-/// A resistance does not decrease with speed and is not negative: b >= 0, and every term >= 0.
+/// False for a negative exponent or optional term: a resistance neither falls with speed nor drives
+/// the vehicle.
 bool is_admissible(ParameterId id, double value) {
   const bool is_exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
   return !(is_exponent || info(id).term) || value >= 0.0;
 }
 
+/// Smallest relative position in a stratum: the quantile of probability 0 is infinite.
 constexpr double kInsideStratum = 1e-6;
 
 /// The z with P(Z <= z) = p, Z standard normal, 0 < p < 1.
@@ -51,7 +53,7 @@ double interpolate(const Quantiles& y, double x) {
 std::vector<double> stratified_normals(int count, Random& random) {
   std::vector<double> normals;
   for (int i = 0; i < count; ++i) {
-    const double place = std::max(random.uniform(), kInsideStratum);  // 0 has no quantile
+    const double place = std::max(random.uniform(), kInsideStratum);
     normals.push_back(normal_quantile((i + place) / count));
   }
   for (std::size_t i = normals.size(); i > 1; --i) {
@@ -73,14 +75,14 @@ Status check_shape(const Covariance& covariance, const std::string& place) {
   const std::size_t n = covariance.parameters.size();
   if (n == 0) {
     return input_error(ErrorCode::kNotIdentified, place,
-                       "no fitted parameter has a covariance, which samples are drawn from; "
-                       "identify the model from trials, or compare without samples");
+                       "no fitted parameter has a covariance, from which samples are drawn; "
+                       "identify the model from trials, or do not request samples");
   }
   bool square = covariance.matrix.size() == n;
   for (const auto& row : covariance.matrix) square = square && row.size() == n;
   if (!square) {
     return input_error(ErrorCode::kWrongType, place + "/matrix",
-                       fmt::format("has to be {0} by {0}, one row and column per parameter", n));
+                       fmt::format("must be {0} by {0}, one row and column per parameter", n));
   }
   return {};
 }
@@ -175,7 +177,7 @@ Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
   }
   return input_error(ErrorCode::kNotIdentified, model_.file + ":/covariance",
                      fmt::format("all of {} draws have a negative exponent or term of a "
-                                 "resistance: identify from more trials",
+                                 "resistance; identify the model from more trials",
                                  kMostTries));
 }
 
@@ -199,8 +201,8 @@ int PlantSampler::rank() const {
 
 std::vector<std::vector<double>> PlantSampler::directions_of(
     std::span<const ParameterId> ids) const {
-  // Rows of L, each divided by its length, so that the scale of a parameter does not matter. V of V
-  // diag(w) V^T = L^T L.
+  // Each row of L is divided by its length, so that the scale of a parameter does not matter. The
+  // directions are the eigenvectors of L^T L with eigenvalues above 0.
   const std::size_t n = centre_.size();
   Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(eigen_index(n), eigen_index(n));
   for (std::size_t i = 0; i < n; ++i) {

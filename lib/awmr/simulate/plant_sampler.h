@@ -1,4 +1,4 @@
-/// Plants drawn from the uncertainty of the model.
+/// Draws random plants from the uncertainty of a model.
 #pragma once
 
 #include <cstdint>
@@ -11,51 +11,50 @@
 
 namespace awmr {
 
-/// Share of the draws with the mass that the grip limit requires.
+/// Fraction of the draws whose m' is raised to Model::mass_norm_by_grip.
 inline constexpr double kGripShare = 0.25;
 
 /// Draws the parameters in the model's covariance C; the others keep their values. The coordinate z
-/// of a parameter p (model/transform.h) is normal about its estimate. By the delta method, with
-/// dp/dz = p for a logarithm and 1 for a linear coordinate,
+/// of a parameter p (model/transform.h) is normally distributed about its estimate. By the delta
+/// method, with dp/dz = p for a logarithmic and 1 for a linear coordinate,
 ///   Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q).
 ///
-/// An estimate with quantiles is not normal. Its coordinate is a function of the same normals (a
-/// Gaussian copula), so that the marginal has the quantiles of model.json and the rank correlation
-/// is that of C: z is piecewise linear in the normal score through the coordinates of the
-/// quantiles, and extrapolated beyond them.
+/// For an estimate with quantiles, the same normal numbers are transformed (a Gaussian copula): z is
+/// piecewise linear in the normal score, through the coordinates of the quantiles, and extrapolated
+/// beyond them. So the distribution of the parameter has the quantiles of model.json, and its rank
+/// correlations are those of C.
 ///
-/// If the model has mass_norm_by_grip, the share kGripShare of the draws have at least that m', and
-/// an I'z that is larger by the same factor, because the identified m' requires more grip than
-/// tyres have.
+/// If the model has mass_norm_by_grip, the identified m' requires more grip than tyres have. Then in
+/// the fraction kGripShare of the draws, m' is raised to at least mass_norm_by_grip, and I'z by the
+/// same factor.
 ///
-/// A positive quantity is drawn in its logarithm, so that its median is the model's value.
-/// Exponents b and a family's terms (Coulomb, quadratic, dead zone) are drawn linearly, and all
-/// parameters are drawn again until none of these is negative, because a resistance neither
-/// decreases with speed nor accelerates. surge_beta_range and yaw_beta_range of the vehicle bound
-/// fits, but not draws, because an estimate near an end of its range is uncertain on both sides. A
-/// term that was fitted as 0 has a half-normal distribution: its mean is 0.8 standard errors, not
-/// the estimate.
+/// Exponents and optional terms of a resistance (Coulomb, quadratic, dead zone) must not be
+/// negative, because a resistance neither falls with speed nor drives the vehicle. All parameters
+/// are drawn again until this holds. So a term that was fitted as 0 has a half-normal distribution
+/// with a mean of 0.8 standard errors. surge_beta_range and yaw_beta_range of the vehicle do not
+/// limit draws, because an estimate near an end of its range is uncertain on both sides.
 class PlantSampler {
  public:
-  /// If the model has a scrub, it is drawn too (by YawScrub::std_error_m, which includes the error
-  /// of g3; assumed independent of the other parameters). Errors (input): a parameter has no value;
-  /// no covariance; one that is not positive semi-definite.
+  /// A scrub of the model is drawn, too, with YawScrub::std_error_m and independently of the other
+  /// parameters. Errors (input): a parameter has no value; the covariance is missing or not positive
+  /// semi-definite.
   static Result<PlantSampler> make(const Model& model);
 
-  /// The plant of `sample` (>= 1), which depends on seed and sample only. Errors (input): nearly
-  /// every draw has a negative exponent or term.
+  /// The plant with the number `sample` (>= 1). It depends only on seed and sample. Errors (input):
+  /// no draw without a negative exponent or term was found.
   Result<Plant<double>> draw(std::uint64_t seed, int sample) const;
-  /// The drawn plant as a model; its intervals are those of the identified model.
+  /// The same draw as a model; its intervals are those of the identified model.
   Result<Model> draw_model(std::uint64_t seed, int sample) const;
 
-  /// Latin hypercube of `count` draws, evenly distributed even for few draws. Each direction of the
-  /// covariance has one draw in each of `count` strata of equal probability; order and position in
-  /// the stratum are from the seed. An inadmissible draw is replaced by draw() with its number.
+  /// Latin hypercube of `count` draws, which are evenly distributed even if they are few. Each
+  /// direction of the covariance has one draw in each of `count` strata of equal probability; the
+  /// seed determines the order and the position within a stratum. A draw with a negative exponent or
+  /// term is replaced by draw() with its number, from 1.
   Result<std::vector<Plant<double>>> draw_evenly(std::uint64_t seed, int count) const;
 
-  /// The plant at standard normals n, one for each parameter of the covariance: z = centre + L n.
-  /// Empty if an exponent or a term is negative there. Without the mass that the grip limit
-  /// requires.
+  /// The plant for given standard normals n, one for each parameter of the covariance:
+  /// z = centre + L n. Empty if an exponent or a term is negative there. m' is not raised to
+  /// mass_norm_by_grip.
   std::optional<Plant<double>> plant_at(std::span<const double> normals) const;
   /// Degrees of freedom k: the parameters are in |n| <= r with the probability that a chi-squared
   /// variable with k degrees of freedom is below r^2. Derived parameters (m' from a1, b1) do not
@@ -65,8 +64,8 @@ class PlantSampler {
   std::vector<std::vector<double>> directions_of(std::span<const ParameterId> ids) const;
 
  private:
-  /// Number of standard normals per draw: one for each parameter of the covariance and, if the grip
-  /// limit requires a mass, one that decides whether this mass is used.
+  /// Number of standard normals per draw: one for each parameter of the covariance and, with
+  /// mass_norm_by_grip, one that decides whether m' is raised.
   std::size_t normals_of_a_draw() const {
     return centre_.size() + (model_.mass_norm_by_grip ? 1 : 0);
   }
@@ -77,9 +76,9 @@ class PlantSampler {
   Model with_scrub(Model drawn, double normal) const;
 
   Model model_;
-  std::vector<double> centre_;                       ///< z by position in the covariance
+  std::vector<double> centre_;                       ///< z of the estimates, as in the covariance
   std::vector<std::vector<double>> factor_;          ///< L with L L^T = Cov(z)
-  std::vector<double> deviation_;                    ///< sqrt of its diagonal
+  std::vector<double> deviation_;                    ///< standard deviation of z
   std::vector<std::optional<Quantiles>> quantiles_;  ///< z of the estimate's quantiles, if any
 };
 

@@ -1,4 +1,4 @@
-/// Position of the guidance from the sensors of one run. Private to this folder.
+/// The position that the guidance of a run uses, from its sensors. Private to this folder.
 #pragma once
 
 #include <cmath>
@@ -10,13 +10,13 @@
 
 namespace awmr {
 
-/// Standard deviation of a fix of this receiver, m, per axis.
+/// Standard deviation of a fix per axis, m: noise and quantisation.
 inline double fix_noise_m(const Gps& gps) {
   return std::sqrt(gps.x.noise * gps.x.noise + gps.x.quantum * gps.x.quantum / 12.0);
 }
 
-/// The firmware's estimate if the scenario has a GPS and does not disable it; else the measured
-/// position.
+/// Gives the firmware's position estimate if the scenario has a GPS and does not disable the
+/// estimate; else the measured position.
 class Positioning {
  public:
   Positioning(const Scenario& scenario, double sample_time_s) {

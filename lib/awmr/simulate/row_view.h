@@ -1,16 +1,17 @@
-/// Data layout of runs that are simulated together. A struct of rows, such as State<Row>, has in
-/// each field a row: one number of every run. The row of a single run is a double; that of sixteen
-/// runs is in lanes/row.h. Private to this folder.
+/// Data layout of runs that are simulated together. Each field of a struct of rows, such as
+/// State<Row>, is a row: one number of every run. The row of a single run is a double; the row of
+/// sixteen runs is lanes::Row. Private to this folder.
 ///
-/// A step of the loop (vehicle_steps.h, loop_steps.h) is a template on a view of the rows:
-/// `view(rows)` are State<T> with the view's scalar T, a double or a register of doubles, and
-/// `view.store()` writes them back.
+/// A step of the loop (vehicle_steps.h, loop_steps.h) is a template on a view of the rows. The view
+/// has a scalar type T, a double or a register of doubles. `view(rows)` loads State<Row> as State<T>,
+/// and `view.store()` writes it back.
 #pragma once
 
 #include <cstddef>
 #include <cstring>
 
-/// Marks a step of the loop: everything it calls is inlined, because a call would spill registers.
+/// Attribute of a step of the loop: all functions that it calls are inlined, because a call would
+/// move registers to memory.
 #define AWMR_WHOLE __attribute__((flatten))
 
 namespace awmr {
@@ -33,12 +34,12 @@ struct OneRun {
   }
 };
 
-/// Number of runs with a value in a row.
+/// Number of runs in a row.
 template <class Row>
 constexpr std::size_t kRunsOf = sizeof(Row) / sizeof(double);
 
-/// Extracts the numbers of one run from a struct of rows. Both structs have only these members, in
-/// the same order.
+/// Extracts the numbers of one run from a struct of rows. Precondition: `Numbers` has only doubles,
+/// and `Rows` has a row for each of them, in the same order.
 template <class Numbers, class Rows>
 Numbers run_of(const Rows& rows, std::size_t run) {
   constexpr std::size_t kCount = sizeof(Numbers) / sizeof(double);

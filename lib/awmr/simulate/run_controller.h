@@ -1,6 +1,6 @@
-/// The controller of a run after its guidance: laws or their replacements, disturbance observer,
-/// allocation, motor commands. Template for a single run and for a register of runs. Private to
-/// this folder.
+/// The simulated controller for a given reference: control laws (or LQI, constant thrust, open
+/// loop), disturbance observer, allocation and motor commands. Templates for a single run and for a
+/// register of runs. Private to this folder.
 #pragma once
 
 #include "awmr/control/control_step.h"
@@ -13,11 +13,11 @@ namespace awmr {
 struct ControllerSetup {
   SteeringGeometry geometry = kFourWheelSteering;
   CombinedSplit split = CombinedSplit::kRedistribute;
-  bool is_open_loop = false;  ///< tau_speed and tau_turn_m are commanded, and nothing is measured
-  bool holds_tau_speed = false;  ///< tau_speed replaces the speed law
+  bool is_open_loop = false;     ///< constant tau_speed and tau_turn_m replace both laws
+  bool holds_tau_speed = false;  ///< a constant tau_speed replaces the speed law
   bool is_lqi = false;           ///< an LQI replaces the sliding mode
   bool is_observed = false;      ///< any run has an observer
-  bool anti_windup = true;       ///< as in Observers
+  bool anti_windup = true;       ///< Observers::anti_windup
   double sample_time_s = 0.0;
 };
 
@@ -25,10 +25,10 @@ struct ControllerSetup {
 template <class T>
 struct RunController {
   PreparedController<T> laws;
-  T steering_share;    ///< YawSplit of the mode
-  T dead_zone;         ///< F'0
-  T back_emf_s_per_m;  ///< k_e
-  T tau_speed, tau_turn_m;
+  T steering_share;         ///< YawSplit::steering_share of the mode
+  T dead_zone;              ///< F'0 of the motors, over F_max
+  T back_emf_s_per_m;       ///< k_e of the motors, s/m
+  T tau_speed, tau_turn_m;  ///< the constant values that replace a law
   LqiGains<T> lqi;
   DisturbanceObserver<T> yaw_observer, surge_observer;  ///< bandwidth 0: none
 };
@@ -54,7 +54,7 @@ Observers<T> observers_of(const ControllerSetup& setup, const RunController<T>& 
   return {c.yaw_observer, c.surge_observer, setup.anti_windup};
 }
 
-/// yaw_split() of the run's mode, which follows from its share.
+/// yaw_split() of the run's mode, which follows from the steering's share.
 template <class T>
 YawSplit<T> yaw_split_of(const ControllerSetup& setup, const RunController<T>& c) {
   const Mask<T> may = Mask<T>(setup.split == CombinedSplit::kRedistribute);

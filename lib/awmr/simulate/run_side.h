@@ -1,5 +1,5 @@
-/// The side file of a run: `run.csv.json` next to `run.csv` names the model, the scenario and the
-/// gains of the run.
+/// The side file of a run, `run.csv.json` next to `run.csv`: inputs, metrics and findings of the
+/// run.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +16,8 @@ namespace awmr {
 /// The name of the CSV with `.json` appended.
 std::filesystem::path run_side_path(const std::filesystem::path& csv);
 
-/// Content of the side file: origin, the SHA-256 of `csv`, the keys of `figures`, the findings.
-/// Precondition: `figures` is empty or a JSON object without those keys.
+/// Content of the side file: `provenance`, the SHA-256 of `csv`, the keys of the JSON object
+/// `figures`, the findings. Precondition: `figures` is empty, or has none of the other keys.
 std::string run_side_text(std::string_view csv, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);
 

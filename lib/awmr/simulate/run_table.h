@@ -1,4 +1,4 @@
-/// The reader of run.csv.
+/// Reads run.csv.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace awmr {
 /// Reads the columns of run.csv that every run has. Errors: as read_csv; decreasing time.
 Result<CsvTable> read_run(const std::filesystem::path& path);
 
-/// Read-back (file.h) of run.csv. Errors: as read_run.
+/// Checks a text of run.csv after writing by reading it back (core/file.h). Errors: as read_run.
 Status check_run_text(std::string_view text, const std::string& file);
 
 }  // namespace awmr

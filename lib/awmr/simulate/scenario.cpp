@@ -80,7 +80,7 @@ Status check_mode(const Vehicle& vehicle, YawMode mode) {
   if (std::find(modes.begin(), modes.end(), mode) != modes.end()) return {};
   return input_error(
       ErrorCode::kUnsupported, option_text("mode"),
-      fmt::format("a vehicle of drive \"{}\" has no steering, which mode {} needs; its mode is {}",
+      fmt::format("a vehicle with drive \"{}\" has no steering, which mode {} needs; give mode {}",
                   name_in(kDriveNames, vehicle.drive), name_of(mode), name_of(modes.front())));
 }
 
@@ -89,7 +89,7 @@ std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario) {
   if (!scenario.patches.empty()) {
     conflicts.push_back({"slippery",
                          "a patch limits only the longitudinal forces of wheels, but tyres also "
-                         "have lateral forces: remove it, or the tyres"});
+                         "have lateral forces; remove slippery or tyres"});
   }
   for (const CornerParameter& corner : scenario.corner) {
     switch (corner.id) {
@@ -100,7 +100,7 @@ std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario) {
       case ParameterId::kYawQuadratic:
         conflicts.push_back(
             {"corner", std::string(info(corner.id).name) +
-                           " has no effect on tyres, which replace it: remove it, or the tyres"});
+                           " has no effect on tyres, which replace it; remove it, or tyres"});
         break;
       default:
         break;
@@ -148,7 +148,7 @@ Status check_tyres(const Scenario& scenario) {
   return {};
 }
 
-/// Weights whose gains are unstable at the controller's sample time are an error.
+/// Errors (input): the weights of the LQI give gains that are unstable at the sample time.
 Status check_lqi(const Scenario& scenario, const Model& model) {
   const auto& inertia_norm = model[ParameterId::kInertiaNorm].value;
   if (!scenario.control.lqi || !inertia_norm) return {};
@@ -158,8 +158,8 @@ Status check_lqi(const Scenario& scenario, const Model& model) {
   return input_error(
       ErrorCode::kDiverges, fmt::format("scenario '{}':/control/heading_law", scenario.name),
       fmt::format(
-          "its weights give gains ({:.3g} 1/s on the yaw rate) that become unstable when they are "
-          "held over sample_time_s {:g}: give a smaller tau_turn_m, or larger heading_deg, "
+          "the weights give gains ({:.3g} 1/s on the yaw rate) with which the heading loop is "
+          "unstable at sample_time_s {:g}; give a smaller tau_turn_m, or larger heading_deg, "
           "yaw_rate_degps and integral_deg_s",
           gains.rate_per_s, sample_time_s));
 }

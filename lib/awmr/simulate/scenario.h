@@ -1,4 +1,4 @@
-/// The vehicle's task and its world. Its file: scenario_file.h.
+/// A scenario: the task of the vehicle and its environment. scenario_file.h reads it.
 #pragma once
 
 #include <cstdint>
@@ -23,19 +23,19 @@
 
 namespace awmr {
 
-/// Constant generalised forces, with the allocation and the limits of the mode.
+/// Open loop: constant generalised forces, which are allocated and limited as in the mode.
 struct OpenLoop {
-  double tau_speed = 0.0;   ///< dimensionless, forward positive
-  double tau_turn_m = 0.0;  ///< m, counter-clockwise positive
+  double tau_speed = 0.0;   ///< thrust over F_max, dimensionless, forward positive
+  double tau_turn_m = 0.0;  ///< yaw moment over F_max, m, counter-clockwise positive
 };
 
 /// A heading and the time from which it is commanded.
 struct HeadingStep {
-  double t_s = 0.0;      ///< s, >= 0
+  double t_s = 0.0;      ///< start of the command, s, >= 0
   double psi_rad = 0.0;  ///< rad, counter-clockwise from the world's x axis
 };
 
-/// Commanded headings, each from its time on; the first at t = 0.
+/// A sequence of commanded headings; the first is commanded at t = 0.
 struct HeadingSteps {
   std::vector<HeadingStep> steps;  ///< strictly increasing in time, not empty
   /// Constant tau_speed in place of a speed, dimensionless, forward positive, as in the paper's
@@ -47,10 +47,10 @@ struct HeadingSteps {
 /// Waypoints, approached by line of sight. The run ends when the last is reached.
 struct WaypointPath {
   std::vector<Position<double>> points_m;  ///< not empty
-  double acceptance_m = 0.0;               ///< > 0
+  double acceptance_m = 0.0;               ///< a point is reached within this distance, > 0
   bool skip_passed = false;                ///< see Waypoints::skip_passed
-  /// Within this distance of the last point the speed is reduced in proportion to it, but not below
-  /// a tenth.
+  /// m: within this distance of the last point, the speed is reduced in proportion to the distance,
+  /// but not below a tenth. Absent: the speed is not reduced.
   std::optional<double> slow_down_m;
 };
 
@@ -63,23 +63,23 @@ std::string_view name_of(const AnyLineLaw& law);
 /// The names of line_laws(), in the same order.
 std::vector<std::string> line_law_names();
 
-/// A line or polyline to follow. The run ends past its end.
+/// A line or polyline to follow. The run ends when the vehicle has passed its end.
 struct LinePath {
-  std::vector<Position<double>> points_m;  ///< at least two
+  std::vector<Position<double>> points_m;  ///< corners, at least two
   AnyLineLaw law{};
   double corner_m = 0.0;              ///< >= 0, see Polyline::corner_m; 0 for a law without corner
                                       ///< rounding
   std::optional<double> slow_down_m;  ///< as in WaypointPath, along the last segment
 };
 
-/// A path as a function of time. With the scenario's speed_mps 0, the speed is the path's own; else
-/// it is that constant (open form only).
+/// A path as a function of time. With the scenario's speed_mps 0, the commanded speed is that of the
+/// path; else it is speed_mps (only without position feedback).
 struct LissajousPath {
   Lissajous<double> path{};
-  bool closed_loop = false;
-  double position_gain_per_s = 0.5;  ///< k of the closed form, > 0
-  double tolerance_m = 1.0;  ///< completed if the distance from the path is within this in the
-                             ///< second half
+  bool closed_loop = false;          ///< with position feedback
+  double position_gain_per_s = 0.5;  ///< k of closed_path(), > 0
+  double tolerance_m = 1.0;  ///< largest distance from the path's point in the second half of a run
+                             ///< that counts as completed
 };
 
 using Guidance = std::variant<OpenLoop, HeadingSteps, WaypointPath, LinePath, LissajousPath>;
@@ -89,7 +89,7 @@ enum class PlantKind { kModel, kFourWheel };
 inline constexpr NameTable<PlantKind, 2> kPlantKindNames{
     {{"model", PlantKind::kModel}, {"four-wheel", PlantKind::kFourWheel}}};
 
-/// Position of the guidance from the fixes of a GPS.
+/// Method by which the guidance gets the position from the fixes of a GPS.
 enum class PositionMethod {
   kFilter,  ///< the firmware's estimate (control/position_estimate.h)
   kNone,    ///< the last fix, unfiltered
@@ -115,12 +115,12 @@ struct Scenario {
   PositionMethod estimator = PositionMethod::kFilter;  ///< for scenarios with a GPS
   std::optional<Actuators> actuators = {};  ///< absent: any force and angle can be commanded
   ControlOptions control = {};
-  std::vector<CornerParameter> corner = {};  ///< of the plant only, not of the controller
+  std::vector<CornerParameter> corner = {};  ///< changes the plant, but not the controller
   /// Absent: the 3-DOF plant of the model; else four wheels on these tyres (model/tyres.h).
   std::optional<Tyres<double>> tyres = {};
-  std::uint64_t seed = 0;  ///< of all random numbers in the scenario
+  std::uint64_t seed = 0;  ///< seed of all random numbers in the scenario
 
-  /// The constant thrust in place of a speed; absent with a speed or in open loop.
+  /// The constant thrust that replaces a commanded speed; absent with a speed or in open loop.
   std::optional<double> held_tau_speed() const;
   /// True if anything in the scenario is random.
   bool random() const;
@@ -131,30 +131,31 @@ inline bool estimates_position(const Scenario& scenario) {
   return scenario.sensors && scenario.sensors->gps && scenario.estimator == PositionMethod::kFilter;
 }
 
+/// Options of heading_steps().
 struct HeadingStepsOptions {
   double hold_s = 10.0;    ///< > 0: duration of each heading
-  double speed_mps = 1.0;  ///< u_d, >= 0
+  double speed_mps = 1.0;  ///< u_d: commanded speed, >= 0
   std::string name = "heading steps";
 };
 
-/// The scenario of the paper's heading runs: from rest at heading 0, each heading (deg,
-/// counter-clockwise positive; not empty) in turn. heading_steps({30, -30}) is C3.
+/// The scenario of the paper's heading runs: from rest at heading 0, each of `headings_deg`
+/// (counter-clockwise positive; not empty) is commanded in turn. heading_steps({30, -30}) is C3.
 /// [paper 4.3]
 Scenario heading_steps(const std::vector<double>& headings_deg,
                        const HeadingStepsOptions& options = {});
 
-/// Keys of the scenario that do not apply on tyres, each with the remedy.
+/// A key of the scenario that must not be used together with tyres.
 struct TyreConflict {
   std::string key;
-  std::string message;
+  std::string message;  ///< the reason and the remedy
 };
 std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario);
 
 /// Errors (input): the scenario has tyres together with a key that has no meaning on tyres.
 Status check_tyres(const Scenario& scenario);
 
-/// Errors (input): a controller with the model's own values cannot run the scenario: as check_tyres
-/// and check_observer_rate, and an LQI law that is unstable at the sample time.
+/// Errors (input): the scenario cannot run with this model: as check_tyres and check_observer_rate;
+/// an LQI law that is unstable at the sample time.
 Status check_scenario(const Scenario& scenario, const Model& model);
 
 /// Description of the plant: "model", or "four-wheel, friction 0.8, ..." with the numbers of the
@@ -164,8 +165,8 @@ std::string plant_text(const Scenario& scenario);
 /// The model with the scenario's corner parameters at the ends of their 95 % intervals.
 /// Errors (input): a parameter of the corner has no interval.
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
-/// The plant of model_at_corner(). Errors (input): as there, as check_scenario, as Model::plant and
-/// as check_work (in simulate.h).
+/// The plant of model_at_corner(). Errors (input): as model_at_corner, check_scenario, Model::plant
+/// and check_work (in simulate.h).
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
                                 Motion motion = Motion::kPlanar);
 

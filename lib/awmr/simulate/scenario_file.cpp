@@ -21,7 +21,7 @@ State<double> read_initial(JsonObject json) {
   return state;
 }
 
-/// Reads u_d. Not needed with a constant thrust, which has no commanded speed.
+/// Reads u_d. A guidance with constant thrust has no commanded speed and no such key.
 double read_speed(JsonObject& json, bool holds_thrust) {
   if (!json.has("speed_mps")) {
     if (!holds_thrust) json.fault(ErrorCode::kMissing, "speed_mps", "this key is missing; add it");
@@ -29,26 +29,27 @@ double read_speed(JsonObject& json, bool holds_thrust) {
   }
   if (holds_thrust) {
     json.fault(ErrorCode::kConflict, "speed_mps",
-               "the guidance holds tau_speed in place of a speed; remove one of the two");
+               "the guidance commands a constant tau_speed instead of a speed; remove speed_mps or "
+               "tau_speed");
   }
   return json.number("speed_mps", kSpeed_mps);
 }
 
-/// Keys without effect.
+/// Reports keys that have no effect in this scenario.
 void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
   const bool open = std::holds_alternative<OpenLoop>(scenario.guidance);
   if (scenario.avoidance && scenario.obstacles.empty()) {
     json.fault(ErrorCode::kConflict, "avoidance",
-               "there are no obstacles to avoid; add obstacles or remove it");
+               "there are no obstacles to avoid; add obstacles, or remove this key");
   }
   for (const char* key : {"avoidance", "shaping", "sensors", "control"}) {
     if (open && json.has(key)) {
-      json.fault(ErrorCode::kConflict, key, "open loop has no use for it; remove it");
+      json.fault(ErrorCode::kConflict, key, "has no effect in open loop; remove it");
     }
   }
   if (json.has("estimator") && !(scenario.sensors && scenario.sensors->gps)) {
     json.fault(ErrorCode::kConflict, "estimator",
-               "is for the fixes of a GPS; add sensors/gps or remove it");
+               "has no effect without the fixes of a GPS; add sensors/gps, or remove this key");
   }
   if (scenario.tyres) {
     for (const TyreConflict& conflict : tyre_conflicts(scenario)) {
@@ -58,7 +59,7 @@ void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
   const auto* timed = std::get_if<LissajousPath>(&scenario.guidance);
   if (timed && timed->closed_loop && scenario.speed_mps > 0.0) {
     json.fault(ErrorCode::kConflict, "speed_mps",
-               "has to be 0 on a closed timed path, whose speed is the path's own");
+               "must be 0 if closed_loop is true, because the path determines the speed");
   }
 }
 

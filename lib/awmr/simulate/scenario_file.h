@@ -1,4 +1,4 @@
-/// scenario.json (`awmr.scenario/1`).
+/// Reads scenario.json (`awmr.scenario/1`).
 #pragma once
 
 #include <filesystem>

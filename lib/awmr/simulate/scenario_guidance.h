@@ -1,5 +1,5 @@
-/// Guidance of a scenario: measurements -> heading and speed references of the laws. Private to
-/// this folder.
+/// Guidance of a scenario: computes the heading and speed references of the control laws from the
+/// measurements. Private to this folder.
 #pragma once
 
 #include <optional>
@@ -43,12 +43,12 @@ class ScenarioGuidance {
 
   /// Computes the references. Call it once per sample, in order; not in open loop.
   GuidanceOutput step(double t_s, const Sensed& sensed);
-  /// Number of waypoints so far that were missed or covered by an obstacle.
+  /// Number of waypoints that have been missed so far, including those covered by an obstacle.
   int missed() const { return laws_.progress.missed; }
 
  private:
-  /// The parts of the guidance that a scenario can have. Unlike the firmware's, the clock does not
-  /// wrap.
+  /// The parts of the guidance that a scenario can have (guidance/parts.h), with a clock in s that
+  /// does not wrap.
   struct Parts {
     using Line = AnyLineFollower<double>;
     using Path = TimedPathFollower;
@@ -72,9 +72,9 @@ class ScenarioGuidance {
   const Scenario* scenario_;
   double sample_time_s_;
   GuidanceLaws<double, Parts> laws_{};
-  std::vector<Sector<double>> sectors_;  ///< of the obstacles
-  std::optional<int> leg_checked_;       ///< the leg for which a passage was checked
-  bool passage_ = true;
+  std::vector<Sector<double>> sectors_;  ///< work space of the avoidance
+  std::optional<int> leg_checked_;       ///< leg for which way_is_free() has checked the passage
+  bool passage_ = true;                  ///< result of this check
 };
 
 }  // namespace awmr

@@ -1,4 +1,5 @@
-/// Readers of the parts of scenario.json. Private to this folder; include from .cpp files only.
+/// Readers of the parts of scenario.json, and the ranges of their numbers. Private to this folder;
+/// include from .cpp files only.
 #pragma once
 
 #include "awmr/core/json.h"
@@ -6,8 +7,8 @@
 
 namespace awmr {
 
-// Ranges of the numbers in a scenario (listed in SCENARIOS.md): wider than any path, and within the
-// range in which the simulator stays finite.
+// Ranges of the numbers in a scenario (listed in SCENARIOS.md): wider than any path needs, and such
+// that the simulation stays finite.
 inline constexpr NumberRule kDuration_s{.min = 0.0, .max = 1e6, .min_excluded = true};
 inline constexpr NumberRule kTime_s{.min = 0.0, .max = 1e6};
 inline constexpr NumberRule kCoordinate_m{.min = -1e6, .max = 1e6};
@@ -17,7 +18,7 @@ inline constexpr NumberRule kSignedSpeed_mps{.min = -1e3, .max = 1e3};
 inline constexpr NumberRule kSpeed_mps{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kAngle_deg{.min = -1e12, .max = 1e12};
 inline constexpr NumberRule kYawRate_degps{.min = -1e5, .max = 1e5};
-/// Forces over F_max and moments over F_max in m: those of a thousand motors.
+/// Forces over F_max, and moments over F_max in m: up to those of a thousand motors.
 inline constexpr NumberRule kForce{.min = -1e3, .max = 1e3};
 inline constexpr NumberRule kForceSize{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kRate{.min = 0.0, .max = 1e6, .min_excluded = true};

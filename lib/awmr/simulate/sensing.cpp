@@ -8,7 +8,7 @@
 namespace awmr {
 namespace {
 
-/// Streams of RunSeed::random, separate from those of the disturbances.
+/// Random streams of the sensors (RunSeed::random), separate from those of the disturbances.
 enum Use : std::uint64_t { kHeading = 1, kYawRate, kSpeed, kGps };
 
 /// Tolerance for the rounding of times that are multiples of the sample time, in samples and in
@@ -18,7 +18,7 @@ constexpr double kTimeRounding_s = 1e-9;
 
 bool is_noisy(const Channel& channel) { return channel.noise > 0.0 || channel.noise < 0.0; }
 
-/// `next_normal` is called only if the channel has noise.
+/// The reading of a channel. `next_normal` is called only if the channel has noise.
 template <class Normal>
 double read(const Channel& channel, double truth, const Normal& next_normal) {
   double value = truth + channel.bias;
@@ -103,8 +103,8 @@ Sensed Sensing::at(std::size_t k, const State<double>& truth) {
   return sensed;
 }
 
-/// The last fix that has arrived. Before the first one, the true initial position, as if taken one
-/// period before the start.
+/// Gives the last fix that has arrived. Before the first fix, it gives the true initial position, as
+/// if taken one period before the start.
 void Sensing::receive_fixes(std::size_t k, const State<double>& truth, Sensed& sensed) {
   const Gps& gps = *sensors_->gps;
   true_m_.push_back({truth.x_m, truth.y_m});

@@ -17,9 +17,9 @@ namespace awmr {
 /// Measurements of one sample.
 struct Sensed {
   Measurement<double> motion;
-  Position<double> position_m;  ///< the true one, or with a GPS that of the last fix
+  Position<double> position_m;  ///< the true position; with a GPS, the last fix
   double fix_taken_s = 0.0;     ///< time at which the last fix was taken
-  bool is_fix_new = false;      ///< it arrived after the previous sample
+  bool is_fix_new = false;      ///< the last fix arrived after the previous sample
 };
 
 /// The sensors of one run, with their noise and latency.
@@ -34,25 +34,26 @@ class Sensing {
 
  private:
   void receive_fixes(std::size_t k, const State<double>& truth, Sensed& sensed);
-  /// A sensor's channel with its noise.
+  /// A sensor with the state of its noise.
   struct Sensor {
     Sensor(const Channel& channel, double sample_time_s, const Random& random,
            const std::vector<double>* normals);
     double read(std::size_t k, double truth);
-    /// The next standard normal of the noise:
+    /// The next value n_k of the noise, over its standard deviation. With independent standard
+    /// normals w_k and the correlation time tau:
     ///   n_0 = w_0,   n_k = rho n_{k-1} + sqrt(1 - rho^2) w_k,   rho = exp(-T_s/tau)
     double next_noise(std::size_t k);
 
     Channel channel;
-    std::size_t latency;  ///< whole samples
-    double part;          ///< additional fraction of a sample, [0, 1)
-    double correlation;   ///< rho
-    double noise = 0.0;   ///< n_{k-1}
+    std::size_t latency;  ///< whole samples of the latency
+    double part;          ///< remaining fraction of a sample of the latency, [0, 1)
+    double correlation;   ///< rho: correlation of the noise of two successive samples
+    double noise = 0.0;   ///< n_{k-1}: noise of the previous sample, over its standard deviation
     Random random;
-    const std::vector<double>* normals;  ///< null: drawn from `random`
+    const std::vector<double>* normals;  ///< w_k by sample; null: drawn from `random`
   };
-  /// The true quantity at the latency before the k-th sample, interpolated linearly between
-  /// samples; before the first sample, that of the first.
+  /// The true quantity at the time of the k-th sample minus the latency, interpolated linearly
+  /// between samples. Before the first sample it has the value of the first.
   double truth_at(std::size_t k, const Sensor& sensor, double Measurement<double>::*quantity) const;
 
   std::optional<Sensors> sensors_;
@@ -60,10 +61,10 @@ class Sensing {
   Sensor heading_, yaw_rate_, speed_;
   Random gps_;
   std::vector<Measurement<double>> motion_;  ///< true motion of the samples within the latency
-  std::vector<Position<double>> true_m_;     ///< by sample
-  Position<double> fix_m_{};                 ///< the last one
+  std::vector<Position<double>> true_m_;     ///< true positions, by sample
+  Position<double> fix_m_{};                 ///< the last fix
   double fix_taken_s_ = 0.0;
-  std::size_t next_fix_ = 0;
+  std::size_t next_fix_ = 0;  ///< number of the next fix to arrive
 };
 
 }  // namespace awmr

@@ -1,5 +1,5 @@
-/// The closed loop: RK4 on the plant between samples, the controller's command held over
-/// each.
+/// Simulation of one run in closed loop. The command of the controller is constant over each sample,
+/// during which the plant is integrated by RK4 steps.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ namespace awmr {
 
 /// Guidance columns of a row, in addition to the vehicle's state; unused in open loop.
 struct PathRow {
-  double psi_goal_rad = 0.0;    ///< the guidance's heading, before avoidance and shaping
-  double cross_track_m = 0.0;   ///< from the current leg, line or path; positive to its left
+  double psi_goal_rad = 0.0;    ///< heading of the guidance, before avoidance and shaping
+  double cross_track_m = 0.0;   ///< distance from the current leg, line or path, left positive
   Position<double> target_m{};  ///< target point: waypoint, end of the segment, point of the path
   int leg = 0;                  ///< index of the waypoint or segment
 };
@@ -29,31 +29,30 @@ struct PathRow {
 struct RunRow {
   double t_s = 0.0;
   State<double> state{};
-  SideForces<double> force{};         ///< commanded, over F_max
-  double steering_command_rad = 0.0;  ///< d_ro, rad, left positive
+  SideForces<double> force{};         ///< commanded forces, over F_max
+  double steering_command_rad = 0.0;  ///< d_ro: commanded steering angle, rad, left positive
   double tau_speed = 0.0;             ///< requested by the law, before any limit
   double tau_turn_m = 0.0;            ///< requested by the law, before any limit
-  double psi_ref_rad = 0.0;           ///< 0 in open loop
-  double u_ref_mps = 0.0;             ///< 0 in open loop
+  double psi_ref_rad = 0.0;           ///< psi_d: heading reference of the law; 0 in open loop
+  double u_ref_mps = 0.0;             ///< u_d: speed reference of the law; 0 in open loop
   PathRow path = {};
   Measurement<double> measured = {};          ///< measurements of the controller
-  Position<double> measured_position_m = {};  ///< the same
-  BodyLoad disturbance = {};                  ///< without the effect of a slope
-  /// Distance from the vehicle's circle to the nearest obstacle; < 0 inside of it; 0 without
+  Position<double> measured_position_m = {};  ///< position that the guidance uses
+  BodyLoad disturbance = {};                  ///< external forces, without those of a slope
+  /// Distance from the vehicle's circle to the nearest obstacle; < 0 if they overlap; 0 without
   /// obstacles.
   double clearance_m = 0.0;
-  /// Power dissipated by the tyres' lateral forces, over F_max; without tyres, the power of the
-  /// model's scrub, without g3.
+  /// Power dissipated by the lateral tyre forces, over F_max, m/s. In the 3-DOF model: by scrub only,
+  /// without g3.
   double tyre_power_mps = 0.0;
-  /// Mean wheel forces over the sample that ends here, over F_max, after the motors' lag, the
-  /// battery,
-  /// faults and the ground. 0 in the first row.
+  /// Mean wheel forces over the sample that ends here, over F_max, after motor lag, battery, faults
+  /// and ground. 0 in the first row.
   WheelForces<double> acting = {0.0, 0.0, 0.0, 0.0};
 };
 
 /// End of a run.
 enum class RunEnd {
-  kDuration,   ///< at the scenario's duration
+  kDuration,   ///< the scenario's duration is over
   kFinished,   ///< the last waypoint was reached, or the end of the line
   kNoPassage,  ///< obstacles block the way to the guidance target: the vehicle stopped
   /// Failed early, without a valid result (see failure_of): a number was not finite, no step was
@@ -66,13 +65,13 @@ struct Run {
   std::vector<RunRow> rows;  ///< at 0, T_s, 2 T_s, ... including the end
   int substeps = 0;          ///< RK4 steps per sample
   RunEnd end = RunEnd::kDuration;
-  int missed_waypoints = 0;  ///< missed, or covered by an obstacle
-  int position_resets = 0;   ///< of the position estimate, after rejected fixes (up to 255)
+  int missed_waypoints = 0;  ///< including those covered by an obstacle
+  int position_resets = 0;   ///< resets of the position estimate after rejected fixes, up to 255
 };
 
 /// Options of a run.
 struct SimulateOptions {
-  /// T_s, s, > 0: time between two commands of the controller; the vehicle's.
+  /// T_s, s, > 0: time between two commands of the controller.
   double sample_time_s = 0.01;
   /// RK4 steps per sample, > 0, to study the integration error. Absent: substeps_for().
   std::optional<int> substeps;
@@ -82,7 +81,7 @@ struct SimulateOptions {
   std::uint64_t sample = 0;
 };
 
-/// Limits of a run: half a gigabyte of rows, about a minute of steps.
+/// Limits of a run: rows of half a gigabyte, and RK4 steps that take about a minute.
 inline constexpr double kMostRows = 2e6;
 inline constexpr double kMostSteps = 1e8;
 inline constexpr int kMostSubsteps = 100'000'000;
@@ -90,44 +89,43 @@ inline constexpr int kMostSubsteps = 100'000'000;
 /// RK4 steps per sample that resolve the smallest time constant of the plant which does not depend
 /// on speed (see physics.cpp), at most kMostSubsteps.
 int substeps_for(const Plant<double>& plant, double sample_time_s);
-/// The same in a scenario, whose tyres can replace some of the plant's resistances.
+/// As above, for a scenario: its tyres, if any, replace some resistances of the plant.
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
-/// The plant's controller with these gains and the vehicle's limits.
+/// A controller that feeds this plant's resistances forward, with these gains and the limits of the
+/// vehicle.
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
                                    const Gains<double>& gains,
                                    CombinedSplit split = CombinedSplit::kRedistribute);
 
-/// The controller with the model's own values, without the scenario's corner. If the model only has
-/// straight motion, a controller for straight motion. Errors (input): as Model::plant and
-/// check_observer_rate.
+/// A controller with the values of the model, which a scenario's corner does not change. If the
+/// model only has parameters for straight motion, a controller for straight motion. Errors (input):
+/// as Model::plant and check_observer_rate.
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
 
-/// Simulates the model with its own controller, at the vehicle's sample time. The scenario's corner
-/// changes the plant, but not the controller. A model without turning parameters
-/// (Model::simulated_motion) drives straight. Errors (input): as plant_for, Model::plant,
-/// check_mode and failure_of; the run turns and the model has no turning parameters (the message
-/// has the time and the missing parameters).
+/// Simulates the model with the controller of controller_for(), at the vehicle's sample time. The
+/// scenario's corner changes the plant, but not the controller. A model without turning parameters
+/// (Model::simulated_motion) can only drive straight. Errors (input): as plant_for, Model::plant,
+/// check_mode, failure_of and check_straight (straight.h).
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                      YawMode mode);
 
-/// Errors (input): the run would have more than kMostRows rows (names duration_s) or take more
-/// than kMostSteps steps (names the parameter whose time constant requires them).
+/// Errors (input): the run would have more than kMostRows rows (the message names duration_s), or
+/// more than kMostSteps steps (it names the parameter whose time constant requires them).
 Status check_work(const Plant<double>& plant, const std::string& model_file,
                   const Scenario& scenario, double sample_time_s);
 
 /// Errors (input): the run ended as kFailed; the message has the time and the speeds.
 Status failure_of(const Run& run, const Scenario& scenario);
 
-/// The same with the given plant, controller and sample time. There is at least one row, and all
-/// rows are finite; RunEnd::kFailed if the run cannot continue. Does not apply the scenario's
-/// corner: see plant_for.
+/// Simulates the given plant and controller. There is at least one row. RunEnd::kFailed: the run
+/// could not continue. Does not apply the scenario's corner: see plant_for.
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,
              const Scenario& scenario, YawMode mode, const SimulateOptions& options);
 
 /// Content of run.csv: the fixed columns, then those that apply to the scenario.
 std::string run_csv(const Run& run, const Scenario& scenario);
-/// A row by the names of its columns in run.csv.
+/// The values of a row with the names of their columns in run.csv.
 std::vector<std::pair<std::string_view, double>> named_values(const RunRow& row,
                                                               const Scenario& scenario);
 

@@ -10,9 +10,9 @@
 namespace awmr {
 namespace {
 
-/// True if no force or moment moves the vehicle out of its straight line. Values below the
-/// threshold are rounding errors, such as those of sin(pi) or atan2. Unknown resistances in yaw and
-/// sway are simulated as 0; real ones would reduce these values.
+/// True if nothing in this row turns the vehicle or moves it sideways. Values below the threshold
+/// are rounding errors, such as those of sin(pi) or atan2. The unknown resistances in yaw and sway
+/// are simulated as 0; real ones would make the values smaller.
 bool is_straight(const RunRow& row) {
   constexpr double kRounding = 1e-9;  // m/s, rad/s, rad, m
   const double turning[] = {row.state.v_mps,        row.state.r_radps,
@@ -31,8 +31,8 @@ Status check_straight(const Run& run, const Scenario& scenario, const Model& mod
   error.faults.insert(
       error.faults.begin(),
       Fault{ErrorCode::kUnsupported, fmt::format("scenario '{}'", scenario.name),
-            fmt::format("the run turns at {:g} s, and the model knows straight motion alone; give "
-                        "a scenario that drives straight on, or the trials named below",
+            fmt::format("the run turns at {:g} s, but the model only has parameters for straight "
+                        "motion; give a scenario without turns, or record the trials named below",
                         turned->t_s)});
   return tl::unexpected(std::move(error));
 }

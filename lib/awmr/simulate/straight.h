@@ -1,4 +1,4 @@
-/// Check of runs with a model of straight motion.
+/// Checks that a run with a model for straight motion does not turn.
 #pragma once
 
 #include "awmr/core/result.h"
@@ -6,8 +6,8 @@
 
 namespace awmr {
 
-/// Errors (input): the model only has straight motion and the run turns; the message has the time
-/// and the missing parameters.
+/// Errors (input): the run turns, but the model only has parameters for straight motion. The message
+/// has the time and the missing parameters.
 Status check_straight(const Run& run, const Scenario& scenario, const Model& model);
 
 }  // namespace awmr

@@ -28,7 +28,8 @@ void note_late_steps(const Scenario& scenario, std::vector<Finding>& findings) {
   findings.push_back(
       {"", 0, Severity::kWarning, "late-step",
        fmt::format(
-           "{}: the heading step at {:g} s is not before the end at {:g} s, and has no effect",
+           "{}: the heading step at {:g} s has no effect, because the run ends at {:g} s; give a "
+           "longer duration_s",
            scenario.name, headings->steps.back().t_s, scenario.duration_s)});
 }
 
@@ -40,9 +41,9 @@ void note_blocked_waypoints(const Scenario& scenario, std::vector<Finding>& find
       const double apart_m = std::hypot(path->points_m[i].x_m - obstacle.centre_m.x_m,
                                         path->points_m[i].y_m - obstacle.centre_m.y_m);
       if (apart_m > obstacle.radius_m) continue;
-      findings.push_back(
-          {"", 0, Severity::kWarning, "blocked-waypoint",
-           fmt::format("{}: waypoint {} lies within an obstacle", scenario.name, i + 1)});
+      findings.push_back({"", 0, Severity::kWarning, "blocked-waypoint",
+                          fmt::format("{}: waypoint {} lies within an obstacle; move one of them",
+                                      scenario.name, i + 1)});
     }
   }
 }
@@ -55,13 +56,13 @@ void note_speed(const Scenario& scenario, const Model& model, std::vector<Findin
   const double needed = plant.surge(scenario.speed_mps);
   if (!(needed > most)) return;
   findings.push_back({"", 0, Severity::kWarning, "unreachable-speed",
-                      fmt::format("{}: {:g} m/s need {:.3g} of F_max, but the wheels make at most "
-                                  "{:.3g}; the speed is never reached",
+                      fmt::format("{}: a speed of {:g} m/s needs a force of {:.3g} F_max, but the "
+                                  "motors make at most {:.3g} F_max; give a smaller speed_mps",
                                   scenario.name, scenario.speed_mps, needed, std::max(most, 0.0))});
 }
 
-/// Yaw rate, deg/s, under a steady moment of tau_turn_m while driving, in a simple scenario; on
-/// tyres if given.
+/// Yaw rate, deg/s, after 10 s of open loop with half of the largest thrust and the moment
+/// tau_turn_m; on `tyres` if given.
 double turned_degps(const Model& model, double tau_turn_m,
                     const std::optional<Tyres<double>>& tyres) {
   Scenario turn;
@@ -93,9 +94,9 @@ std::optional<Finding> missing_intervals(const Model& model) {
   }
   return Finding{
       model.file, 0, Severity::kWarning, "no-interval",
-      fmt::format("{} of the model {} no 95 % interval{}: their error is unknown, and draws do not "
-                  "vary them. Follow the findings of identify and identify again before driving "
-                  "with these values",
+      fmt::format("{} of the model {} no 95 % interval{}: the error is unknown, and sampled plants "
+                  "do not vary it. Follow the findings of identify and identify again before "
+                  "driving with these values",
                   fmt::join(missing, ", "), missing.size() == 1 ? "has" : "have",
                   causes.empty() ? "" : fmt::format(" (identify: {})", fmt::join(causes, ", ")))};
 }
@@ -112,9 +113,9 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
   }
   return Finding{
       model.file, 0, Severity::kWarning, "tyres-differ",
-      fmt::format("{}: the moment that turns the model at {:.3g} deg/s, the highest measured rate, "
-                  "turns it at {:.3g} on these tyres. The trials had other tyres, so these results "
-                  "are for another vehicle",
+      fmt::format("{}: the yaw moment for {:.3g} deg/s in the model, the highest measured rate, "
+                  "gives {:.3g} deg/s on these tyres. So the results are for another vehicle; "
+                  "awmr validate --tyres fits the tyres to logs",
                   scenario.name, plain_degps, on_tyres_degps)};
 }
 
@@ -133,7 +134,7 @@ void limit_heading_rate(double limit_degps, Scenario& scenario) {
     scenario.shaping->rate_max_radps = std::min(scenario.shaping->rate_max_radps, limit_radps);
     return;
   }
-  // With this acceleration the rate limit is reached within one time constant of the filter.
+  // With this acceleration limit, the filter reaches the rate limit within its time constant.
   scenario.shaping =
       HeadingShaping<double>{.omega_radps = kShapingBandwidth_radps,
                              .rate_max_radps = limit_radps,
@@ -164,8 +165,8 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
       choice == kMeasuredRate ? measured_yaw_rate_degps(model) : *number_from_text(choice);
   if (!limit_degps) {
     return input_error(ErrorCode::kNotIdentified, place,
-                       "the model has no highest measured yaw rate; give deg/s, or "
-                       "yaw_rate_max_degps in the vehicle");
+                       "the model has no highest measured yaw rate; give a number in deg/s, or "
+                       "yaw_rate_max_degps in vehicle.json");
   }
   for (Scenario& scenario : scenarios) limit_heading_rate(*limit_degps, scenario);
   return {};
@@ -176,7 +177,7 @@ std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& said, c
   return Finding{model.file, 0, Severity::kWarning, "not-led",
                  fmt::format("the heading rate is not limited, because the model has no highest "
                              "measured yaw rate; differences between modes may come from "
-                             "extrapolation. Give yaw_rate_max_degps in the vehicle, or {}",
+                             "extrapolation. Give yaw_rate_max_degps in vehicle.json, or {}",
                              option_text("heading_rate_limit"))};
 }
 
@@ -186,16 +187,16 @@ std::optional<Finding> extrapolation_finding(const std::string& file, double mea
   if (fastest_degps <= kLittleFurther * measured_degps) return std::nullopt;
   return Finding{
       file, 0, Severity::kWarning, "beyond-trials",
-      fmt::format("{}: the vehicle turns at up to {:.3g} deg/s, {:.2g} times as fast as yaw "
-                  "resistance was measured (up to {:.3g} deg/s): beyond it the model is "
+      fmt::format("{}: the vehicle turns at up to {:.3g} deg/s, {:.2g} times the highest rate at "
+                  "which the yaw resistance was measured ({:.3g} deg/s); above it, the model is "
                   "extrapolated. {}",
                   where, fastest_degps, fastest_degps / measured_degps, measured_degps,
                   is_rate_limited
-                      ? "The heading rate is limited to that, but the vehicle overshoots or "
-                        "slides. Record faster turning trials, or lower the limit "
-                        "(--heading-rate-limit)"
-                      : "Record faster turning trials, or limit the heading's rate (shaping in "
-                        "the scenario, or --heading-rate-limit measured)")};
+                      ? "Heading commands are limited to this rate, but the vehicle overshoots or "
+                        "slides. Record faster turning trials, or give a "
+                        "lower --heading-rate-limit"
+                      : "Record faster turning trials, or limit the rate of heading commands "
+                        "(shaping in the scenario, or --heading-rate-limit measured)")};
 }
 
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
@@ -220,7 +221,7 @@ std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,
         file, 0, Severity::kWarning, "unsigned-speed-runs-away",
         fmt::format(
             "m' mu_s/eps_s = {:.3g} s/m is above g1(u)/u = {:.3g} s/m at {:.3g} m/s: with a "
-            "speed sensor without a sign (GPS) the vehicle drives backward without end. Set "
+            "speed sensor without a sign (GPS), the vehicle can drive backward without end. Set "
             "speed_unsigned in the sketch, as the examples do",
             plant.mass_norm * gains.speed.mu / gains.speed.epsilon, plant.surge(u_mps) / u_mps,
             u_mps)};

@@ -1,4 +1,5 @@
-/// Checks whether a run leaves the range of the trials.
+/// Warnings about a simulation: turns faster than those of the trials, requests that the vehicle
+/// cannot meet, parameters without an interval. Also the limit of heading rates.
 #pragma once
 
 #include <algorithm>
@@ -14,32 +15,34 @@
 
 namespace awmr {
 
-/// Warning `tyres-differ`: the scenario's tyres give another yaw resistance than the measured one.
+/// Warning `tyres-differ`: with the scenario's tyres, the vehicle turns at least 1.5 times as fast or
+/// as slowly as in the model, under the moment of the highest measured yaw rate.
 std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model);
 
-/// Warning `no-interval`: some fitted parameters have no interval, so draws do not vary them.
+/// Warning `no-interval`: some fitted parameters have no interval, so sampled plants do not vary
+/// them.
 std::optional<Finding> missing_intervals(const Model& model);
 
-/// Warnings about requests in a scenario that this vehicle cannot meet: a step after the end
-/// (`late-step`), a waypoint within an obstacle (`blocked-waypoint`), a speed beyond the motors
-/// (`unreachable-speed`).
+/// Warnings about requests that cannot be met: a heading step after the end of the scenario
+/// (`late-step`), a waypoint within an obstacle (`blocked-waypoint`), a speed that needs more force
+/// than the motors make (`unreachable-speed`).
 std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model);
 
-/// Warning `unsigned-speed-runs-away`: with an unsigned speed, as from a GPS, the speed law
-/// accelerates a vehicle that rolls backward: m' mu_s/eps_s > g1(u)/u at a speed that the vehicle
-/// reaches. `file`: that of the gains.
+/// Warning `unsigned-speed-runs-away`: with a speed sensor without a sign, such as a GPS, the speed
+/// law would accelerate a vehicle that rolls backward. This is so if m' mu_s/eps_s > g1(u)/u at a
+/// speed that the vehicle can reach. `file`: the file of the gains.
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,
                                               const Gains<double>& gains, double force_max,
                                               const std::string& file);
 
-/// Limits the rate of heading commands to `limit_degps`, > 0, by a filter with
-/// kShapingBandwidth_radps (control/guidance/heading_shaping.h). A filter in the scenario keeps its
-/// bandwidth and the smaller limit. No effect in open loop.
+/// Limits the rate of heading commands to `limit_degps`, > 0, by a filter with the bandwidth
+/// kShapingBandwidth_radps (control/guidance/heading_shaping.h). If the scenario has a filter, it
+/// keeps its bandwidth and gets the smaller of both limits. No effect in open loop.
 void limit_heading_rate(double limit_degps, Scenario& scenario);
 inline constexpr double kShapingBandwidth_radps = 4.0;
 
-/// Rate limit of heading commands as an option: deg/s from 0.1 to 3600, "measured" (highest yaw
-/// rate of the turning trials) or "none"; empty: not given.
+/// Value of the option --heading-rate-limit: deg/s from 0.1 to 3600, "measured" (the highest yaw
+/// rate of the turning trials) or "none"; empty: the option is not given.
 using HeadingRateChoice = std::string;
 inline constexpr Interval kLeadRates_degps{0.1, 3600.0};
 inline constexpr const char* kMeasuredRate = "measured";
@@ -47,11 +50,11 @@ inline constexpr const char* kNoRate = "none";
 /// Key of the choice in the recorded options of an output.
 inline constexpr const char* kRateName = "heading_rate_limit";
 
-/// Error text of a choice; empty if it is valid.
+/// The message for an invalid choice; empty for a valid one.
 std::string fault_of_rate(const HeadingRateChoice& choice);
 
-/// Default of a comparison: the highest measured yaw rate, if known, because the model extrapolates
-/// in faster turns.
+/// The choice that a comparison uses. Default: "measured" if the model has a highest measured yaw
+/// rate, because the yaw resistance is extrapolated in faster turns; else "none".
 HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& said, const Model& model);
 
 /// Applies the limit to every scenario. Errors (input): as fault_of_rate(); "measured" without a
@@ -63,22 +66,21 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
 /// that the heading rate is not limited.
 std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& said, const Model& model);
 
-/// Warning `beyond-trials` if a turn of `fastest_degps`, >= 0, is clearly faster than
-/// `measured_degps` > 0, the highest rate at which yaw resistance was measured. `file`: that of the
-/// model.
+/// Warning `beyond-trials` if a turn of `fastest_degps`, >= 0, is more than kLittleFurther times as
+/// fast as `measured_degps` > 0, the highest rate at which the yaw resistance was measured. `file`:
+/// the file of the model. The other parameters: see note_extrapolation().
 std::optional<Finding> extrapolation_finding(const std::string& file, double measured_degps,
                                              double fastest_degps, const std::string& where,
                                              bool is_rate_limited);
 
-/// Adds the warning `beyond-trials` if a turn of `fastest_degps`, >= 0, is clearly faster than
-/// that, because the model extrapolates there. `where`: name of the run, "C3, combined".
-/// `is_rate_limited`: the heading rate was limited to the measured one, so the vehicle turns faster
-/// than its commanded heading.
+/// Adds extrapolation_finding() with the highest measured yaw rate of the model, if there is one.
+/// `where`: name of the run, such as "C3, combined". `is_rate_limited`: the rate of heading commands
+/// was limited to the measured rate, so the vehicle turns faster than commanded.
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
                         std::vector<Finding>& findings, bool is_rate_limited = false);
 
-/// The same for the fastest of several runs with these `metrics`; `where(run)` gives the name of a
-/// run.
+/// note_extrapolation() for the run with the highest yaw rate among `runs`, whose elements have
+/// `metrics`. `where(run)` returns the name of a run.
 template <class Runs, class Where>
 std::vector<Finding> extrapolation_in(const Model& model, const Runs& runs, const Where& where,
                                       bool is_rate_limited = false) {

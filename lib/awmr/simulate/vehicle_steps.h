@@ -1,5 +1,5 @@
-/// Vehicles of runs that are simulated together: commands -> motors -> battery -> motion, as steps
-/// on rows (row_view.h). Private to this folder.
+/// Vehicles of runs that are simulated together: steps on rows (row_view.h) from the commands
+/// through motors and battery to the motion. Private to this folder.
 #pragma once
 
 #include "awmr/simulate/motion.h"
@@ -14,31 +14,31 @@ struct VehicleSetup {
   double battery_sag = 0.0;  ///< Battery::sag
   bool is_by_wheel = false;  ///< the wheels of a side can have different forces
   bool is_on_tyres = false;
-  Tyres<double> tyres;            ///< of vehicles on tyres
-  bool has_back_emf = false;      ///< any vehicle
-  bool has_scrub = false;         ///< any vehicle
-  bool is_front_driven = false;   ///< any vehicle
-  ExternalForces<double> push{};  ///< without a load; the same for every vehicle
+  Tyres<double> tyres;            ///< valid if is_on_tyres
+  bool has_back_emf = false;      ///< any vehicle has back-EMF
+  bool has_scrub = false;         ///< any vehicle has scrub
+  bool is_front_driven = false;   ///< any vehicle has front-wheel drive
+  ExternalForces<double> push{};  ///< flags and slope; each vehicle has its own `load`
 };
 
-/// The vehicles' numbers.
+/// All numbers of the vehicles.
 template <class Row>
 struct Vehicles {
   VehicleSetup setup;
-  double battery_share = 1.0;  ///< ratio of the largest force to F'max, over the current sample
+  double battery_share = 1.0;  ///< largest force over F'max, for the current sample
 
   Row active;  ///< 1; 0 if the run has ended or failed, or for an unused lane
 
   // Constant over a run.
-  Plant<Row> plant;  ///< with its chord through rest
-  Row step_s;        ///< h
+  Plant<Row> plant;  ///< with the chords through rest (resolved_at_rest())
+  Row step_s;        ///< h: integration step, s
   Row substeps;
   Row force_most;  ///< largest F' of a wheel, with the dead zone
 
   // State of a run.
   State<Row> state;
-  SideForces<Row> motors;  ///< see MotorLag
-  Row halves;              ///< see Resolution
+  SideForces<Row> motors;  ///< F of MotorLag
+  Row halves;              ///< Resolution::halves
 
   // Values of the current sample: the commands, the applied forces by side or by wheel, and the
   // load of the disturbances.
@@ -50,7 +50,7 @@ struct Vehicles {
   Row tyre_power_mps;  ///< RunRow::tyre_power_mps
 };
 
-/// Steps of a sample for one kind of row. Runs that are not active do not change.
+/// Steps of a sample for one type of row. Runs that are not active do not change.
 template <class Row>
 struct VehicleSteps {
   /// Computes `tyre_power_mps` from the commands.
@@ -77,7 +77,7 @@ decltype(auto) body_of(const View& view, const Vehicles<Row>& v) {
   }
 }
 
-/// RunRow::acting
+/// The forces for RunRow::acting.
 template <class View, class Row>
 WheelForces<typename View::Number> acting_forces(const View& view, const Vehicles<Row>& v) {
   if (v.setup.is_by_wheel) return view(v.wheels);
@@ -126,7 +126,8 @@ AWMR_WHOLE void actuate(const View& view, Vehicles<Row>& v) {
   view.store(force, v.arriving);
 }
 
-/// `rates(body, state, steering command)`: rates of the state with constant forces.
+/// Integrates the active vehicles over a sample. `rates(body, state, steering command)` returns the
+/// rates of the state with constant forces.
 template <bool kIsOnTyres, class View, class Row, class Rates>
 AWMR_WHOLE void move_by(const View& view, Vehicles<Row>& v, const Rates& rates) {
   using math::select;
@@ -166,8 +167,8 @@ void move_alone(const View& view, Vehicles<Row>& v,
           __attribute__((always_inline)) { return side_driven_rates(plant, at, force, command); });
 }
 
-/// Selects rates without terms that no vehicle has, because a branch inside the rates would stall
-/// the processor in every step.
+/// Integrates the vehicles with rates that have only the terms which any vehicle needs, because a
+/// branch inside the rates would stall the processor in every step.
 template <class View, class Row>
 void move(const View& view, Vehicles<Row>& v) {
   using T = typename View::Number;

@@ -1,5 +1,5 @@
-/// Effects in addition to the equations of motion: disturbances, wheel faults, sensors, actuators.
-/// All are off unless the scenario sets them; random numbers come from seeds.
+/// Parts of a scenario that act on the vehicle or its controller: disturbances, wheel faults,
+/// sensors, actuators. All are off unless the scenario sets them. Random numbers come from seeds.
 #pragma once
 
 #include <cmath>
@@ -26,8 +26,8 @@ using BodyLoad = BodyLoadOf<double>;
 
 /// Time window [from_s, to_s).
 struct Window {
-  double from_s = 0.0;  ///< >= 0
-  /// > from_s; infinity: to the end of the run.
+  double from_s = 0.0;  ///< start, >= 0
+  /// End, > from_s; infinity: to the end of the run.
   double to_s = std::numeric_limits<double>::infinity();
   bool holds(double t_s) const { return t_s >= from_s && t_s < to_s; }
 };
@@ -40,14 +40,14 @@ struct DisturbanceTerm {
   /// kConstant: the value; kSine: the amplitude; kNoise: the standard deviation. Its sign matters.
   double value = 0.0;
   Window window;                    ///< a step is a constant with from_s > 0
-  double frequency_hz = 0.0;        ///< kSine, > 0
-  std::optional<double> phase_rad;  ///< kSine, at t = 0; absent: drawn from the seed
+  double frequency_hz = 0.0;        ///< kSine: frequency, > 0
+  std::optional<double> phase_rad;  ///< kSine: phase at t = 0; absent: drawn from the seed
   double bandwidth_hz = 0.0;        ///< kNoise, > 0: corner of the first-order low pass
 };
 
 /// Uniform slope of the ground.
 struct Slope {
-  double angle_rad = 0.0;     ///< rad, below the horizontal
+  double angle_rad = 0.0;     ///< angle from the horizontal, rad, >= 0
   double downhill_rad = 0.0;  ///< rad: heading of the steepest descent in the world frame
 };
 
@@ -63,27 +63,27 @@ struct Disturbance {
 /// The four driven wheels.
 enum class Wheel { kFrontLeft, kFrontRight, kRearLeft, kRearRight };
 
-/// Fault of a motor, which gives only a share of the requested force.
+/// Fault of motors, which make only a fraction of the requested force.
 struct WheelFault {
   std::vector<Wheel> wheels;
   Window window;
-  double share = 0.0;  ///< of the force requested, [0, 1]; 0: the motor is dead
+  double share = 0.0;  ///< fraction of the requested force, [0, 1]; 0: the motors are dead
 };
 
-/// Slippery disc on the ground, which limits the force of a wheel on it to `force_max`.
+/// Slippery disc on the ground: the force of a wheel on the disc is at most `force_max`.
 struct SlipperyPatch {
   Position<double> centre_m{};
   double radius_m = 0.0;   ///< > 0
-  double force_max = 0.0;  ///< >= 0, over F_max
+  double force_max = 0.0;  ///< largest force of a wheel on the disc, over F_max, >= 0
 };
 
 /// Battery discharge: the largest force of a motor decreases linearly from F'max at `from_s` to
 /// `share_end` of it at `to_s`, and is then constant. In addition, the voltage sags under the
 /// motors' current. The controller measures neither.
 struct Battery {
-  double from_s = 0.0;     ///< >= 0
-  double to_s = 1.0;       ///< > from_s
-  double share_end = 1.0;  ///< of F'max, [0, 1]
+  double from_s = 0.0;     ///< start of the decrease, >= 0
+  double to_s = 1.0;       ///< end of the decrease, > from_s
+  double share_end = 1.0;  ///< largest force at the end, over F'max, [0, 1]
   /// Ratio of the battery's internal resistance to that of one motor's winding, >= 0: approximately
   /// the relative voltage drop with one stalled motor. 0: no sag.
   double sag = 0.0;
@@ -95,25 +95,26 @@ struct Channel {
   double bias = 0.0;       ///< constant over a run; its sign matters
   double quantum = 0.0;    ///< >= 0: step of the reading; 0: none
   double latency_s = 0.0;  ///< >= 0: latency of a reading
-  /// tau, s, >= 0: errors a time t apart have the correlation exp(-t/tau); 0: independent readings.
+  /// tau, s, >= 0: correlation time of the noise. Two readings t seconds apart have errors with the
+  /// correlation exp(-t/tau); 0: independent errors.
   double correlation_s = 0.0;
 };
 
-/// Correlation of two errors of a sensor `apart_s` > 0 apart, exp(-t/tau); 0 if tau is 0.
+/// Correlation exp(-t/tau) of two errors of a sensor that are t = `apart_s` > 0 apart; 0 if tau is 0.
 inline double noise_correlation(double correlation_s, double apart_s) {
   return correlation_s > 0.0 ? std::exp(-apart_s / correlation_s) : 0.0;
 }
 
-/// A receiver with its own rate and latency.
+/// A GPS receiver with its own rate and latency.
 struct Gps {
-  double rate_hz = 0.0;    ///< > 0
-  double latency_s = 0.0;  ///< >= 0
-  Channel x, y;            ///< m
-  std::vector<Window> dropouts;
+  double rate_hz = 0.0;          ///< fixes per second, > 0
+  double latency_s = 0.0;        ///< >= 0: time from taking a fix to its arrival
+  Channel x, y;                  ///< errors of the fixes, m; latency_s is not used
+  std::vector<Window> dropouts;  ///< fixes that are taken in these windows are lost
 };
 
-/// Sensors of the controller. A quantity without a sensor has its true value. Exception: sway is 0
-/// if `sway_measured` is false, as on real vehicles.
+/// Sensors of the controller. A quantity without a sensor has its true value. Exception: if
+/// `sway_measured` is false, the measured sway speed is 0, as on most real vehicles.
 struct Sensors {
   Channel heading;   ///< rad
   Channel yaw_rate;  ///< rad/s
@@ -137,20 +138,20 @@ struct CornerParameter {
   bool high = true;  ///< the upper end, else the lower
 };
 
-/// Extensions of the laws in control/controller.h.
+/// Options of the simulated controller.
 struct ControlOptions {
-  CombinedSplit split = CombinedSplit::kRedistribute;  ///< of the combined mode
+  CombinedSplit split = CombinedSplit::kRedistribute;  ///< action of the combined mode at limits
   struct Observer {
-    double bandwidth_radps = 0.0;  ///< of the estimate, > 0
+    double bandwidth_radps = 0.0;  ///< L of DisturbanceObserver, > 0
     double yaw_max_m = 0.0;        ///< largest estimated disturbance: moment over F_max, m, > 0
-    double surge_max = 0.0;        ///< the same along x: force over F_max, > 0
-    /// true: the observer uses the command after its limits; false: before them,
+    double surge_max = 0.0;  ///< largest estimated disturbance in surge: force over F_max, > 0
+    /// true: the observer uses the command after the limits. false: it uses the command before them,
     /// so that a saturated actuator looks like a disturbance and the estimate winds up.
     bool anti_windup = true;
   };
   std::optional<Observer> observer;
   std::optional<LqiWeights<double>> lqi;     ///< absent: the heading law is sliding mode
-  std::optional<AllocationForm> allocation;  ///< absent: the vehicle's
+  std::optional<AllocationForm> allocation;  ///< absent: the form of the vehicle
 };
 
 }  // namespace awmr

@@ -1,5 +1,5 @@
-// scenario.json: disturbance, faults, slippery, battery, sensors, estimator, actuators, control,
-// corner, tyres.
+// Reads these parts of scenario.json: disturbance, faults, slippery, battery, sensors, estimator,
+// actuators, control, corner, tyres.
 
 #include <array>
 #include <string>
@@ -20,12 +20,12 @@ Window read_window(JsonObject& json) {
   window.from_s = json.optional_number("from_s", kTime_s).value_or(window.from_s);
   window.to_s = json.optional_number("to_s", kTime_s).value_or(window.to_s);
   if (!(window.to_s > window.from_s)) {
-    json.fault(ErrorCode::kWrongOrder, "to_s", "has to be after from_s");
+    json.fault(ErrorCode::kWrongOrder, "to_s", "must be after from_s");
   }
   return window;
 }
 
-/// Kinds of terms in the file; a step is a constant that begins later.
+/// Types of disturbance terms in the file; a step becomes a constant that begins later.
 enum class TermType { kConstant, kStep, kSine, kNoise };
 constexpr NameTable<TermType, 4> kTermTypes{{{"constant", TermType::kConstant},
                                              {"step", TermType::kStep},
@@ -111,7 +111,7 @@ Battery read_battery(JsonObject json) {
     battery.to_s = json.number("to_s", kDuration_s);
     battery.share_end = json.number("share_end", kShare);
     if (!(battery.to_s > battery.from_s)) {
-      json.fault(ErrorCode::kWrongOrder, "to_s", "has to be after from_s");
+      json.fault(ErrorCode::kWrongOrder, "to_s", "must be after from_s");
     }
   }
   json.reject_unknown_keys();
@@ -161,8 +161,8 @@ Sensors read_sensors(JsonObject json) {
   return sensors;
 }
 
-/// Reads the servo's pulse: `us_per_deg` at a resolution of `step_us` (an ATmega's timer at 2 MHz:
-/// 0.5).
+/// Reads the actuators. The pulse of the servo changes by `us_per_deg` and has the resolution
+/// `step_us`, 0.5 for an ATmega's timer at 2 MHz.
 Actuators read_actuators(JsonObject json) {
   Actuators actuators;
   if (auto servo = json.optional_object("servo")) {
@@ -184,8 +184,8 @@ enum class HeadingLaw { kSlidingMode, kLqi };
 constexpr NameTable<HeadingLaw, 2> kHeadingLaws{
     {{"sliding_mode", HeadingLaw::kSlidingMode}, {"lqi", HeadingLaw::kLqi}}};
 
-// The largest values that are acceptable: above any sensor's range, and within the range in which
-// gains stay finite.
+// Ranges of the LQI weights: up to values above any sensor's range, and only such for which the
+// gains are finite.
 constexpr NumberRule kLqiHeading_deg{.min = 1e-3, .max = 180.0};
 constexpr NumberRule kLqiYawRate_degps{.min = 1e-3, .max = 1e5};
 constexpr NumberRule kLqiIntegral_deg_s{.min = 1e-3, .max = 1e6};
@@ -234,7 +234,7 @@ std::vector<CornerParameter> read_corner(JsonObject json) {
       for (const ParameterInfo& parameter : parameter_table()) {
         known += (known.empty() ? "" : ", ") + std::string(parameter.name);
       }
-      json.fault(ErrorCode::kUnknownName, name, "is not a parameter; available: " + known);
+      json.fault(ErrorCode::kUnknownName, name, "is not a parameter; use one of: " + known);
     }
   }
   return corner;

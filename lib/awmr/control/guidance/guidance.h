@@ -10,7 +10,7 @@ namespace awmr {
 /// The guidance's laws and their state. P lists the parts (autopilot_parts.h).
 template <class T, class P>
 struct GuidanceLaws : P::Line, P::Path, P::Arrival, P::Avoidance, P::Shaping {
-  Waypoints<T> waypoints;        ///< count 0: none
+  Waypoints<T> waypoints;        ///< count 0: no waypoints
   T acceptance_m2;               ///< the square of waypoints.acceptance_m
   WaypointProgress<T> progress;  ///< valid once is_leg_started
   bool is_leg_started;           ///< the first step towards the waypoints was made
@@ -19,7 +19,7 @@ struct GuidanceLaws : P::Line, P::Path, P::Arrival, P::Avoidance, P::Shaping {
 /// Target of the guidance in one step.
 template <class T>
 struct GuidanceTarget {
-  const Position<T>* target_m;  ///< 0: no point, or none nearby
+  const Position<T>* target_m;  ///< point beyond which obstacles are ignored; 0: none
   bool arrived;                 ///< the route is finished
 };
 
@@ -97,7 +97,7 @@ AWMR_INLINE bool guide_by_waypoints(GuidanceLaws<T, P>& g, const VehiclePose<T, 
   return true;
 }
 
-/// guide() of line.h, for a part.
+/// Calls guide() of line.h with the line and the progress of a part.
 template <class T, class Law>
 AWMR_INLINE PolylineGuidance<T> guide_line(LineFollower<T, Law>& part,
                                            const Position<T>& position_m,
@@ -171,7 +171,7 @@ AWMR_INLINE GuidanceTarget<T> guide_by_route(GuidanceLaws<T, P>& g, const Vehicl
   return target;
 }
 
-/// Target distance that is larger than any obstacle's, m.
+/// Distance to the target if there is no target, m: larger than that of any obstacle.
 template <class T>
 constexpr T no_target_m() {
   return T(1e30);

@@ -1,4 +1,4 @@
-/// Heading reference shaping: a filter that gives psi_d with its rate and acceleration.
+/// Filter for the heading reference, which gives a smooth psi_d with its rate and acceleration.
 /// Freestanding C++14.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace awmr {
 ///   e          = wrap(psi_in - psi_d)
 ///   r_des      = sat(w e/2, r_max)
 ///   psi_d_ddot = sat(2 w (r_des - psi_d_dot), a_max)
-/// Without the limits it is psi_d_ddot + 2 w psi_d_dot + w^2 psi_d = w^2 psi_in.
+/// Without the limits, the filter is psi_d_ddot + 2 w psi_d_dot + w^2 psi_d = w^2 psi_in.
 template <class T>
 struct HeadingShaping {
   /// w, rad/s, > 0: bandwidth. Larger: the reference follows faster. w T_s <= 0.5 prevents

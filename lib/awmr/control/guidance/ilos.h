@@ -1,7 +1,7 @@
-/// Integral line of sight (ILOS), a law for lines. Freestanding C++14.
+/// Integral line of sight (ILOS), a guidance law that follows a line. Freestanding C++14.
 ///
-/// A side slope, an unmeasured sideslip or a steady heading error leaves a vehicle that aims at the
-/// line offset from it. ILOS shifts the aim to the other side until the offset is 0.
+/// Because of a side slope, an unmeasured sideslip or a steady heading error, a vehicle that aims at
+/// the line drives beside it. ILOS shifts the aim to the other side until this offset is 0.
 #pragma once
 
 #include "awmr/control/guidance/line.h"
@@ -34,8 +34,8 @@ struct IntegralLos {
 /// (Borhaug, Pavlov, Pettersen, Integral LOS control for path following of underactuated marine
 /// surface vessels in the presence of constant ocean currents, 2008, (7); Lekkas, Fossen, Integral
 /// LOS path following for curved paths based on a monotone cubic Hermite spline, 2014). Far from the
-/// line y_int hardly grows: the law does not wind up. It restarts at 0 on each segment, because the
-/// disturbance comes from another side there.
+/// line y_int hardly grows, so the law does not wind up. y_int restarts at 0 on each segment,
+/// because the disturbance has another direction relative to the new segment.
 template <class T>
 T approach_rad(const IntegralLos<T>& law, const AlongSegment<T>& s, const LineMotion<T>& motion,
                T& integral_s) {

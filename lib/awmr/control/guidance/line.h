@@ -61,13 +61,13 @@ AWMR_INLINE AlongSegment<T> along_segment(const Position<T>& a, const Position<T
 /// Motion of the vehicle that the laws use.
 template <class T>
 struct LineMotion {
-  T sideslip_rad;   ///< beta
-  T u_mps;          ///< u
-  T sample_time_s;  ///< of the guidance, > 0
+  T sideslip_rad;   ///< beta, rad
+  T u_mps;          ///< u, m/s: surge speed
+  T sample_time_s;  ///< time between two guidance steps, > 0
 };
 
-/// Range of a law's parameter in files. In the law, it is `unit` times as large (rad in place of
-/// deg).
+/// Range of a law's parameter in scenario files. The law stores the file's value times `unit`, which
+/// is pi/180 for an angle in deg and otherwise 1.
 struct LawParameter {
   double min;
   double max;
@@ -75,7 +75,8 @@ struct LawParameter {
   double unit;
 };
 
-/// Lengths in files, m. Below the shortest one, a vehicle would turn for every rounding error.
+/// Range of lookahead distances in scenario files, m. With a shorter one, the vehicle would turn for
+/// every rounding error.
 constexpr LawParameter lookahead_range() { return {1e-3, 1e6, false, 1.0}; }
 
 /// Corners joined by line segments, driven from the first to the last. Two corners are one line.
@@ -84,12 +85,11 @@ constexpr LawParameter lookahead_range() { return {1e-3, 1e6, false, 1.0}; }
 ///   sideslip_compensation     true, as in the paper: beta is subtracted, so that the course over
 ///                             ground is controlled and a vehicle that slips stays on the line;
 ///                             false: for vehicles that cannot measure v
-///   kUsesCorner               whether corner_m below has a meaning
+///   kUsesCorner               whether the law uses corner_m below
 ///   name()                    its name in files
 ///   parameters(law, field)    calls field(key, parameter, LawParameter) for each parameter
-/// with the function approach_rad(law, segment, motion, memory), which guide() subtracts from the
-/// segment's direction, and, where the defaults below do not suit, is_passed() and
-/// distance_off_m().
+/// and the function approach_rad(law, segment, motion, memory), whose result guide() subtracts from
+/// the segment's direction. A law can also replace is_passed() and distance_off_m() below.
 template <class T, class Law>
 struct Polyline {
   const Position<T>* points_m;  ///< the corners in the world frame, m; not owned, `count` of them
@@ -98,7 +98,7 @@ struct Polyline {
   /// corner is rounded on its inside. The last segment is driven to its end. 0: corners are
   /// overshot.
   T corner_m;
-  Law law;  ///< approach to each segment
+  Law law;  ///< parameters of the law
 };
 
 /// Progress along the corners.
@@ -106,7 +106,7 @@ template <class T>
 struct PolylineProgress {
   int segment;  ///< from points_m[segment] to points_m[segment + 1]
   T psi_rad;    ///< the last psi_d, held if there is none
-  T memory;     ///< the law's own, 0 at the start of each segment
+  T memory;     ///< state of the law, such as an integral; 0 at the start of each segment
 };
 
 /// The progress before the first step: `psi_rad` is the vehicle's heading.
@@ -130,7 +130,8 @@ AWMR_INLINE bool is_passed(const Law&, const AlongSegment<T>& s, const T& corner
   return !(s.length_m - s.along_m > corner_m);
 }
 
-/// Distance from the line, m, as in AlongSegment, for the record. `segment`: the current one.
+/// Distance from the line for PolylineGuidance, m, left positive. `segment`: index of the current
+/// segment.
 template <class T, class Law>
 AWMR_INLINE T distance_off_m(const Polyline<T, Law>&, int /*segment*/,
                              const Position<T>& /*position_m*/, const AlongSegment<T>& s) {

@@ -1,8 +1,8 @@
-/// The laws for lines. Freestanding C++14.
+/// List of the guidance laws that follow a line. Freestanding C++14.
 ///
-/// To add one: write its header (what a law has is stated at Polyline in line.h), include it here,
-/// and list it below. Scenario files, the simulator, `awmr emit --line-law` and `awmr pil` then
-/// have it.
+/// To add a law, write its header (Polyline in line.h lists the members that a law needs), include
+/// the header here and add the law to LineLaws. Scenario files, the simulator, `awmr emit
+/// --line-law` and `awmr pil` then support it.
 #pragma once
 
 #include "awmr/control/guidance/ilos.h"
@@ -12,7 +12,7 @@
 
 namespace awmr {
 
-/// List<LineOfSight<T>, ...>: every law; the first is the default.
+/// `List` with every law as an argument; the first law is the default.
 template <template <class...> class List, class T>
 using LineLaws = List<LineOfSight<T>, PurePursuit<T>, IntegralLos<T>, Stanley<T>>;
 
@@ -25,7 +25,7 @@ struct LawAt<0, First, Rest...> {
 };
 }  // namespace detail
 
-/// LineLaws<LineLawAt<k>::Of, T>::Law: the law at place k, from 0.
+/// Selects a law by its place k, counted from 0: LineLaws<LineLawAt<k>::Of, T>::Law.
 template <int kPlace>
 struct LineLawAt {
   template <class... Laws>

@@ -13,23 +13,23 @@
 ///           = pi/2          + sigma w_i               the same inside the grown circle
 ///
 /// The blocked sector is centred on the bearing of c_i. An obstacle counts while D_obs <= MMD (plus
-/// the hysteresis once avoidance is active) and while it is nearer than the target. psi_d is the
-/// edge, left or right, nearest to the guidance heading, of the union of the blocked sectors that
-/// contain it. The chosen side is kept until the other is nearer by `side_hysteresis_rad`, or until
-/// the guidance heading is free again.
+/// the hysteresis once avoidance is active) and while it is nearer than the target. If blocked
+/// sectors contain the guidance heading, psi_d is the nearer edge, left or right, of their union.
+/// The chosen side is kept until the other is nearer by `side_hysteresis_rad`, or until the guidance
+/// heading is free again.
 ///
-/// Why it clears one obstacle: a vehicle with turning radius rho heads for the centre of a circle.
-/// It can pass the circle if D^2 >= (R + rho)^2 - rho^2. This holds for any R while D_obs >= rho.
-/// So an MMD of rho plus the distance travelled while the turn begins is sufficient. If that does
-/// not hold (several obstacles, or a start that is too close), the speed is reduced. The permitted
-/// fraction is the distance along the heading to a circle grown by vehicle_radius + clearance/2,
-/// divided by `brake_m`. So the vehicle stops before the circle.
+/// Why this clears one obstacle: a vehicle with the turning radius rho that heads for the centre of
+/// a circle can turn past it if D^2 >= (R + rho)^2 - rho^2. For any R, this holds while
+/// D_obs >= rho. So an MMD of rho plus the distance travelled while the turn begins is sufficient.
+/// With several obstacles, or a start that is too close, this can fail: then the speed is reduced.
+/// The permitted fraction of u_d is the distance along the heading to a circle grown by
+/// vehicle_radius + clearance/2, divided by `brake_m`. So the vehicle stops before that circle.
 ///
 /// Edge cases:
 ///   inside R_i                the sector is more than a half-plane, so psi_d leads out; a vehicle
 ///                             that heads further in is stopped
 ///   on the very centre        the bearing is taken to be the vehicle's heading
-///   every direction blocked   `blocked` is set, the share is 0, psi_d is the guidance heading
+///   every direction blocked   `blocked` is set, u_d becomes 0, psi_d is the guidance heading
 ///   an obstacle on a waypoint see covers()
 #pragma once
 
@@ -72,8 +72,8 @@ struct Avoidance {
 /// Range of headings that one obstacle blocks.
 template <class T>
 struct Sector {
-  T bearing_rad;  ///< of the obstacle's centre
-  T half_rad;     ///< alpha_i
+  T bearing_rad;  ///< bearing of the obstacle's centre, in the world frame
+  T half_rad;     ///< alpha_i: half angle of the sector
   bool counts;    ///< false: the obstacle is too far, or beyond the target
 };
 
@@ -113,7 +113,7 @@ bool is_covered(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles, int
   return false;
 }
 
-/// guide(), skipping waypoints that an obstacle covers: they count as missed.
+/// guide() of waypoints.h, which also skips waypoints that an obstacle covers: they count as missed.
 template <class T>
 AWMR_CALLED WaypointGuidance<T> guide_past_covered(const Avoidance<T>& avoidance,
                                                    const Obstacle<T>* obstacles, int count,
@@ -145,8 +145,8 @@ AWMR_CALLED Sight<T> sight(const Position<T>& from, const Position<T>& point,
   return {distance_m(from, point), direction_rad(seen_from(from, point), otherwise_rad)};
 }
 
-/// A heading within this distance of a sector's edge, rad, counts as outside; larger than a float's
-/// rounding.
+/// A heading inside a sector but within this angle of its edge, rad, counts as outside. The angle is
+/// larger than the rounding of a float.
 template <class T>
 constexpr T sector_tolerance_rad() {
   return T(1e-4);
@@ -165,11 +165,11 @@ template <class T>
 struct Surroundings {
   const Avoidance<T>& avoidance;
   const Obstacle<T>* obstacles;  ///< `count` of them
-  Sector<T>* sectors;            ///< of the obstacles
+  Sector<T>* sectors;            ///< one for each obstacle
   int count;
-  Position<T> position_m;  ///< p
+  Position<T> position_m;  ///< p: position of the vehicle
   T psi_rad;               ///< the vehicle's heading
-  T mmd_m;                 ///< MMD(u)
+  T mmd_m;                 ///< MMD(u): minimum manoeuvring distance
   T reach_m;               ///< largest D_obs that counts: MMD, plus the hysteresis once active
   T target_m;              ///< distance to the guidance target
 
@@ -240,9 +240,9 @@ struct Surroundings {
 
 /// Turns the guidance heading out of the sectors that `count` obstacles block, and reduces the
 /// speed if that is not sufficient. `guidance_rad` is the guidance heading. `target_m` is the
-/// distance to its target: obstacles beyond it are ignored. It is a very large number without a
-/// target. `psi_rad` and `u_mps` are the vehicle's. `sectors` has room for `count` elements, so
-/// that each sector is computed once.
+/// distance to the guidance target, beyond which obstacles are ignored; without a target it is
+/// no_target_m(). `psi_rad` and `u_mps` are the vehicle's. `sectors` is work space for `count`
+/// elements.
 template <class T>
 AWMR_CALLED Avoided<T> avoid(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles,
                              Sector<T>* sectors, int count, const Position<T>& position_m,
@@ -265,7 +265,7 @@ AWMR_CALLED Avoided<T> avoid(const Avoidance<T>& avoidance, const Obstacle<T>* o
   if (!(left < full) && !(right < full)) {
     return {called_wrap_angle(guidance_rad), T(0.0), true, true};
   }
-  // The chosen side has an advantage of the hysteresis; of two equal sides, the left is taken.
+  // The hysteresis favours the side that was chosen before; of two equal sides, the left is taken.
   T difference = left - right;
   if (state.side == AvoidanceSide::kLeft) difference -= avoidance.side_hysteresis_rad;
   if (state.side == AvoidanceSide::kRight) difference += avoidance.side_hysteresis_rad;

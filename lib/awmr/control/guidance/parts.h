@@ -1,4 +1,4 @@
-/// Parts of the guidance: for each law its parameters and its state. Freestanding C++14.
+/// Optional parts of the guidance: parameters and state of each. Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
@@ -13,7 +13,7 @@
 
 namespace awmr {
 
-/// Pose and motion of the vehicle for the guidance of one step. Time is the type of its clock: ms
+/// Pose and motion of the vehicle for the guidance of one step. Time is the type of the clock: ms
 /// that can wrap on the chip, s in the simulator.
 template <class T, class Time>
 struct VehiclePose {
@@ -22,7 +22,7 @@ struct VehiclePose {
   Time now;
 };
 
-/// Seconds since `start`.
+/// Time from `start` to `now`, s.
 inline float elapsed_s(uint32_t start_ms, uint32_t now_ms) {
   return 0.001F * static_cast<float>(now_ms - start_ms);
 }
@@ -32,8 +32,8 @@ inline double elapsed_s(double start_s, double now_s) { return now_s - start_s; 
 template <class T, class Law = LineOfSight<T>>
 struct LineFollower {
   typedef Polyline<T, Law> Route;
-  Route line;                    ///< count 0: none
-  T sample_time_s;               ///< of the guidance, > 0
+  Route line;                    ///< count 0: no line
+  T sample_time_s;               ///< time between two guidance steps, > 0
   PolylineProgress<T> progress;  ///< valid once is_started
   bool is_started;               ///< the first step along the line was made
 };
@@ -49,10 +49,10 @@ struct PathFollower {
   bool is_started;  ///< the first step along the path was made
 };
 
-/// Reduces the speed before the last waypoint, or the line's end.
+/// Reduces the speed before the last waypoint, or before the end of the line.
 template <class T>
 struct SlowDown {
-  T distance_m;  ///< m before the end; 0: disabled
+  T distance_m;  ///< distance from the end at which the speed begins to fall, m; 0: disabled
 };
 
 /// Avoids obstacles.

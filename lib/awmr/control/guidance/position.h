@@ -1,4 +1,4 @@
-/// Points of the world frame, distances and directions between them. Freestanding C++14.
+/// Points in the world frame, and distances and directions between points. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/flash.h"
@@ -28,7 +28,7 @@ AWMR_CALLED T distance_m(const Position<T>& a, const Position<T>& b) {
   return sqrt(squared_distance_m2(a, b));
 }
 
-/// Points closer to each other than this, m, have no direction between them.
+/// Distance of two points, m, at or below which they coincide: there is no direction between them.
 template <class T>
 constexpr T coincident_m() {
   return T(1e-20);
@@ -40,15 +40,15 @@ Position<T> seen_from(const Position<T>& from, const Position<T>& point) {
   return {point.x_m - from.x_m, point.y_m - from.y_m};
 }
 
-/// True if a point at `away_m` is within `radius_m`, whose square is `radius_m2`. Outside the
-/// square around the circle, no product is necessary.
+/// True if the vector `away_m` is not longer than `radius_m`, whose square is `radius_m2`. Usually
+/// one coordinate alone exceeds the radius, and no product is necessary.
 template <class T>
 AWMR_INLINE bool is_reached(const Position<T>& away_m, const T& radius_m, const T& radius_m2) {
   if (math::is_beyond(away_m.x_m, radius_m) || math::is_beyond(away_m.y_m, radius_m)) return false;
   return !math::is_above(T(away_m.x_m * away_m.x_m + away_m.y_m * away_m.y_m), radius_m2);
 }
 
-/// The direction to a point at `away_m`, in (-pi, pi]; `otherwise_rad` if it coincides.
+/// The direction of the vector `away_m`, in (-pi, pi]; `otherwise_rad` if the vector is 0.
 template <class T>
 AWMR_INLINE T direction_rad(const Position<T>& away_m, const T& otherwise_rad) {
   const T here = coincident_m<T>();

@@ -1,7 +1,7 @@
-/// Pure pursuit, a law for lines. Freestanding C++14.
+/// Pure pursuit, a guidance law that follows a line. Freestanding C++14.
 ///
-/// The vehicle drives to a goal on the line at the lookahead distance ahead of it. The goal passes
-/// a corner before the vehicle does, so the corner is rounded on its inside.
+/// The vehicle drives towards a goal point on the line, at the lookahead distance from the vehicle.
+/// The goal passes a corner before the vehicle does, so the corner is rounded on its inside.
 #pragma once
 
 #include "awmr/control/guidance/line.h"
@@ -26,9 +26,9 @@ struct PurePursuit {
 
 /// Position of the goal along a segment, m from its start:
 ///   s_g = max(0, s + sqrt(L^2 - e^2))
-/// This is the farther of the two points of its line at distance L from a vehicle at s with offset
-/// e; the nearest point of the line if all are farther away; the start if the vehicle is before the
-/// segment.
+/// s and e are the vehicle's distances along and to the left of the segment. The goal is the farther
+/// of the two points of the line at the distance L from the vehicle. If the line is farther away
+/// than L, the goal is the nearest point of the line. The goal is never before the segment's start.
 template <class T>
 T goal_along_m(const PurePursuit<T>& law, const AlongSegment<T>& s) {
   using math::sqrt;
@@ -44,8 +44,8 @@ bool is_passed(const PurePursuit<T>& law, const AlongSegment<T>& s, const T& /*c
   return !(goal_along_m(law, s) < s.length_m);
 }
 
-/// Distance from the line of the current or the last segment, whichever is nearer, because the goal
-/// passes a corner before the vehicle does.
+/// Distance from the current or the previous segment's line, whichever is nearer: the vehicle is
+/// still on the previous segment when the goal has passed the corner.
 template <class T>
 T distance_off_m(const Polyline<T, PurePursuit<T>>& line, int segment,
                  const Position<T>& position_m, const AlongSegment<T>& s) {
@@ -58,10 +58,10 @@ T distance_off_m(const Polyline<T, PurePursuit<T>>& line, int segment,
   return is_nearer ? before.cross_track_m : s.cross_track_m;
 }
 
-/// Part of guide(): the heading to the goal, which is s_g along the segment from A to B (Coulter,
-/// Implementation of the pure pursuit path tracking algorithm, 1992; the heading to the goal
-/// replaces the arc, because a heading law follows):
+/// Part of guide(): the heading to the goal, which is s_g along the segment from A to B:
 ///   psi_d = psi_AB - beta - atan2(e, s_g - s)
+/// (Coulter, Implementation of the pure pursuit path tracking algorithm, 1992. His law commands an
+/// arc to the goal; here the heading law turns the vehicle to the heading of the goal.)
 template <class T>
 T approach_rad(const PurePursuit<T>& law, const AlongSegment<T>& s, const LineMotion<T>&,
                T& /*memory*/) {

@@ -1,7 +1,7 @@
-/// Stanley, a law for lines. Freestanding C++14.
+/// Stanley, a guidance law that follows a line. Freestanding C++14.
 ///
-/// The approach angle grows with the time that the vehicle takes to drive the distance from the
-/// line, so that the approach is as smooth at any speed.
+/// The approach angle depends on the distance from the line divided by the speed, so that the
+/// approach is equally smooth at every speed.
 #pragma once
 
 #include "awmr/control/guidance/line.h"
@@ -30,8 +30,9 @@ struct Stanley {
 /// Part of guide(), rad:
 ///   psi_d = psi_AB - beta - atan(k e/(k_s + u))
 /// (Hoffmann, Tomlin, Montemerlo, Thrun, Autonomous automobile trajectory tracking for off-road
-/// driving, 2007; here e is that of the centre of gravity and the heading follows psi_d, in place of
-/// the front axle and the steering angle). A vehicle that rolls backward counts as at rest.
+/// driving, 2007. They use the offset of the front axle and command the steering angle; here e is
+/// that of the centre of gravity, and psi_d is commanded.) A vehicle that rolls backward counts as
+/// at rest.
 template <class T>
 T approach_rad(const Stanley<T>& law, const AlongSegment<T>& s, const LineMotion<T>& motion,
                T& /*memory*/) {

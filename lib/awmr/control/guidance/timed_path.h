@@ -1,4 +1,4 @@
-/// Following a timed path. Freestanding C++14.
+/// Guidance along a timed path, with and without position feedback. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/guidance/position.h"
@@ -46,7 +46,8 @@ struct PathGuidance {
   T speed_mps;       ///< u_d, m/s, >= 0
 };
 
-/// Below this speed, m/s, a path has no direction (a cusp or reversal): the heading is held.
+/// Below this speed of its point, m/s, a path has no direction (a cusp or reversal): the heading is
+/// held.
 template <class T>
 constexpr T path_speed_min_mps() {
   return T(1e-4);
@@ -68,12 +69,13 @@ AWMR_CALLED PathGuidance<T> open_path(const PathPoint<T>& path, const T& held_ra
           (path.vx_mps * path.ay_mps2 - path.vy_mps * path.ax_mps2) / speed2, sqrt(speed2)};
 }
 
-/// Position feedback, this project's form. With e_p = p_d - p, k = gain_per_s > 0, the direction t
-/// of the path and w = p_d_dot + k e_p:
+/// Direction and speed of the path with position feedback, this project's addition to the paper.
+/// With the position error e_p = p_d - p, k = gain_per_s > 0, the unit vector t along the path and
+/// w = p_d_dot + k e_p:
 ///   psi_d = atan2(w_y, w_x) - beta
 ///   u_d   = max(0, |p_d_dot| + k e_p . t)
-/// On the path, the speed is the path's; behind it, the vehicle catches up. `sideslip` is beta,
-/// rad, and `held_rad` as in open_path().
+/// At the path's point, the speed is that of the path; behind the point, the vehicle catches up.
+/// `sideslip` is beta, rad; `held_rad` as in open_path().
 template <class T>
 AWMR_CALLED PathGuidance<T> closed_path(const PathPoint<T>& path, const T& gain_per_s,
                                         const Position<T>& position_m, const T& sideslip,

@@ -1,4 +1,4 @@
-/// Waypoints by line of sight. Freestanding C++14.
+/// Guidance to waypoints by line of sight. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/flash.h"
@@ -7,7 +7,7 @@
 
 namespace awmr {
 
-/// Waypoints, in order.
+/// Waypoints, in the order in which they are reached.
 template <class T>
 struct Waypoints {
   const Position<T>* points_m;  ///< not owned; `count` of them
@@ -42,7 +42,8 @@ struct WaypointGuidance {
   bool finished;  ///< no waypoint is left: psi_d holds the last line of sight
 };
 
-/// True beyond the perpendicular to the leg through its end. Never true for a leg of zero length.
+/// True if the position is beyond the perpendicular to the leg through the end of the leg. Never
+/// true for a leg of zero length.
 template <class T>
 bool is_past(const Position<T>& position_m, const Position<T>& leg_start_m,
              const Position<T>& leg_end_m) {
@@ -86,7 +87,7 @@ AWMR_CALLED WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Posit
   return guide(waypoints, acceptance_m2, position_m, progress);
 }
 
-/// Fraction of the speed at the last waypoint, so that the vehicle reaches it.
+/// Fraction of the speed at the last waypoint: above 0, so that the vehicle reaches the waypoint.
 template <class T>
 constexpr T arrival_share_min() {
   return T(0.1);

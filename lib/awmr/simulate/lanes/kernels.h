@@ -1,4 +1,5 @@
-/// The kernels of the program that this processor can run. Private to simulate/.
+/// The kernels (compiled steps of the closed loop for each instruction set) that this processor can
+/// run. Private to simulate/.
 #pragma once
 
 #include <vector>

@@ -1,7 +1,6 @@
-/// pow, sin, cos, atan, atan2 and the wrap of an angle for lanes. Polynomials are Chebyshev fits on
-/// the reduced interval, their error below 1e-17 of the result. A lane whose argument is outside
-/// the range of a reduction uses the C library. Largest errors over these ranges:
-/// tests/simulate/lanes_test.cpp.
+/// pow, sin, cos, atan, atan2 and the wrap of an angle for lanes. The polynomials are Chebyshev fits
+/// on the reduced interval, with an error below 1e-17 of the result. For an argument outside the
+/// range of a function, the result is NaN. tests/simulate/lane_math_test.cpp measures the errors.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +14,8 @@ namespace AWMR_LANES {
 
 using Bits = xsimd::batch<std::uint64_t, xsimd::AWMR_LANES_ARCH>;
 
-/// Reinterprets the 64 bits of each lane. xsimd 9 and later name the number in the cast, earlier
-/// ones the register.
+/// Reinterprets the 64 bits of each lane. The cast of xsimd 9 and later takes the type of a number,
+/// that of earlier versions the type of a register.
 AWMR_LANE_INLINE Bits to_bits(const Register& x) {
 #if XSIMD_VERSION_MAJOR < 9
   return xsimd::bitwise_cast<Bits>(x);
@@ -32,12 +31,12 @@ AWMR_LANE_INLINE Register to_register(const Bits& x) {
 #endif
 }
 
-/// NaN if `in_range` is false.
+/// `result`, or NaN where `in_range` is false.
 AWMR_LANE_INLINE Lanes only_where(const LaneMask& in_range, const Lanes& result) {
   return select(in_range, result, Lanes(__builtin_nan("")));
 }
 
-/// c[0] + c[1] x + ... by two Horner schemes, for the even and the odd powers.
+/// c[0] + c[1] x + ..., by one Horner scheme for the even powers and one for the odd powers.
 template <int N>
 AWMR_LANE_INLINE Lanes polynomial(const double (&c)[N], const Lanes& x) {
   const Lanes z = x * x;
@@ -48,7 +47,7 @@ AWMR_LANE_INLINE Lanes polynomial(const double (&c)[N], const Lanes& x) {
     last = before;
     before = next;
   }
-  // before has the terms from c[0] on, last those from c[1] on.
+  // `before` is the scheme that starts with c[0], `last` the one that starts with c[1].
   return fma(last, x, before);
 }
 
@@ -65,7 +64,7 @@ AWMR_LANE_INLINE Split split(const Lanes& x) {
   Split result;
   for (int i = 0; i < kRegisters; ++i) {
     const Bits bits = to_bits(x.part[i]);
-    // The biased exponent of x/sqrt(1/2), and below it its mantissa.
+    // The biased exponent of x/sqrt(1/2).
     const Bits biased = (bits + Bits(kOne - kRootHalf)) >> 52;
     // An integer n < 2^52 in the mantissa of 2^52 gives 2^52 + n.
     result.k.part[i] =
@@ -116,8 +115,8 @@ struct SinCos {
   Lanes sin, cos;
 };
 
-/// The reduction to |r| <= pi/4 has three parts of pi/2, of which the first two have 33 bits, so
-/// that their products with a quadrant up to 2^20 are exact.
+/// Largest |angle|, rad, for sin and cos. The reduction to |r| <= pi/4 subtracts pi/2 in three parts.
+/// The first two have 33 bits, so that their products with a quadrant up to 2^20 are exact.
 constexpr double kLargestAngle = 0x1p20;
 
 AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
@@ -134,9 +133,9 @@ AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
   const Lanes z = r * r;
   const Lanes s = fma(r * z, polynomial(kSin, z), r);
   const Lanes c = fma(z * z, polynomial(kCos, z), fma(z, Lanes(-0.5), Lanes(1.0)));
-  // Odd quadrants swap the two: their last bit is shifted so that it gives the number 2. The second
-  // bit is the sign of the sine, and one quadrant later that of the cosine: it is shifted to the
-  // sign bit.
+  // Odd quadrants swap sine and cosine: the last bit of the quadrant is shifted so that it makes the
+  // number 2. The second bit of the quadrant is the sign of the sine, and that of quadrant + 1 the
+  // sign of the cosine: it is shifted to the sign bit.
   const LaneMask swapped = by_register<LaneMask>(
       [](const Register& whole) {
         const Bits odd = (to_bits(whole) & Bits(std::uint64_t{1})) << 62;
@@ -155,7 +154,7 @@ AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
   return {with_sign(select(swapped, c, s), 0), with_sign(select(swapped, s, c), 1)};
 }
 
-/// NaN for |x| > kLargestAngle.
+/// sin and cos; NaN for |x| >= kLargestAngle.
 AWMR_LANE_INLINE Lanes sin(const Lanes& x) {
   return only_where(abs(x) < Lanes(kLargestAngle), sin_cos_in_range(x).sin);
 }
@@ -178,7 +177,7 @@ AWMR_LANE_INLINE Lanes angle_ahead(const Lanes& y, const Lanes& x) {
   const LaneMask high = x < a * Lanes(kTanEighth);
   const Lanes above = select(low, a, select(high, -x, a - x));
   const Lanes below = select(low, x, select(high, a, a + x));
-  // Both 0: 0/1.
+  // At the origin, 0/1 replaces 0/0.
   const Lanes t = above / select(below > Lanes(0.0), below, Lanes(1.0));
   const Lanes z = t * t;
   const Lanes base =
@@ -189,7 +188,7 @@ AWMR_LANE_INLINE Lanes angle_ahead(const Lanes& y, const Lanes& x) {
 
 AWMR_LANE_INLINE Lanes atan(const Lanes& x) { return angle_ahead(x, Lanes(1.0)); }
 
-/// In (-pi, pi]; 0 for (0, 0).
+/// The angle of (x, y) in (-pi, pi]; 0 for (0, 0).
 AWMR_LANE_INLINE Lanes atan2(const Lanes& y, const Lanes& x) {
   const Lanes ahead = angle_ahead(y, abs(x));
   const Lanes half_turn = select(y < Lanes(0.0), Lanes(-pi<double>()), Lanes(pi<double>()));
@@ -198,7 +197,7 @@ AWMR_LANE_INLINE Lanes atan2(const Lanes& y, const Lanes& x) {
 
 AWMR_LANE_INLINE Lanes hypot(const Lanes& x, const Lanes& y) { return sqrt(x * x + y * y); }
 
-/// wrap_angle() of control/controller.h without its loops: |n| turns of 2 pi at once.
+/// wrap_angle() of control/wrap_angle.h; it removes all turns at once instead of in loops.
 AWMR_LANE_INLINE Lanes wrap_angle(const Lanes& angle_rad) {
   constexpr double kTurn = 0x1.921fb54442d18p+2;
   constexpr double kTurnRest = 0x1.1a62633145c07p-52;

@@ -1,9 +1,10 @@
-/// A batch of doubles, one lane per trajectory: the scalar type with which the templates of model/
-/// and control/ simulate several vehicles at once. For kernel files only: see kernel.h.
+/// A batch of doubles, one lane per run: the scalar type with which the templates of model/ and
+/// control/ simulate several vehicles at once. For kernel files only (kernel.inc).
 ///
-/// A kernel file defines AWMR_LANES, the name of its instruction set, before it includes this. The
-/// name is part of every type here, and so of every template instantiated with one. Otherwise the
-/// linker would merge functions of the same name, and could select one for a newer processor.
+/// A kernel file defines AWMR_LANES, the name of its instruction set, before it includes this file.
+/// The name is part of every type here, and so of every template instantiated with such a type.
+/// Without it, the linker would merge functions of the same name, and could select one that needs a
+/// newer processor.
 #pragma once
 
 #include <xsimd/xsimd.hpp>
@@ -22,11 +23,11 @@ namespace AWMR_LANES {
 using Register = xsimd::batch<double, xsimd::AWMR_LANES_ARCH>;
 using RegisterMask = xsimd::batch_bool<double, xsimd::AWMR_LANES_ARCH>;
 
-/// Registers per batch. With two, one register computes while the other waits for its result, which
-/// needs a processor with 32 registers.
+/// Registers per batch. With two, the processor computes in one register while it waits for the
+/// result in the other; this needs a processor with 32 registers.
 constexpr int kRegisters = AWMR_LANES_REGISTERS;
 
-/// Truth by lane.
+/// One bool per lane.
 struct LaneMask {
   RegisterMask part[kRegisters];
   LaneMask() = default;
@@ -35,7 +36,7 @@ struct LaneMask {
   }
 };
 
-/// Numbers by lane. Converts from double as a scalar would.
+/// One double per lane. Converts from double, so that templates can write T(1.0).
 struct Lanes {
   Register part[kRegisters];
   Lanes() = default;
@@ -92,7 +93,7 @@ AWMR_LANES_OPERATOR(LaneMask, LaneMask, &&, &)
 AWMR_LANES_OPERATOR(LaneMask, LaneMask, ||, |)
 #undef AWMR_LANES_OPERATOR
 
-/// Flips the sign bit: xsimd 8 subtracts from 0 for AVX-512, which does not change the sign of 0.
+/// Flips the sign bit. For AVX-512, xsimd 8 would compute 0 - x, which is 0 and not -0 for x = 0.
 AWMR_LANE_INLINE Lanes operator-(const Lanes& a) {
   return by_register([](const Register& x) { return x ^ Register(-0.0); }, a);
 }
@@ -122,8 +123,7 @@ AWMR_LANE_INLINE LaneMask select(const LaneMask& m, const LaneMask& a, const Lan
   return (m && a) || (!m && b);
 }
 
-/// a b + c, rounded once. (xsimd 8 has no such function for AVX-512, and
-/// rounds twice there.)
+/// a b + c, rounded once. (For AVX-512, xsimd 8 rounds twice.)
 AWMR_LANE_INLINE Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
   return by_register(
       [](const Register& x, const Register& y, const Register& z) {
