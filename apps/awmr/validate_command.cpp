@@ -135,8 +135,9 @@ Result<Provenance> provenance_of(const ValidateCommand& command) {
   return Provenance{"validate", std::move(options), std::move(inputs)};
 }
 
-/// Adds a warning (`log-of-the-fit`) for each log that the model was fitted to, by SHA-256. The
-/// model is the first input, and no other input of a validation is one of the model's.
+/// Adds the warning `log-of-the-fit` for each log that the model was fitted to. Compares the
+/// SHA-256 of the validation's inputs, of which the first is the model, with those of the model's
+/// inputs.
 void note_fitted_logs(const Model& model, const Provenance& provenance,
                       std::vector<Finding>& findings) {
   for (const InputFile& input : provenance.inputs) {
@@ -197,7 +198,7 @@ void add_drive_options(CLI::App& sub, ValidateCommand& command) {
   sub.add_option("--draws", command.acceptance.draws, "Predicted drives (default 200)")
       ->check(within(39, 10000))
       ->needs(scenario);
-  sub.add_option("--seed", command.acceptance.seed, "Of the draws (default 1)")
+  sub.add_option("--seed", command.acceptance.seed, "Random seed of the draws (default 1)")
       ->check(within<std::uint64_t>(0, kAnySeed))
       ->needs(scenario);
   sub.add_option("--from", command.acceptance.from_s,
