@@ -15,7 +15,7 @@ constexpr float kSampleTime_s = 0.03F;
 const YawSplit<float> kCombinedSplit =
     yaw_split<float>(YawMode::kCombined, CombinedSplit::kRedistribute);
 
-/// Wide enough for the obstacles of these tests to matter.
+/// Avoidance parameters with which the obstacles of these tests change the heading.
 constexpr Avoidance<float> kAvoidance{.mmd_base_m = 2.0F,
                                       .mmd_per_speed_s = 1.0F,
                                       .sigma_rad = 0.2F,
@@ -381,7 +381,8 @@ TEST_F(AutopilotLeads, ByWhatWasRequestedLast) {
   EXPECT_EQ(heading(), 0.3F);
 }
 
-/// The same fix in each step: the estimate goes on with speed and heading, backward too.
+/// The input has the same fix in each step, and the estimated position moves with speed and
+/// heading, also backward.
 TEST_F(AutopilotLeads, ByAPositionEstimatedFromTheFixesOfAReceiver) {
   filter_position(autopilot_, position_filter<float>(1.5, 0.2, 0.03));
   follow_waypoints(autopilot_, {kPoints, 1, 0.5F, false});

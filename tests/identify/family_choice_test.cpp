@@ -56,7 +56,7 @@ TEST(Multistart, MostStartsLeadToTheOptimum) {
       }
     }
   }
-  // With whole windows of 10 s it was one of seven.
+  // With windows of 10 s throughout, only one of seven searches ended at the optimum.
   EXPECT_GT(there, 2 * all / 3) << there << " of " << all;
 }
 
@@ -114,7 +114,8 @@ DrivingLog ramps_with_friction(double noise_mps, std::uint64_t seed) {
     log.steering_command_rad->push_back(0.0);
     speed.value.push_back(u + noise_mps * noise(chance));
     speed.fresh.push_back(true);
-    // Over a step in one direction s: u(t) = u_end + (u - u_end) exp(-a t/m'), u_end = (thrust - s c)/a.
+    // Over a step in one direction s: u(t) = u_end + (u - u_end) exp(-a t/m'), u_end = (thrust - s
+    // c)/a.
     double left_s = kStep_s;
     while (left_s > 0.0) {
       if (u == 0.0 && std::abs(thrust) <= kCoulomb) break;
@@ -186,7 +187,7 @@ TEST(Families, OfMotorsThatLagLeaveTheMassRightWhereOnlyTheSpeedIsMeasured) {
   }
 }
 
-/// The parameter is the noise of the speed in m/s.
+/// Test parameter: standard deviation of the speed's noise, m/s.
 class FamiliesAtNoise : public ::testing::TestWithParam<double> {};
 
 TEST_P(FamiliesAtNoise, AreIdentifiedRightWithFrictionFromRest) {
@@ -204,7 +205,7 @@ TEST_P(FamiliesAtNoise, AreIdentifiedRightWithFrictionFromRest) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Short, FamiliesAtNoise, ::testing::Values(1e-5, 5e-2));
-/// Also between the extremes.
+/// Noise between the extremes of `Short`.
 INSTANTIATE_TEST_SUITE_P(Long, FamiliesAtNoise, ::testing::Values(5e-4, 1e-3, 5e-3, 2e-2));
 
 TEST(Families, DropTermsOfThePreviousFamily) {

@@ -152,8 +152,8 @@ ByJets by_jets(const DrivingLog& log, double step_s, Drive drive = Drive::kFourW
   return found;
 }
 
-/// Tolerance relative to the largest derivative of the column over the log, or to `least`. `but`: a
-/// column to skip.
+/// Compares states and derivatives. `tolerance` is relative to the largest derivative of the column
+/// over the log, at least to `least`. `but`: a column to skip.
 void expect_equal(const std::vector<State<Jet>>& jets, const std::vector<LinearMotion>& motions,
                   double tolerance, int but = -1, double least = 1e-9) {
   ASSERT_EQ(jets.size(), motions.size());
@@ -176,9 +176,10 @@ void expect_equal(const std::vector<State<Jet>>& jets, const std::vector<LinearM
   }
 }
 
-/// Rounding of 300 steps.
+/// Tolerance for the rounding of 300 steps.
 constexpr double kRounding = 1e-11;
-/// The time of a stop within a step follows from the rates there, not from the step's polynomial.
+/// Tolerance with stops: the time of a stop within a step is computed from the rates at the stop,
+/// not from the polynomial of the step.
 constexpr double kStops = 5e-4;
 
 TEST(LinearReplay, WithStopsHasTheStatesAndTheDerivativesOfJets) {

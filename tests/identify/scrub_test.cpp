@@ -110,7 +110,7 @@ TEST(Scrub, RefusesANegativeScrub) {
 }
 
 TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
-  // 0.2 r m, from 0.05 to 0.3 rad/s.
+  // The scrub moment is 0.2 r m, r from 0.05 to 0.3 rad/s.
   constexpr int kTables = 200;
   int findings = 0, held = 0;
   for (std::uint64_t seed = 1; seed <= kTables; ++seed) {
@@ -131,7 +131,7 @@ TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
   }
   RecordProperty("held", held);
   EXPECT_EQ(findings, kTables);
-  // Both ends must hold, each with 97.5 % on its side.
+  // Both ends of the reported range must be right, each with a probability of 97.5 %.
   EXPECT_GT(held / double(kTables), 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / kTables));
 }
 

@@ -21,7 +21,7 @@ const Finding* finding(const Model& model, const std::string& code) {
   return nullptr;
 }
 
-/// Twelve surge runs on a curve, with speed errors of `noise` deviations in a fixed pattern.
+/// Twelve surge runs of a resistance law, with normal speed errors of standard deviation `noise`, m/s.
 TrialData runs_on(const Resistance<double>& law, double dead_zone, double noise,
                   std::uint64_t seed) {
   Random random(seed, 3);
@@ -42,8 +42,8 @@ IdentifyOptions family(std::optional<Family> family) {
 }
 
 TEST(Families, ExactRunsGiveTheirOwnFamilyBack) {
-  // Each law belongs to its family with other values. The speeds are exact, so only rounding
-  // remains: 1e-12 of the speeds times a condition number below 1e4.
+  // One law of each family. The speeds are exact, so only rounding remains: 1e-12 of the speeds
+  // times a condition number below 1e4.
   const struct {
     Family family;
     Resistance<double> law;
@@ -126,7 +126,8 @@ TEST(Losses, RobustOnesIgnoreABadRunThatSquaresFollow) {
   for (const Loss loss : {Loss::kHuber, Loss::kCauchy, Loss::kTukey}) {
     IdentifyOptions options;
     options.loss = loss;
-    options.noise = ErrorModel::kSpeed;  // where runs_on() puts it; a loss alone leaves it on force
+    options.noise =
+        ErrorModel::kSpeed;  // the errors of runs_on(); the default with a loss is force
     const auto result = identify(vehicle(), data, options, {});
     ASSERT_TRUE(result);
     const Estimate& beta = result->model[ParameterId::kSurgeBeta];

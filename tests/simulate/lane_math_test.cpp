@@ -93,7 +93,8 @@ int main() {
   const auto sine = [](const Lanes& x, const Lanes&) { return sin(x); };
   const auto cosine = [](const Lanes& x, const Lanes&) { return cos(x); };
   for (const double most : {1.0, 100.0, 1e6}) {
-    // Near a root the error is that of 1.
+    // Errors are relative to at least 1, because near a root of sin or cos the rounding of the
+    // argument determines them.
     check(
         "sin", sine, [](long double x, long double) { return sinl(x); },
         [&](double& x, double& y) { one(x, y, most); }, 1.0, 1.5);

@@ -198,7 +198,7 @@ TEST(Battery, SagIsTheVoltageThatTheCurrentsLeave) {
   const double wheel_mps[2] = {1.2 - 0.7 * kHalfTrack_m, 1.2 + 0.7 * kHalfTrack_m};
   double voltage = 1.0;
   for (int i = 0; i < 200; ++i) {
-    double drawn = 0.0;  // over the stall current of one motor
+    double drawn = 0.0;  // battery current over the stall current of one motor
     for (const auto& [c, w] :
          {std::pair(command.left, wheel_mps[0]), std::pair(command.right, wheel_mps[1])}) {
       drawn += 2.0 * c * (voltage * c - kBackEmf * w);
@@ -267,7 +267,8 @@ TEST(GpsReceiver, BetweenFixesAndForItsLatencyThePositionIsCarriedOn) {
   EXPECT_GT(largest_error_m(run_of(with_gps(0.5, {})), 1.0, 60.0), 0.1 * 0.5);
 }
 
-/// The last fix is up to 0.19 s + latency old, at 1 m/s.
+/// At 1 m/s the held position is off by up to 0.69 m: the last fix is up to 0.19 s + 0.5 s of
+/// latency old.
 TEST(GpsReceiver, WithoutAnEstimateTheLastFixIsHeld) {
   Scenario s = with_gps(0.5, {});
   s.sensors->speed.bias = 0.0;
@@ -297,7 +298,8 @@ ControlOptions::Observer observer(bool anti_windup) {
   return {.bandwidth_radps = 5.0, .yaw_max_m = 0.3, .surge_max = 0.5, .anti_windup = anti_windup};
 }
 
-/// Errors of neighbouring samples have the correlation exp(-T_s/tau), and the spread of independent ones.
+/// Errors of neighbouring samples have the correlation exp(-T_s/tau) and the given standard
+/// deviation.
 TEST(SensorChannels, HaveNoiseWithACorrelationTime) {
   Sensors sensors;
   sensors.heading = {.noise = 0.02, .correlation_s = 0.2};
@@ -359,7 +361,8 @@ TEST(Motors, TheForceFollowsItsCommandWithTheirTimeConstant) {
     u += 0.5 * kStep_s * (first + accel(u + kStep_s * first, next));
     force = next;
   }
-  // Held at its mean over each sample, the force is accurate to (T_s/tau)^2/24 of its change.
+  // The simulator holds each force at its mean over the sample, with an error of (T_s/tau)^2/24 of
+  // its change.
   EXPECT_NEAR(run.rows.back().state.u_mps, u, 1e-3 * u);
   EXPECT_LT(run.rows[5].state.u_mps, run_of(
                                          [&] {

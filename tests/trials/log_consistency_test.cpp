@@ -287,8 +287,8 @@ struct WrongTurn {
   std::function<void(DrivingLog&)> make;
   std::string column;
   std::string words;
-  /// Minimum number of ten drives whose first ten seconds reveal it. A unit shows at once, a sign
-  /// only when the drive makes it observable.
+  /// Minimum number of ten drives in which the first ten seconds reveal the fault. A wrong unit
+  /// shows at once, a wrong sign only when the drive makes it observable.
   int early = 9;
 };
 
@@ -425,8 +425,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "x_m", "mm"}),
     [](const auto& turn) { return turn.param.name; });
 
-// About 0.2 m/s and fixes of 0.2 m: the ends of a window of 1 s lie sqrt(0.2^2 + 4*0.2^2) = 0.45 m apart,
-// 2.2 times as far as the vehicle drives, which is beyond the 1.6 of an agreement.
+// About 0.2 m/s and fixes of 0.2 m: the ends of a window of 1 s lie sqrt(0.2^2 + 4*0.2^2) = 0.45 m
+// apart, 2.2 times as far as the vehicle drives, which is beyond the 1.6 of an agreement.
 TEST(LogConsistency, PositionsAreNoOtherUnitWhereTheirNoiseIsTheDistance) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     DrivingLog log = sound_log(seed);
@@ -591,7 +591,7 @@ TEST(LogConsistency, ASpeedOrRateThatNoVehicleHasIsImplausibleByItself) {
 }
 
 TEST(LogConsistency, AGyroInDegreesIsFoundByTheSteeringAngleWithoutAHeading) {
-  constexpr double kGently = 0.15;  // so that no rate is implausible for a vehicle
+  constexpr double kGently = 0.15;  // slow turns, so that also the rate in deg/s is plausible
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     DrivingLog log =
         sound_log(seed, {.position = false, .heading = false, .sides_apart = false, .noise = 0.2});

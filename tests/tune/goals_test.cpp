@@ -142,7 +142,7 @@ TEST(Goal, ThatIsHardHoldsOnTheDrawsOfTheSearchAndMovesTheGains) {
   without.goals.clear();
   const Result<Tuning> free = tune(model, without);
   ASSERT_TRUE(free) << to_text(free.error());
-  // Lower activity than the search would choose by itself.
+  // The goal requires 10 % less activity than the search chooses without a goal.
   double activity = 0.0;
   for (const ModeScore& score : free->scores) {
     if (score.mode == YawMode::kDifferential) activity = score.metrics.control_variation;
