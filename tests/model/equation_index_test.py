@@ -1,7 +1,7 @@
 """Checks the index of the paper's equations, lib/awmr/model/README.md, against the citations in lib/.
 
-    equation_index_test.py           checks the tree, then that each kind of fault is found
-    equation_index_test.py --list    prints every citation with what it stands at, for a new row
+    equation_index_test.py           checks the sources, then that each kind of fault is found in a faulty copy
+    equation_index_test.py --list    prints every citation with the declaration below it, for a new row
 """
 
 import functools
