@@ -163,7 +163,7 @@ std::string summary_of(const ValidateCommand& command, const Validation& validat
 
 void add_model_options(CLI::App& sub, ValidateCommand& command) {
   add_file(sub, "--model", command.model, "model.json from identify")->required();
-  add_file(sub, "--gains", command.gains, "gains.json: also run the closed-loop claims");
+  add_file(sub, "--gains", command.gains, "gains.json: also check the claims on the closed loop");
   sub.add_option("--tolerance", command.validate.tolerance,
                  "Largest accepted RMS relative error of a kind of trial (default 0.15)")
       ->check(within(1e-9, 1e6));
@@ -175,7 +175,8 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& colum
   sub.add_option("--horizon", command.horizon_s, "Prediction horizon for logs, s (default 10)")
       ->check(within(0.01, 1e6));
   sub.add_option("--log-tolerance", command.log_tolerance,
-                 "Largest accepted NRMSE of a channel over a window (default 0.3)")
+                 "Largest accepted normalised RMS prediction error (NRMSE) of a channel over a "
+                 "window (default 0.3)")
       ->check(within(1e-9, 1e6));
   sub.add_flag("--tyres", command.tyres,
                "Also fit friction and cornering stiffness of four wheels on tyres to the logs, and "

@@ -88,7 +88,8 @@ void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std
       "epsilon, rad/s: half width of the boundary layer of S", "/heading/epsilon");
   if (gains.heading.friction_width_radps > feed_forward_rest_speed<double>()) {
     add("AWMR_HEADING_FRICTION_WIDTH_RADPS", gains.heading.friction_width_radps,
-        "w0, rad/s: below it Coulomb friction is fed forward in proportion to rate and error",
+        "w0, rad/s: rate below which fed-forward Coulomb friction is proportional to rate and "
+        "error",
         "/heading/friction_width_radps");
   }
   add("AWMR_SPEED_MU", gains.speed.mu, "mu_s, m/s^2: corrective surge acceleration", "/speed/mu");
