@@ -112,7 +112,7 @@ TEST(BreakEven, IsRefusedForPartsAndSeveralSetsOfGains) {
   EXPECT_EQ(exit_code(sets.error()), 2);
 }
 
-/// The comparison with scrub measured in the model's differential turns.
+/// Comparison of a model whose differential turns have a measured scrub moment.
 Comparison table_with(const std::optional<YawScrub>& scrub, std::optional<double> held_m = {}) {
   Model model = uncertain_model();
   model.yaw_scrub = scrub;
@@ -131,7 +131,7 @@ YawScrub scrub_of(const Interval& scrub_m) {
           {radians(20.0), radians(200.0)}};
 }
 
-/// Break-even moments of the model without scrub.
+/// Break-even scrub moments, computed with a model without scrub.
 std::vector<double> ending_moments_m() {
   std::vector<double> moments_m;
   const Comparison comparison = table_with(std::nullopt);

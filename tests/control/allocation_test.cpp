@@ -50,7 +50,7 @@ TEST(Allocation, DeliversExactlyWhatIsRequestedInsideTheLimits) {
   }));
 }
 
-/// An independent slow reference: solves (41) for each mode by itself.
+/// Independent reference, slow: solves (41) numerically for each mode.
 class Reference41 {
  public:
   Reference41(const AllocationLimits<double>& its_limits) : l(its_limits) {}
@@ -220,7 +220,8 @@ TEST(Allocation, TheSteeringsLimitRisesWithTheThrustAndCombinedMakesUpForIt) {
   EXPECT_NEAR(delivered(both).tau_speed, 0.015625, 1e-14);
 }
 
-/// An AVR rounds subnormal quotients differently from a host, so there must be none.
+/// No quotient of the allocation may be subnormal, because an AVR rounds subnormal numbers
+/// differently from a host.
 TEST(Allocation, OfFloatsSteersByNoSubnormalAngle) {
   const AllocationLimits<float> l = paper_controller_of<float>().limits;
   for (const YawMode mode : {YawMode::kSteering, YawMode::kCombined}) {

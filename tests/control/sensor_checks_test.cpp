@@ -22,7 +22,7 @@ std::string sentence(const std::string& body) {
 constexpr const char* kGood =
     "GPRMC,123519.20,A,4807.0380000,N,01131.0000000,E,022.4,084.4,230394,003.1,W,A";
 
-/// Parser verdict on the characters of a line; kOther if they are not a sentence.
+/// Parses the characters of a line and returns the verdict; kOther if they are not a sentence.
 GpsSentence read(const std::string& line, GpsFix& fix) {
   RmcReader reader;
   GpsSentence kind = GpsSentence::kOther;
@@ -93,7 +93,7 @@ TEST(Rmc, RefusesEmptyAndMalformedFields) {
   }
 }
 
-/// A port with a buffer of 64 characters, as Arduino's.
+/// Serial port with a receive buffer of 64 characters, like Arduino's.
 struct Port {
   std::string waiting;
   int most = 0;
@@ -178,7 +178,7 @@ TEST(FrozenCheck, FindsTheSameWordForHalfASecondAlsoAcrossTheClocksWrap) {
   }
 }
 
-/// rad/s per count of the board's gyroscope.
+/// Resolution of the board's gyroscope, rad/s per count.
 constexpr float kPerWord = 500.0F / 32768.0F * 0.0174532925F;
 
 GyroCalibration calibrated(double rate_radps, double sway_radps, bool has_compass) {

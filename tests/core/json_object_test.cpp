@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A document under test; its reading faults as `PLACE: MESSAGE`.
+/// Fixture with a document; faults() returns the faults of reading it as `PLACE: MESSAGE`.
 class JsonObjectTest : public ::testing::Test {
  protected:
   JsonObject root(const char* text) {

@@ -41,7 +41,8 @@ DisturbanceTerm constant(double value, double from_s = 0.0) {
 }
 
 TEST(Disturbances, AConstantYawMomentLeavesTheLawsSteadyError) {
-  // In the layer at rest: I'z mu lambda e/eps = -N  =>  e = -N eps/(I'z mu lambda).
+  // Steady heading error e under the yaw moment N, in the boundary layer at rest:
+  //   I'z mu lambda e/eps = -N  =>  e = -N eps/(I'z mu lambda)
   Scenario s = straight();
   s.disturbance.yaw = {constant(0.01)};
   const double expected = 0.01 * 12.0 / (0.01212 * 50.0 * 3.0);
@@ -122,7 +123,8 @@ TEST(Wheels, ASlipperyPatchUnderTheLeftWheelsTurnsLeftOnlyThere) {
   EXPECT_EQ(run_of(s, YawMode::kDifferential).rows.back().state.psi_rad, 0.0);
 }
 
-/// A wheel on ice transmits no more than the ice allows, however its motor produces the force.
+/// A wheel on a slippery patch transmits at most the friction of the ground, also if back-EMF
+/// brakes it.
 TEST(Wheels, OnASlipperyPatchBackEmfBrakesNoMoreThanTheGroundHolds) {
   Scenario s = straight(1.0);
   s.patches = {{.centre_m = {0.0, 0.0}, .radius_m = 5.0, .force_max = 0.1}};
@@ -233,7 +235,7 @@ TEST(SensorChannels, HaveTheirNoiseBiasAndSteps) {
   EXPECT_NEAR(std::sqrt(square / n), 0.02, 0.03 * 0.02);  // s.e. 1/sqrt(2 10^4) = 0.7 %
 }
 
-/// Largest difference between measured and true position, from `from_s` on.
+/// Largest distance of the measured from the true position between two times, m.
 double largest_error_m(const awmr::Run& run, double from_s, double to_s) {
   double largest = 0.0;
   for (const RunRow& row : run.rows) {

@@ -104,7 +104,8 @@ struct Reference {
   double psi = 0.0, rate = 0.0, acceleration = 0.0;
 };
 
-/// Filter of rate-limited heading commands, 4 rad/s, critically damped.
+/// Moves the heading reference towards `goal` by a critically damped filter of 4 rad/s with a rate
+/// limit.
 void lead(double goal, double limit, double sample_s, Reference& ref) {
   constexpr double kBandwidth = 4.0;
   const double rate = std::clamp(0.5 * kBandwidth * wrapped(goal - ref.psi), -limit, limit);
