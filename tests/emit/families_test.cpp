@@ -61,7 +61,7 @@ TEST(BackEmf, IsInTheHeaderAndOnTheChip) {
   EXPECT_THAT(autopilot_header(*firmware), HasSubstr("#define AWMR_BACK_EMF_S_PER_M 0.25f"));
 }
 
-/// The rate, at least 0, at which a rising function crosses zero; bisection.
+/// Returns the rate >= 0 at which a rising function crosses zero, by bisection.
 template <class F>
 double zero_of(const F& rising) {
   double lo = 0.0;

@@ -1,4 +1,4 @@
-/// Properties over many values: a written value reads back as the float nearest to the double.
+/// Random values: a written value reads back as the float nearest to the double.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 

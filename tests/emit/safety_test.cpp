@@ -83,7 +83,7 @@ Model rolling_robot() {
 }
 constexpr Gains<double> kRollingGains{.heading = kPaperGains.heading, .speed = {3.0, 1.0}};
 
-/// Steps of 50 ms, longer than a serial port's buffer lasts.
+/// Library with steps of 50 ms, during which a serial port's buffer would overflow.
 Model slow_robot() {
   Model model = paper_robot();
   model.vehicle.sample_time_s = 0.05;

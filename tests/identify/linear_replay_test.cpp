@@ -24,7 +24,7 @@ constexpr std::size_t kSpeedDelay = kParameterCount + 1;
 constexpr std::size_t kFirstState = kParameterCount + 2;
 using Jet = ceres::Jet<double, kColumns>;
 
-/// A family with all terms, b1 below 1 so that there is a chord at rest.
+/// Resistance with the terms of all families, and b1 below 1, so that there is a chord at rest.
 constexpr ParameterValues<double> kValues{0.9,  0.75, 0.06, 1.1,  4.0,   0.3,   0.0066,
                                           0.06, 0.05, 0.02, 0.01, 0.003, 0.015, 0.12};
 
@@ -81,7 +81,7 @@ struct ByHand {
 constexpr double kInputDelay_s = 0.033;
 constexpr double kSpeedDelay_s = 0.047;
 
-/// Coulomb friction, whose stops split steps, or none.
+/// With Coulomb friction, stops of the vehicle split integration steps.
 enum class Friction { kNone, kCoulomb };
 
 ParameterValues<double> values_with(Friction friction) {

@@ -27,8 +27,8 @@ Vehicle steered() {
   return v;
 }
 
-/// A turn at this rate with the scrub moment `scrub_m` in addition to g3; noise is a factor on its
-/// moment.
+/// A turning row at this yaw rate: its moment is g3 plus the scrub moment `scrub_m`, times the
+/// factor `noise`.
 TurningRow by_sides(double rate_radps, double scrub_m, double factor, int line) {
   const double moment_m = factor * (kTruth.a3 * std::pow(rate_radps, kTruth.b3) + scrub_m);
   const double half = moment_m / (4.0 * steered().half_track_m);
@@ -70,7 +70,7 @@ TEST(Scrub, EqualsTheExcessMomentOfDifferentialTurns) {
   EXPECT_EQ(model.yaw_scrub->rows, 4);
   EXPECT_DOUBLE_EQ(model.yaw_scrub->yaw_rate_radps.lo, 0.07);
   EXPECT_DOUBLE_EQ(model.yaw_scrub->yaw_rate_radps.hi, 0.28);
-  // Yaw resistance is that of the steered turns, with or without scrub.
+  // The identified yaw resistance is that of the steered turns, with or without scrub.
   EXPECT_EQ(model[ParameterId::kYawAlpha].value,
             identified(synthetic(kTruth, 1e-6, 1))[ParameterId::kYawAlpha].value);
   EXPECT_THAT(codes(model), Not(Contains("scrub-grows")));

@@ -21,7 +21,8 @@ const Finding* finding(const Model& model, const std::string& code) {
   return nullptr;
 }
 
-/// Twelve surge runs of a resistance law, with normal speed errors of standard deviation `noise`, m/s.
+/// Twelve surge runs of a resistance law, with normal speed errors of standard deviation `noise`,
+/// m/s.
 TrialData runs_on(const Resistance<double>& law, double dead_zone, double noise,
                   std::uint64_t seed) {
   Random random(seed, 3);
@@ -276,7 +277,7 @@ TEST(Options, ThatContradictEachOtherAreRefused) {
   EXPECT_FALSE(identify(vehicle(), data, options, {}));
 }
 
-/// Points above a straight line; exponents up to 1 can only follow at the bound.
+/// Points of a convex curve, which a power law with an exponent up to 1 fits best at the bound 1.
 SteadyProblem steeper_than_its_range(Family family) {
   SteadyProblem problem;
   problem.family = family;

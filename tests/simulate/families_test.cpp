@@ -80,7 +80,8 @@ TEST(BackEmf, IsMadeUpForByTheController) {
   }
 }
 
-/// If a speed needs more than full voltage, the vehicle drives at the speed of full voltage.
+/// If the commanded speed needs more than full voltage, the vehicle drives at the speed of full
+/// voltage.
 TEST(BackEmf, FullVoltageGivesTheNoLoadSpeedReducedByResistance) {
   const Resistance<double> surge{.alpha = 1.3157, .beta = 0.8841};
   const Plant<double> plant = geared(0.8, surge);

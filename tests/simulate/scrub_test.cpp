@@ -1,4 +1,4 @@
-/// The tyres' scrub in the 3-DOF plant: differential turns meet it, steered ones do not.
+/// Tyre scrub in the 3-DOF plant: it acts in differential turns and not in steered ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -22,7 +22,7 @@ std::vector<double> times() {
   return t_s;
 }
 
-/// A command that changes every 1.2 s, and a speed that follows within 0.3 s.
+/// Signals of a drive: a command that changes every 1.2 s, and a speed that follows within 0.3 s.
 struct Drive {
   std::vector<double> command;
   std::vector<double> speed;

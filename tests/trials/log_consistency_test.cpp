@@ -39,7 +39,8 @@ Measured measured(std::vector<double> values) {
   return {std::move(values), std::vector<bool>(rows, true), static_cast<int>(rows), false, 0.0};
 }
 
-/// Speed follows thrust in 0.3 s, yaw rate follows steering and sides in 0.15 s.
+/// Simulated log in which the speed follows the thrust in 0.3 s, and the yaw rate follows steering
+/// and left/right forces in 0.15 s.
 DrivingLog sound_log(std::uint64_t seed, const Making& making = {}, std::size_t rows = kRows) {
   Random random(seed, 11);
   DrivingLog log;
@@ -151,7 +152,7 @@ TEST(LogConsistency, RefusesAVehicleThatNeverMoves) {
   }
 }
 
-/// The findings of the channels' calibration by code.
+/// Codes of the findings on the calibration of channels.
 int calibrations(const DrivingLog& log, const std::string& code, const std::string& words = "") {
   return static_cast<int>(
       std::ranges::count_if(calibration_findings(log, {}), [&](const Finding& finding) {

@@ -124,7 +124,7 @@ TuneOptions options_with(const TuningGoal& goal) {
   return options;
 }
 
-/// Quantile of the settling time of the fresh draws in differential mode, at the goal's share.
+/// Settling time in differential mode that the goal's fraction of the fresh draws does not exceed.
 double settled_s(const Tuning& tuning) {
   for (const EvaluatedGains& evaluated : tuning.robust->evaluated) {
     if (evaluated.gains != "robust" || evaluated.mode != YawMode::kDifferential) continue;
