@@ -182,9 +182,8 @@ void bind_trials(py::module_& module) {
       py::arg("prefer") = "printed", py::arg("as_is") = false, py::arg("steady_from_logs") = false,
       "Reads the trial files of one vehicle, given as paths; `coastdown` and `log` may be lists of "
       "paths. `columns`: column mappings as in --column, such as \"speed_mps=V*0.2778\". `prefer`: "
-      "use the \"printed\" or the \"timed\" speed if a row gives both. Raises InputError with "
-      "every "
-      "fault of every file.");
+      "use the \"printed\" or the \"timed\" speed if a row gives both. Raises InputError with all "
+      "faults of all files.");
 }
 
 }  // namespace awmr::python

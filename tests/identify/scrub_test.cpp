@@ -161,7 +161,7 @@ TEST(Scrub, IsConstantForTurnsWithOneForceOrAtOneRate) {
               return row;
             }),
             0);
-  // One rate with scattered moments.
+  // All turns have the same yaw rate, with scattered moments.
   EXPECT_LE(alarms_with([](int i, double deviate) {
               return by_sides(0.2, 0.01, std::exp(0.1 * deviate), 20 + i);
             }),
