@@ -1,4 +1,4 @@
-/// rapidcheck generators of numbers.
+/// Generators of random numbers for rapidcheck.
 #pragma once
 
 #include <rapidcheck.h>

@@ -1,4 +1,4 @@
-/// Strict reading of one object.
+/// Strict reading of the keys of one JSON object.
 #include <gmock/gmock.h>
 
 #include <array>

@@ -114,8 +114,8 @@ DrivingLog ramps_with_friction(double noise_mps, std::uint64_t seed) {
     log.steering_command_rad->push_back(0.0);
     speed.value.push_back(u + noise_mps * noise(chance));
     speed.fresh.push_back(true);
-    // Over a step in one direction s: u(t) = u_end + (u - u_end) exp(-a t/m'), u_end = (thrust - s
-    // c)/a.
+    // Speed over a step with motion in the direction s:
+    //   u(t) = u_end + (u - u_end) exp(-a t/m'),   u_end = (thrust - s c)/a
     double left_s = kStep_s;
     while (left_s > 0.0) {
       if (u == 0.0 && std::abs(thrust) <= kCoulomb) break;

@@ -389,7 +389,7 @@ TEST(Log, SelectsAndReportsABetterFamily) {
 
 constexpr double kBackEmf = 0.2;
 
-/// A drive of motors with back-EMF.
+/// Log of a drive with motors that have back-EMF.
 DrivingLog geared_drive(const Truth& t, std::uint64_t seed, double duration_s = 20.0) {
   Plant<double> geared = plant(t);
   geared.back_emf_s_per_m = kBackEmf;

@@ -1,4 +1,4 @@
-/// Non-identifiable parameters are refused by name.
+/// Data that do not determine a parameter: identify refuses it by name.
 #include <gmock/gmock.h>
 
 #include <algorithm>

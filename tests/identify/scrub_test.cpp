@@ -265,7 +265,7 @@ double moment_of(const SideForces<double>& force) {
   return 2.0 * steered().half_track_m * (force.right - force.left);
 }
 
-/// g3(r) of the model's power law.
+/// Returns g3(r), m, of the model's power law.
 double resisted_m(const Model& model, double rate_degps) {
   return *model[ParameterId::kYawAlpha].value *
          std::pow(radians(rate_degps), *model[ParameterId::kYawBeta].value);

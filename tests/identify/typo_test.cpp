@@ -191,7 +191,7 @@ TEST_P(TypoInACell, EndsWithAValueOrARefusalByEveryMethodAndFamily) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Short, TypoInACell, ::testing::Values(4));
-/// Every mutation of every cell.
+/// Fits every mutation of every cell.
 INSTANTIATE_TEST_SUITE_P(Long, TypoInACell, ::testing::Values(1));
 
 TEST(Typo, AcceptsColumnsScaledToTheLimitsOfDouble) {

@@ -13,7 +13,7 @@ using awmr::testing::has_instructions;
 constexpr double kInfinity = __builtin_inf();
 const double kNaN = __builtin_nan("");
 
-/// Reproducible numbers in (0, 1).
+/// Generator of reproducible random numbers in (0, 1).
 double next_uniform() {
   static std::uint64_t state = 88172645463325252ULL;
   state ^= state << 13U;

@@ -1,4 +1,4 @@
-/// Disturbances, faults, battery, sensors, actuators, observer.
+/// Effects on a simulated run: disturbances, faults, battery, sensors, actuators, observer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -411,7 +411,7 @@ TEST(Observer, OfTheGainsWorksAsThatOfTheScenarioWhichComesFirst) {
   EXPECT_EQ(rows(bare, tuned), rows(own, kPaperGains));
   EXPECT_EQ(rows(own, slower), rows(own, kPaperGains));
   EXPECT_NE(rows(bare, slower), rows(bare, kPaperGains));
-  // An LQI has its own integral.
+  // The observer of the gains has no effect with an LQI, which has its own integral.
   Scenario lqi = bare;
   lqi.control.lqi = {
       .heading_rad = 0.05, .yaw_rate_radps = 1.0, .integral_rad_s = 0.05, .tau_turn_m = 0.1};

@@ -210,9 +210,10 @@ TEST(DelayMargin, IsWhereTheLargestEigenvalueReachesTheCircle) {
   }
 }
 
-/// s^2 + (lambda + k) s + lambda k with an ideal plant: L = ((lambda + k) s + lambda k)/s^2 has the
-/// crossover w^2 = (b^2 + sqrt(b^4 + 4 c^2))/2, b = lambda + k, c = lambda k, and the margin atan(b
-/// w/c)/w. A sample of T_s holds T_s/2 of it, to first order.
+/// With an ideal plant the open loop is L = (b s + c)/s^2, b = lambda + k, c = lambda k, with the
+/// crossover frequency w and the delay margin D:
+///   w^2 = (b^2 + sqrt(b^4 + 4 c^2))/2,   D = atan(b w/c)/w
+/// To first order, sampling with T_s takes T_s/2 of the margin.
 TEST(DelayMargin, TendsToThatOfTheContinuousLoop) {
   constexpr double kSample_s = 1e-4;
   const SampledHeadingLoop loop{.lambda = 2.0,

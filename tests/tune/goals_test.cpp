@@ -168,7 +168,7 @@ TEST(Goal, ThatNoGainsReachIsRefusedByItsName) {
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
   EXPECT_THAT(to_text(tuning.error()), HasSubstr("reach the goal \"settling_time_s <= 0.05"));
-  // A soft goal is approached.
+  // A soft goal that cannot be met refuses no gains; its verdict is "missed".
   goal.is_soft = true;
   const Result<Tuning> tuned = tune(uncertain_model(), options_with(goal));
   ASSERT_TRUE(tuned) << to_text(tuned.error());

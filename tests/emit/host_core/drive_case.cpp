@@ -7,7 +7,7 @@
 
 namespace {
 
-/// The command that starts the drive.
+/// Sends the command that starts the drive.
 const char* start_command = "S 1.0\n";
 
 /// Command that is sent after an injected failure, and duration of the drive that follows.

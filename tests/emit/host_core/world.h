@@ -160,7 +160,7 @@ struct World {
   }
   std::string sentence() {
     if (gps_wander_m > 0) {
-      // Correlated over a minute.
+      // Errors of the position, with a correlation time of a minute.
       for (double* wander : {&wander_x, &wander_y}) {
         *wander += noise(gps_wander_m * sqrt(2 * 0.2 / 60)) - 0.2 / 60 * *wander;
       }
