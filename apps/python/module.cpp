@@ -8,8 +8,8 @@ PYBIND11_MODULE(awmr, module) {
       "\n"
       "Names end in the unit: _m, _s, _rad, _deg, _mps, _radps, _kg. Forces are divided by F_max, "
       "the largest force of one motor. Angles and yaw rates are positive counter-clockwise, "
-      "lateral "
-      "quantities to the left. Tables are dicts of NumPy arrays, warnings are a list of Finding, "
+      "lateral quantities to the left. Tables are dicts of NumPy arrays, warnings are a list of "
+      "Finding, "
       "failures raise Error.";
   module.attr("__version__") = awmr::version();
   awmr::python::bind_errors(module);
