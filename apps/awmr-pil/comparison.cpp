@@ -54,7 +54,7 @@ Sample sample_of(const LoopRow& row) {
           .fault = static_cast<double>(out.fault)};
 }
 
-/// The command as output by the chip: the actuators would hide a small difference.
+/// Returns the command as the chip output it, before the actuators, which could hide a difference.
 Sample raw_sample_of(const LoopRow& row) {
   const Allocation<float>& command = row.step.output.command;
   Sample sample = sample_of(row);
@@ -74,7 +74,8 @@ Sample sample_of(const RunRow& row) {
           .fault = 0.0};
 }
 
-/// Reference angles may differ by whole turns.
+/// Absolute difference of two values; of reference angles, which may differ by whole turns, modulo
+/// one turn.
 double apart(const Signal& signal, double a, double b) {
   if (std::isfinite(a) != std::isfinite(b)) return std::numeric_limits<double>::infinity();
   const double off = a - b;

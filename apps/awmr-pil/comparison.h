@@ -1,4 +1,4 @@
-// Difference between two runs, signal by signal.
+// Differences between the chip's run and the host's runs, signal by signal.
 #pragma once
 
 #include <string>
@@ -20,15 +20,15 @@ struct Difference {
   double of(const std::string& signal) const;
 };
 
-/// Compares the outputs of the control step, as the executor returned them, and the vehicle's
-/// state.
+/// Compares two runs of run_loop(): the outputs of the control step as the executors returned them,
+/// and the vehicle's state.
 Difference difference(const std::vector<LoopRow>& a, const std::vector<LoopRow>& b);
-/// Compares with a run of simulate(), which is in double.
+/// Compares a run of run_loop() with a run of simulate(), which computes in double.
 Difference difference(const std::vector<LoopRow>& a, const Run& b);
 
-/// Largest heading difference from the closest of the other run's headings at the same sample and
-/// the samples before and after, deg. A leg may end one sample apart in the two runs because of
-/// rounding. Infinite if only one is finite.
+/// Largest difference of a heading of `a` from the closest heading of `b` at the same, the previous
+/// or the next sample, deg. Because of rounding, a leg may end one sample earlier in one of the
+/// runs. Infinite if only one heading is finite.
 double heading_apart_deg(const std::vector<LoopRow>& a, const Run& b);
 
 struct Cycles {

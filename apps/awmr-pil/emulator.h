@@ -18,8 +18,8 @@ namespace awmr::pil {
 
 inline constexpr double kClockHz = 16e6;
 
-/// Cycles between an interrupt and the first instruction of its vector, on a chip with a 3-byte
-/// program counter; simavr 1.6 omits them. [ATmega2560 data sheet, 7.7.1]
+/// Clock cycles between an interrupt and the first instruction of its vector, on a chip with a
+/// 3-byte program counter. simavr 1.6 does not count them. [ATmega2560 data sheet, 7.7.1]
 inline constexpr unsigned kInterruptEntryCycles = 5;
 
 class Emulator {
@@ -43,7 +43,7 @@ class Emulator {
   void reset();
   /// Runs until the chip sleeps. Errors (fault): it crashed or is still awake after `cycle_limit`.
   Status run_to_sleep(std::uint64_t cycle_limit);
-  /// Runs until `done` returns true; it is called after each batch of instructions.
+  /// Runs until `done`, called after each batch of instructions, returns true. Errors: as above.
   Status run_until(const std::function<bool()>& done, std::uint64_t cycle_limit);
   /// Cycles of the last interrupt, from its entry (included) to the next sleep.
   unsigned last_interrupt_cycles() const { return last_interrupt_cycles_; }
@@ -54,9 +54,11 @@ class Emulator {
   /// Bytes from the top of RAM down to the lowest address written since paint_stack().
   unsigned stack_bytes() const;
 
-  /// Callback for bytes that USART0 sends, and input for it to receive as fast as it accepts them.
+  /// Sets the callback for bytes that USART0 sends.
   void on_uart_output(std::function<void(std::uint8_t)> receive) { receive_ = std::move(receive); }
+  /// Connects USART0 to the callback and to send_to_uart(); call once.
   void connect_uart();
+  /// Queues bytes for USART0, which receives each as soon as it accepts it.
   void send_to_uart(std::span<const std::uint8_t> bytes);
 
  private:

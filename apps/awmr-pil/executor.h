@@ -1,4 +1,4 @@
-// Interface of control-step executors: the host's own build, the emulated chip, a board.
+// Interface of what executes the control step: the host's own build, the emulated chip or a board.
 #pragma once
 
 #include <cstdint>
@@ -46,12 +46,12 @@ class Chip : public Executor {
   virtual ChipFigures figures() const = 0;
 };
 
-/// Runs the step in float on this machine, as the chip does; both arguments must outlive it.
+/// Runs the control step in float on this machine. The executor keeps references to the arguments.
 std::unique_ptr<Executor> host_executor(const AutopilotParameters& parameters,
                                         const Mission& mission);
 
-/// Exchanges data through the RAM of an emulated chip. `damage_parameters` first flips a bit in
-/// flash.
+/// Exchanges data through the RAM of an emulated chip. `damage_parameters`: flips a bit of the
+/// parameters in flash before the start.
 Result<std::unique_ptr<Chip>> memory_link(const std::filesystem::path& elf, bool damage_parameters);
 /// Exchanges data through the USART of an emulated chip. The line flips a fraction `noise` of the
 /// bits and loses the same fraction of the bytes, in both directions.

@@ -35,7 +35,7 @@ constexpr const char* kFlags[] = {"-mmcu=atmega2560",
                                   "-Isrc",
                                   "-Ipil",
                                   "src/awmr.cpp"};
-/// The options after -O2 keep more in registers and save 350 of 9,700 cycles.
+/// Options for few cycles: those after -O2 keep more in registers and save 350 of 9,700 cycles.
 constexpr const char* kForSpeed[] = {"-O2", "-mstrict-X", "-fno-tree-pre",
                                      "-fno-move-loop-invariants"};
 constexpr const char* kForSize[] = {"-Os", "-mcall-prologues"};
@@ -45,10 +45,10 @@ std::span<const char* const> flags_for(cli::Optimize optimize) {
   return kForSpeed;
 }
 
-/// A build takes two seconds; this allows a hundred times that on a busy machine.
+/// Time limit of the compiler, s: a hundred times a usual build, for a busy machine.
 constexpr double kTimeLimit_s = 200.0;
 
-/// Writes a file of the temporary folder, which need not survive a loss of power: not flushed.
+/// Writes a file of the temporary folder without flushing it to the disk.
 Status put_temporary(const fs::path& path, std::string_view bytes) {
   AWMR_RETURN_IF_ERROR(make_directory(path.parent_path()));
   std::ofstream file(path, std::ios::binary);

@@ -18,8 +18,8 @@ struct FirmwareKind {
   LinkKind link = LinkKind::kMemory;
   cli::Optimize optimize = cli::Optimize::kSpeed;
   std::string mission;        ///< mission_header()
-  bool is_directed = false;   ///< the speed sensor has no sign; the firmware computes the direction
-  bool is_estimated = false;  ///< the position is a receiver's fix; the firmware estimates it
+  bool is_directed = false;   ///< the speed sensor has no sign: the firmware finds the direction
+  bool is_estimated = false;  ///< positions are GPS fixes: the firmware estimates in between
 };
 
 /// Writes the emitted library and the link's program to `directory`, which is private and empty,
@@ -33,8 +33,8 @@ Result<std::filesystem::path> build_firmware(const std::filesystem::path& direct
 /// option; it cannot be created or written to.
 Status prepare_to_keep(const std::filesystem::path& kept);
 
-/// Copies the build from `directory` to `kept`. Errors (input): a file cannot be written; a
-/// symbolic link in `kept` would redirect the write.
+/// Copies the build from `directory` to `kept`. Errors (input): a file cannot be written; `kept`
+/// contains a symbolic link where a file would be written.
 Status keep_firmware(const std::filesystem::path& directory, const std::filesystem::path& kept);
 
 }  // namespace awmr::pil

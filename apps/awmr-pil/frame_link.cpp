@@ -8,9 +8,10 @@
 namespace awmr::pil {
 namespace {
 
-/// With one bit in a thousand damaged, four exchanges of ten succeed: 40 in a row fail once in 1e9.
+/// Attempts for one request. If one bit in a thousand is damaged, 40 % of the exchanges succeed,
+/// and 40 in a row fail once in 1e9.
 constexpr int kAttempts = 40;
-/// Fewer attempts: the first request is short, and there may be no board.
+/// Attempts for the first request, which is short; there may be no board at all.
 constexpr int kStartAttempts = 10;
 
 /// Encodes a request as a frame.
@@ -81,8 +82,8 @@ class FrameLink : public Chip {
     if (crc != parameters_crc_) {
       return input_error(
           ErrorCode::kStaleResult, "--port",
-          fmt::format("the board holds other parameters (check sum {:08X}) than this model "
-                      "and these gains give ({:08X}): flash pil_uart.elf of --build-dir",
+          fmt::format("the firmware on the board has other parameters (check sum {:08X}) than this "
+                      "model and these gains ({:08X}): flash pil_uart.elf of --build-dir",
                       crc, parameters_crc_));
     }
     return fault;

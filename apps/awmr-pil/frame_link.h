@@ -1,4 +1,4 @@
-// Control step over a serial line, with the frames of firmware/frame.h.
+// Executes the control step on a chip over a serial line, with the frames of firmware/frame.h.
 #pragma once
 
 #include <cstdint>

@@ -11,8 +11,8 @@ struct HostParts : AllParts<split> {
   typedef AnyLineFollower<float> Line;
 };
 
-/// Firmware with all parts compiled in and those that the mission does not need disabled. Its bits
-/// must equal those of a firmware built without these parts.
+/// The control step on this machine, with all optional parts compiled in and those that the mission
+/// does not need disabled. Its results must equal those of a firmware without these parts.
 template <class G, CombinedSplit split>
 class HostExecutor : public Executor {
  public:

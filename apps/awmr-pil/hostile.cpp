@@ -63,7 +63,8 @@ float hostile_value(Random& random, float largest) {
   }
 }
 
-/// Usually within a metre of the vehicle, so that the next point is evaluated in the same step.
+/// Random waypoint, usually within a metre of the vehicle: it counts as reached at once, and the
+/// same step evaluates the next one.
 Position<float> hostile_point(Random& random, const Position<float>& vehicle_m) {
   const float reach_m = random.bits() % 8 == 0 ? 1000.0F : kAcceptance_m;
   const auto off = [&] { return reach_m * static_cast<float>(2.0 * random.uniform() - 1.0); };
@@ -124,8 +125,8 @@ Result<unsigned> tried(Executor& chip, Executor& host, const Attack& attack, Hos
 Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
                         const Mission& mission, std::size_t steps, const Progress& progress) {
   Hostile found;
-  // Every step is at time 0. The first is not evaluated because it follows a time jump. Its invalid
-  // mode raises a fault, after which chip and host have no memory of earlier motion.
+  // All steps have time 0. The first one, after the jump of the time, is not counted. Its invalid
+  // mode raises a fault, which resets the memory of earlier motion on chip and host.
   AutopilotInput first{};
   first.mode = 3;
   AWMR_RETURN_IF_ERROR(chip.step(first));

@@ -9,8 +9,8 @@ namespace {
 
 using cli::Injection;
 
-// A rejected sensor disarms the vehicle, and its readings become stale: either fault may come
-// first.
+// Faults of the autopilot after a rejected heading sensor: the vehicle is disarmed (no commands),
+// and the heading becomes stale. Either may come first.
 constexpr std::uint8_t kHeading = kFaultHeadingStale | kFaultCommandTimeout;
 constexpr std::uint8_t kSpeed = kFaultSpeedStale | kFaultCommandTimeout;
 
@@ -26,8 +26,8 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kCommandTimeout, Duration::kTwentySteps, kFaultCommandTimeout},
     {Injection::kStepLate, Duration::kOneStep, kFaultStepLate},
     {Injection::kParameters, Duration::kWholeRun, kFaultParameters},
-    // Detection time plus the autopilot's timeout. In a turn, gyroscope and compass contradict each
-    // other before a frozen sensor has repeated its value for long enough.
+    // Limits of time: detection plus the autopilot's timeout. In a turn, gyroscope and compass
+    // contradict each other before a frozen value has been repeated often enough.
     {Injection::kCompassSilent, Duration::kFromTheMiddle, kHeading, kCompassSilent, kSensorGood,
      1.5},
     {Injection::kCompassFrozen, Duration::kFromTheMiddle, kHeading, kCompassFrozen,
@@ -50,16 +50,17 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kGpsRepeated, Duration::kFromTheMiddle, kSpeed, kGpsRepeated, kSensorGood, 1.5},
     {Injection::kGpsLate, Duration::kFromTheMiddle, kSpeed, kGpsSilent, kSensorGood, 1.5},
     {Injection::kGpsJump, Duration::kFromTheMiddle, kSpeed, kGpsJump, kSensorGood, 1.5},
-    // Detected by the motion, after metres, which a model-driven controller may cover slowly.
+    // Detected from the motion after 2 to 6 m, during which the vehicle may only creep.
     {Injection::kGpsSpeedZero, Duration::kFromTheMiddle, kFaultCommandTimeout, kGpsInconsistent,
      kSensorGood, 40.0},
     {Injection::kGpsPositionFrozen, Duration::kFromTheMiddle, kFaultCommandTimeout,
      kGpsInconsistent, kSensorGood, 5.0},
     {Injection::kMotorsReversed, Duration::kFromTheMiddle, kFaultCommandTimeout, kWrongWay,
      kSensorGood, 40.0},
-    // In the next turn.
+    // Detected in the next turn.
     {Injection::kSidesSwapped, Duration::kFromTheMiddle, kHeading, kWrongTurn, kSensorGood, 40.0},
-    // The heading filter leaves the compass, or the vehicle turns against the moment.
+    // Detected because the filtered heading departs from the compass, or the vehicle turns against
+    // the commanded moment.
     {Injection::kGyroReversed, Duration::kFromTheMiddle, kHeading, kHeadingOutOfStep, kWrongTurn,
      40.0},
     {Injection::kSteeringStuck, Duration::kFromTheMiddle, kFaultCommandTimeout, kOffCourse,

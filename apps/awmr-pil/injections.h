@@ -26,8 +26,8 @@ struct InjectionEffect {
   std::uint8_t fault;  ///< expected fault bits of the autopilot; one of them must be raised
   /// Sensor check that must detect it; kSensorGood: not a sensor failure.
   SensorFault cause = kSensorGood;
-  SensorFault other_cause = kSensorGood;  ///< alternative check that may be faster
-  /// Time limit for the safe command after failures that disarm; 0: does not apply.
+  SensorFault other_cause = kSensorGood;  ///< another check, which may detect it first
+  /// Longest time to the safe command, s, for failures that disarm the vehicle; else 0.
   double within_s = 0.0;
 };
 

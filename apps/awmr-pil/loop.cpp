@@ -23,8 +23,9 @@ using cli::Injection;
 
 float single(double value) { return static_cast<float>(value); }
 
-/// Guidance, avoidance and shaping run on the chip. Its input is the heading before avoidance and
-/// shaping, which a route replaces, and the speed: 0 at the end of the path or without a passage.
+/// Returns the chip's input. Guidance, avoidance and shaping run on the chip, so its heading is the
+/// one before avoidance and shaping; a chip that follows points or a path ignores the heading. The
+/// speed is 0 at the end of the path, or if obstacles leave no passage.
 AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed,
                         const GuidanceOutput& output) {
   const bool stops = output.finished || output.no_passage;
@@ -43,7 +44,7 @@ AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed
   return in;
 }
 
-/// Longer than every timeout.
+/// Age of inputs that are no longer updated, ms: longer than every timeout.
 constexpr std::uint32_t kSilence_ms = 4'000'000;
 
 void inject(Injection injection, AutopilotInput& in) {
@@ -75,7 +76,7 @@ void inject(Injection injection, AutopilotInput& in) {
   }
 }
 
-/// Pause before a step: the clock is ahead from then on.
+/// Injects a pause before a step: advances the time from this step on.
 void delay(std::uint32_t by_ms, InputTimes& times) {
   times.now_ms += by_ms;
   times.heading_ms += by_ms;
@@ -143,12 +144,12 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
   }
   if (scenario.control.allocation.value_or(AllocationForm::kExact) != AllocationForm::kExact) {
     faults.push_back({ErrorCode::kUnsupported, file + ":/control/allocation",
-                      "the firmware's is exact: remove"});
+                      "the firmware's allocation is exact: remove this key"});
   }
   if (scenario.control.lqi) {
     faults.push_back({ErrorCode::kUnsupported, file + ":/control/heading_law",
-                      "the firmware's heading law is the sliding mode: remove, or give its type as "
-                      "sliding_mode"});
+                      "the firmware's heading law is the sliding mode: remove this key, or set its "
+                      "type to sliding_mode"});
   }
   const std::size_t points = mission_of(scenario).points.points_m.size();
   if (points > kMaxPoints) {

@@ -1,4 +1,4 @@
-// Closed loop of simulate/ with the control step executed by an Executor, in float.
+// Closed loop of the vehicle simulated as in simulate/ and an Executor's control step, in float.
 #pragma once
 
 #include <vector>
@@ -35,8 +35,8 @@ struct LoopRow {
   double steering_command_rad = 0.0;  ///< likewise
 };
 
-/// Sets the vehicle's GPS to the scenario's receiver, so that firmware and simulator have the same
-/// filter.
+/// Copies the noise and latency of the scenario's GPS to the model's vehicle, so that firmware and
+/// simulator have the same position filter.
 void know_receiver(const Gps& gps, Model& model);
 
 /// True if the simulated speed sensor gives |u|, so that the firmware computes the direction.

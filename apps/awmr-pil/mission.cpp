@@ -22,7 +22,7 @@ std::vector<double> parameters_of(const Law& law) {
   return values;
 }
 
-/// The same law in the chip's number format.
+/// Converts the law from double to the chip's float.
 template <template <class> class Law>
 Law<float> in_float(const Law<double>& law) {
   Law<float> result{};

@@ -1,4 +1,4 @@
-// Guidance features that a scenario needs from the firmware, in the chip's number format.
+// Mission of the firmware: the guidance features that a scenario needs, as floats like on the chip.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct Points {
 /// Law of a line, without its corners.
 struct LineMission {
   LineLaws<std::variant, float> law{};
-  std::size_t place = 0;  ///< of the law in LineLaws
+  std::size_t place = 0;  ///< index of the law in LineLaws
   float corner_m = 0.0F;
 };
 
@@ -59,8 +59,8 @@ std::set<FirmwarePart> parts_of(const Mission& mission);
 /// Maximum number of points in these firmware programs.
 inline constexpr std::size_t kMaxPoints = 16;
 
-/// Generates mission.h of the firmware: its capacity for points, its setup and how it follows
-/// points. It is the same for every mission that needs no part.
+/// Generates mission.h of the firmware: its capacity for points, and the functions that set up the
+/// mission and follow points. All missions without optional parts have the same mission.h.
 std::string mission_header(const Mission& mission);
 
 /// Returns 0 if no part is needed; else a checksum of mission_header(), which detects a board

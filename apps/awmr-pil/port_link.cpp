@@ -128,7 +128,7 @@ Status serve_terminal(const std::filesystem::path& elf) {
   bool was_open = false;
   for (;;) {
     pollfd waiting{.fd = terminal, .events = POLLIN, .revents = 0};
-    // Keeps emulating while output is pending, else waits for input.
+    // Waits up to 1 ms for input, but not while output is pending.
     ::poll(&waiting, 1, answer.empty() ? 1 : 0);
     if ((waiting.revents & POLLIN) != 0) {
       std::uint8_t bytes[256];

@@ -50,9 +50,9 @@ struct Report {
   std::vector<std::size_t> restarts;  ///< samples before which the chip was restarted
   Difference from_float;
   std::optional<Difference> from_double;  ///< absent with an injection
-  double heading_apart_deg = 0.0;         ///< from the double run, within one sample
-  std::optional<Difference> by_float32;   ///< float with powf compared with double
-  std::optional<Difference> by_table;     ///< float with tables compared with float with powf
+  double heading_apart_deg = 0.0;         ///< heading_apart_deg() from the double run
+  std::optional<Difference> by_float32;   ///< host runs: float with powf compared with double
+  std::optional<Difference> by_table;     ///< host runs in float: tables compared with powf
   std::optional<Injected> injected;
   std::vector<Check> checks;
 

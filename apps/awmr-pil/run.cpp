@@ -42,7 +42,8 @@ struct Inputs {
   AutopilotParameters parameters;
 };
 
-/// Errors: a sample time too long for the timer of pil_memory.cpp, which counts clock/8 in 16 bits.
+/// Errors (input): a sample time beyond the timer of pil_memory.cpp, which counts at clock/8 in
+/// 16 bits.
 Status check_sample_time(const Model& model) {
   // Computed in float and rounded as in the firmware.
   const float counts = static_cast<float>(model.vehicle.sample_time_s) * 2e6F + 0.5F;
@@ -166,8 +167,8 @@ Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Input
   return std::optional(hostile);
 }
 
-/// Processor time of this process, which equals the emulation time on one core; wall-clock time
-/// with a real board.
+/// Returns the processor time of this process, s, which is the duration of the emulation; with a
+/// real board the wall-clock time.
 double elapsed_s(bool emulated) {
   timespec now{};
   ::clock_gettime(emulated ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &now);

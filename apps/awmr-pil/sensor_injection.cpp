@@ -8,7 +8,7 @@ namespace {
 
 using cli::Injection;
 
-/// rad/s per count of the boards' gyroscope, +-500 deg/s.
+/// Resolution of the boards' gyroscope (range +-500 deg/s), rad/s per count.
 constexpr float kRadpsPerWord = 500.0F / 32768.0F * 0.0174532925F;
 /// RMS noise of a working gyroscope, counts.
 constexpr double kGyroNoise = 5.0;

@@ -9,10 +9,10 @@
 namespace awmr::pil {
 namespace {
 
-/// Ten times the duration of the parameter check.
+/// Timeout of the start in cycles: ten times the duration of the parameter check.
 constexpr std::uint64_t kLineStartCycles = 16'000'000;
-/// 30 ms: a request, its step and its answer take 3 ms. The chip discards an incomplete frame after
-/// 20 ms.
+/// Timeout of an answer in cycles: 30 ms. A request, its step and its answer take 3 ms, and the
+/// chip discards an incomplete frame after 20 ms.
 constexpr std::uint64_t kLineAnswerCycles = 480'000;
 
 /// Damages transmitted bytes; the sequence is deterministic.

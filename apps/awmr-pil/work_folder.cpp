@@ -30,14 +30,13 @@ constexpr std::string_view kPrefix = "awmr-pil-";
 constexpr int kEndingSignals[] = {SIGINT,  SIGTERM, SIGHUP,    SIGQUIT, SIGALRM,
                                   SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ};
 
-/// Held while the folder is created or removed, and permanently by the thread that ends the
-/// program.
+/// Locked while the folder is created or removed. The thread that ends the program keeps the lock.
 std::mutex folder_mutex;
 /// Folder of this run; empty if none. Never destroyed: a signal may arrive during exit.
 fs::path& folder = *new fs::path;
 
 bool can_end = false;  ///< the thread that ends the program at a signal was started
-sem_t not_ending;      ///< posted by that thread to answer question() if no signal came before
+sem_t not_ending;      ///< posted by that thread to answer question(): no signal came before
 
 /// True for `awmr-pil-NUMBER-XXXXXX`, where NUMBER is a process ID.
 bool is_run_folder(std::string_view name) {
@@ -55,9 +54,9 @@ int lock_folder(const fs::path& path) {
   return -1;
 }
 
-/// True for a folder of this user (no link) that no process has locked. The lock is more reliable
-/// than the process ID in the name: that may belong to another process by now, to a zombie, or to a
-/// process in another container with the same TMPDIR.
+/// True for a folder of this user (no link) that no process has locked. The process ID in its name
+/// proves nothing: by now it may belong to another process, to a zombie, or to a process in another
+/// container with the same TMPDIR.
 bool is_left_over(const fs::path& path) {
   if (!is_run_folder(path.filename().string())) return false;
   struct stat status {};
@@ -98,8 +97,8 @@ sigset_t handled_signals() {
   return signals;
 }
 
-/// Signal with which the ending thread is queried whether the program is about to end. The lowest
-/// pending signal number is delivered first, so this one is answered only if no other is pending.
+/// Signal that asks the ending thread whether the program is about to end. Of the pending signals
+/// the lowest number is delivered first, so the thread answers only if no other signal is pending.
 int question() { return SIGRTMIN; }
 
 /// Discards all further output on stderr: errors of the main thread (a killed compiler, a missing

@@ -8,9 +8,9 @@
 
 namespace awmr::pil {
 
-/// Folder in TMPDIR that only this user can enter. It is removed with the object, or at a signal
-/// that ends the program (see clean_up_at_signals). If the program could not clean up, the next run
-/// removes it: its name identifies the process, whose lock ends with it.
+/// Folder in TMPDIR that only this user can enter. The destructor removes the folder, and so does a
+/// signal that ends the program (see clean_up_at_signals). If the program was killed, the next run
+/// removes the folder: the lock on it ended with the process.
 class WorkFolder {
  public:
   /// Removes the folders of finished runs, then creates this run's folder. Only one may exist at a
@@ -32,7 +32,8 @@ class WorkFolder {
 /// any other thread exists. Ignored signals stay ignored (nohup).
 void clean_up_at_signals();
 
-/// Does not return if a signal is about to end the program: errors that it caused are not reported.
+/// Waits for the end of the program if a signal is about to end it, so that errors caused by the
+/// signal are not reported. Returns at once otherwise.
 void end_if_told_to();
 
 }  // namespace awmr::pil

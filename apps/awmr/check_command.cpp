@@ -73,7 +73,7 @@ bool has_rows(const fs::path& path, Check& check) {
          std::any_of(sample->texts.begin(), sample->texts.end(), is_filled);
 }
 
-/// The parameter that each kind of table identifies.
+/// Returns the parameter that a kind of table identifies.
 ParameterId shown_by(TrialKind kind) {
   switch (kind) {
     case TrialKind::kTurning:
@@ -113,7 +113,8 @@ TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check
   return files;
 }
 
-/// Without a driving log every table is required. A sway resistance that is not given is assumed.
+/// Adds `missing-trial` for each parameter that no trial identifies (a driving log identifies all),
+/// and `assumed-sway` if the sway resistance is not given.
 void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Check& check) {
   if (!project.logs.empty()) return;
   const auto nothing_shows = [&](ParameterId id) {

@@ -53,7 +53,7 @@ struct IdentifyCommand {
   IdentifyOptions identify;
   TrialOptions trials;
   fs::path output;
-  InputNames names = {};  ///< names of its inputs, used by `run`; the same below
+  InputNames names = {};  ///< set by `run`: names of the inputs in the output; the same below
 };
 Result<Outcome> execute(const IdentifyCommand& command);
 void add_identify(CLI::App& app, Session& session);
@@ -66,7 +66,7 @@ struct LiveCommand {
   double every_s = 5.0;                 ///< interval between two updates, > 0
   double budget_s = 5.0;                ///< time limit of an interim fit, > 0
   double enough = 0.1;                  ///< sufficient half width, see precision.h, > 0
-  bool until_enough = false;            ///< stop when the intervals are narrow enough
+  bool until_enough = false;            ///< stop when every half width is at most `enough`
   double duration_s = 0.0;              ///< stop after this time; 0: no limit
   double idle_s = 0.0;                  ///< stop after this time without data; 0: no limit
 };
@@ -102,9 +102,9 @@ struct TuneCommand {
   fs::path output;
   AllocationChoice allocation = {};
   bool nominal = false;
-  bool observer = false;                  ///< as {} for the file's `observer`
-  std::optional<fs::path> baseline = {};  ///< as the file's `baseline`
-  std::optional<YawMode> mode = {};       ///< as the file's `mode`
+  bool observer = false;                  ///< like `"observer": {}` in tune.json
+  std::optional<fs::path> baseline = {};  ///< replaces `baseline` of tune.json
+  std::optional<YawMode> mode = {};       ///< replaces `mode` of tune.json
   std::optional<int> draws = {};
   std::optional<int> sensitivity = {};
   HeadingRateChoice heading_rate_limit = {};

@@ -200,7 +200,7 @@ std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
       *measured_yaw_rate_degps(model), kNoRate);
 }
 
-/// The findings that a part of the comparison has, too: of the inputs, then of the comparison.
+/// Findings of the inputs, then of the comparison; a part (--shard) reports them, too.
 Result<std::vector<Finding>> findings_of(const CompareCommand& command,
                                          const ComparedInputs& inputs,
                                          const Comparison& comparison) {

@@ -81,12 +81,12 @@ void add_compass(CLI::App& app, Session& session) {
       "awmr compass datasets/synthetic/field.csv --declination 4.5 -o awmr_compass.h",
       [command] { return execute(*command); });
   add_file(*sub, "FILE", command->file,
-           "CSV with t_s, field_ahead, field_left and, to be checked against, yaw_rate_radps: what "
-           "the sketch CompassCalibration records")
+           "CSV with t_s, field_ahead, field_left and yaw_rate_radps (optional, to check the "
+           "signs), as the sketch CompassCalibration records it")
       ->required();
   sub->add_option("--declination", command->declination_deg,
-                  "Of magnetic north from true north here, deg, east positive (default 0: headings "
-                  "count from magnetic north)")
+                  "Angle from true north to magnetic north at this place, deg, east positive "
+                  "(default 0: headings are relative to magnetic north)")
       ->check(within(-180.0, 180.0));
   sub->add_option("--column", command->columns.columns, kColumnHelp);
   add_output(*sub, command->output, "Header to write: FIRMWARE/src/awmr_compass.h");

@@ -64,7 +64,7 @@ Status check_outputs(const std::filesystem::path& directory, const std::vector<s
 
 /// One line per identified quantity: value, standard error, 95 % interval, unit, origin.
 std::string parameter_table_text(const Model& model);
-/// The same quantities in newtons, newton metres and kilograms; empty if m' is unknown.
+/// One line per identified quantity in N, N m, kg and kg m^2; empty if m' is unknown.
 std::string si_table_text(const Model& model);
 
 }  // namespace awmr::cli

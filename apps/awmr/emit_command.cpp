@@ -57,7 +57,7 @@ std::vector<fs::path> paths_of(const EmitCommand& command, const std::vector<Emi
 
 std::string table_line(const char* name, const EmittedTable& table) {
   return fmt::format(
-      "  {} table: {} lines up to {:g}, largest error {:.1e} below {:g}, relative {:.1e} above\n",
+      "  {} table: {} entries up to {:g}, largest error {:.1e} below {:g}, relative {:.1e} above\n",
       name, table.lines.size(), table.top_speed, table.worst_error, table.split,
       table.worst_relative_error);
 }
@@ -92,8 +92,8 @@ std::vector<Finding> unstable_gains(const Gains<double>& gains, double sample_ti
                                    std::pair("mu/epsilon of the speed", speed)}) {
     if (rate * sample_time_s < kMost) continue;
     findings.push_back({command.gains.string(), 0, Severity::kWarning, "unstable-gains",
-                        fmt::format("{} is {:.3g} 1/s: with samples of {:g} s the loop is unstable "
-                                    "from {:.3g} on",
+                        fmt::format("{} is {:.3g} 1/s: at a sample time of {:g} s the loop is "
+                                    "unstable from {:.3g} 1/s on. Tune again for this model",
                                     name, rate, sample_time_s, kMost / sample_time_s)});
   }
   return findings;

@@ -15,13 +15,14 @@
 namespace awmr::cli {
 
 void add_emit_options(CLI::App& command, EmitOptions& options) {
-  add_choice(command, "--resistance", options.resistance, kResistanceFormNames,
-             "By an interpolated table in flash, or by the C library's powf")
+  add_choice(
+      command, "--resistance", options.resistance, kResistanceFormNames,
+      "Resistance on the chip: by an interpolated table in flash, or by the C library's powf")
       ->default_str("table");
   command
       .add_option("--table-error", options.table_error,
-                  "Largest error of a table, as a fraction of the resistance or of a tenth of the "
-                  "largest force [5e-4; if no table meets that, the error of the best one]")
+                  "Largest error of a table, relative to the resistance or to a tenth of the "
+                  "largest force [5e-4; if no table is that accurate, the best one is used]")
       ->check(within(1e-7, 0.1));
   command
       .add_option_function<std::vector<std::string>>(
@@ -34,21 +35,25 @@ void add_emit_options(CLI::App& command, EmitOptions& options) {
           "Parts to compile in beyond heading hold and waypoints")
       ->delimiter(',')
       ->check(one_of(names_in(kFirmwarePartNames)));
-  add_choice(command, "--split", options.split, kCombinedSplitNames,
-             "Combined mode at a limit: the other path takes over the rest of the moment, or the "
-             "rest is lost")
+  add_choice(
+      command, "--split", options.split, kCombinedSplitNames,
+      "Combined mode, if steering or wheel forces reach their limit: the other one makes the "
+      "rest of the yaw moment, or the rest is lost")
       ->default_str("redistribute");
   const auto timeout = [&](const char* name, std::uint32_t& value, const char* meaning) {
     command.add_option(name, value, meaning)
         ->check(within<std::uint32_t>(1, 3600000))
         ->capture_default_str();
   };
-  timeout("--heading-timeout-ms", options.heading_timeout_ms, "Largest age of a heading");
-  timeout("--speed-timeout-ms", options.speed_timeout_ms, "Largest age of speed and position");
-  timeout("--command-timeout-ms", options.command_timeout_ms, "Command timeout");
+  timeout("--heading-timeout-ms", options.heading_timeout_ms,
+          "Largest age of a heading; an older one is a fault");
+  timeout("--speed-timeout-ms", options.speed_timeout_ms,
+          "Largest age of speed and position; older ones are a fault");
+  timeout("--command-timeout-ms", options.command_timeout_ms,
+          "Largest time between two commands; a longer pause is a fault");
   command
       .add_option("--step-timeout-ms", options.step_timeout_ms,
-                  "Longest time between steps [three sample times]")
+                  "Longest time between two steps; a longer one is a fault [three sample times]")
       ->check(within<std::uint32_t>(1, 3600000));
 }
 

@@ -48,8 +48,8 @@ void add_export(CLI::App& app, Session& session) {
   add_file(*sub, "--gains", command->gains,
            "gains.json from tune; without it, values derived from gains are left out");
   add_choice(*sub, "--format", command->format, kExportFormatNames,
-             "ROS 2 parameters (YAML), MATLAB script, Python module, CSV, or the parameters that "
-             "follow from the model of ArduPilot Rover or PX4's rovers, each with its derivation")
+             "ROS 2 parameters (YAML), MATLAB script, Python module, CSV, or those parameters of "
+             "ArduPilot Rover or PX4's rovers that follow from the model, each with its derivation")
       ->required();
   add_output(*sub, command->output, "File to write");
 }

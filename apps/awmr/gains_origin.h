@@ -11,11 +11,11 @@
 
 namespace awmr::cli {
 
-/// Adds the warning `gains-of-another-model` if the gains' file names its inputs and the model is
-/// not one of them, by SHA-256. No finding for gains written by hand, which name no inputs, or from
-/// a pipe, which can be read only once. Adds the warning `gains-of-another-mode` if they were tuned
-/// for one mode only and are used in another. `mode`: the one in which they are used; absent: all.
-/// Errors: as read_json_file.
+/// Adds a warning if the gains were tuned for another model or another mode.
+/// `gains-of-another-model`: the gains file records the SHA-256 of its inputs, and that of the
+/// model is not among them. Gains written by hand record no inputs, and a pipe can be read only
+/// once: these have no finding. `gains-of-another-mode`: the gains were tuned for one mode and are
+/// used in another. `mode`: the mode of use; absent: all modes. Errors: as read_json_file.
 Status note_other_model(const std::filesystem::path& gains, const std::filesystem::path& model,
                         std::vector<Finding>& findings, std::optional<YawMode> mode = {});
 

@@ -12,7 +12,7 @@
 namespace awmr::cli {
 
 /// Parses `NAME` (surge and yaw), `surge=NAME` or `yaw=NAME`; NAME is a family or `auto`. Errors:
-/// an unknown name, listing the known ones; dead-zone other than for yaw.
+/// an unknown name, listing the known ones; a subject given twice; `yaw=dead-zone`.
 Status add_family(std::string_view text, IdentifyOptions& options);
 
 /// Adds a parameter to fit: its name, `all`, `input_delay_s` or `bias.CHANNEL`

@@ -114,10 +114,11 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
       ->check(within(0.1, 1e6));
   sub.add_flag("--cross-validate", command.identify.cross_validate,
                "Leave each log out once and predict it from the others");
-  sub.add_option("--seed", command.identify.seed, "Of starts and bootstrap (default 1)")
+  sub.add_option("--seed", command.identify.seed,
+                 "Random seed of the starts and of the bootstrap (default 1)")
       ->check(within<std::uint64_t>(0, kAnySeed));
   sub.add_option("--threads", command.identify.threads,
-                 "Default: all; the result does not depend on it")
+                 "Number of threads (default: all cores); the result does not depend on it")
       ->check(within(1, 1024));
 }
 
@@ -128,8 +129,8 @@ void add_part_options(CLI::App& sub, IdentifyWords& words) {
   sub.add_option("--until", words.until_s, "Use each log up to this time, s")
       ->check(within(-kMostTime_s, kMostTime_s));
   sub.add_option("--exclude", words.excluded,
-                 "A:B: leave out this time of each log, s; the parts before and after count as two "
-                 "logs; may be repeated");
+                 "A:B: leave out each log's rows from time A to time B, s; the parts before and "
+                 "after count as two logs; may be repeated");
 }
 
 void add_reading_options(CLI::App& sub, IdentifyWords& words) {

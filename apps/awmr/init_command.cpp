@@ -140,8 +140,8 @@ void add_init(CLI::App& app, Session& session) {
       "differential: without steering; front_wheel: only the front wheels are driven, and steered");
   sub->add_flag(
          "--example", command->example,
-         "Write the paper's vehicle, tables and scenarios, and synthetic drives, instead: the "
-         "examples of every command's help run in DIR")
+         "Write the files of the examples in every command's help instead: the paper's vehicle, "
+         "its tables, scenarios, synthetic drives")
       ->excludes(drive);
 }
 

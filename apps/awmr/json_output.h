@@ -27,7 +27,7 @@ struct JsonResult {
 /// model.json, `result` is the document or null.
 std::string result_text(const JsonResult& result);
 
-/// `{"schema", "version", "exit_code", "errors": [{"place", "message"}]}` with all faults.
+/// `{"schema", "version", "exit_code", "errors": [{"code", "place", "message"}]}` with all faults.
 std::string error_text(const Error& error);
 
 // JSON Schemas of both objects.

@@ -172,7 +172,7 @@ Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
 
 void add_source(CLI::App& sub, LiveCommand& live) {
   add_file(sub, "--port", live.source.port, "Serial port of the recorder, such as /dev/ttyUSB0");
-  sub.add_option("--baud", live.source.baud, "Of --port (default 115200)")
+  sub.add_option("--baud", live.source.baud, "Baud rate of --port (default 115200)")
       ->check(within(300U, 4000000U));
   add_file(sub, "--log", live.source.log,
            "CSV of the driving log as it is written; - for standard input");

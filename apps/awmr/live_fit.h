@@ -16,7 +16,7 @@ std::string next_manoeuvre(const Model& model);
 /// True if every requested parameter is known precisely enough.
 bool has_enough(const LiveUpdate& update);
 
-/// Checks and fits the recording so far within the time budget, as `identify` would.
+/// Checks and fits the recording so far as `identify` does, but within the time budget.
 class LiveFit {
  public:
   LiveFit(const LiveCommand& command, Vehicle vehicle);

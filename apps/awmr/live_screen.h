@@ -21,12 +21,12 @@ struct LiveUpdate {
   std::optional<Model> model = {};  ///< result of the last completed fit
   bool out_of_time = false;         ///< the fit exceeded its budget: `model` is the previous one
   std::string next = {};            ///< the manoeuvre that would help most
-  double enough = 0.1;              ///< half width that is enough
+  double enough = 0.1;              ///< sufficient half width of the intervals
   std::vector<ParameterId> requested = {};
 };
 
-/// "surge.alpha +-0.12 %, yaw.beta -", the widest last. Exponents have no relative width: their
-/// half interval is shown.
+/// Half widths of the intervals: "surge.alpha +-0.12 %, yaw.beta +-0.012", or "-" if unknown.
+/// Exponents are absolute, other parameters relative to their value.
 std::string widths_text(const LiveUpdate& update);
 /// "enough: ..." or the next manoeuvre.
 std::string verdict_text(const LiveUpdate& update);

@@ -57,7 +57,8 @@ Result<OpenStream> open_stream(const StreamSource& source) {
     }
     return OpenStream{std::move(input)};
   }
-  // With O_NONBLOCK a pipe opens at once, so waiting for its writer can be interrupted.
+  // With O_NONBLOCK, opening a pipe does not wait for its writer, so the program can be
+  // interrupted.
   Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.number() < 0) {
     return input_error(ErrorCode::kCannotRead, name,

@@ -18,8 +18,8 @@ constexpr unsigned kAnyCount = std::numeric_limits<unsigned>::max();
 void add_bounds(CLI::App& command, PilOptions& options) {
   command
       .add_option("--cycles-max", options.cycles_max,
-                  "Maximum cycles of a step [12000 by table, 24000 by powf; with optional features "
-                  "or a GPS three quarters of the sample time]")
+                  "Maximum clock cycles of a step [12000 by table, 24000 by powf; with optional "
+                  "parts or a GPS, 75 % of the sample time]")
       ->check(within(1U, kAnyCount));
   command.add_option("--flash-max", options.flash_max, "Maximum bytes of flash")
       ->check(within(1U, kAnyCount))
@@ -33,9 +33,10 @@ void add_bounds(CLI::App& command, PilOptions& options) {
                   "powf]")
       ->check(within(0.0, 1e9));
   command
-      .add_option("--heading-max-deg", options.heading_max_deg,
-                  "Largest difference of the heading from the host's double run, within one sample "
-                  "[0.05; 2 if obstacles are avoided or sensors simulated]")
+      .add_option(
+          "--heading-max-deg", options.heading_max_deg,
+          "Largest difference of the heading from the host's double run at the same or a "
+          "neighbouring sample, deg [0.05; 2 if obstacles are avoided or sensors simulated]")
       ->check(within(0.0, 360.0));
 }
 
@@ -54,7 +55,7 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
   add_file(command, "--port", options.port,
            "Serial port of a real board, flashed with DIR/pil_uart.elf of --build-dir; "
            "with --link uart");
-  command.add_option("--baud", options.baud, "Of --port")
+  command.add_option("--baud", options.baud, "Baud rate of --port")
       ->check(within(300U, 4000000U))
       ->capture_default_str();
   add_emit_options(command, options.emit);

@@ -30,7 +30,7 @@ enum class Injection {
   kNone,
   kNaN,             ///< measured yaw rate is NaN
   kInfinite,        ///< measured speed is infinite
-  kRange,           ///< speed beyond the range of this model's vehicle
+  kRange,           ///< measured speed beyond the largest that the vehicle can have
   kMode,            ///< undefined mode
   kHeadingStale,    ///< heading no longer updated
   kSpeedStale,      ///< speed no longer updated
@@ -121,15 +121,17 @@ struct PilOptions {
   std::optional<std::filesystem::path> port;  ///< serial port of a real board, with kUart
   unsigned baud = 500000;
   EmitOptions emit;
-  std::optional<Optimize> optimize;    ///< absent: size if obstacles are avoided, else speed
-  std::optional<unsigned> cycles_max;  ///< absent: 12,000 by table, 24,000 by powf
-  unsigned flash_max = 20480;          ///< bytes
-  unsigned ram_max = 1024;             ///< bytes, without the stack
-  /// bound on the difference from the host's float run; absent: 0 and 1e-6
+  /// absent: size for paths, obstacles and two optional parts or more, else speed
+  std::optional<Optimize> optimize;
+  /// absent: 12,000 by table, 24,000 by powf; with optional parts 75 % of the sample time
+  std::optional<unsigned> cycles_max;
+  unsigned flash_max = 20480;  ///< bytes
+  unsigned ram_max = 1024;     ///< bytes, without the stack
+  /// bound on the difference from the host's float run; absent: 0 by table, 1e-6 by powf
   std::optional<double> difference_max;
-  /// Bound on the heading difference from the host's double run, within one sample. Absent: 0.05,
-  /// or 2 if obstacles are avoided or sensors simulated: a path change may then be detected one of
-  /// their samples apart.
+  /// Bound on the heading difference from the host's double run, at the same or a neighbouring
+  /// sample, deg. Absent: 0.05; 2 if obstacles are avoided or sensors simulated, because one run
+  /// may then detect a path change one sensor sample earlier.
   std::optional<double> heading_max_deg;
   Injection injection = Injection::kNone;
   unsigned hostile_steps = 6000;  ///< steps with hostile inputs after the scenario; 0: none

@@ -56,7 +56,7 @@ inline void add_plant_of(CLI::App& command, PlantChoice& choice, std::vector<std
 
 inline void add_plant(CLI::App& command, PlantChoice& choice) {
   add_plant_of(command, choice, names_in(kPlantKindNames),
-               "four-wheel where a scenario has tyres, else model");
+               "four-wheel if a scenario has tyres, else model");
 }
 
 /// --plant of `compare`, whose default checks each verdict on the other plant.
@@ -64,8 +64,8 @@ inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
   std::vector<std::string> names = names_in(kPlantKindNames);
   names.emplace_back(kBothPlants);
   add_plant_of(command, choice, std::move(names),
-               "both: four-wheel where a scenario has tyres, else model, and the ranking on the "
-               "other plant and with slower and faster gains");
+               "both: four-wheel if a scenario has tyres, else model, with a check of the ranking "
+               "on the other plant and with slower and faster gains");
 }
 
 /// Reads the tyres of the file; without a file, the defaults. Adds a finding on their prediction

@@ -95,10 +95,10 @@ void add_runs(CLI::App& sub, RecoverCommand& command) {
   add_file(sub, "--model", command.model, "model.json from identify")->required();
   sub.add_option("--runs", command.recover.runs, "Simulated data sets (default 200)")
       ->check(within(2, 1000000));
-  sub.add_option("--seed", command.recover.seed, "Default 1")
+  sub.add_option("--seed", command.recover.seed, "Random seed of the simulated data (default 1)")
       ->check(within<std::uint64_t>(0, kAnySeed));
   sub.add_option("--threads", command.recover.threads,
-                 "Default: all; the result does not depend on it")
+                 "Number of threads (default: all cores); the result does not depend on it")
       ->check(within(1, 1024));
 }
 
@@ -109,25 +109,27 @@ void add_estimator(CLI::App& sub, RecoverWords& words) {
       ->check(one_of(names_in(kPlans)));
   sub.add_option("--method", words.method, "Estimator under test, as in identify")
       ->check(one_of(names_in(kMethodNames)));
-  sub.add_option("--noise", words.noise, "Its noise model, as in identify")
+  sub.add_option("--noise", words.noise, "Noise model of the estimator, as in identify")
       ->check(one_of(names_in(kErrorModelNames)));
   sub.add_option("--error", words.error,
                  "Quantity with the simulated error of table rows: log-force, force, speed or time "
                  "(default: as the estimator assumes)")
       ->check(one_of(names_in(kErrors)));
   sub.add_option("--fit", words.requested, "Parameters to fit, as in identify")->delimiter(',');
-  sub.add_flag("--joint", words.command.recover.identify.joint, "As in identify");
+  sub.add_flag("--joint", words.command.recover.identify.joint,
+               "Fit surge and coast-down together, as in identify");
 }
 
 void add_simulated_trials(CLI::App& sub, RecoverOptions& options) {
-  sub.add_option("--speed-noise", options.sensors.speed_mps, "m/s (default 0.02)")
+  sub.add_option("--speed-noise", options.sensors.speed_mps,
+                 "Standard deviation of the simulated speed sensor, m/s (default 0.02)")
       ->check(within(0.0, 100.0));
   sub.add_option("--correlation", options.sensors.correlation_s,
                  "Correlation time of every sensor's error, s (default 0: white)")
       ->check(within(0.0, 1e4));
-  sub.add_option("--duration", options.drive.duration_s, "Of a log, s (default 60)")
+  sub.add_option("--duration", options.drive.duration_s, "Duration of a log, s (default 60)")
       ->check(within(1.0, 3600.0));
-  sub.add_option("--rate", options.drive.rate_hz, "Of a log, Hz (default 100)")
+  sub.add_option("--rate", options.drive.rate_hz, "Rows per second of a log, Hz (default 100)")
       ->check(within(1.0, 1000.0));
 }
 

@@ -1,5 +1,5 @@
-/// Files of `run` other than those of its steps: the runs that the report shows. Also: which files
-/// it writes in all, and whether it may replace those that exist.
+/// Output files of `run`: writes the simulated runs that the report shows, lists all files, and
+/// checks that no file of another program is overwritten.
 #pragma once
 
 #include <filesystem>

@@ -60,7 +60,7 @@ std::string summary_of(const Run& run, const Scenario& scenario, const SimulateC
          plant + end_of(run, scenario) + resets_of(run);
 }
 
-/// Formats the path metrics that are available.
+/// Returns the main metrics as text; those that the run does not have are omitted.
 std::string figures_of(const Metrics& metrics) {
   std::string text;
   const auto add = [&text](const char* name, const std::optional<double>& value, const char* unit) {
@@ -146,7 +146,7 @@ Result<Outcome> execute(const SimulateCommand& command) {
     AWMR_ASSIGN_OR_RETURN(gains, read_gains_for(*command.gains, model.vehicle.sample_time_s));
   } else if (!std::holds_alternative<OpenLoop>(scenario.guidance)) {
     return input_error(ErrorCode::kMissing, "--gains",
-                       "this scenario closes the loop: give --gains GAINS.json");
+                       "the controller of this scenario needs gains: give --gains GAINS.json");
   }
   AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, command.mode));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));

@@ -135,8 +135,9 @@ Result<Provenance> provenance_of(const ValidateCommand& command) {
   return Provenance{"validate", std::move(options), std::move(inputs)};
 }
 
-/// Adds a warning (`log-of-the-fit`) for each log that the model was fitted to, by SHA-256. The
-/// model is the first input, and no other input of a validation is one of the model's.
+/// Adds the warning `log-of-the-fit` for each log that the model was fitted to. Compares the
+/// SHA-256 of the validation's inputs, of which the first is the model, with those of the model's
+/// inputs.
 void note_fitted_logs(const Model& model, const Provenance& provenance,
                       std::vector<Finding>& findings) {
   for (const InputFile& input : provenance.inputs) {
@@ -162,7 +163,7 @@ std::string summary_of(const ValidateCommand& command, const Validation& validat
 
 void add_model_options(CLI::App& sub, ValidateCommand& command) {
   add_file(sub, "--model", command.model, "model.json from identify")->required();
-  add_file(sub, "--gains", command.gains, "gains.json: also run the closed-loop claims");
+  add_file(sub, "--gains", command.gains, "gains.json: also check the claims on the closed loop");
   sub.add_option("--tolerance", command.validate.tolerance,
                  "Largest accepted RMS relative error of a kind of trial (default 0.15)")
       ->check(within(1e-9, 1e6));
@@ -174,7 +175,8 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& colum
   sub.add_option("--horizon", command.horizon_s, "Prediction horizon for logs, s (default 10)")
       ->check(within(0.01, 1e6));
   sub.add_option("--log-tolerance", command.log_tolerance,
-                 "Largest accepted NRMSE of a channel over a window (default 0.3)")
+                 "Largest accepted normalised RMS prediction error (NRMSE) of a channel over a "
+                 "window (default 0.3)")
       ->check(within(1e-9, 1e6));
   sub.add_flag("--tyres", command.tyres,
                "Also fit friction and cornering stiffness of four wheels on tyres to the logs, and "
@@ -197,7 +199,7 @@ void add_drive_options(CLI::App& sub, ValidateCommand& command) {
   sub.add_option("--draws", command.acceptance.draws, "Predicted drives (default 200)")
       ->check(within(39, 10000))
       ->needs(scenario);
-  sub.add_option("--seed", command.acceptance.seed, "Of the draws (default 1)")
+  sub.add_option("--seed", command.acceptance.seed, "Random seed of the draws (default 1)")
       ->check(within<std::uint64_t>(0, kAnySeed))
       ->needs(scenario);
   sub.add_option("--from", command.acceptance.from_s,

@@ -21,7 +21,7 @@ namespace awmr::python {
 
 namespace py = pybind11;
 
-/// C++ exception that carries an Error; errors.cpp converts it to a Python exception.
+/// C++ exception with an Error; errors.cpp converts it to a Python exception.
 class Raised : public std::exception {
  public:
   explicit Raised(Error error) : error_(std::move(error)) {}
@@ -73,12 +73,12 @@ void bind_read(py::module_& module, const char* name, Read read, const char* tex
       py::arg("path"), text);
 }
 
-/// Vehicle with the file it was read from, for the provenance of a model.
+/// Vehicle and the file from which it was read, which a model made from it names.
 struct VehicleOfFile : Vehicle {
   InputFile file;
 };
 
-/// Trials with their files and the options with which these were read.
+/// Trials, their files, and the options with which the files were read.
 struct TrialsOfFiles : Trials {
   std::vector<InputFile> inputs = {};
   std::vector<std::pair<std::string, std::string>> reading = {};  ///< options as text

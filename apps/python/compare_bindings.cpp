@@ -79,10 +79,10 @@ void bind_compare(py::module_& module) {
       "compare", compared, py::arg("model"), py::arg("gains"), py::arg("scenarios"), py::kw_only(),
       py::arg("samples") = 0, py::arg("seed") = 1, py::arg("threads") = 0,
       py::arg("heading_rate_limit") = py::none(),
-      "The yaw-control modes on a list of scenarios, for the model's own values and "
-      "`samples` draws from its covariance. The numbers are those of `awmr compare`, "
-      "for any number of threads (0: all). heading_rate_limit: deg/s, \"measured\" or \"none\"; "
-      "by default measured, if the model has that rate. Raises InputError.");
+      "Compares the yaw-control modes on a list of scenarios, for the model's own values and "
+      "`samples` draws from its covariance. The results equal those of `awmr compare`, for any "
+      "number of threads (0: all cores). heading_rate_limit: deg/s, \"measured\" or \"none\"; "
+      "default: measured, if the model has that rate. Raises InputError.");
 }
 
 }  // namespace awmr::python

@@ -11,7 +11,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Raises InputError outside the range of the command-line option.
+/// Raises InputError if the value is outside [least, most], the range of the command-line option.
 void check_within(const char* name, double value, double least, double most) {
   if (value >= least && value <= most) return;
   throw Raised(input_error(ErrorCode::kOutOfRange, name,
@@ -99,14 +99,14 @@ void bind_identify(py::module_& module) {
       py::arg("cross_validate") = false, py::arg("threads") = 0,
       "Fits the vehicle's parameters. `method`: \"log-linear\", \"nonlinear\" or \"trajectory\" "
       "(None: chosen by the data); `noise`: \"force\", \"speed\" or \"time\"; `family`, `fit`: "
-      "lists of "
-      "names, as --family and --fit have them; `time_limit_s` in s, 0: none; `threads` 0: all. The "
-      "numbers are those of `awmr identify`, for any number of threads. Raises InputError.");
+      "lists of the values of --family and --fit; `time_limit_s` in s, 0: none; `threads` 0: all "
+      "cores. The results equal those of `awmr identify`, for any number of threads. Raises "
+      "InputError.");
   module.def("suggest", suggested, py::arg("model"), py::kw_only(), py::arg("parameter") = "",
              py::arg("repeats") = 3,
-             "The trials to record next, best first: dicts with `settings` as text, `numbers` and "
-             "the standard errors of `parameter` before and after, in its unit; first those that "
-             "identify parameters without a value.");
+             "The trials to record next, best first, as a list of dicts: `settings` as text, "
+             "`numbers`, and the standard error of `parameter` before and after the trial, in its "
+             "unit. Trials that identify parameters without a value come first.");
 }
 
 }  // namespace awmr::python

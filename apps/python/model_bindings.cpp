@@ -22,8 +22,8 @@ py::object interval_of(const std::optional<Interval>& interval) {
 void bind_findings(py::module_& module) {
   py::class_<Finding>(module, "Finding",
                       "A message about the data or the result: `severity` is \"note\", "
-                      "\"warning\" or \"error\", `code` stable for scripts, `line` is 0 if it does "
-                      "not refer to a line.")
+                      "\"warning\" or \"error\"; `code` does not change between versions; `line` "
+                      "is 0 if the message does not refer to a line.")
       .def_readonly("file", &Finding::file)
       .def_readonly("line", &Finding::line)
       .def_readonly("code", &Finding::code)
@@ -121,9 +121,10 @@ void bind_model_class(py::module_& module) {
       .def_readonly("vehicle", &Model::vehicle)
       .def_property_readonly("surge_family", [](const Model& m) { return name_of(m.surge_family); })
       .def_property_readonly("yaw_family", [](const Model& m) { return name_of(m.yaw_family); })
-      .def_property_readonly("covariance", covariance_of,
-                             "(names, matrix) of the fitted parameters, in the products of their "
-                             "units")
+      .def_property_readonly(
+          "covariance", covariance_of,
+          "(names, covariance matrix) of the fitted parameters, in products of their "
+          "units")
       .def_property_readonly("findings", [](const Model& m) { return m.record.findings; })
       .def("text", model_text, "the bytes of model.json");
   bind_read(
@@ -139,11 +140,12 @@ void bind_model_class(py::module_& module) {
 
 void bind_gains(py::module_& module) {
   using G = Gains<double>;
-  py::class_<G>(module, "Gains",
-                "Of the heading law: slope lambda_ (1/s), mu (rad/s^2), epsilon (rad/s); of the "
-                "speed law speed_mu (m/s^2), speed_epsilon (m/s). All > 0. Of a disturbance "
-                "observer observer_bandwidth_radps (0: none), observer_yaw_max_m (m), "
-                "observer_surge_max.")
+  py::class_<G>(
+      module, "Gains",
+      "The controller's gains. Heading law: slope lambda_ (1/s), mu (rad/s^2), epsilon "
+      "(rad/s). Speed law: speed_mu (m/s^2), speed_epsilon (m/s). All are > 0. Disturbance "
+      "observer: observer_bandwidth_radps (0: none), observer_yaw_max_m (m), "
+      "observer_surge_max.")
       .def(py::init([](double lambda, double mu, double epsilon, double speed_mu,
                        double speed_epsilon, double bandwidth_radps, double yaw_max_m,
                        double surge_max) {

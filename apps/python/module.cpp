@@ -6,9 +6,11 @@ PYBIND11_MODULE(awmr, module) {
   module.doc() =
       "From trials to gains: read_vehicle, load_trials, identify, tune, simulate, compare.\n"
       "\n"
-      "Units are in the names: _m, _s, _rad, _deg, _mps, _radps, _kg. Forces are over F_max, the "
-      "largest force of one motor. Angles and yaw rates count counter-clockwise, left is positive. "
-      "Rows are NumPy arrays, warnings are a list of Finding, failures raise Error.";
+      "Names end in the unit: _m, _s, _rad, _deg, _mps, _radps, _kg. Forces are divided by F_max, "
+      "the largest force of one motor. Angles and yaw rates are positive counter-clockwise, "
+      "lateral quantities to the left. Tables are dicts of NumPy arrays, warnings are a list of "
+      "Finding, "
+      "failures raise Error.";
   module.attr("__version__") = awmr::version();
   awmr::python::bind_errors(module);
   awmr::python::bind_model(module);

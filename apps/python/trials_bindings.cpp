@@ -21,7 +21,7 @@ std::vector<std::filesystem::path> all_of(const Paths& paths) {
   return {};
 }
 
-/// NaN means an absent value.
+/// Returns one optional field of all rows as an array, NaN where it is absent.
 template <class Row>
 py::array optional_column(const std::vector<Row>& rows, std::optional<double> Row::*field) {
   return to_column(rows, [field](const Row& row) {
@@ -163,8 +163,8 @@ TrialsOfFiles load(const AnyVehicle& vehicle, const Path& surge, const Path& tur
 void bind_trials(py::module_& module) {
   py::class_<TrialsOfFiles>(
       module, "Trials",
-      "Trials in SI units. A table is a dict of NumPy arrays by column, `line` the "
-      "rows' lines in the file, NaN where a cell was not given; None without it.")
+      "Trials in SI units. A table is a dict of NumPy arrays by column, NaN for an empty cell, "
+      "with `line`, each row's line in the file; None if there is no such table.")
       .def_readonly("vehicle", &TrialsOfFiles::vehicle)
       .def_readonly("findings", &TrialsOfFiles::findings)
       .def_property_readonly("surge", surge_of, "tau_speed = 4 F' (1), speed_mps (m/s), ...")
@@ -180,10 +180,10 @@ void bind_trials(py::module_& module) {
       py::arg("turning") = py::none(), py::arg("coastdown") = std::monostate{},
       py::arg("log") = std::monostate{}, py::arg("columns") = std::vector<std::string>{},
       py::arg("prefer") = "printed", py::arg("as_is") = false, py::arg("steady_from_logs") = false,
-      "Reads and joins the trial files of one vehicle: paths; `coastdown` and `log` one or a "
-      "list. `columns`: mappings such as \"speed_mps=V*0.2778\", as --column has them. "
-      "`prefer`: \"printed\" or \"timed\", if a row gives a speed twice. Raises "
-      "InputError with every fault of every file.");
+      "Reads the trial files of one vehicle, given as paths; `coastdown` and `log` may be lists of "
+      "paths. `columns`: column mappings as in --column, such as \"speed_mps=V*0.2778\". `prefer`: "
+      "use the \"printed\" or the \"timed\" speed if a row gives both. Raises InputError with all "
+      "faults of all files.");
 }
 
 }  // namespace awmr::python

@@ -51,7 +51,7 @@ py::list scores_of(const Tuning& tuning) {
   return all;
 }
 
-/// Empty for nominal gains.
+/// Results on fresh draws, as a list of dicts; empty for nominal gains.
 py::list evaluated_gains_of(const Tuning& tuning) {
   py::list all;
   if (!tuning.robust) return all;
@@ -72,7 +72,7 @@ py::list evaluated_gains_of(const Tuning& tuning) {
   return all;
 }
 
-/// Empty without goals.
+/// Results of the goals, as a list of dicts; empty without goals.
 py::list goals_of(const Tuning& tuning) {
   py::list all;
   if (!tuning.robust) return all;
@@ -99,7 +99,7 @@ py::list goals_of(const Tuning& tuning) {
 void bind_tune(py::module_& module) {
   py::class_<Tuning>(module, "Tuning", "Gains and the results of the tuning.")
       .def_readonly("gains", &Tuning::gains)
-      .def_readonly("objective", &Tuning::objective, "1 for the baseline, less is better")
+      .def_readonly("objective", &Tuning::objective, "1 for the baseline gains, lower is better")
       .def_readonly("evaluations", &Tuning::evaluations)
       .def_readonly("algorithm", &Tuning::algorithm)
       .def_readonly("stop_reason", &Tuning::stop_reason)
@@ -120,10 +120,10 @@ void bind_tune(py::module_& module) {
   module.def("tune", tuned, py::arg("model"), py::kw_only(), py::arg("config") = py::none(),
              py::arg("nominal") = false, py::arg("draws") = py::none(), py::arg("observer") = false,
              "Searches the controller's gains under T2 < T1. `config`: path of tune.json; `draws`: "
-             "plants from the model's covariance (default 32); `nominal`: none, no noise, no lag; "
-             "`observer`: a disturbance observer is tuned with them. "
-             "The numbers are those of `awmr tune`. Raises Refused if no gains meet the "
-             "constraints, InputError if the model lacks a parameter.");
+             "number of plants drawn from the model's covariance (default 32); `nominal`: tune for "
+             "the nominal parameters without draws, noise and lag; `observer`: also tune a "
+             "disturbance observer. The results equal those of `awmr tune`. Raises Refused if no "
+             "gains meet the constraints, InputError if the model lacks a parameter.");
 }
 
 }  // namespace awmr::python

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Makes the recordings of this folder, of a rover that does not exist: an integration of the equations of motion that
-shares no code with awmr (midpoint rule at 0.5 ms), written as people write: PWM counts, milliseconds, km/h, decimal commas.
-usage: generate.py (writes beside itself)
+"""Makes the recordings of this folder. The rover is simulated by an integration of the equations of motion that shares no code with
+awmr (midpoint rule at 0.5 ms). Units are those of typical recordings: PWM counts, milliseconds, km/h, decimal commas.
+usage: generate.py (writes into its own folder)
 """
 import math
 import pathlib

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Makes the synthetic logs of this folder: an integration of the equations of motion that shares no code with awmr
-(midpoint rule at 0.25 ms), with the noise of the README. usage: generate.py (writes beside itself)
+"""Makes the synthetic logs of this folder by an integration of the equations of motion that shares no code with awmr
+(midpoint rule at 0.25 ms), with the noise that the README states. usage: generate.py (writes into its own folder)
 """
 import json
 import math
@@ -73,7 +73,7 @@ def coast(name, seed):
 
 
 def field(name, seed):
-    """Two turns in a field of 130 counts, with magnets (centre) and iron (gain, det 1) that turn along."""
+    """Two turns in a field of 130 counts, with magnets (centre) and iron (gain matrix of determinant 1) on the vehicle."""
     chance = random.Random(seed)
     lines = ["# synthetic, see README.md", "t_s,field_ahead,field_left,yaw_rate_radps"]
     ahead_0, left_0, gain, cross = 42.0, -67.0, 1.1, 0.06

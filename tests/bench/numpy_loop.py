@@ -1,6 +1,6 @@
-"""Closed loops in NumPy, a lane for every run, with what awmr compare does in each: laws, allocation, limits, classical
-Runge-Kutta steps that are checked to be short enough, and the metrics. Lane 0 is the nominal plant, the others are a few percent
-off. Prints the nominal run's rows and metrics as JSON. Run by scripts/bench.
+"""Closed loops in NumPy, all runs at once (a "lane" of the arrays per run), with the same work per run as in awmr compare: control laws,
+allocation, limits, classical Runge-Kutta steps with a check that they are short enough, and the metrics. Lane 0 is the nominal plant; the
+plants of the other lanes differ by a few percent. Prints rows and metrics of the nominal run as JSON. Run by scripts/bench.
 
 usage: numpy_loop.py MODEL.json GAINS.json SCENARIO.json SUBSTEPS LANES
 """

@@ -1,11 +1,11 @@
-"""The fit of awmr identify --log with SciPy: least_squares around solve_ivp on a log of driving_log.py. Prints result and
+"""Fits a log of driving_log.py like awmr identify --log, but with SciPy: least_squares around solve_ivp. Prints result and
 cost as JSON. Run by scripts/bench.
 
 The problem is awmr's (lib/awmr/identify/logs): the log in windows of ten seconds, each with its own initial state and a weak prior about
 the measurements, eight parameters, all but the exponents as logarithms, with a weak prior about the
-first guess, and the errors of five channels over their standard deviations. Those are given here; awmr finds them. All windows are one
-system of equations in NumPy, integrated from one change of the commands to the next. The Jacobian is by differences: fifteen are
-enough, as no window feels another's initial state, and all of them are one system too.
+first guess, and the errors of five channels divided by their standard deviations. The standard deviations are given here; awmr estimates
+them. All windows are integrated as one system of equations in NumPy, from one change of the commands to the next. The Jacobian uses
+finite differences. Fifteen perturbed solutions are enough, because the windows are independent; they are integrated together as well.
 
 usage: scipy_fit.py VEHICLE.json LOG.csv
 """

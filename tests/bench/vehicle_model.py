@@ -1,8 +1,8 @@
 """Vehicle, control laws and allocation in Python: the reference of scripts/bench.
 
 The equations are those of lib/awmr/model/dynamics.h and lib/awmr/control, implemented independently. A state is (x, y, psi, u, v, r, d_r)
-in m, rad, m/s and rad/s. Each of its numbers may be an array with a lane for every run, with `on=numpy`, or a plain number,
-with `on=NUMBERS`, which for a single run is several times as fast.
+in m, rad, m/s and rad/s. With `on=numpy`, each of its numbers is an array with one element (a "lane") per run. With `on=NUMBERS` it is a
+plain number, which is several times as fast for a single run.
 """
 import json
 import math
@@ -76,7 +76,7 @@ def steering_h(c, tau_speed, half_ratio, on):
 
 
 def allocated(c, tau_speed, tau_turn_m, on):
-    """F'L, F'R and d_r in combined mode: each way provides half of the moment, and takes over what the other cannot provide."""
+    """F'L, F'R and d_r in combined mode: steering and wheel forces each make half of the moment, and the rest that the other cannot make."""
     def clip(force):
         return on.maximum(c.force_min, on.minimum(c.force_max, force))
 

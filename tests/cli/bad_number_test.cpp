@@ -71,7 +71,7 @@ TEST(BadNumber, IsRefusedByEveryNumericOption) {
   }
 }
 
-/// Of a log's clock, which may be negative.
+/// Options with a time on a log's clock, which may be negative.
 TEST(BadNumber, IsRefusedAsATime) {
   const std::string files =
       "identify --vehicle configs/paper/vehicle.json "

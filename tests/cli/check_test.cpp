@@ -61,7 +61,7 @@ class Check : public ::testing::Test {
     write(name, json);
     return awmr("check " + project());
   }
-  /// With a short search for gains.
+  /// Runs `awmr run` on the project with a short search for gains.
   ProcessResult run() {
     write(
         "tune.json",

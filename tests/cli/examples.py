@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Every `awmr` example of the README and of the commands' helps runs where `init --example` wrote their files, and the
-JSON files that they write are valid by the program's schemas. usage: examples.py AWMR [RUN]
-RUN: results of configs/paper/project.json, which is then not run again (pipeline_test.cpp). The other searches are then short,
-and the paper's claims are left out."""
+"""Runs every `awmr` example of the README and of the commands' helps in a directory that `init --example` filled, and validates the
+JSON files that they write by the program's schemas. usage: examples.py AWMR [RUN]
+RUN: directory with the results of configs/paper/project.json (pipeline_test.cpp), which is then not run again. With RUN, other
+searches for gains are short, and the paper's claims are left out."""
 import importlib.util
 import json
 import shutil
@@ -13,7 +13,7 @@ from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parents[2]
 AWMR = str(Path(sys.argv[1]).resolve())
-# Each after those whose files it uses. Completion's examples are of the shell.
+# Commands in an order in which each follows those whose files it uses. The examples of `completion` are for the shell.
 COMMANDS = ("init", "check", "run", "identify", "live", "tune", "validate", "simulate", "compare", "merge", "emit",
             "export", "report", "suggest", "recover", "map", "compass", "explain", "schema", "man")
 
@@ -43,13 +43,13 @@ def runs(line, folder):
 
 
 def is_like_source(folder):
-    """Whether the inputs of the paper's project in the folder are those of the source."""
+    """True if the inputs of the paper's project in the folder equal those in the source tree."""
     names = [path.relative_to(folder) for place in ("configs/paper", "datasets/paper") for path in (folder / place).rglob("*.*")]
     return names and all((folder / name).read_bytes() == (SOURCE / name).read_bytes() for name in names)
 
 
 def shortened(lines, folder, paper_run):
-    """The examples with the results of the paper's project, with short searches, without the paper's claims."""
+    """Returns the examples changed to use the results of RUN and short searches, without the paper's claims."""
     assert is_like_source(folder)
     shutil.copytree(paper_run, folder / "out")
     search = {"global_evaluations": 20, "local_evaluations": 5, "draws": 2, "judged_draws": 4, "mode": "combined"}

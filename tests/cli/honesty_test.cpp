@@ -56,7 +56,7 @@ class Honesty : public ::testing::Test {
   static std::string kept(const std::string& name) { return (kept_->path() / name).string(); }
   std::string path(const std::string& name) const { return (directory_.path() / name).string(); }
 
-  /// The exit code is 0 or 1; the object that `--json` prints.
+  /// Returns the object that `--json` prints; checks that the exit code is 0 or 1.
   static Json result_of(const std::string& line) {
     const ProcessResult run = awmr(line + " --json");
     EXPECT_LE(run.exit_code, 1) << line << run.err;

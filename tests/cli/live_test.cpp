@@ -29,13 +29,15 @@ const std::string kDrive = std::string(AWMR_SOURCE_DIR) + "/datasets/synthetic/d
 const std::string kVehicle = " --vehicle configs/paper/vehicle.json";
 const std::string kPowerLaw = " --family power";
 
-/// Appended to `{ COMMAND`: a recorder that sends empty lines as long as there is a reader.
+/// End of a shell command `{ COMMAND`: then sends empty lines as long as there is a reader, like a
+/// recorder without data.
 const std::string kOnAndOn = "; while echo; do sleep 0.1; done 2>/dev/null; }";
 
 class Live : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (directory_.path() / name).string(); }
-  /// With the power law: the choice of a family, APipeInPieces', takes three times as long.
+  /// Command line of `awmr live`. By default with the power law, because the choice of a family,
+  /// which the test APipeInPieces covers, takes three times as long.
   std::string live(const std::string& options, const std::string& family = kPowerLaw) const {
     return std::string(AWMR_PROGRAM) + " live" + kVehicle + family + " -o " + path("live.json") +
            " " + options;

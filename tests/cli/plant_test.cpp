@@ -93,7 +93,7 @@ TEST_F(PlantOption, TyresOfValidateAreThoseOfTheRuns) {
                                        path("compared"))));
   ASSERT_EQ(compared.exit_code, 0) << compared.err;
   EXPECT_THAT(read_all(path("compared") + "/comparison.json"), HasSubstr("tyres-simulated"));
-  // Nothing would run on them.
+  // Refused because no run would use these tyres.
   for (const char* plant : {"", "--plant model "}) {
     EXPECT_EQ(awmr(with("simulate", fmt::format("--scenario {} --mode combined {}--tyres {} -o {}",
                                                 kC3, plant, path("tyres.json"), path("none.csv"))))

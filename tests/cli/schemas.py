@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Every JSON file that the program writes, every one of configs/ and whatever --json prints is valid by the
-program's own JSON Schemas, which refuse what the program refuses. usage: schemas.py AWMR [FOLDER]
-With FOLDER: the JSON files of that folder."""
+"""Validates every JSON file that the program writes, every one of configs/ and the output of --json by the program's own JSON
+Schemas, and checks that the schemas refuse what the program refuses. usage: schemas.py AWMR [FOLDER]
+With FOLDER: validates only the JSON files in that folder."""
 import json
 import os
 import subprocess
@@ -14,12 +14,12 @@ import jsonschema
 SOURCE = Path(__file__).resolve().parents[2]
 AWMR = str(Path(sys.argv[1]).resolve())
 
-# Faults of malformed.txt that a schema can detect: those that depend on one key only.
-# Codes of errors in one key.
+# Error codes of faults that depend on one key only. A schema can detect such cases of malformed.txt.
 BY_ONE_KEY = ("missing", "wrong-type", "out-of-range", "unknown-name")
-# Rules between two keys: a line goes from_m to_m unless it has points_m, and a scenario has a speed_mps unless its
+# Cases that no schema detects. Rules between two keys: a line goes from_m to_m unless it has points_m, and a scenario has a speed_mps unless its
 # headings have a tau_speed.
-# Beyond a schema: the order of two numbers, sizes of lists that depend on others, names of parameters, trials and laws.
+# Also: the order of two numbers, sizes of lists that depend on others, names of parameters, trials
+# and laws.
 BEYOND_SCHEMA = {(kind, f":/{place}", code) for kind, place, code in (
     ("vehicle", "steering/max_deg", "out-of-range"), ("vehicle", "surge_beta_range", "wrong-type"),
     ("vehicle", "surge_beta_range", "out-of-range"), ("vehicle", "yaw_beta_range", "out-of-range"),
@@ -70,7 +70,7 @@ def check(validators, document, where, kind):
 
 
 def pipeline(folder):
-    """Files of every format, by every command that writes one."""
+    """Runs every command that writes a JSON file; returns the files of every format."""
     for name in ("configs", "datasets"):
         os.symlink(SOURCE / name, Path(folder, name))
     c3 = "configs/paper/scenarios/c3_heading_steps.json"
@@ -165,7 +165,7 @@ def files_are_valid(validators, files, kinds):
 
 
 def files_of(folder):
-    """Without the values to fill in of `init`, and PlatformIO's library.json."""
+    """The JSON files in the folder, without those of `init` that contain null and without PlatformIO's library.json."""
     return sorted(p for p in Path(folder).rglob("*.json")
                   if not {"schemas", "rover", "my_rover"} & set(p.parts) and p.name != "library.json")
 

@@ -39,7 +39,7 @@ class ShardsOfCommands : public ::testing::Test {
         "configs/paper/scenarios/c3_heading_steps.json",
         model_, gains_, words);
   }
-  /// Runs both shards of the command, in separate directories.
+  /// Runs the command as two shards in separate directories.
   std::string parts_of(const std::string& name, const std::string& first,
                        const std::string& second) {
     expect_done(awmr(fmt::format("{} -o {}", first, path(name + "1"))));

@@ -174,7 +174,7 @@ class Slurm:
 
 
 def end(pids):
-    """Kills all at once, so that none can report another's end."""
+    """Kills all processes at the same time, so that none can report the end of another."""
     for what in (signal.SIGSTOP, signal.SIGKILL):
         for pid in pids:
             try:
@@ -208,7 +208,7 @@ def state_of(slurm, task):
 
 
 def lose_node_and_task(slurm, compare):
-    """The node that runs part 2 is lost, and part 2 once more by its task alone; Slurm requeues it both times."""
+    """Loses the node that runs part 2, later only the task of part 2; Slurm must requeue part 2 both times."""
     at = slurm.at
     print(slurm.submit(4, "merged", *compare), end="", flush=True)
     until("part 2 has started", (at / "started.0").exists)
@@ -225,7 +225,7 @@ def lose_node_and_task(slurm, compare):
 
 
 def damage_and_submit_again(slurm, compare):
-    """One of four existing parts is truncated: the next array runs only that part."""
+    """Truncates one of four existing parts; the next array must run only that part."""
     at = slurm.at
     (at / "quick").touch()
     parts = [at / f"merged/part-{i}/shard.json" for i in range(1, 5)]
@@ -248,7 +248,7 @@ def recover(slurm, words):
 
 
 def fail(slurm, compare):
-    """A part that fails cancels the merge, and its log says why."""
+    """Checks that a failing part cancels the merge and that its log has the reason."""
     slurm.submit(2, "failed", *compare, "--weight", "luck=1")
     until("the array has ended and the merge is cancelled", lambda: not slurm.tasks())
     assert "luck" in (slurm.at / "failed/log/part-2.log").read_text()

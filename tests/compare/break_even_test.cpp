@@ -34,7 +34,8 @@ Result<Comparison> compared(const Scenario& scenario, CompareOptions options = {
   return compare(uncertain_model(), kPaperGains, {scenario}, options);
 }
 
-/// By simulate(): whether the mode, both with so much scrub, settles and scores no worse.
+/// True if by simulate(), with the scrub moment `moment_m` in both modes, the entry's mode settles
+/// and scores no worse than the other one.
 bool leads(const Scenario& scenario, const Comparison& comparison, const BreakEven& entry,
            double moment_m) {
   const Model model = uncertain_model();
@@ -111,7 +112,7 @@ TEST(BreakEven, IsRefusedForPartsAndSeveralSetsOfGains) {
   EXPECT_EQ(exit_code(sets.error()), 2);
 }
 
-/// The comparison with scrub measured in the model's differential turns.
+/// Comparison of a model whose differential turns have a measured scrub moment.
 Comparison table_with(const std::optional<YawScrub>& scrub, std::optional<double> held_m = {}) {
   Model model = uncertain_model();
   model.yaw_scrub = scrub;
@@ -121,7 +122,7 @@ Comparison table_with(const std::optional<YawScrub>& scrub, std::optional<double
   return std::move(*comparison);
 }
 
-/// Scrub of ten turns at the rates of the compared runs.
+/// A scrub moment with this interval, as measured in ten turns at the rates of the compared runs.
 YawScrub scrub_of(const Interval& scrub_m) {
   return {0.5 * (scrub_m.lo + scrub_m.hi),
           0.25 * (scrub_m.hi - scrub_m.lo),
@@ -130,7 +131,7 @@ YawScrub scrub_of(const Interval& scrub_m) {
           {radians(20.0), radians(200.0)}};
 }
 
-/// Break-even moments of the model without scrub.
+/// Break-even scrub moments, computed with a model without scrub.
 std::vector<double> ending_moments_m() {
   std::vector<double> moments_m;
   const Comparison comparison = table_with(std::nullopt);
@@ -196,7 +197,8 @@ TEST(BreakEven, ReportsTheNumberOfTurnsForADecision) {
   const std::vector<double> ends_m = ending_moments_m();
   ASSERT_FALSE(ends_m.empty());
   const double end_m = ends_m.front();
-  // The end is half-way from the middle: half as wide, and four times as many turns.
+  // The break-even moment is half-way from the middle of the interval to its end. An interval of
+  // half the width would decide, which takes four times as many turns: 40.
   const Comparison comparison =
       table_with(scrub_of({0.9 * end_m - 0.2 * end_m, 0.9 * end_m + 0.2 * end_m}));
   for (const BreakEven& entry : *comparison.break_even) {

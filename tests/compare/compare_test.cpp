@@ -104,7 +104,8 @@ TEST(Compare, NoiseOfSampleZeroDoesNotDependOnTheSeed) {
 }
 
 TEST(Compare, ASampleIsTheSameVehicleInEveryScenarioAndMode) {
-  // The modes are equal in open loop straight ahead, so the sampled vehicles must be too.
+  // In open loop straight ahead all modes give the same motion, so equal results show that the
+  // sampled vehicles are the same.
   Scenario straight = short_open_loop();
   straight.guidance = OpenLoop{2.0, 0.0};
   Scenario again = straight;

@@ -50,8 +50,9 @@ std::vector<Contender> first_with(const ScenarioRows& rows, const Preferences& p
   return first;
 }
 
-/// Of the five scored metrics each weight halved or doubled: a score is linear-fractional in the weights,
-/// so its extremes over the box are at these corners.
+/// Modes that are first for all 2^5 combinations of halved and doubled weights of the five scored
+/// metrics. A score is linear-fractional in the weights, so its extremes over the box are at these
+/// corners.
 std::vector<Contender> first_at_every_corner(const ScenarioRows& rows) {
   std::vector<Contender> always{kDifferential, kSteering, kCombined};
   const std::vector<ScoredMetric> scoring = scoring_of(rows, {});
@@ -83,7 +84,7 @@ TEST(Decision, OfWeightsIsThatOfAllCornersOfTheirRange) {
         << number;
     nobody += decision.changes[0].first.empty() ? 1 : 0;
   }
-  // The drawn metrics give both: leads that depend on the weights, and leads that do not.
+  // Of the 60 random cases some have a mode that is first for all weights, and some have none.
   EXPECT_GT(nobody, 5U);
   EXPECT_LT(nobody, 55U);
 }
@@ -129,7 +130,7 @@ TEST(Decision, ChangesAreRunsOnTheOtherPlantAndWithOtherGains) {
   const auto comparison = compared({scenario, short_open_loop()}, 3);
   ASSERT_TRUE(comparison) << to_text(comparison.error());
   ASSERT_THAT(comparison->changes,
-              SizeIs(3));  // of the heading alone: in open loop nothing is ranked
+              SizeIs(3));  // of the heading scenario only: in open loop nothing is ranked
   Scenario tyres = scenario;
   tyres.tyres.emplace();
   Gains<double> slower = kPaperGains;

@@ -194,7 +194,7 @@ TEST(Noise, IsTheSameForAllModesAndOtherInEverySample) {
       compare(uncertain_model(), kPaperGains, {noisy}, {.samples = 2, .seed = 1, .threads = 1});
   ASSERT_TRUE(c);
   for (std::size_t sample = 0; sample < 3; ++sample) {
-    // Nothing is commanded, so the modes are equal.
+    // No turn is commanded, so the modes are equal.
     EXPECT_EQ(c->rows[sample].metrics.path_length_m, c->rows[3 + sample].metrics.path_length_m);
     EXPECT_EQ(c->rows[sample].metrics.path_length_m, c->rows[6 + sample].metrics.path_length_m);
   }

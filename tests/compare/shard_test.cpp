@@ -113,14 +113,14 @@ TEST_F(Shards, DamagedOrStoppedPartsAreRefused) {
   EXPECT_THAT(fault({first, write({2, 2}, twice)}),
               HasSubstr("has sample 5 instead of 1: rows are missing, repeated or of another "
                         "part; run part 2 of 2 again"));
-  // A whole scenario is missing, or appears in the place of another.
+  // Rows of a whole scenario are missing, or have the name of another scenario.
   Comparison half = run({2, 2});
   half.rows.resize(half.rows.size() / 2);
   EXPECT_THAT(fault({first, write({2, 2}, half)}),
               HasSubstr("part 2 of 2 has fewer rows than another"));
   std::copy_n(half.rows.begin(), half.rows.size(), std::back_inserter(half.rows));
   EXPECT_THAT(fault({first, write({2, 2}, half)}), HasSubstr("is not in its place"));
-  // Rows of another shard under this shard's name.
+  // The file of this shard contains rows of another one.
   EXPECT_THAT(fault({first, write({2, 2}, run({1, 2}))}),
               HasSubstr("row 1 has sample 0 instead of 1"));
 }

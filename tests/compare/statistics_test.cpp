@@ -64,7 +64,8 @@ TEST(Summary, WithoutSamplesHasTheNominalMeanAndNoQuantiles) {
   EXPECT_FALSE(s.q05 || s.q50 || s.q95);
 }
 
-/// Steering is 1 worse than differential in every sample, apart from noise common to both.
+/// Samples in which the metric of steering is 1 larger than that of differential; both have common
+/// noise.
 Comparison paired(int samples, double difference_spread) {
   Comparison c;
   for (const YawMode mode : {YawMode::kDifferential, YawMode::kSteering}) {
@@ -108,7 +109,8 @@ TEST(PairedDifferences, HaveTheWidthOfTheMeansStandardError) {
 }
 
 TEST(Bootstrap, LeavesOutLessForFewValues) {
-  // Phi(-t sqrt(n/(n - 1))): t of 9 degrees of freedom is 2.2622, times 1.0541: Phi(-2.3846) = 0.00855.
+  // Phi(-t sqrt(n/(n - 1))): t of 9 degrees of freedom is 2.2622, times 1.0541: Phi(-2.3846) =
+  // 0.00855.
   EXPECT_NEAR(bootstrap_tail(10, 0.025), 0.00855, 2e-5);
   EXPECT_NEAR(bootstrap_tail(100000, 0.025), 0.025, 1e-5);
   EXPECT_LT(bootstrap_tail(2, 0.025), 1e-12);

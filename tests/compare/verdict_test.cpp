@@ -146,7 +146,8 @@ TEST(Tally, CountsTheBestAndTheTied) {
   const Evaluated clear = evaluate(twenty(3.0, 0.1));
   const Evaluated alike = evaluate(twenty(0.1, 2.0));
   const auto tallies = tally({clear.scenario, alike.scenario});
-  // Those, and seven that every run has: sideslip, control variation, energy and wear, all 0.
+  // The two metrics set above, and seven that every run has (sideslip, control variation, energy,
+  // wear), all 0.
   ASSERT_EQ(tallies.size(), 9U);
   EXPECT_EQ(tallies[0].metric, MetricId::kSettlingTime);
   EXPECT_EQ(tallies[0].scenarios, 2);

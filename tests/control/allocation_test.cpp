@@ -50,7 +50,7 @@ TEST(Allocation, DeliversExactlyWhatIsRequestedInsideTheLimits) {
   }));
 }
 
-/// An independent slow reference: solves (41) for each mode by itself.
+/// Independent reference, slow: solves (41) numerically for each mode.
 class Reference41 {
  public:
   Reference41(const AllocationLimits<double>& its_limits) : l(its_limits) {}
@@ -182,7 +182,8 @@ TEST(Allocation, ReportsSteeringWithoutAuthority) {
   EXPECT_FALSE(allocate(YawMode::kSteering, 0.5, 0.1, limits()).steering_powerless);
 }
 
-/// Without its taper the steering command jumps by the stop's 20 degrees when tau_speed crosses 0.
+/// The steering limit is tapered to 0 at tau_speed 0; otherwise the command would jump by 20 deg
+/// there.
 TEST(Allocation, TheSteeringCommandHasNoJumpWhereThrustCrossesZero) {
   for (const AllocationForm form : {AllocationForm::kExact, AllocationForm::kPaper}) {
     for (const bool is_rear_driven : {true, false}) {
@@ -219,7 +220,8 @@ TEST(Allocation, TheSteeringsLimitRisesWithTheThrustAndCombinedMakesUpForIt) {
   EXPECT_NEAR(delivered(both).tau_speed, 0.015625, 1e-14);
 }
 
-/// An AVR rounds subnormal quotients differently from a host, so there must be none.
+/// No quotient of the allocation may be subnormal, because an AVR rounds subnormal numbers
+/// differently from a host.
 TEST(Allocation, OfFloatsSteersByNoSubnormalAngle) {
   const AllocationLimits<float> l = paper_controller_of<float>().limits;
   for (const YawMode mode : {YawMode::kSteering, YawMode::kCombined}) {
@@ -257,7 +259,7 @@ TEST(Allocation, RedistributionNeverDeliversLessOfTheMomentThanTheFixedHalf) {
     const double fixed = moment(
         allocate(YawMode::kCombined, tau_speed, tau_turn_m, limits(CombinedSplit::kFixedHalf)));
     const double shared = moment(allocate(YawMode::kCombined, tau_speed, tau_turn_m, limits()));
-    // Not beyond the request either.
+    // The redistributed moment is between that of the fixed split and the requested one.
     RC_ASSERT(shared >= std::min(fixed, tau_turn_m) - 1e-12);
     RC_ASSERT(shared <= std::max(fixed, tau_turn_m) + 1e-12);
   }));
@@ -270,7 +272,8 @@ TEST(Allocation, SteeringTakesOverTheMomentOfClippedForces) {
     const Allocation<double> a = allocate(YawMode::kCombined, 3.6, tau_turn_m, limits());
     EXPECT_TRUE(a.force_limited);
     EXPECT_FALSE(a.steering_limited);
-    // The rest is computed at the previous angle, whose 1 + cos d_r is 0.3 % off.
+    // The moment that steering takes over is computed with the 1 + cos d_r of the angle before,
+    // which is 0.3 % off.
     EXPECT_NEAR(moment(a), tau_turn_m, 5e-3 * std::abs(tau_turn_m));
   }
 }
@@ -321,7 +324,7 @@ TEST(AllocationForSmallAngles, MovesTheRestOfALimitedPathToTheOther) {
   const Allocation<double> forced = allocate(YawMode::kCombined, 3.9, 0.2, small_angle_limits());
   EXPECT_TRUE(forced.force_limited);
   const auto left = delivered_for_small_angles(forced);
-  // The clipped forces also changed tau_speed, for which the angle compensates.
+  // Clipping the forces also changed tau_speed; the steering angle compensates for that.
   EXPECT_NEAR(left.tau_steering_m + left.tau_diff_m, 0.2, 1e-12);
 }
 
@@ -345,8 +348,8 @@ TEST(Allocation, FloatIsClippedAsEveryScalarIs) {
   struct Range {
     float lo, hi;
   };
-  // Reversible forces, non-reversible ones and ones that never reach 0; and a range on the other
-  // side.
+  // Ranges of reversible forces, of forces that only drive forward, of forces that never reach 0,
+  // and of negative forces.
   for (const Range range : {Range{-1.0F, 1.0F}, Range{-0.25F, 1.0F}, Range{-1.0F, 0.25F},
                             Range{0.0F, 1.0F}, Range{0.1F, 1.0F}, Range{-1.0F, -0.1F}}) {
     for (const float x : {0.0F, -0.0F, 0.05F, -0.05F, 0.1F, -0.1F, 0.25F, -0.25F, 0.5F, -0.5F, 1.0F,

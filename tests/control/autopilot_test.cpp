@@ -15,7 +15,7 @@ constexpr float kSampleTime_s = 0.03F;
 const YawSplit<float> kCombinedSplit =
     yaw_split<float>(YawMode::kCombined, CombinedSplit::kRedistribute);
 
-/// Wide enough for the obstacles of these tests to matter.
+/// Avoidance parameters with which the obstacles of these tests change the heading.
 constexpr Avoidance<float> kAvoidance{.mmd_base_m = 2.0F,
                                       .mmd_per_speed_s = 1.0F,
                                       .sigma_rad = 0.2F,
@@ -31,7 +31,7 @@ class AutopilotLeads : public PaperAutopilot {
 
   AutopilotLeads() { start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc_); }
 
-  /// Output of the next step at a position.
+  /// Executes the next step at a position and returns its output.
   AutopilotOutput step_at(const Position<float>& position_m) {
     in_.position_m = position_m;
     const std::uint32_t now_ms = in_.times.now_ms + 30;
@@ -41,7 +41,8 @@ class AutopilotLeads : public PaperAutopilot {
     EXPECT_EQ(out.fault, kFaultNone);
     return out;
   }
-  /// Expects the output of the plain laws for a reference, without any optional part.
+  /// Expects the output that the control laws alone give for a reference, without any optional
+  /// part.
   void expect_reference(const AutopilotOutput& out, const Reference<float>& ref) const {
     EXPECT_EQ(out.psi_ref_rad, ref.psi_rad);
     EXPECT_EQ(out.tau_speed, speed_law(autopilot_.controller, in_.measured, ref));
@@ -50,7 +51,7 @@ class AutopilotLeads : public PaperAutopilot {
   Reference<float> led_to(float psi_rad, float speed_share = 1.0F) const {
     return {psi_rad, 0.0F, 0.0F, in_.reference.speed_mps * speed_share, in_.reference.accel_mps2};
   }
-  /// Fault of a first step whose position is NaN.
+  /// Returns the fault of a first step whose position is NaN.
   std::uint8_t fault_without_position() {
     AutopilotInput in = good();
     in.position_m.x_m = kNaN;
@@ -381,7 +382,8 @@ TEST_F(AutopilotLeads, ByWhatWasRequestedLast) {
   EXPECT_EQ(heading(), 0.3F);
 }
 
-/// The same fix in each step: the estimate goes on with speed and heading, backward too.
+/// The input has the same fix in each step, and the estimated position moves with speed and
+/// heading, also backward.
 TEST_F(AutopilotLeads, ByAPositionEstimatedFromTheFixesOfAReceiver) {
   filter_position(autopilot_, position_filter<float>(1.5, 0.2, 0.03));
   follow_waypoints(autopilot_, {kPoints, 1, 0.5F, false});

@@ -183,7 +183,7 @@ RC_GTEST_PROP(Lqi, TheGainsSolveTheRiccatiEquationAndTheLoopIsStable, ()) {
   const double inertia_norm = ratio_between(1e-3, 10.0);
   const LqiGains<double> gains = lqi_gains(weights, inertia_norm);
   const LinearPlant plant;
-  // w = -k x
+  // The law is w = -k x.
   const Vector3 k(-Real(gains.heading_per_s2), -Real(gains.rate_per_s),
                   -Real(gains.integral_per_s3));
   const Vector3 largest(weights.heading_rad, weights.yaw_rate_radps, weights.integral_rad_s);

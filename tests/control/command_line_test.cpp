@@ -16,7 +16,7 @@ struct Heard {
   float value;
 };
 
-/// Verdicts on these characters.
+/// Reads the characters and returns each verdict.
 std::vector<Heard> hear(CommandReader& reader, const std::string& text) {
   std::vector<Heard> heard;
   for (const char c : text) {

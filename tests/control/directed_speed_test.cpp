@@ -12,7 +12,7 @@
 namespace awmr::testing {
 namespace {
 
-/// m' du/dt = tau_speed - g1(u) - slope
+/// Vehicle on a slope, forward and backward: m' du/dt = tau_speed - g1(u) - slope.
 struct Vehicle {
   double mass_norm = 1.0;
   double alpha = 0.2;

@@ -78,7 +78,7 @@ TEST(Waypoints, APassedOneIsTurnedBackToOrMissed) {
 using LosLine = Polyline<double, LineOfSight<double>>;
 constexpr LineMotion<double> kStraight{0.0, 1.0, 0.01};
 
-/// psi_d beside a line of direction 0.2 rad.
+/// Returns psi_d at a signed distance from a line with the direction 0.2 rad.
 double heading_beside(const LineOfSight<double>& law, double cross_track_m, double sideslip_rad) {
   const double t[] = {std::cos(0.2), std::sin(0.2)};
   const P points[] = {{0, 0}, {100.0 * t[0], 100.0 * t[1]}};

@@ -20,8 +20,8 @@ TEST(Laws, WrapIsInMinusPiToPiWithPiItself) {
 }
 
 TEST(Laws, WrapTakesNoLongerForALargeAngleAndLeavesNaNAsItIs) {
-  // An earlier version subtracted 2 pi repeatedly: 50 s for a run at 1e10 deg, and endless from
-  // 1e17 on, where subtracting 2 pi does not change the number.
+  // Repeated subtraction of 2 pi would take 50 s per run at 1e10 deg, and would not end from 1e17
+  // on, where it does not change the number.
   constexpr double kPi = pi<double>();
   for (const double angle : {1.7e8, 1e10, -1e17, 1e300, -1.7e308}) {
     const double wrapped = wrap_angle(angle);

@@ -1,5 +1,5 @@
-/// Position from late and noisy fixes and dead reckoning: the filter's equations, latency, drop-outs,
-/// jumps.
+/// Position from late and noisy fixes and dead reckoning: the filter's equations, latency,
+/// drop-outs, jumps.
 #include "awmr/control/position_estimate.h"
 
 #include <gtest/gtest.h>
@@ -61,9 +61,9 @@ class Drive {
   int steps_ = 0;
 };
 
-/// The motion is read in three steps, held for three and integrated from the step before: in a turn
-/// the direction lags by up to 5 steps. With r = 0.5 rad/s these are 0.025 rad, on a circle of 2 m a
-/// displacement of 0.05 m.
+/// In a turn the direction of the estimated motion lags by up to 5 steps: the motion is read in
+/// three steps, held for three and integrated from the step before. At r = 0.5 rad/s, 5 steps are
+/// 0.025 rad, which on a circle of 2 m is a displacement of 0.05 m.
 TEST(PositionEstimate, FollowsTheVehicleBetweenFixes) {
   Drive<double> straight(position_filter<double>(1.5, 0.2, kStep_s));
   Drive<double> turn(position_filter<double>(1.5, 0.2, kStep_s), 1.0, 0.5);
@@ -131,7 +131,8 @@ TEST(PositionEstimate, HasTheSteadyGainOfTheFilter) {
   EXPECT_NEAR(before, gain, 1e-4);
 }
 
-/// 0.1 m/s of speed error drift away by 0.3 m in 3 s, and the next fixes weigh more.
+/// With a speed error of 0.1 m/s the estimate drifts by 0.3 m in 3 s without fixes. The next fixes
+/// then have a larger gain.
 TEST(PositionEstimate, SurvivesADropOutOfThreeSeconds) {
   Drive<double> drive(position_filter<double>(1.5, 0.2, kStep_s));
   drive.run(30.0);

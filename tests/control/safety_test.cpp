@@ -16,7 +16,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 float above(float x) { return std::nextafterf(x, kInfinity); }
 float below(float x) { return std::nextafterf(x, -kInfinity); }
 
-/// Limits of different size, so that none can be confused with another.
+/// Allocation with different limits forward and backward, so that a mix-up would be detected.
 AllocationConstants<float> constants() {
   AllocationLimits<float> limits = paper_controller_of<float>().limits;
   limits.force_min = -0.5F;

@@ -22,7 +22,7 @@ std::string sentence(const std::string& body) {
 constexpr const char* kGood =
     "GPRMC,123519.20,A,4807.0380000,N,01131.0000000,E,022.4,084.4,230394,003.1,W,A";
 
-/// Parser verdict on the characters of a line; kOther if they are not a sentence.
+/// Parses the characters of a line and returns the verdict; kOther if they are not a sentence.
 GpsSentence read(const std::string& line, GpsFix& fix) {
   RmcReader reader;
   GpsSentence kind = GpsSentence::kOther;
@@ -93,7 +93,7 @@ TEST(Rmc, RefusesEmptyAndMalformedFields) {
   }
 }
 
-/// A port with a buffer of 64 characters, as Arduino's.
+/// Serial port with a receive buffer of 64 characters, like Arduino's.
 struct Port {
   std::string waiting;
   int most = 0;
@@ -178,7 +178,7 @@ TEST(FrozenCheck, FindsTheSameWordForHalfASecondAlsoAcrossTheClocksWrap) {
   }
 }
 
-/// rad/s per count of the board's gyroscope.
+/// Resolution of the board's gyroscope, rad/s per count.
 constexpr float kPerWord = 500.0F / 32768.0F * 0.0174532925F;
 
 GyroCalibration calibrated(double rate_radps, double sway_radps, bool has_compass) {
@@ -296,7 +296,8 @@ TEST(GpsCheck, FindsSpeedAndPositionThatContradictEachOther) {
 }
 
 TEST(GpsCheck, FindsAPositionThatDoesNotFollowTheSpeed) {
-  // Twice along the same heading: a window of 12 m ends after 13 m.
+  // A position that stands still, and one that moves by a fifth of the speed. The window of 12 m
+  // ends after 13 m.
   for (const float share : {0.0F, 0.2F}) {
     Receiver held;
     ASSERT_TRUE(held.drive(10));
@@ -308,7 +309,7 @@ TEST(GpsCheck, FindsAPositionThatDoesNotFollowTheSpeed) {
     EXPECT_EQ(held.check.fault(held.now_ms), kGpsInconsistent);
     EXPECT_LT(fixes, 130);
   }
-  // A receiver that froze at rest: 10 s.
+  // A receiver whose position and speed froze at rest is detected after 10 s.
   Receiver frozen;
   frozen.fix.speed_mps = 0.0F;
   for (int i = 0; i < 49; ++i) ASSERT_TRUE(frozen.next());
@@ -318,7 +319,7 @@ TEST(GpsCheck, FindsAPositionThatDoesNotFollowTheSpeed) {
   frozen.at.direction = 0;
   frozen.at.is_armed = false;
   ASSERT_TRUE(frozen.drive(500)) << "nothing moves, nothing is to move";
-  // A speed that is stuck, at rest: after 10 s of braking and 12 m.
+  // A speed that is stuck at 1 m/s while the vehicle rests is detected after 10 s and 12 m.
   Receiver stuck;
   ASSERT_TRUE(stuck.drive(10));
   stuck.at.direction = 0;
@@ -328,7 +329,8 @@ TEST(GpsCheck, FindsAPositionThatDoesNotFollowTheSpeed) {
     stuck.next();
   }
   EXPECT_NEAR(waited, 5 * (10 + 12), 5);
-  // At speed 0 the noise of a speed without a sign adds up, forth and back the displacements cancel.
+  // At rest the noise of a speed without a sign adds up, while displacements forth and back cancel:
+  // no fault.
   Receiver resting;
   resting.fix.speed_mps = 0.25F;
   resting.at.direction = 0;
@@ -357,8 +359,8 @@ TEST(GpsCheck, FindsAVehicleThatMovesTheWrongWay) {
   EXPECT_EQ(gps.check.fault(gps.now_ms), kSensorGood) << "at rest the next arming may come";
 }
 
-/// A vehicle at 1 m/s that turns by `turn_radps` until its heading is `wanted_rad`, in `seconds`. Distance driven
-/// when kOffCourse was raised; -1: never.
+/// Drives at 1 m/s for `seconds` and turns by `turn_radps` until the heading is `wanted_rad`.
+/// Returns the distance driven when kOffCourse was raised, m; -1: never.
 double off_course_after_m(double wanted_rad, double turn_radps, double seconds) {
   Receiver gps;
   double psi_rad = 0.0;
@@ -376,8 +378,8 @@ double off_course_after_m(double wanted_rad, double turn_radps, double seconds) 
 
 TEST(GpsCheck, FindsAVehicleThatDoesNotTurnToItsHeading) {
   constexpr double kLimit_mrad = static_cast<double>(kLimits.off_course_mrad);
-  // Straight on: after off_course_mrad/(e - on_course_rad). The first fix has no motion, the second a
-  // new heading, and the last is at most one late: three fixes of 0.2 m.
+  // Straight on: after off_course_mrad/(e - on_course_rad). The first fix has no motion, the second
+  // a new heading, and the last is at most one late: three fixes of 0.2 m.
   for (const double error_rad : {1.0, 1.57, 2.5, 3.1}) {
     EXPECT_NEAR(off_course_after_m(error_rad, 0.0, 300.0), kLimit_mrad / (error_rad - 0.262), 0.6)
         << error_rad;
@@ -399,8 +401,8 @@ TEST(GpsCheck, AcceptsANewCommandedHeading) {
   }
 }
 
-/// Distance turned, rad, when a turn from `rate_radps`, which falls by `fall` of itself in a turn of 90 deg, against
-/// the moment is found; -1: never.
+/// Turns against the commanded moment, first at `rate_radps`; in a turn by 90 deg the rate falls by
+/// the fraction `fall`. Returns the angle turned when the fault was raised, rad; -1: never.
 double wrong_turn_after_rad(double rate_radps, double fall) {
   TurnCheck check;
   check.begin(kPerWord, 0.01F);
@@ -462,8 +464,9 @@ TEST(GpsCheck, RaisesNoFaultOnARoughDrive) {
   }
 }
 
-/// Faults within two minutes of slow driving where positions wander by 1.5 m RMS with a time constant of 60 s, or
-/// with a speed that reads `speed_share`, or a track that is `off_rad` off the heading.
+/// Number of 200 slow drives of two minutes that raise a fault. Positions wander by `wander_m` RMS
+/// with a time constant of 60 s, the measured speed is the fraction `speed_share` of the true one,
+/// and the track is `off_rad` off the heading.
 int faults_of_slow_drives(float wander_m, float speed_share, float off_rad) {
   int faults = 0;
   for (unsigned seed = 1; seed <= 200; ++seed) {

@@ -1,4 +1,4 @@
-/// rapidcheck generators of numbers.
+/// Generators of random numbers for rapidcheck.
 #pragma once
 
 #include <rapidcheck.h>
@@ -8,7 +8,8 @@
 
 namespace awmr::testing {
 
-/// Any finite double, built from its parts: all magnitudes, subnormals, both zeros.
+/// Generates any finite double from sign, exponent and mantissa: all magnitudes, subnormals, both
+/// zeros.
 inline rc::Gen<double> any_finite() {
   // rapidcheck covers the whole range only at its nominal size.
   return rc::gen::resize(

@@ -1,4 +1,4 @@
-/// Faults of a CSV file: place, finding, remedy.
+/// Errors in CSV files: their place, message and remedy.
 #include <gmock/gmock.h>
 
 #include "core/csv_text.h"
@@ -21,7 +21,7 @@ std::vector<std::string> faults(std::string_view text,
   return faults_of(read_text(text, kSurge, mappings));
 }
 
-/// Faults of a file whose only row has this cell under speed_mps.
+/// Returns the faults of a file whose only row has this cell in the column speed_mps.
 std::vector<std::string> cell_faults(const std::string& cell, char delimiter = ',') {
   const std::string d(1, delimiter);
   return faults("tau_speed" + d + "speed_mps\n1" + d + cell + "\n");

@@ -40,13 +40,13 @@ RC_GTEST_PROP(FormatNumber, NoShorterTextReadsBackTheSame, ()) {
   }
 }
 
-/// The number in a table of one cell; none if it is a fault.
+/// Reads a table of one cell and returns its number; none if the cell is refused.
 std::optional<double> number_in_table(const std::string& cell) {
   const auto table = read_csv_text("x,y\n0," + cell + "\n", "a.csv", std::vector<CsvColumn>{{"y"}});
   return table ? std::optional(table->column("y")[0]) : std::nullopt;
 }
 
-/// Decimal numbers of all lengths, as from std::from_chars bit for bit.
+/// Decimal numbers of all lengths are read with the same bits as by std::from_chars.
 RC_GTEST_PROP(CsvNumber, IsThatOfFromChars, ()) {
   const auto digits = *rc::gen::container<std::string>(rc::gen::inRange('0', ':'));
   std::string text = *rc::gen::element<std::string>("", "-", "00") + digits;

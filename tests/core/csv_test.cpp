@@ -1,4 +1,4 @@
-/// Accepted CSV formats.
+/// CSV formats that the reader accepts.
 #include "awmr/core/csv.h"
 
 #include <gmock/gmock.h>

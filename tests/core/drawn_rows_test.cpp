@@ -18,7 +18,8 @@ Signal times(std::size_t rows) {
   return t;
 }
 
-/// Largest distance of `y` from the lines between the rows, relative to its range.
+/// Largest distance of the signal `y` from straight lines between the selected rows, relative to
+/// its range.
 double worst_distance(const Signal& t, const Signal& y, const std::vector<std::size_t>& rows) {
   const auto [low, high] = std::minmax_element(y.begin(), y.end());
   double worst = 0.0;

@@ -1,4 +1,4 @@
-/// Text of errors, for matchers.
+/// Converts errors to text, for matchers.
 #pragma once
 
 #include <string>

@@ -92,7 +92,7 @@ TEST_F(FileLoss, AMissingDirectoryIsFoundBeforeTheWork) {
   EXPECT_THAT(faults_of(check_output(directory_.path())), ElementsAre(HasSubstr("directory")));
 }
 
-/// ID of a process that has ended.
+/// Returns the ID of a process that has ended.
 pid_t ended_process() {
   const pid_t child = ::fork();
   if (child == 0) ::_exit(0);
@@ -167,7 +167,7 @@ TEST_F(FileLoss, AFullDeviceIsAnError) {
   EXPECT_THAT(faults_of(write_file("/dev/full", "x")), ElementsAre(HasSubstr("No space left")));
 }
 
-/// A program that only creates temporary files, ended at random times, 200 times.
+/// Starts a program that only creates temporary files 200 times, and ends it at random times.
 TEST_F(FileLoss, ASignalLeavesNoTemporaryFileWhereverItComes) {
   std::mt19937 random(1);
   for (int i = 0; i < 200; ++i) {

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 using FileTest = DirectoryTest;
 
-/// During its lifetime no file can grow beyond `bytes`: writing fails as on a full disk.
+/// During its lifetime, writing beyond `bytes` bytes of a file fails, as on a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

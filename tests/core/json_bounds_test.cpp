@@ -29,7 +29,7 @@ std::string joined(const std::vector<std::string>& parts) {
   return all;
 }
 
-/// `{"0": 0, "1": 0, ...}`
+/// Returns a JSON object with many keys: `{"0": 0, "1": 0, ...}`.
 std::string object_of(std::size_t keys) {
   std::string text;
   for (std::size_t i = 0; i < keys; ++i) {
@@ -41,7 +41,7 @@ std::string object_of(std::size_t keys) {
   return text;
 }
 
-/// Processor time of a call, s.
+/// Returns the processor time of a call, s.
 template <class Work>
 double seconds(Work work) {
   const std::clock_t start = std::clock();

@@ -1,4 +1,4 @@
-/// A whole JSON document: syntax, duplicate keys, numbers out and in again.
+/// JSON documents: syntax, duplicate keys, and numbers that read back the same.
 #include <gmock/gmock.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>

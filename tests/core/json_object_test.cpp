@@ -1,4 +1,4 @@
-/// Strict reading of one object.
+/// Strict reading of the keys of one JSON object.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A document under test; its reading faults as `PLACE: MESSAGE`.
+/// Fixture with a document; faults() returns the faults of reading it as `PLACE: MESSAGE`.
 class JsonObjectTest : public ::testing::Test {
  protected:
   JsonObject root(const char* text) {
@@ -139,7 +139,7 @@ TEST_F(JsonObjectTest, RangesAreStatedAndTheirEndsAreAllowedOrNot) {
 
 TEST_F(JsonObjectTest, WholeNumbersBeyondTheirRange) {
   JsonObject object = root(R"({"a": 18446744073709551615, "b": -9223372036854775808, "c": 3})");
-  (void)object.integer("a", -10, -1);  // -1 if its bits were read as signed
+  (void)object.integer("a", -10, -1);  // 2^64 - 1, which would be -1 if read as signed
   EXPECT_EQ(object.integer("b", std::numeric_limits<long>::min(), 0),
             std::numeric_limits<long>::min());
   (void)object.integer("c", 4, 9);

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""No two types, and no two inline functions or templates of one signature, have the same name in one namespace.
+"""Checks that no two types, and no two inline functions or templates with one signature, have the same name in one namespace.
 
-The linker keeps one of both for the whole program, which then uses one in place of the other. This gives no warning and
-occurs only if the compiler did not inline the common functions. So awmr::WindowSums of the trials and of the log fits
-crashed programs that were compiled without optimisation. usage: one_definition_test.py
+Of two such definitions the linker keeps one for the whole program, without a warning, if the compiler did not inline them. Code
+then uses the wrong one and can crash. usage: one_definition_test.py
 """
 import collections
 import pathlib
@@ -17,7 +16,7 @@ FUNCTION = re.compile(r"(?:template\s*<|inline\b|constexpr\b|AWMR_\w+)[^=;{]*?\b
 
 
 def code_of(path):
-    """The text without comments, strings and what follows a #; a definition's head on one line."""
+    """Returns the text without comments, strings and preprocessor lines, with the head of each definition on one line."""
     text = re.sub(r"//[^\n]*|/\*.*?\*/|^\s*#[^\n]*", "", path.read_text(errors="replace"), flags=re.DOTALL | re.MULTILINE)
     text = re.sub(r'R"(\w*)\(.*?\)\1"', '""', text, flags=re.DOTALL)
     text = re.sub(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', '""', text)

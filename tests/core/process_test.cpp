@@ -1,4 +1,4 @@
-/// Programs started by argument list: their arguments, and how they end.
+/// Starts of programs by an argument list: arguments that arrive, output, exit codes, signals.
 #include "awmr/core/process.h"
 
 #include <gmock/gmock.h>

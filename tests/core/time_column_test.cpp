@@ -72,7 +72,7 @@ TEST(FindTime, TakesDates) {
 }
 
 TEST(SecondsOfDate, IsWhatTheCalendarSays) {
-  // date -u -d 2026-11-21T17:48:06Z +%s
+  // Expected value by: date -u -d 2026-11-21T17:48:06Z +%s
   EXPECT_EQ(seconds_of_date("2026-11-21T17:48:06Z"), 1795283286.0);
   EXPECT_EQ(seconds_of_date("1970-01-01 00:00"), 0.0);
   EXPECT_EQ(seconds_of_date("2024-02-29T00:00:00+00:00"), 1709164800.0);

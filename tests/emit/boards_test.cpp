@@ -30,7 +30,7 @@ class Boards : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-/// A board as Arduino's boards.txt and platform.txt describe it.
+/// Properties of a board, from Arduino's boards.txt and platform.txt.
 struct Board {
   const char* chip;
   const char* name;
@@ -119,8 +119,8 @@ TEST_P(SketchesOnUno, ReportAMissingCard) {
 INSTANTIATE_TEST_SUITE_P(, SketchesOnUno, ::testing::Values(&kUno),
                          [](const auto&) { return std::string("uno"); });
 
-/// Runs the autopilot on random inputs, with one more part each round, and prints a sum over all
-/// output bits after each. Its own sums and products are not fused either (-ffp-contract=off).
+/// Program that runs the autopilot on random inputs, with one more part in each round, and prints a
+/// checksum of all output bits after each. Built without fused multiply-add (-ffp-contract=off).
 constexpr const char* kDriven = R"(#include "awmr.h"
 #include <stdio.h>
 #include <string.h>
@@ -238,7 +238,7 @@ class OtherProcessors : public Boards {
   }
 };
 
-/// A compiler for an FPU would round a b + c once (vfma): awmr.cpp disables that itself.
+/// awmr.cpp disables fused multiply-add (vfma), which a compiler for an FPU would use.
 TEST_F(OtherProcessors, GiveTheHostsBitsWithAndWithoutAnFpu) {
   for (const char* program : {kArmGcc, kArmGxx, kQemuArm}) {
     if (!found(program)) GTEST_SKIP() << "the ARM tools are not installed (scripts/setup all)";

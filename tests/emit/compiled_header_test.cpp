@@ -39,8 +39,8 @@ constexpr Compiler kCompilers[] = {
     {"AvrCxx14", kAvrGxx, "c++14", true, true},
 };
 
-/// Values that are hard to print as literals: ends of the range, whole numbers above 2^24, values
-/// whose ninth digit matters, exponents.
+/// Model with values that are hard to write as literals: ends of the range, whole numbers above
+/// 2^24, values whose ninth digit matters, exponents.
 Model strained_robot() {
   Model model = paper_robot();
   using Limits = std::numeric_limits<float>;
@@ -170,7 +170,8 @@ TEST_P(CompiledHeader, DoesNotCompileWhenEditedToAValueThatIsNotPositive) {
       checks.push_back(name + "_IS_POSITIVE");
     }
     write_header(edited);
-    // Every check is identified by its name, so that a failure of another one does not count.
+    // The compiler's message must name the check, so that the failure of another check does not
+    // count.
     const bool is_clang = std::string(GetParam().name).starts_with("Clang");
     const ProcessResult result =
         compile(kUse, is_clang ? "-fsyntax-only -ferror-limit=0" : "-fsyntax-only");

@@ -49,7 +49,8 @@ std::map<std::string, double> parameters_of(const std::string& text) {
   return values;
 }
 
-// Printed with six decimals, so a product of two errs by some 1e-6 of its larger factor.
+// Tolerance: the values have six decimals, so a product of two has an error of some 1e-6 of the
+// larger factor.
 constexpr double kPrinted = 2e-5;
 
 TEST(Export, RefusesBackEmfForAutopilots) {
@@ -121,7 +122,7 @@ TEST(Export, Px4sYawRateLimitIsWhatFullCommandsGiveUpToWhatWasMeasured) {
   const auto limit = [&] {
     return radians(parameters_of(text_of(model, ExportFormat::kPx4)).at("RO_YAW_RATE_LIM"));
   };
-  // 2 l_f F'max sin d_max = g3(r)                                                       [paper (62)]
+  // 2 l_f F'max sin d_max = g3(r)                                                    [paper (62)]
   EXPECT_NEAR(plant.yaw.at(limit()), 2.0 * plant.front_axle_m * std::sin(plant.steering_max_rad),
               1e-6);
   model.vehicle.yaw_rate_max_degps = 15.0;

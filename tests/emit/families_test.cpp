@@ -61,7 +61,7 @@ TEST(BackEmf, IsInTheHeaderAndOnTheChip) {
   EXPECT_THAT(autopilot_header(*firmware), HasSubstr("#define AWMR_BACK_EMF_S_PER_M 0.25f"));
 }
 
-/// The rate, at least 0, at which a rising function crosses zero; bisection.
+/// Returns the rate >= 0 at which a rising function crosses zero, by bisection.
 template <class F>
 double zero_of(const F& rising) {
   double lo = 0.0;
@@ -70,8 +70,9 @@ double zero_of(const F& rising) {
   return lo;
 }
 
-/// A turn by 180 deg with the radius R takes R (pi - e0)^2/2, of distance off course times its angle beyond
-/// e0; 10 m rad are left for its beginning. Recomputed for turn_of_vehicle() and turn_of_law().
+/// A turn by 180 deg with the radius R takes R (pi - e0)^2/2, of distance off course times its
+/// angle beyond e0; 10 m rad are left for its beginning. Recomputed for turn_of_vehicle() and
+/// turn_of_law().
 TEST(OffCourse, IsTenPlusAHalfTurnOfTheWidestRadiusAtTheRoutesSpeeds) {
   const Model model = paper_robot();
   const Plant<double> plant = model.plant().value();
@@ -149,7 +150,8 @@ TEST(Families, WithFrictionAtRestHaveATableFromTheRestSpeedOnAndTheValueThere) {
   EXPECT_EQ(p->rest->surge_at_rest, static_cast<float>(plant.surge.at(0.02)));
   EXPECT_EQ(p->rest->yaw_rest_speed, 0.0F);
   EXPECT_EQ(p->rest->dead_zone, 0.0F);
-  // Like the simulated controller's feed-forward, with the sign of the error at rest, within 5e-4.
+  // Equals the feed-forward of the simulated controller within 5e-4; at rest friction has the sign
+  // of the error.
   const RestingTable chip{p->surge.view(), p->rest->surge_rest_speed, p->rest->surge_at_rest};
   const Resistance<double> law = feed_forward(plant.surge);
   for (const float speed :
@@ -178,7 +180,7 @@ TEST(Families, WithFrictionInYawHaveTheFrictionWidthOfTheGains) {
   EXPECT_EQ(p->rest->yaw_rest_speed, 0.15F);
   const Resistance<double> law = feed_forward(model.plant().value().yaw, 0.15);
   EXPECT_EQ(p->rest->yaw_at_rest, static_cast<float>(law.at(0.15)));
-  // Like the simulated controller's feed-forward.
+  // Equals the feed-forward of the simulated controller.
   const RestingTable chip{p->yaw.view(), p->rest->yaw_rest_speed, p->rest->yaw_at_rest};
   for (const float rate : {-1.0F, -0.149F, 0.0F, 0.1F, 0.151F}) {
     for (const float error : {-0.2F, -0.03F, 0.0F, 0.1F}) {

@@ -83,7 +83,7 @@ TEST_P(Library, AnEditByHandIsFoundAtStartUp) {
   EXPECT_EQ(run("./use").exit_code, 1);
 }
 
-/// Uses every part.
+/// Sketch that uses every optional part.
 constexpr const char* kUseAll = R"(#include "awmr.h"
 static const awmr_point corners[3] = {{0.0f, 0.0f}, {10.0f, 0.0f}, {20.0f, 5.0f}};
 static const awmr_obstacle obstacle[1] = {{10.0f, 0.0f, 1.0f}};
@@ -149,7 +149,7 @@ TEST(AllParts, CompileForTheChipAsCAndAsCxxAndRunUnderSanitizers) {
   EXPECT_EQ(run("./use").exit_code, 0);
 }
 
-/// Follows a line by a law whose parameters are 0.5 and 0.3.
+/// Sketch that follows a line by a law with the parameters 0.5 and 0.3.
 constexpr const char* kUseLine = R"(#include "awmr.h"
 static const awmr_point corners[2] = {{0.0f, 0.0f}, {100.0f, 0.0f}};
 static const float parameters[2] = {0.5f, 0.3f};
@@ -243,7 +243,8 @@ TEST(ResistanceTables, AreRefusedWhereNoTableIsGoodEnough) {
   EXPECT_THAT(to_text(p.error()), HasSubstr("table-error"));
 }
 
-/// Resistance so steep at rest that a chord errs by much, down to the lowest speed of a table.
+/// Tables of resistances that are so steep at rest that a chord has a large error at any speed of a
+/// table.
 Model steep_robot() {
   Model model = paper_robot();
   model[ParameterId::kSurgeBeta].value = 0.05;

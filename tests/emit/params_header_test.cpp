@@ -83,7 +83,7 @@ TEST(ParamsHeader, NamesItsInputsAndHashesThem) {
   const std::string header = paper_header();
   EXPECT_THAT(header, HasSubstr("model: model.json, SHA-256 " + std::string(64, 'a')));
   EXPECT_THAT(header, HasSubstr("gains: gains.json, SHA-256 " + std::string(64, 'b')));
-  // By another implementation: coreutils.
+  // The expected value is from another implementation, sha256sum of coreutils.
   const ProcessResult peer = run_process("printf '%064d%064d' 0 0 | tr 0 a | sha256sum");
   EmitInputs inputs = paper_inputs();
   inputs.gains_sha256 = inputs.model_sha256;

@@ -1,4 +1,4 @@
-/// Properties over many values: a written value reads back as the float nearest to the double.
+/// Random values: a written value reads back as the float nearest to the double.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -22,7 +22,7 @@ double any_positive_float() {
   return static_cast<double>(value);
 }
 
-/// A double between two neighbouring floats.
+/// Generates a double between two neighbouring floats.
 double any_positive_double() {
   const double value = any_positive_float();
   const double share = *rc::gen::inRange(0, 1000) / 1000.0;

@@ -83,7 +83,7 @@ Model rolling_robot() {
 }
 constexpr Gains<double> kRollingGains{.heading = kPaperGains.heading, .speed = {3.0, 1.0}};
 
-/// Steps of 50 ms, longer than a serial port's buffer lasts.
+/// Library with steps of 50 ms, during which a serial port's buffer would overflow.
 Model slow_robot() {
   Model model = paper_robot();
   model.vehicle.sample_time_s = 0.05;
@@ -125,7 +125,8 @@ class SafeSketches : public ::testing::Test {
       return succeeded(run_process(cached(kGxx) + flags + arguments, directory.path()));
     };
     ASSERT_TRUE(compile(sanitize + "-Og -std=c++14 -c src/awmr.cpp -o awmr.o"));
-    // The simulated world is not under test. The linker keeps the first copy of an inline function: the sketch's.
+    // The simulated world is not under test. The linker keeps the first copy of an inline function:
+    // the sketch's.
     const auto compile_case = [&](const char* name, std::initializer_list<const char*> sketches) {
       ASSERT_TRUE(compile(fmt::format("-O1 -std=c++17 -c {0}/{1}.cpp -o {1}.o", core, name)));
       for (const char* sketch : sketches) {
@@ -235,7 +236,8 @@ TEST_F(SafeSketches, AtSpeedZeroNoForceAcceleratesARollingVehicle) {
 
 TEST_F(SafeSketches, AreNeverDrivenDownASlopeAtSpeedZero) {
   for (const auto* directory : {paper_, rolling_}) {
-    // Of F_max: more than the resistance at rest, up to more than the brakes hold.
+    // Downhill force over F_max: from above the resistance at rest to more than the brakes can
+    // hold.
     for (const double pull : {0.3, 0.9, 1.5, -0.9, -1.5}) {
       for (const char* first : {"", " driven"}) {
         SCOPED_TRACE(fmt::format("{}{}", pull, first));
@@ -256,7 +258,7 @@ TEST_F(SafeSketches, StopWhereTheCompassIsTurnedOnTheVehicleOrTheServoReversed) 
   auto reversed = drive(*paper_, "HeadingHold wrong 0 -1");
   EXPECT_GE(reversed["stopped_s"], 0.0);
   EXPECT_EQ(reversed["cause"], 16);
-  // A mounting that is off by less than the detector's limit is no fault.
+  // A compass mounted 10 deg off, which is below the detector's limit, is no fault.
   auto slight = drive(*paper_, "HeadingHold wrong 10");
   EXPECT_EQ(slight["stopped_s"], -1);
 }

@@ -65,7 +65,8 @@ struct Drive {
   }
 };
 
-/// Eight time constants m'/a1, after which e^-8 = 3e-4 of the speed is missing.
+/// Settling time of a run: eight time constants m'/a1, after which e^-8 = 3e-4 of the speed is
+/// missing.
 constexpr Settings kSettings = {8.0F, 3.0F, 15.0F, 0.05F, 0.05F};
 
 TEST(TrialRecorder, ItsTablesGiveBackTheVehicle) {

@@ -50,7 +50,7 @@ struct Robot {
   }
 };
 
-/// Reads values in sequence; zeros after the last byte.
+/// Reads values from the input bytes in sequence; after the last byte it returns zeros.
 class InputBytes {
  public:
   InputBytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
@@ -102,7 +102,7 @@ void check(const Whole& autopilot, const Robot& robot, const AutopilotOutput& ou
 
 }  // namespace
 
-/// Bytes: parts in use, an input, then corners and obstacles.
+/// The input bytes are the parts in use, an autopilot input, then corners and obstacles.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Robot kRobot;
   InputBytes bytes(data, size);

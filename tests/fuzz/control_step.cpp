@@ -12,8 +12,8 @@ namespace {
 
 bool is_between(float value, float lo, float hi) { return value >= lo && value <= hi; }
 
-/// Points belong to the sketch and are not checked. A NaN point appears in the request of the laws
-/// and in the last check, but never in a command.
+/// Points are not checked, because the sketch provides them. A NaN point makes the requests of the
+/// laws NaN, which the last check detects, so no command is NaN.
 void check(const awmr_output& out, bool is_following) {
   require(is_between(out.force_left, AWMR_WHEEL_FORCE_MIN, AWMR_WHEEL_FORCE_MAX), "left force");
   require(is_between(out.force_right, AWMR_WHEEL_FORCE_MIN, AWMR_WHEEL_FORCE_MAX), "right force");
@@ -29,12 +29,11 @@ void check(const awmr_output& out, bool is_following) {
   require((out.fault & AWMR_FAULT_OUTPUT) == 0, "the last gate has nothing to do");
 }
 
-/// Makes all times current, so that the motion in the bytes decides.
+/// Makes all time stamps current, so that the result depends on the motion in the input bytes.
 void renew(awmr_input& in) { in.now_ms = in.heading_ms = in.speed_ms = in.command_ms; }
 
 /// Starts the controller once, because reading the parameters takes longer than a hundred steps.
-/// Later, a valid step at this time without points to follow gives every input the same initial
-/// state.
+/// For each further input, a valid step without points to follow restores the same initial state.
 void start_at(uint32_t now_ms) {
   static const bool kIsGood = awmr_init() == AWMR_FAULT_NONE;
   require(kIsGood, "the parameters are as they were emitted");
@@ -47,8 +46,8 @@ void start_at(uint32_t now_ms) {
 
 }  // namespace
 
-/// Bytes: one whose bits select how to use the rest, then an awmr_input as in memory, then points
-/// to follow.
+/// The input bytes are one byte whose bits select the use of the rest, then an awmr_input as in
+/// memory, then points to follow.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const unsigned use = *data++;

@@ -13,7 +13,7 @@ using awmr::fuzz::require;
 
 namespace {
 
-/// A chip that sends these bytes whatever is requested, and then nothing.
+/// A line to a chip that sends these bytes, independent of the requests, and then nothing.
 class Recording : public awmr::pil::Line {
  public:
   explicit Recording(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -34,7 +34,7 @@ class Recording : public awmr::pil::Line {
   std::size_t at_ = 0;
 };
 
-/// Frames end exactly where their checksum matches.
+/// Checks that the reader accepts a frame only if its checksum matches.
 void check_reader(std::span<const std::uint8_t> bytes) {
   pil::FrameReader reader{};
   for (const std::uint8_t byte : bytes) {
@@ -47,7 +47,7 @@ void check_reader(std::span<const std::uint8_t> bytes) {
   }
 }
 
-/// A valid frame is read whatever precedes it on the line.
+/// Checks that a valid frame is read after any other bytes on the line.
 void check_written(std::span<const std::uint8_t> bytes) {
   const auto length = static_cast<std::uint8_t>(std::min<std::size_t>(bytes.size(), 140));
   pil::FrameReader reader{};

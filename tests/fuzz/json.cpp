@@ -1,4 +1,5 @@
-/// A JSON document is read or refused; a document that was read is written and reads back equal.
+/// A JSON document is read or refused. A document that was read, written and read again is the
+/// same.
 #include "awmr/core/json_document.h"
 #include "fuzz/target.h"
 

@@ -30,7 +30,7 @@ using Random = std::minstd_rand;
 
 constexpr std::size_t kLongest = 4096;
 
-/// Keywords that are significant to the readers.
+/// Keywords of the file formats, which mutations insert.
 constexpr std::array<std::string_view, 24> kWords = {
     "0",  "-",    "1e308",       "1e-320", "nan",  "inf", "99999999999999999999",
     "\"", "\\",   "\n",          "\r\n",   ",",    ";",   "{",
@@ -72,7 +72,7 @@ void change(Bytes& input, const Bytes& other, Random& random) {
   if (input.size() > kLongest) input.resize(kLongest);
 }
 
-/// File with the bytes of the current input; it survives a crash.
+/// File with the bytes of the current input, which remains after a crash.
 class LastInput {
  public:
   explicit LastInput(const char* path) : path_{path} {
@@ -87,7 +87,7 @@ class LastInput {
   ~LastInput() { (void)std::remove(path_); }
 
   [[nodiscard]] bool open_for_writing() const { return bytes_ != nullptr; }
-  /// Of a longer input only the beginning is stored.
+  /// Stores the input; of a longer one only the beginning.
   void hold(const Bytes& input) {
     const std::size_t count = std::min(input.size(), kLongest);
     std::memcpy(bytes_, input.data(), count);

@@ -1,4 +1,4 @@
-/// Properties of the signals of any file.
+/// Checks of the signals that a reader of external logs returns.
 #pragma once
 
 #include <cmath>

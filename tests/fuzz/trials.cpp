@@ -60,7 +60,7 @@ void check_tables(const std::filesystem::path& path, const awmr::TrialOptions& o
   check(findings);
 }
 
-/// Reads them as the tables of one vehicle, compared with each other.
+/// Reads the bytes as all tables of one vehicle, so that the checks compare them with each other.
 void check_folder(const std::filesystem::path& path) {
   for (const bool as_is : {false, true}) {
     const awmr::TrialOptions options{.columns = {}, .as_is = as_is};

@@ -1,5 +1,5 @@
-/// m' from coast-down curves: exact curves, several runs, an unknown start, no surge law, both
-/// kinds.
+/// m' from coast-downs: exact curves, several runs, an unknown start, no surge law, curves together
+/// with stop times.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -160,7 +160,7 @@ TEST(CoastDown, SetsAsideACurveWithoutADeceleration) {
               ::testing::ElementsAre(ParameterId::kMassNorm, ParameterId::kInertiaNorm));
 }
 
-/// Three coast-downs of m' = 0.5 against c1 + a1 u + q1 u^2, without a surge trial.
+/// Three coast-downs with m' = 0.5 and the resistance c1 + a1 u + q1 u^2, without a surge trial.
 TrialData curves_alone(const Resistance<double>& law) {
   Plant<double> vehicle = plant(kTruths[0]);
   vehicle.surge = law;

@@ -56,7 +56,7 @@ TEST(Multistart, MostStartsLeadToTheOptimum) {
       }
     }
   }
-  // With whole windows of 10 s it was one of seven.
+  // With windows of 10 s throughout, only one of seven searches ended at the optimum.
   EXPECT_GT(there, 2 * all / 3) << there << " of " << all;
 }
 
@@ -84,9 +84,9 @@ TEST(NearestCurve, StaysCloseOverTheSpeedsDrivenInEveryFamily) {
   }
 }
 
-/// A vehicle of mass m' = 0.09 with resistance 0.12 + 0.35 u, by the closed solution of each
-/// command step: slow ramps from rest in both directions, and two steps. `noise_mps`: noise of the
-/// speed.
+/// Log of a vehicle with m' = 0.09 and the resistance 0.12 + 0.35 u, exact for each step of the
+/// command: slow ramps from rest in both directions, and two steps. `noise_mps`: standard deviation
+/// of the speed.
 DrivingLog ramps_with_friction(double noise_mps, std::uint64_t seed) {
   constexpr double kMass = 0.09, kCoulomb = 0.12, kAlpha = 0.35, kStep_s = 0.02;
   std::mt19937_64 chance(seed);
@@ -114,7 +114,8 @@ DrivingLog ramps_with_friction(double noise_mps, std::uint64_t seed) {
     log.steering_command_rad->push_back(0.0);
     speed.value.push_back(u + noise_mps * noise(chance));
     speed.fresh.push_back(true);
-    // Over a step in one direction s: u(t) = u_end + (u - u_end) exp(-a t/m'), u_end = (thrust - s c)/a.
+    // Speed over a step with motion in the direction s:
+    //   u(t) = u_end + (u - u_end) exp(-a t/m'),   u_end = (thrust - s c)/a
     double left_s = kStep_s;
     while (left_s > 0.0) {
       if (u == 0.0 && std::abs(thrust) <= kCoulomb) break;
@@ -133,8 +134,8 @@ DrivingLog ramps_with_friction(double noise_mps, std::uint64_t seed) {
   return log;
 }
 
-/// Thrust steps, each held for 0.5 to 2 s, of a vehicle with m' = 0.5 and resistance 2.2 u, behind
-/// motors with the lag `lag_s`: straight, only the speed is measured.
+/// Log of straight driving with thrust steps of 0.5 to 2 s, m' = 0.5, resistance 2.2 u and motors
+/// with the lag `lag_s`; only the speed is measured.
 DrivingLog steps_behind_lag(double lag_s, std::uint64_t seed) {
   constexpr double kMass = 0.5, kAlpha = 2.2, kStep_s = 0.02, kFine_s = 1e-4, kNoise_mps = 0.005;
   std::mt19937_64 chance(seed);
@@ -186,7 +187,7 @@ TEST(Families, OfMotorsThatLagLeaveTheMassRightWhereOnlyTheSpeedIsMeasured) {
   }
 }
 
-/// The parameter is the noise of the speed in m/s.
+/// Test parameter: standard deviation of the speed's noise, m/s.
 class FamiliesAtNoise : public ::testing::TestWithParam<double> {};
 
 TEST_P(FamiliesAtNoise, AreIdentifiedRightWithFrictionFromRest) {
@@ -204,7 +205,7 @@ TEST_P(FamiliesAtNoise, AreIdentifiedRightWithFrictionFromRest) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Short, FamiliesAtNoise, ::testing::Values(1e-5, 5e-2));
-/// Also between the extremes.
+/// Noise between the extremes of `Short`.
 INSTANTIATE_TEST_SUITE_P(Long, FamiliesAtNoise, ::testing::Values(5e-4, 1e-3, 5e-3, 2e-2));
 
 TEST(Families, DropTermsOfThePreviousFamily) {
@@ -261,7 +262,7 @@ TEST(Families, ComparesFamiliesAtTheirOwnOptima) {
   EXPECT_TRUE(found.findings.empty()) << found.findings.front().message;
 }
 
-/// A fit with these errors of the speed at 100 Hz and their most likely noise.
+/// Returns a fit with these speed errors at 100 Hz and their most likely noise.
 LogFit fit_with_errors(const std::vector<double>& errors) {
   ErrorSeries series{errors, std::vector<double>(errors.size(), 0.01)};
   series.since_s.front() = 0.0;

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kStep_s = 0.01;  // of drive()
 
-/// The steering acts so many rows after its command.
+/// Returns the log with the steering command moved to `rows` rows earlier: the steering acts late.
 DrivingLog with_late_steering(DrivingLog log, std::size_t rows) {
   std::vector<double>& command = *log.steering_command_rad;
   std::rotate(command.begin(), command.begin() + static_cast<std::ptrdiff_t>(rows), command.end());
@@ -57,7 +57,7 @@ TEST(LateLog, KeepsAMotorLagOfTheVehicleFileFixed) {
   expect_recovered(*result, ParameterId::kSurgeAlpha, kTruths[1].a1, 4.5);
 }
 
-/// The speed as a first-order filter shows it: dy/dt = (u - y)/T, by the exact answer to ramps.
+/// Filters the speed by a first-order lag, dy/dt = (u - y)/T, exactly for ramps between the rows.
 DrivingLog with_smoothed_speed(DrivingLog log, const std::vector<double>& speed, double lag_s) {
   std::vector<double>& shown = log[LogChannel::kSpeed]->value;
   double y = speed.front();
@@ -109,7 +109,8 @@ TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
   EXPECT_EQ(initial_coordinates(options), (std::vector{0.1, 0.2, 0.05, -0.1, 0.3, 0.4}));
 }
 
-/// A fit of a log whose motors and steering have an error finds it, with its finding, and the truth.
+/// Expects that the fit of a log with an error of the motors or the steering estimates the error,
+/// reports its finding, and estimates the true parameters.
 void expect_found(DrivingLog log, const Truth& truth, const std::string& name, double value,
                   const std::string& code) {
   TrialData data;

@@ -24,7 +24,7 @@ constexpr std::size_t kSpeedDelay = kParameterCount + 1;
 constexpr std::size_t kFirstState = kParameterCount + 2;
 using Jet = ceres::Jet<double, kColumns>;
 
-/// A family with all terms, b1 below 1 so that there is a chord at rest.
+/// Resistance with the terms of all families, and b1 below 1, so that there is a chord at rest.
 constexpr ParameterValues<double> kValues{0.9,  0.75, 0.06, 1.1,  4.0,   0.3,   0.0066,
                                           0.06, 0.05, 0.02, 0.01, 0.003, 0.015, 0.12};
 
@@ -81,7 +81,7 @@ struct ByHand {
 constexpr double kInputDelay_s = 0.033;
 constexpr double kSpeedDelay_s = 0.047;
 
-/// Coulomb friction, whose stops split steps, or none.
+/// With Coulomb friction, stops of the vehicle split integration steps.
 enum class Friction { kNone, kCoulomb };
 
 ParameterValues<double> values_with(Friction friction) {
@@ -152,8 +152,8 @@ ByJets by_jets(const DrivingLog& log, double step_s, Drive drive = Drive::kFourW
   return found;
 }
 
-/// Tolerance relative to the largest derivative of the column over the log, or to `least`. `but`: a
-/// column to skip.
+/// Compares states and derivatives. `tolerance` is relative to the largest derivative of the column
+/// over the log, at least to `least`. `but`: a column to skip.
 void expect_equal(const std::vector<State<Jet>>& jets, const std::vector<LinearMotion>& motions,
                   double tolerance, int but = -1, double least = 1e-9) {
   ASSERT_EQ(jets.size(), motions.size());
@@ -176,9 +176,10 @@ void expect_equal(const std::vector<State<Jet>>& jets, const std::vector<LinearM
   }
 }
 
-/// Rounding of 300 steps.
+/// Tolerance for the rounding of 300 steps.
 constexpr double kRounding = 1e-11;
-/// The time of a stop within a step follows from the rates there, not from the step's polynomial.
+/// Tolerance with stops: the time of a stop within a step is computed from the rates at the stop,
+/// not from the polynomial of the step.
 constexpr double kStops = 5e-4;
 
 TEST(LinearReplay, WithStopsHasTheStatesAndTheDerivativesOfJets) {

@@ -15,7 +15,7 @@
 
 namespace awmr::testing {
 
-/// Within `deviations` of its own standard error.
+/// Expects the estimate within `deviations` of its own standard errors of the truth.
 inline void expect_recovered(const Identification& result, ParameterId id, double truth,
                              double deviations) {
   const Estimate& estimate = result.model[id];
@@ -30,7 +30,8 @@ inline IdentifyOptions power_law() {
   return options;
 }
 
-/// The mean force over every row behind motors with a time constant: F'(t + h) = c + (F'(t) - c) e.
+/// Mean force over every row with motors of the time constant T: F'(t + h) = c + (F'(t) - c)
+/// exp(-h/T).
 inline std::vector<double> behind_motors(const DrivingLog& log, const std::vector<double>& command,
                                          double lag_s) {
   std::vector<double> mean = command;

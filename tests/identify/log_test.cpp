@@ -70,7 +70,7 @@ TEST(Log, AtOneConstantThrustShowsOnlyACombinationOfAlphaAndBeta) {
   TrialData data;
   data.logs = {drive(kTruths[0], 5, {.duration_s = 10.0, .hold_s = 100.0, .straight = true})};
   DrivingLog& log = data.logs[0];
-  // From steady speed on: the start is removed.
+  // The start is removed: the log begins at a steady speed.
   const auto keep = [](std::vector<double>& v) { v.erase(v.begin(), v.begin() + 300); };
   log.line.erase(log.line.begin(), log.line.begin() + 300);
   keep(log.t_s);
@@ -389,7 +389,7 @@ TEST(Log, SelectsAndReportsABetterFamily) {
 
 constexpr double kBackEmf = 0.2;
 
-/// A drive of motors with back-EMF.
+/// Log of a drive with motors that have back-EMF.
 DrivingLog geared_drive(const Truth& t, std::uint64_t seed, double duration_s = 20.0) {
   Plant<double> geared = plant(t);
   geared.back_emf_s_per_m = kBackEmf;
@@ -399,7 +399,7 @@ DrivingLog geared_drive(const Truth& t, std::uint64_t seed, double duration_s = 
 
 class BackEmfOfSeeds : public ::testing::TestWithParam<int> {};
 
-/// The parameter is the number of seeds.
+/// Test parameter: number of seeds.
 TEST_P(BackEmfOfSeeds, IsRecoveredFromDrivingAndCoastingAndReported) {
   const Truth& t = kTruths[0];
   int covered = 0;
@@ -423,7 +423,7 @@ TEST_P(BackEmfOfSeeds, IsRecoveredFromDrivingAndCoastingAndReported) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Short, BackEmfOfSeeds, ::testing::Values(1));
-/// Also the coverage of the interval.
+/// With three seeds, also a check of the interval's coverage.
 INSTANTIATE_TEST_SUITE_P(Long, BackEmfOfSeeds, ::testing::Values(3));
 
 TEST(BackEmf, IsNotFoundForIdealMotorsAndRefusedOnRequest) {
@@ -516,7 +516,8 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-/// 48 s of a drive, a pause in the recording, and 12 s with a1 times `factor`: the last fifth.
+/// A log whose last fifth has another a1: 48 s of a drive, a pause in the recording, and 12 s with
+/// a1 times `factor`.
 DrivingLog log_with_change(double factor, std::uint64_t seed) {
   constexpr double kPause_s = 2.0;
   Truth changed = kTruths[0];
@@ -549,7 +550,8 @@ Identification identified_with_change(double factor, std::uint64_t seed) {
 
 TEST(Log, WithdrawsTheIntervalsIfTheInertiaShowsAWrongUnitOfTheSpeed) {
   DrivingLog log = drive(kTruths[0], 25, {.duration_s = 20.0});
-  // rad/s of wheels of 0.1 m: I'z/m' reads 0.82 * 10 times that of the box, beyond the largest, 3.
+  // The speed is in rad/s of wheels of 0.1 m, 10 times the value in m/s. The estimated I'z/m' is
+  // then 0.82 * 10 times that of the box, more than the largest possible 3.
   for (double& u : log[LogChannel::kSpeed]->value) u *= 10.0;
   for (const LogChannel c : {LogChannel::kX, LogChannel::kY}) log[c].reset();
   TrialData data;
@@ -562,7 +564,7 @@ TEST(Log, WithdrawsTheIntervalsIfTheInertiaShowsAWrongUnitOfTheSpeed) {
   EXPECT_FALSE(result->model[ParameterId::kSurgeAlpha].ci95);
 }
 
-/// The parameter is the seed of the drive.
+/// Test parameter: seed of the drive.
 class HeldOut : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(HeldOut, AChangeInTheLastFifthIsReportedAndWithdrawsTheIntervals) {
@@ -571,7 +573,8 @@ TEST_P(HeldOut, AChangeInTheLastFifthIsReportedAndWithdrawsTheIntervals) {
   EXPECT_FALSE(result.model[ParameterId::kSurgeAlpha].ci95);
 }
 
-// The level is 0.001: one of the five drives has the finding by chance at 1 in 200.
+// The significance level is 0.001, so the probability that chance gives one of the five drives the
+// finding is 1 in 200.
 TEST_P(HeldOut, ADriveWithoutAChangeIsPredicted) {
   const Identification result = identified_with_change(1.0, GetParam());
   EXPECT_FALSE(has_finding(result, "held-out-misses", ""));
@@ -579,7 +582,7 @@ TEST_P(HeldOut, ADriveWithoutAChangeIsPredicted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Short, HeldOut, ::testing::Values(31U));
-/// Also the rates of both errors, roughly.
+/// More seeds, for a rough check of the rates of false alarms and misses.
 INSTANTIATE_TEST_SUITE_P(Long, HeldOut, ::testing::Values(32U, 33U, 34U, 35U));
 
 TEST(Log, SeparatesDriftFromWhiteNoise) {
@@ -603,7 +606,8 @@ TEST(Log, SeparatesDriftFromWhiteNoise) {
   EXPECT_NEAR(std::log(found.correlation_s / truth.correlation_s), 0.0, 0.6);
 }
 
-/// Scores of `logs` logs, alternating above and below their standard deviation by the information.
+/// Scores of `logs` logs with alternating signs; their size is `times` the standard deviation that
+/// the information gives.
 Scores scattered(int logs, double times, double information) {
   Scores scores;
   const double size = times * std::sqrt(information / logs);

@@ -36,8 +36,8 @@ double posterior_weight(const Model& model, FitSubject subject) {
 TEST(NoiseAverage, KeepsThePapersValuesAndCoversTheOtherEstimators) {
   const Model model = identified();
   const Estimate& mass = model[ParameterId::kMassNorm];
-  // Golden: the log-linear values of README.md, and the quantiles of the mixture by SciPy's Student t
-  // and Brent's method. The digits that are shown.
+  // Golden: the log-linear values of README.md, and the quantiles of the mixture by SciPy's Student
+  // t and Brent's method. The digits that are shown.
   EXPECT_NEAR(*model[ParameterId::kSurgeAlpha].value, 1.3157, 5e-5);
   EXPECT_NEAR(*model[ParameterId::kSurgeBeta].value, 0.8841, 5e-5);
   EXPECT_NEAR(*mass.value, 0.0824, 5e-5);
@@ -95,8 +95,8 @@ TEST(NoiseAverage, ReportsTheGripMassNextToAnImplausibleOne) {
   EXPECT_NEAR(*model.mass_norm_by_grip / expected, 1.0, 1e-4);
 }
 
-/// Of 150 tables a share has a standard deviation of sqrt(0.95 0.05/150) = 1.8 %: three of them below
-/// 95 % are 89.6 %. scripts/coverage has 1,000.
+/// The measured coverage of 150 tables has a standard deviation of sqrt(0.95 0.05/150) = 1.8 %, so
+/// at least 95 % - 3 * 1.8 % = 89.6 % are required. scripts/coverage uses 1,000 tables.
 TEST(NoiseAverage, MassIntervalCoversTheTruthForEveryErrorLocation) {
   const Model model = identified();
   for (const ErrorModel error : {ErrorModel::kTime, ErrorModel::kSpeed, ErrorModel::kForce}) {
@@ -137,7 +137,8 @@ TEST(Posterior, MixtureOfTwoFarApartHasTheMediansOfHalves) {
                                   Eigen::VectorXd::Constant(1, 1e9)};
   };
   const Posterior two{{at(0.5, 0.0), at(0.5, 10.0)}};
-  // A quarter lies below the centre of the first, 1000 deviations off the other.
+  // Two equally likely normal distributions at 0 and 10, 1000 standard deviations apart: a quarter
+  // of the probability is below the centre of the first.
   EXPECT_NEAR(two.quantile(0, 0.25), 0.0, 1e-9);
   EXPECT_NEAR(two.quantile(0, 0.75), 10.0, 1e-9);
   EXPECT_NEAR(two.covariance()(0, 0), 25.0 + 1e-4, 1e-9);

@@ -11,7 +11,7 @@
 namespace awmr::testing {
 namespace {
 
-/// Adds rows that such a robot would have measured.
+/// Adds rows to the model's record that a robot with these parameters would have measured.
 void add_trials(Model& model) {
   const Plant<double> plant = model.plant().value();
   const auto add = [&](TrialKind kind, const Resistance<double>& law, double input) {

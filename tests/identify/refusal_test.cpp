@@ -1,4 +1,4 @@
-/// Non-identifiable parameters are refused by name.
+/// Data that do not determine a parameter: identify refuses it by name.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -68,7 +68,8 @@ TEST(Refusal, TwoRowsGiveValuesWithoutAnError) {
   EXPECT_TRUE(has_finding(result->model, "no-degrees-of-freedom"));
 }
 
-/// Three surge rows leave b1 open from -1 to 2.8, and with it m' by sixteen orders of magnitude.
+/// With three surge rows, the interval of b1 is -1 to 2.8, and that of m' spans sixteen orders of
+/// magnitude.
 TEST(Refusal, RefusesAMassUncertainByOrdersOfMagnitude) {
   TrialData data = synthetic(kTruths[0], 0.0, 1);
   data.surge->rows = {
@@ -105,7 +106,7 @@ TEST(Refusal, TimeNoiseWithoutTimesIsRefused) {
   ASSERT_TRUE(result);
   EXPECT_THAT(result->refused, ElementsAre(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta));
   EXPECT_TRUE(has_finding(result->model, "not-timed"));
-  // An earlier message claimed that the rows do not have two different forces, which they do.
+  // The message must not claim that the rows lack two different forces, because they have them.
   for (const Finding& f : result->model.record.findings) {
     if (f.code != "not-identifiable" || f.severity != Severity::kError) continue;
     EXPECT_THAT(f.message, HasSubstr("elapsed_s in every row"));

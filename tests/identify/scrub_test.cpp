@@ -27,8 +27,8 @@ Vehicle steered() {
   return v;
 }
 
-/// A turn at this rate with the scrub moment `scrub_m` in addition to g3; noise is a factor on its
-/// moment.
+/// A turning row at this yaw rate: its moment is g3 plus the scrub moment `scrub_m`, times the
+/// factor `noise`.
 TurningRow by_sides(double rate_radps, double scrub_m, double factor, int line) {
   const double moment_m = factor * (kTruth.a3 * std::pow(rate_radps, kTruth.b3) + scrub_m);
   const double half = moment_m / (4.0 * steered().half_track_m);
@@ -70,7 +70,7 @@ TEST(Scrub, EqualsTheExcessMomentOfDifferentialTurns) {
   EXPECT_EQ(model.yaw_scrub->rows, 4);
   EXPECT_DOUBLE_EQ(model.yaw_scrub->yaw_rate_radps.lo, 0.07);
   EXPECT_DOUBLE_EQ(model.yaw_scrub->yaw_rate_radps.hi, 0.28);
-  // Yaw resistance is that of the steered turns, with or without scrub.
+  // The identified yaw resistance is that of the steered turns, with or without scrub.
   EXPECT_EQ(model[ParameterId::kYawAlpha].value,
             identified(synthetic(kTruth, 1e-6, 1))[ParameterId::kYawAlpha].value);
   EXPECT_THAT(codes(model), Not(Contains("scrub-grows")));
@@ -110,7 +110,7 @@ TEST(Scrub, RefusesANegativeScrub) {
 }
 
 TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
-  // 0.2 r m, from 0.05 to 0.3 rad/s.
+  // The scrub moment is 0.2 r m, r from 0.05 to 0.3 rad/s.
   constexpr int kTables = 200;
   int findings = 0, held = 0;
   for (std::uint64_t seed = 1; seed <= kTables; ++seed) {
@@ -131,7 +131,7 @@ TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
   }
   RecordProperty("held", held);
   EXPECT_EQ(findings, kTables);
-  // Both ends must hold, each with 97.5 % on its side.
+  // Both ends of the reported range must be right, each with a probability of 97.5 %.
   EXPECT_GT(held / double(kTables), 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / kTables));
 }
 
@@ -161,7 +161,7 @@ TEST(Scrub, IsConstantForTurnsWithOneForceOrAtOneRate) {
               return row;
             }),
             0);
-  // One rate with scattered moments.
+  // All turns have the same yaw rate, with scattered moments.
   EXPECT_LE(alarms_with([](int i, double deviate) {
               return by_sides(0.2, 0.01, std::exp(0.1 * deviate), 20 + i);
             }),
@@ -265,7 +265,7 @@ double moment_of(const SideForces<double>& force) {
   return 2.0 * steered().half_track_m * (force.right - force.left);
 }
 
-/// g3(r) of the model's power law.
+/// Returns g3(r), m, of the model's power law.
 double resisted_m(const Model& model, double rate_degps) {
   return *model[ParameterId::kYawAlpha].value *
          std::pow(radians(rate_degps), *model[ParameterId::kYawBeta].value);

@@ -1,4 +1,4 @@
-/// Suggested trials: the predicted improvement is then achieved.
+/// Suggested trials: recording them gives the predicted improvement.
 #include <gtest/gtest.h>
 
 #include <cmath>

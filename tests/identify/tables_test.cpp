@@ -21,7 +21,8 @@ const Finding* finding(const Model& model, const std::string& code) {
   return nullptr;
 }
 
-/// Twelve surge runs on a curve, with speed errors of `noise` deviations in a fixed pattern.
+/// Twelve surge runs of a resistance law, with normal speed errors of standard deviation `noise`,
+/// m/s.
 TrialData runs_on(const Resistance<double>& law, double dead_zone, double noise,
                   std::uint64_t seed) {
   Random random(seed, 3);
@@ -42,8 +43,8 @@ IdentifyOptions family(std::optional<Family> family) {
 }
 
 TEST(Families, ExactRunsGiveTheirOwnFamilyBack) {
-  // Each law belongs to its family with other values. The speeds are exact, so only rounding
-  // remains: 1e-12 of the speeds times a condition number below 1e4.
+  // One law of each family. The speeds are exact, so only rounding remains: 1e-12 of the speeds
+  // times a condition number below 1e4.
   const struct {
     Family family;
     Resistance<double> law;
@@ -126,7 +127,8 @@ TEST(Losses, RobustOnesIgnoreABadRunThatSquaresFollow) {
   for (const Loss loss : {Loss::kHuber, Loss::kCauchy, Loss::kTukey}) {
     IdentifyOptions options;
     options.loss = loss;
-    options.noise = ErrorModel::kSpeed;  // where runs_on() puts it; a loss alone leaves it on force
+    options.noise =
+        ErrorModel::kSpeed;  // the errors of runs_on(); the default with a loss is force
     const auto result = identify(vehicle(), data, options, {});
     ASSERT_TRUE(result);
     const Estimate& beta = result->model[ParameterId::kSurgeBeta];
@@ -275,7 +277,7 @@ TEST(Options, ThatContradictEachOtherAreRefused) {
   EXPECT_FALSE(identify(vehicle(), data, options, {}));
 }
 
-/// Points above a straight line; exponents up to 1 can only follow at the bound.
+/// Points of a convex curve, which a power law with an exponent up to 1 fits best at the bound 1.
 SteadyProblem steeper_than_its_range(Family family) {
   SteadyProblem problem;
   problem.family = family;

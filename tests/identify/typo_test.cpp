@@ -168,9 +168,9 @@ TEST(Typo, RefusesATableThatFallsWithTheForce) {
 
 class TypoInACell : public ::testing::TestWithParam<int> {};
 
-/// Each mutation of each cell uses one of the methods, in turn. One in eight also runs the
-/// alternative families and the leave-one-out fits: all of them would take an hour. Of all of
-/// these, every n-th, where n is the parameter.
+/// Each mutation of each cell is fitted by one of the methods, in turn; all combinations would take
+/// an hour. One in eight is also fitted with the alternative families and leave-one-out. Test
+/// parameter n: only every n-th mutation is used.
 TEST_P(TypoInACell, EndsWithAValueOrARefusalByEveryMethodAndFamily) {
   const TrialData paper = paper_tables();
   const auto all = cells(paper);
@@ -191,7 +191,7 @@ TEST_P(TypoInACell, EndsWithAValueOrARefusalByEveryMethodAndFamily) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Short, TypoInACell, ::testing::Values(4));
-/// Every mutation of every cell.
+/// Fits every mutation of every cell.
 INSTANTIATE_TEST_SUITE_P(Long, TypoInACell, ::testing::Values(1));
 
 TEST(Typo, AcceptsColumnsScaledToTheLimitsOfDouble) {

@@ -21,7 +21,7 @@ State<double> drawn_state() {
           drawn(-1, 1), drawn(-3, 3), drawn(-0.35, 0.35)};
 }
 
-/// Equal up to rounding of sums of terms of at most about 1e3: 1e3 * 2^-52 * ten operations.
+/// Tolerance for the rounding of sums of terms up to about 1e3: 1e3 * 2^-52 * ten operations.
 void expect_same(const State<double>& a, const State<double>& b) {
   constexpr double kRounding = 3e-12;
   RC_ASSERT(std::abs(a.x_m - b.x_m) < kRounding);
@@ -148,7 +148,7 @@ TEST(BackEmf, ReducesEveryMotorsForceWithTheSpeed) {
   s.u_mps = 0.8;
   const State<double> d = state_rates(plant, s, SideForces<double>{0.5, 0.5}, 0.0);
   EXPECT_NEAR(d.u_mps, (4.0 * (0.5 - 0.3 * 0.8) - plant.surge(0.8)) / plant.mass_norm, 1e-13);
-  // Driving backwards under a forward command, it adds to the force.
+  // If the vehicle drives backwards under a forward command, back-EMF adds to the force.
   s.u_mps = -0.8;
   const State<double> back = state_rates(plant, s, SideForces<double>{0.5, 0.5}, 0.0);
   EXPECT_NEAR(back.u_mps, (4.0 * (0.5 + 0.3 * 0.8) + plant.surge(0.8)) / plant.mass_norm, 1e-13);

@@ -1,7 +1,7 @@
 """Checks the index of the paper's equations, lib/awmr/model/README.md, against the citations in lib/.
 
-    equation_index_test.py           checks the tree, then that each kind of fault is found
-    equation_index_test.py --list    prints every citation with what it stands at, for a new row
+    equation_index_test.py           checks the sources, then that each kind of fault is found in a faulty copy
+    equation_index_test.py --list    prints every citation with the declaration below it, for a new row
 """
 
 import functools
@@ -124,7 +124,7 @@ def mentions(path, name):
 
 
 def check(root):
-    """All faults of the tree as text, and the number of rows and citations."""
+    """Returns all faults of the sources as text, and the number of rows and citations."""
     faults = []
     cited = citations(root, faults)
     rows, covered = [], set()
@@ -174,7 +174,7 @@ class EquationIndex(unittest.TestCase):
 
 
 class Faults(unittest.TestCase):
-    """Each kind of fault, made in a copy of the tree, is found."""
+    """Checks that each kind of fault is found in a copy of the sources."""
 
     @classmethod
     def setUpClass(cls):

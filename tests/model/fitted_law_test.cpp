@@ -42,7 +42,7 @@ Model model_of_laws() {
   return model;
 }
 
-/// Mean of the law over the rates; `zone`: includes the wheels' dead zones.
+/// Mean of the law over the rates; with `zone`, including the dead zones of the wheels.
 double mean_of_law(const Model& model, TrialKind kind, const std::vector<double>& rates) {
   double sum = 0.0;
   for (const double rate : rates) sum += fitted_law(model, kind)->at(rate);

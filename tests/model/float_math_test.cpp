@@ -15,7 +15,7 @@
 namespace awmr::testing {
 namespace {
 
-/// Step through the floats' bit patterns; 1 (AWMR_EXHAUSTIVE set) tests every float.
+/// Step between the tested bit patterns of floats; 1 (with AWMR_EXHAUSTIVE set) tests every float.
 std::uint32_t stride() { return std::getenv("AWMR_EXHAUSTIVE") != nullptr ? 1U : 1009U; }
 
 struct Worst {

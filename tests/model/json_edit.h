@@ -1,4 +1,4 @@
-/// A valid JSON document with an error in one place.
+/// Makes JSON documents with one error from a valid document.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -20,7 +20,8 @@ inline std::string bytes_of(const std::filesystem::path& path) {
   return bytes.str();
 }
 
-/// Faults with which `read` refuses `text`, as `POINTER: MESSAGE`; empty if it is accepted.
+/// Returns the faults with which `read` refuses `text`, as `POINTER: MESSAGE`; empty if it is
+/// accepted.
 template <class Read>
 std::vector<std::string> faults_of(Read read, const std::string& text) {
   const ScratchFile file("file.json", text);

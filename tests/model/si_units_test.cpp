@@ -90,7 +90,7 @@ TEST(SiUnits, OmitAnUnboundedInterval) {
 TEST(SiUnits, GiveTheInertiaThatWasGivenAsExact) {
   const Model model = uncertain_model();
   const Estimate inertia = quantity(model, "/yaw_inertia").estimate;
-  // Rounding of three products.
+  // Tolerance: rounding of three products.
   EXPECT_NEAR(*inertia.value, model.vehicle.inertia_kgm2(), 1e-14 * *inertia.value);
   EXPECT_FALSE(inertia.std_error);
   EXPECT_FALSE(inertia.ci95);

@@ -1,12 +1,13 @@
 """Compares the fit of a driving log with SciPy's: solve_ivp for the motion, least_squares for the search.
 
 Both fit eight parameters and every window's initial state to the same simulated log, with white noise of unknown
-size; the equations of motion are implemented independently here. SciPy begins at the program's guess of the size, gets its
-derivatives by finite differences over many trajectories at once, and knows which residuals depend on which numbers.
+standard deviation; the equations of motion are implemented independently here. SciPy starts from the program's guess of that
+standard deviation, computes derivatives by finite differences over many trajectories at once, and uses the sparsity of
+the Jacobian.
 
-The program's Runge-Kutta steps last a row, SciPy's end where a command changes and are held to 1e-7: what lies
-between them is the step's own error, which is largest for the servo's time constant of six rows. All parameters
-have to agree within a tenth of their standard error.
+The program's Runge-Kutta steps last a row. SciPy's steps end where a command changes and have a tolerance of 1e-7. The
+difference is the error of the program's step, which is largest for the servo's time constant of six rows. All
+parameters have to agree within a tenth of their standard error.
 
 usage: scipy_log.py AWMR [--duration SECONDS] [--seed N]
 """
@@ -98,7 +99,7 @@ def write(log, path):
 
 
 class Problem:
-    """Coordinates: the parameters (logarithms but for exponents), then seven numbers of each window's beginning."""
+    """Unknowns: the parameters (as logarithms, except exponents), then the seven initial states of each window."""
     def __init__(self, log, guess):
         rows = len(log["t"])
         parts = max(1, math.ceil((log["t"][-1] - log["t"][0]) / WINDOW_S))
@@ -143,7 +144,7 @@ class Problem:
         return np.vstack(blocks + [pull])
 
     def settle(self, z):
-        """Most likely white noise of these residuals; the largest change of a level."""
+        """Sets the white noise to its most likely values for these residuals; returns the largest change."""
         r, at, change = self.residuals(z), 0, 0.0
         squares, count = dict.fromkeys(PLACE, 0.0), dict.fromkeys(PLACE, 0)
         for rows in self.windows:

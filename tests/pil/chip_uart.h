@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// Sends bytes; waits until each is transmitted.
+/// Sends bytes, and waits until each is transmitted.
 struct Uart {
   void begin() {
     UCSR0A = _BV(U2X0);

@@ -96,8 +96,8 @@ class Pil : public ::testing::Test {
   }
   /// A scenario of 1 s, for tests that are about folders, compilers and links.
   static std::string brief() { return shortened(kC13, 1.0); }
-  /// Like pil() in combined mode on brief(), with the compiler that is installed and a prefix of
-  /// the command line: variables, another directory.
+  /// Runs `awmr pil` in combined mode on brief() with the installed compiler, after the shell
+  /// command `export BEFORE`, which sets variables or changes the directory.
   static ProcessResult pil_after(const std::string& before, const std::string& options,
                                  const std::string& output = "after.json") {
     return run_process("export " + before + " && " + std::string(AWMR_PROGRAM) + " pil --model " +
@@ -105,7 +105,7 @@ class Pil : public ::testing::Test {
                            brief() + " --mode combined " + options + " -o " + path(output),
                        AWMR_SOURCE_DIR);
   }
-  /// A tenth of the default, where the longest step is not what the test is about.
+  /// Options for tests that are not about the longest step: a tenth of the default search, or none.
   static constexpr const char* kShortSearch = " --hostile-steps 600";
   static constexpr const char* kWithoutSearch = " --hostile-steps 0";
   static bool exists(const std::string& name) { return std::filesystem::exists(path(name)); }
@@ -126,7 +126,7 @@ class Pil : public ::testing::Test {
   static inline TemporaryDirectory* directory_ = nullptr;
 };
 
-/// The line of the README's table for a run, made from its pil.json.
+/// The row of a run in the README's table of cycles, made from its pil.json.
 std::string readme_line(const std::string& name, const Json& json) {
   char line[200];
   std::snprintf(line, sizeof line, "| %s | %d / %.0f / %d | %.1f %% | %d | %.3f deg |",
@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(, PilScenario,
                                            std::pair{kC8, "differential"},
                                            std::pair{kC8, "steering"}, std::pair{kC8, "combined"}),
                          name_of_run);
-/// The same firmware as C3's, with other headings.
+/// C13 has the same firmware as C3, with other headings.
 INSTANTIATE_TEST_SUITE_P(Long, PilScenario,
                          ::testing::Values(std::pair{kC13, "differential"},
                                            std::pair{kC13, "steering"},
@@ -194,8 +194,8 @@ class PilGuidance : public Pil, public ::testing::WithParamInterface<const char*
   static void expect_leads_by_itself(const std::string& scenario, const std::string& options);
 };
 
-/// The host's bits, within 16.1 KiB of flash and 512 bytes of RAM; with the estimate of the position
-/// 20 KiB and 640 bytes.
+/// Expects the host's bits, at most 16.1 KiB of flash and 512 bytes of RAM; with the position
+/// estimate 20 KiB and 640 bytes.
 void PilGuidance::expect_leads_by_itself(const std::string& scenario, const std::string& options) {
   const ProcessResult run = pil(scenario, "combined", options);
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
@@ -213,7 +213,7 @@ void PilGuidance::expect_leads_by_itself(const std::string& scenario, const std:
   EXPECT_EQ(json["guidance_on_chip"].get<bool>(), !heading);
 }
 
-/// In the first half minute and a tenth of the hostile steps.
+/// Runs the first half minute of each scenario and a tenth of the hostile steps.
 TEST_P(PilGuidance, GuidanceOnTheChipGivesTheBitsOfTheHost) {
   expect_leads_by_itself(shortened(std::string("configs/") + GetParam() + ".json", 30.0),
                          kShortSearch);
@@ -238,7 +238,7 @@ constexpr const char* kGuided[] = {"paper/scenarios/c9_line",
                                    "scenarios/side_slope_observer",
                                    "scenarios/slalom"};
 
-/// The same firmware as one of kGuided, on other courses and grounds.
+/// Scenarios with the same firmware as one of kGuided, with other paths, surfaces or disturbances.
 constexpr const char* kGuidedElsewhere[] = {"scenarios/double_lane_change",
                                             "scenarios/figure_of_eight",
                                             "scenarios/gps_dropout",
@@ -430,7 +430,8 @@ constexpr const char* kFaults[] = {"nan",
                                    "stop",
                                    "stop-in-noise"};
 
-/// Detected up to a minute after they begin; the others within 6 s.
+/// Failures that are detected up to a minute after they begin, because only the motion shows them;
+/// the others are detected within 6 s.
 constexpr std::string_view kFoundInMotion[] = {
     "compass-stuck", "gps-speed-zero", "motors-reversed", "sides-swapped",
     "gyro-reversed", "steering-stuck", "servo-reversed",  "compass-turning"};
@@ -453,8 +454,8 @@ class PilFault : public Pil, public ::testing::WithParamInterface<const char*> {
 
 TEST_P(PilFault, GivesTheSafeCommandAndItsCode) {
   const std::string name = GetParam();
-  // Failures that only motion reveals: a turn after the middle, in which a stuck compass is detected; by 180 deg for
-  // a stuck servo, which is detected after metres at a wrong heading.
+  // Failures that only the motion shows need a turn after the middle of the run. For a stuck servo
+  // the turn is by 180 deg, because that failure is detected after metres at a wrong heading.
   const bool needs_motion = std::ranges::find(kFoundInMotion, name) != std::end(kFoundInMotion);
   Json scenario = Json::parse(read_all(std::filesystem::path(AWMR_SOURCE_DIR) / kC3));
   scenario["duration_s"] = needs_motion ? 90 : 30;
@@ -549,7 +550,8 @@ TEST_F(Pil, ReportsALineThatFlipsAHundredthOfTheBits) {
 }
 
 TEST_F(Pil, OptionsAreNotUsedAfterTheyAreFreed) {
-  // Freed memory is overwritten at once, so that a CLI11 write to destroyed options gives garbage.
+  // With these settings the C library overwrites freed memory at once. If CLI11 wrote to options
+  // that are destroyed, the program would fail.
   const ProcessResult run = pil_after(
       "GLIBC_TUNABLES=glibc.malloc.tcache_count=0:glibc.malloc.perturb=165", kWithoutSearch);
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;

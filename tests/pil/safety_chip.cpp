@@ -18,8 +18,8 @@ void keep_most(volatile uint16_t& most, uint16_t cycles) {
 }  // namespace
 
 extern "C" {
-// Maximum cycles; timer 1 counts at the clock's rate. For awmr_step(), for a complete step, and for
-// steps that read a sentence and process its fix.
+// Maximum clock cycles, measured by timer 1: of awmr_step(), of a complete step, and of steps that
+// read a sentence and process its fix.
 volatile uint16_t safety_step_cycles, safety_whole_cycles, safety_fix_cycles;
 volatile uint32_t safety_hash;
 volatile uint8_t safety_causes[awmr::kSensorFaultCount], safety_disarmed;

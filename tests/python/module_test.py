@@ -1,4 +1,4 @@
-"""The Python module gives the command line's numbers to the last bit, and its error messages."""
+"""Checks that the Python module gives the same numbers, to the last bit, and the same error messages as the command line."""
 import csv
 import hashlib
 import json
@@ -60,7 +60,7 @@ class Module(unittest.TestCase):
         cls.folder.cleanup()
 
     def assert_same_model(self, model, path):
-        """Byte for byte: numbers, command, options, and inputs by SHA-256."""
+        """Compares byte for byte: numbers, command, options, and inputs by SHA-256."""
         self.assertEqual(model.text(), Path(path).read_text())
 
     def test_tables_give_the_same_model(self):

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kGains = R"({"schema": "awmr.gains/1",
   "heading": {"lambda": 3, "mu": 50, "epsilon": 12}, "speed": {"mu": 5, "epsilon": 1.2}})";
-/// Used as the name of a file and of a scenario.
+/// Name of a file and of a scenario that contains HTML and script, which the page must not execute.
 constexpr const char* kHostileFile = "<img src=x onerror=boom()>";
 constexpr const char* kHostileName = R"(</script><script>boom()</script><svg onload=boom()>)";
 
@@ -86,7 +86,7 @@ struct Extent {
   double high = -1e300;
 };
 
-/// Extent of a column of a run.
+/// Smallest and largest value of a column of a run.
 Extent extent_of(const fs::path& csv, std::size_t column) {
   std::ifstream file(csv);
   std::string line;
@@ -199,7 +199,7 @@ TEST_F(ReportInBrowser, SavesChartsWithoutColoursOfThePage) {
   EXPECT_THAT(page.at("saved"), ::testing::Each("data:image/png;base64,"));
 }
 
-// The steps are too close for any mode to settle.
+// The time between the heading steps is too short for any mode to settle.
 TEST_F(ReportInBrowser, ShowsRunsThatNeverSettled) {
   const TemporaryDirectory directory;
   for (const char* name : {"model.json", "gains.json"})

@@ -24,7 +24,7 @@ Model some_model(const std::string& name) {
   return model;
 }
 
-/// Every parameter is known, so that it can turn.
+/// A model with all parameters, so that the vehicle can turn.
 Model whole_model() {
   Model model = some_model("robot");
   for (Estimate& estimate : model.estimates) estimate.value = estimate.value.value_or(0.5);

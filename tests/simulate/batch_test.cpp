@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kSampleTime_s = 0.01;
 
-/// The start of each, up to this duration: 200 of the closed figures' 628 s.
+/// Every scenario of configs/, cut to this duration: the Lissajous paths last 628 s.
 std::vector<Scenario> shipped_scenarios(double longest_s = 200.0) {
   std::vector<Scenario> scenarios;
   for (const char* folder :
@@ -121,11 +121,12 @@ bool is_near(const Metrics& batch, const Metrics& scalar) {
   return true;
 }
 
-/// Effect of a change of the mass or the inertia by 1e-12, up or down. One such change is too few:
-/// whether it passes a limit a sample later is a matter of chance.
+/// Amplification of small changes by a run: the largest effect of changing the mass or the inertia
+/// by 1e-12, up and down. Several changes are needed, because it is a matter of chance whether one
+/// moves the time at a limit by a sample.
 struct Amplification {
   double largest = 0.0;            ///< relative change of a metric
-  std::set<std::size_t> is_there;  ///< metrics that exist or not by such a change
+  std::set<std::size_t> is_there;  ///< metrics that exist only with or only without such a change
 };
 Amplification amplification_of(const Reference& reference) {
   const auto scalar = numbers_of(reference.metrics);
@@ -214,7 +215,7 @@ TEST_F(Batch, IsTheRunOfSimulateOnFourTyres) {
   }
 }
 
-/// After a minute, without metrics that a chaotic path would amplify.
+/// Compares a run of a minute in open loop, without the metrics of a path.
 TEST_F(Batch, IsTheRunOfSimulateOnFourTyresAfterAMinute) {
   Scenario scenario{.name = "a minute on tyres",
                     .duration_s = 60.0,
@@ -287,7 +288,7 @@ TEST_F(Batch, EventsHappenAtTheSampleOfSimulate) {
   }
 }
 
-/// Numbers up to ten times the paper's, and a tenth: exponents far above 1, whose steps are halved.
+/// Parameters from a tenth to ten times the paper's. Exponents far above 1 need halved steps.
 TEST_F(Batch, IsTheRunOfSimulateFarBeyondThePapersVehicle) {
   const std::vector<BatchRun> runs = drawn_runs(16, std::log(10.0));
   const Scenario open{"open", 3.0, {}, 0.0, OpenLoop{1.0, 0.05}};

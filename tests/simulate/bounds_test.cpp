@@ -82,7 +82,7 @@ void is_finite_bounded_and_within_limits(double beyond) {
   const Scenario scenario = any_scenario(beyond);
   Vehicle vehicle = paper_vehicle();
   const auto controller = make_controller(plant, vehicle, {{3.0, 50.0, 12.0}, {2.0 * beyond, 0.5}});
-  // Time constants of microseconds are tested well enough by the few inside the box.
+  // Few of the random plants have time constants of microseconds; these few are enough.
   if (substeps_for(plant, 0.01) > 500) return;
   for (const YawMode mode : kYawModes) {
     const awmr::Run run = simulate(plant, controller, scenario, mode, {});

@@ -89,7 +89,8 @@ RC_GTEST_PROP(Energy, WorkDoneIsKineticEnergyPlusDissipation, ()) {
   RC_ASSERT(std::abs(balance - gained) < 2e-4);
 }
 
-/// A fault without effect makes the simulator use the four-wheel form.
+/// Scenario with a wheel fault that has no effect, which makes the simulator use the four-wheel
+/// form.
 RC_GTEST_PROP(FourWheels, AgreeWithTheReducedForm, ()) {
   const Plant<double> plant = any_plant();
   const Scenario reduced = any_open_loop();
@@ -99,19 +100,21 @@ RC_GTEST_PROP(FourWheels, AgreeWithTheReducedForm, ()) {
   for (const YawMode mode : kYawModes) {
     const State<double> a = simulate(plant, controller, reduced, mode, {}).rows.back().state;
     const State<double> b = simulate(plant, controller, four, mode, {}).rows.back().state;
-    // Another order of summation: 1e-16 per step, 1e3 steps of a damped system.
+    // The two forms sum in another order: rounding of 1e-16 in each of 1e3 steps of a damped
+    // system.
     RC_ASSERT(std::abs(a.x_m - b.x_m) < 1e-10);
     RC_ASSERT(std::abs(a.y_m - b.y_m) < 1e-10);
     RC_ASSERT(std::abs(a.psi_rad - b.psi_rad) < 1e-10);
   }
 }
 
-/// 4 s of driving at F' 0.5 of each motor.
+/// Scenario of 4 s with F' = 0.5 of each motor.
 Scenario driven_straight() {
   return {.name = "driven", .duration_s = 4.0, .initial = {}, .guidance = OpenLoop{2.0, 0.0}};
 }
 
-/// Dissipated plus kinetic energy: equals the motors' energy if none brakes.
+/// Returns the dissipated plus the kinetic energy, which equals the energy of the motors if none
+/// brakes.
 double taken_and_kept(const Plant<double>& plant, const awmr::Run& run) {
   double taken = 0.0;
   for (std::size_t i = 1; i < run.rows.size(); ++i) {

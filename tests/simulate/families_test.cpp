@@ -34,7 +34,7 @@ TEST(Families, SettleAtTheSteadySpeedOfTheLawWithDeadZone) {
     Plant<double> plant = plant_of(c.surge, c.dead_zone);
     const Vehicle vehicle = paper_vehicle();
     Controller<double> controller = make_controller(plant, vehicle, {});
-    // In open loop the command is output unchanged.
+    // In open loop the controller must not compensate the dead zone.
     controller.limits.dead_zone = 0.0;
     const Scenario scenario{"open loop", 5.0, {}, 0.0, OpenLoop{1.2, 0.0}};
     const awmr::Run run = simulate(plant, controller, scenario, YawMode::kDifferential,
@@ -69,7 +69,7 @@ TEST(BackEmf, IsMadeUpForByTheController) {
     const awmr::Run run =
         simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}});
     const RunRow& last = run.rows.back();
-    // As with ideal motors: see TheControllerHoldsSpeedAndHeadingWithEveryOne.
+    // The same tolerances as in TheControllerHoldsSpeedAndHeadingWithEveryOne, with ideal motors.
     EXPECT_NEAR(last.state.u_mps, 0.8, 1e-3);
     EXPECT_NEAR(last.state.psi_rad, 0.5, 1e-3);
     EXPECT_NEAR(last.force.left, plant.surge(0.8) / 4.0 + 0.25 * 0.8, 1e-3);
@@ -80,7 +80,8 @@ TEST(BackEmf, IsMadeUpForByTheController) {
   }
 }
 
-/// If a speed needs more than full voltage, the vehicle drives at the speed of full voltage.
+/// If the commanded speed needs more than full voltage, the vehicle drives at the speed of full
+/// voltage.
 TEST(BackEmf, FullVoltageGivesTheNoLoadSpeedReducedByResistance) {
   const Resistance<double> surge{.alpha = 1.3157, .beta = 0.8841};
   const Plant<double> plant = geared(0.8, surge);
@@ -119,7 +120,7 @@ TEST(FrontWheelDrive, HoldsSpeedAndHeadingInEveryModeWithAndWithoutBackEmf) {
       const RunRow last =
           simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}})
               .rows.back();
-      // As of four wheels: see TheControllerHoldsSpeedAndHeadingWithEveryOne.
+      // The same tolerances as in TheControllerHoldsSpeedAndHeadingWithEveryOne, with four wheels.
       EXPECT_NEAR(last.state.u_mps, 0.6, 1e-3) << name_of(mode) << back_emf;
       EXPECT_NEAR(last.state.psi_rad, 0.5, 1e-3) << name_of(mode) << back_emf;
       EXPECT_NEAR(last.force.left, plant.surge(0.6) / 2.0 + back_emf * 0.6, 1e-3);

@@ -39,7 +39,7 @@ TEST(FourWheelRuns, ReachTheSpeedOfTheModelStraightAhead) {
   const State<double> wheels = driven(on_tyres(scenario), YawMode::kDifferential).rows.back().state;
   EXPECT_NEAR(wheels.u_mps, model.u_mps, 1e-9);
   EXPECT_EQ(wheels.y_m, 0.0);
-  // They are slower, because at most mu g is transmitted.
+  // The vehicle on tyres is slower, because friction limits its acceleration to mu g.
   EXPECT_LT(wheels.x_m, model.x_m);
 }
 

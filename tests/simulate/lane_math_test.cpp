@@ -13,7 +13,7 @@ using awmr::testing::has_instructions;
 constexpr double kInfinity = __builtin_inf();
 const double kNaN = __builtin_nan("");
 
-/// Reproducible numbers in (0, 1).
+/// Generator of reproducible random numbers in (0, 1).
 double next_uniform() {
   static std::uint64_t state = 88172645463325252ULL;
   state ^= state << 13U;
@@ -93,7 +93,8 @@ int main() {
   const auto sine = [](const Lanes& x, const Lanes&) { return sin(x); };
   const auto cosine = [](const Lanes& x, const Lanes&) { return cos(x); };
   for (const double most : {1.0, 100.0, 1e6}) {
-    // Near a root the error is that of 1.
+    // Errors are relative to at least 1, because near a root of sin or cos the rounding of the
+    // argument determines them.
     check(
         "sin", sine, [](long double x, long double) { return sinl(x); },
         [&](double& x, double& y) { one(x, y, most); }, 1.0, 1.5);

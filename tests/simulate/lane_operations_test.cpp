@@ -59,7 +59,7 @@ double larger(double a, double b) { return a < b ? b : a; }
 
 }  // namespace
 
-// The same expression for both.
+// Applies one expression to lanes and to doubles.
 #define AWMR_CHECK(words)                                                                        \
   check(                                                                                         \
       #words, [](const Lanes& x, const Lanes& y, const Lanes& z) { return of(x, y, z, words); }, \

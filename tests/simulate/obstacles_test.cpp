@@ -21,7 +21,7 @@ awmr::Run run_of(const Scenario& scenario, YawMode mode) {
                   {.sample_time_s = 0.01, .substeps = 1});
 }
 
-/// The parameters are a mode and the number of layouts.
+/// Test parameters: a mode and the number of layouts.
 class Layouts : public ::testing::TestWithParam<std::tuple<YawMode, int>> {};
 
 std::string name_of_layouts(const ::testing::TestParamInfo<std::tuple<YawMode, int>>& test) {
@@ -75,7 +75,7 @@ TEST(Passage, IsBlockedByAClosedRingAndNotByAGap) {
   for (int gap = 0; gap < 20; ++gap) {
     EXPECT_TRUE(passage_exists(ring({30.0, 0.0}, gap), 1.3, {0.0, 0.0}, {30.0, 0.0})) << gap;
   }
-  // Both ends inside, or both outside: there is a passage.
+  // If both ends are inside the ring, or both outside, there is a passage.
   EXPECT_TRUE(passage_exists(ring({30.0, 0.0}, -1), 1.3, {28.0, 1.0}, {30.0, 0.0}));
   EXPECT_TRUE(passage_exists(ring({30.0, 0.0}, -1), 1.3, {0.0, 0.0}, {60.0, 0.0}));
 }

@@ -61,9 +61,9 @@ TEST(PlantSampler, DrawsHaveTheModelsMeanAndCovariance) {
   }
 }
 
-/// The mean of 32 random draws has a standard error of sigma/sqrt(32) = 0.18 sigma, their mean
-/// square one of sqrt(2/32) = 0.25, and that of five seeds one of 0.11. The bounds for even draws
-/// are a third of the first and, over the seeds, twice the last.
+/// Standard errors of 32 independent draws: sigma/sqrt(32) = 0.18 sigma for the mean, sqrt(2/32) =
+/// 0.25 for the mean square, 0.11 for the mean square over five seeds. The stratified draws must
+/// have a mean within a third of the first and a mean square over the seeds within twice the last.
 TEST(PlantSampler, EvenDrawsHaveTheModelsMeanAndSpreadWhileTheyAreFew) {
   constexpr int kFew = 32;
   constexpr int kSeeds = 5;
@@ -89,8 +89,8 @@ TEST(PlantSampler, EvenDrawsHaveTheModelsMeanAndSpreadWhileTheyAreFew) {
   }
 }
 
-/// The share below a quantile of n draws has a standard deviation of sqrt(p (1 - p)/n); 5 of them are
-/// passed once in 10^6 seeds.
+/// The share below a quantile of n draws has a standard deviation of sqrt(p (1 - p)/n); 5 of them
+/// are passed once in 10^6 seeds.
 TEST(PlantSampler, DrawsHaveTheQuantilesThatTheModelShows) {
   Model model = uncertain_model();
   const Quantiles shown{0.06, 0.08, 0.11, 0.12, 0.15};
@@ -115,7 +115,7 @@ TEST(PlantSampler, AQuarterOfTheDrawsHasTheMassThatTheGripAsksFor) {
   for (const Plant<double>& plant : plants) {
     if (plant.mass_norm < 0.26) continue;
     ++gripped;
-    // m' is drawn and I'z is not, but for the factor to the grip's mass.
+    // m' is drawn. I'z is not drawn, but scaled with the mass that the grip requires.
     EXPECT_GT(plant.inertia_norm, 0.26 * ratio * 0.5);
   }
   EXPECT_EQ(gripped, 8);
@@ -168,7 +168,7 @@ TEST(PlantSampler, KeepsPositiveQuantitiesPositiveWhateverTheirError) {
   }
 }
 
-/// The range limits fits: an estimate at its end is uncertain in both directions.
+/// surge_beta_range limits fits, not draws: an estimate at its end is uncertain in both directions.
 TEST(PlantSampler, DrawsExponentsOnBothSidesOfAnEndOfTheVehiclesRange) {
   for (const double beta : {0.995, 1.0, 1.4}) {
     Model model = uncertain_model();

@@ -1,5 +1,5 @@
-/// Closed loops with a GPS of 1.5 m of noise, 5 Hz and 0.2 s of latency: no jumps of the heading reference,
-/// no waypoint counted as passed that was not.
+/// Closed loops with a GPS of 1.5 m of noise, 5 Hz and 0.2 s of latency: no jumps of the heading
+/// reference, no waypoint counted as passed that was not.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ Scenario line() {
 struct Figures {
   double jump_deg = 0.0;       ///< largest step of psi_ref other than at a waypoint
   int wrong = 0;               ///< waypoints counted as passed beyond acceptance + 2 m
-  int unfinished = 0;          ///< runs
+  int unfinished = 0;          ///< runs that do not reach the end of their path
   double cross_track_m = 0.0;  ///< RMS of the true position from the line through the leg
   double position_m = 0.0;     ///< RMS error of the position
 };

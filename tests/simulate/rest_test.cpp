@@ -1,4 +1,4 @@
-/// Stopping under a resistance whose slope at rest is infinite.
+/// Stops and starts with a resistance whose slope at rest is infinite.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -32,7 +32,7 @@ TEST(ScenarioGuidance, CommandsTheHeadingOfTheLastStep) {
   EXPECT_EQ(heading_at(steps, 9.0), 0.3);
 }
 
-/// Towards (10 m, 0) at the full speed, this far from the leg.
+/// Expects the first leg, towards (10 m, 0), at full speed and at this distance from the leg.
 void expect_on_first_leg(const GuidanceOutput& output, double cross_track_m) {
   EXPECT_EQ(output.path.leg, 0);
   EXPECT_EQ(output.path.target_m.x_m, 10.0);

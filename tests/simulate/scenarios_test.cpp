@@ -79,7 +79,7 @@ TEST_P(ScenarioFiles, RunsInEveryMode) {
   }
 }
 
-/// Left and right are equal up to rounding of sums in another order.
+/// A mirrored scenario gives the mirrored run, up to rounding of sums in another order.
 TEST_P(ScenarioFiles, IsInvariantUnderReflection) {
   Scenario s = scenario();
   s.duration_s = std::min(s.duration_s, 60.0);
@@ -111,8 +111,8 @@ bool switch_alike(const awmr::Run& a, const awmr::Run& b) {
 /// that ends within rounding of a sample's time may end one sample later, which moves the rest by
 /// at most u T_s = 0.01 m. Near r = 0, where the slope of g3 is infinite, a plant that differs from
 /// the controller's model has a limit cycle of some 0.001 rad/s in which differences grow (tenfold
-/// in 1.5 s): 20 s are compared. The estimate of the position reads cos psi and sin psi in turns, one
-/// in a step, so that it rotates with the world to within the turn of a step.
+/// in 1.5 s): 20 s are compared. The estimate of the position reads cos psi and sin psi in turns,
+/// one in a step, so that it rotates with the world to within the turn of a step.
 TEST_P(ScenarioFiles, IsInvariantUnderTranslationAndRotation) {
   Scenario s = scenario();
   if (std::holds_alternative<LissajousPath>(s.guidance)) return;

@@ -1,4 +1,4 @@
-/// The tyres' scrub in the 3-DOF plant: differential turns meet it, steered ones do not.
+/// Tyre scrub in the 3-DOF plant: it acts in differential turns and not in steered ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ State<double> turning(double r_radps, double steering_rad) {
           .steering_rad = steering_rad};
 }
 
-/// Effect of scrub on r_dot, times I'z.
+/// Yaw moment of scrub over F_max, m: its effect on r_dot times I'z.
 double scrub_at(const State<double>& state, const SideForces<double>& force) {
   const Plant<double> plant = scrubbing_plant();
   const double with = state_rates(plant, state, force, 0.0).r_radps;
@@ -41,7 +41,7 @@ double scrub_at(const State<double>& state, const SideForces<double>& force) {
 }
 
 TEST(Scrub, OpposesTheTurnByTheDifferentialShareOfItsMoment) {
-  // Sums of moments of about 0.1 m over I'z = 0.0128, rounded at 1e-16: 1e-14 of c.
+  // Rounding of sums of moments of about 0.1 m, divided by I'z = 0.0128.
   constexpr double kRounding_m = 1e-14;
   EXPECT_NEAR(scrub_at(turning(0.2, 0.0), {0.2, 0.3}), kScrub_m, kRounding_m);
   EXPECT_NEAR(scrub_at(turning(-0.2, 0.0), {0.2, 0.3}), -kScrub_m, kRounding_m);
@@ -59,8 +59,8 @@ TEST(Scrub, OpposesTheTurnByTheDifferentialShareOfItsMoment) {
 }
 
 TEST(Scrub, OfASteadyDifferentialTurnIsWhatItsTrialMeasures) {
-  // 2 d (F'R - F'L) = g3(r) + c, as identify has it: after 20 s, 50 time constants I'z/g3'(r) = 0.4 s and
-  // less, within 1e-6 of r.
+  // The steady turn satisfies the equation of identify, 2 d (F'R - F'L) = g3(r) + c. After 20 s, 50
+  // time constants I'z/g3'(r) of at most 0.4 s, r is within 1e-6 of it.
   const Plant<double> plant = scrubbing_plant();
   const double tau_turn_m = 0.1;
   const awmr::Run run = run_open_loop(plant, turning(0.0, 0.0), 20.0, {1.0, tau_turn_m});
@@ -69,7 +69,8 @@ TEST(Scrub, OfASteadyDifferentialTurnIsWhatItsTrialMeasures) {
 }
 
 TEST(Scrub, HoldsAVehicleUnderASmallerMoment) {
-  // The chord of g3 + c ends below 1e-3 rad/s (physics.cpp), and half of c is balanced below its end.
+  // Near rest the simulator replaces g3 + c by a chord that ends below 1e-3 rad/s (physics.cpp). A
+  // moment of c/2 is balanced on the chord, so the vehicle turns by less than 1e-3 rad/s.
   const awmr::Run run =
       run_open_loop(scrubbing_plant(), turning(0.0, 0.0), 5.0, {1.0, 0.5 * kScrub_m});
   EXPECT_LT(std::abs(run.rows.back().state.r_radps), 1e-3);
@@ -77,7 +78,7 @@ TEST(Scrub, HoldsAVehicleUnderASmallerMoment) {
 }
 
 TEST(Scrub, WorksAgainstTheTurn) {
-  // Of the steady turn: tyre work grows by (g3(r) + c) r per second.
+  // In the steady turn, tyre work grows by (g3(r) + c) r per second.
   const Plant<double> plant = scrubbing_plant();
   Scenario scenario = short_open_loop();
   scenario.guidance = OpenLoop{1.0, 0.1};
@@ -105,7 +106,7 @@ TEST(Scrub, IsTheSameInABatch) {
     const Metrics alone = metrics_of(
         simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}}),
         scenario, controller);
-    // Rounding alone, as in batch_test.cpp.
+    // Batch and scalar run differ by rounding only, as in batch_test.cpp.
     EXPECT_NEAR(*batch.front()->heading_iae_degs, *alone.heading_iae_degs, 1e-8);
     EXPECT_NEAR(batch.front()->tyre_work, alone.tyre_work, 1e-10);
   }

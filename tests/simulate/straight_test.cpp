@@ -54,7 +54,8 @@ std::vector<Scenario> straight_scenarios() {
   scenarios[1].initial.psi_rad = scenarios[1].initial.u_mps = 0.3;
   std::get<HeadingSteps>(scenarios[1].guidance).steps[0].psi_rad = 0.3;
   scenarios[3].disturbance.surge = {constant(-0.3)};
-  // Uphill: the sine of pi is 1e-16, which is not a turn.
+  // A slope at 180 deg to the path. The sine of pi is 1e-16 in double, which must not count as a
+  // turn.
   scenarios[4].disturbance.slope = {{radians(5.0), radians(180.0)}};
   return scenarios;
 }

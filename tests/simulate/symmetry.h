@@ -1,4 +1,4 @@
-/// A scenario mirrored or displaced.
+/// Returns a scenario mirrored, or rotated and moved.
 #pragma once
 
 #include <cmath>

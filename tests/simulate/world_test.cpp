@@ -1,4 +1,4 @@
-/// Disturbances, faults, battery, sensors, actuators, observer.
+/// Effects on a simulated run: disturbances, faults, battery, sensors, actuators, observer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,8 @@ DisturbanceTerm constant(double value, double from_s = 0.0) {
 }
 
 TEST(Disturbances, AConstantYawMomentLeavesTheLawsSteadyError) {
-  // In the layer at rest: I'z mu lambda e/eps = -N  =>  e = -N eps/(I'z mu lambda).
+  // Steady heading error e under the yaw moment N, in the boundary layer at rest:
+  //   I'z mu lambda e/eps = -N  =>  e = -N eps/(I'z mu lambda)
   Scenario s = straight();
   s.disturbance.yaw = {constant(0.01)};
   const double expected = 0.01 * 12.0 / (0.01212 * 50.0 * 3.0);
@@ -122,7 +123,8 @@ TEST(Wheels, ASlipperyPatchUnderTheLeftWheelsTurnsLeftOnlyThere) {
   EXPECT_EQ(run_of(s, YawMode::kDifferential).rows.back().state.psi_rad, 0.0);
 }
 
-/// A wheel on ice transmits no more than the ice allows, however its motor produces the force.
+/// A wheel on a slippery patch transmits at most the friction of the ground, also if back-EMF
+/// brakes it.
 TEST(Wheels, OnASlipperyPatchBackEmfBrakesNoMoreThanTheGroundHolds) {
   Scenario s = straight(1.0);
   s.patches = {{.centre_m = {0.0, 0.0}, .radius_m = 5.0, .force_max = 0.1}};
@@ -198,7 +200,7 @@ TEST(Battery, SagIsTheVoltageThatTheCurrentsLeave) {
   const double wheel_mps[2] = {1.2 - 0.7 * kHalfTrack_m, 1.2 + 0.7 * kHalfTrack_m};
   double voltage = 1.0;
   for (int i = 0; i < 200; ++i) {
-    double drawn = 0.0;  // over the stall current of one motor
+    double drawn = 0.0;  // battery current over the stall current of one motor
     for (const auto& [c, w] :
          {std::pair(command.left, wheel_mps[0]), std::pair(command.right, wheel_mps[1])}) {
       drawn += 2.0 * c * (voltage * c - kBackEmf * w);
@@ -233,7 +235,7 @@ TEST(SensorChannels, HaveTheirNoiseBiasAndSteps) {
   EXPECT_NEAR(std::sqrt(square / n), 0.02, 0.03 * 0.02);  // s.e. 1/sqrt(2 10^4) = 0.7 %
 }
 
-/// Largest difference between measured and true position, from `from_s` on.
+/// Largest distance of the measured from the true position between two times, m.
 double largest_error_m(const awmr::Run& run, double from_s, double to_s) {
   double largest = 0.0;
   for (const RunRow& row : run.rows) {
@@ -267,7 +269,8 @@ TEST(GpsReceiver, BetweenFixesAndForItsLatencyThePositionIsCarriedOn) {
   EXPECT_GT(largest_error_m(run_of(with_gps(0.5, {})), 1.0, 60.0), 0.1 * 0.5);
 }
 
-/// The last fix is up to 0.19 s + latency old, at 1 m/s.
+/// At 1 m/s the held position is off by up to 0.69 m: the last fix is up to 0.19 s + 0.5 s of
+/// latency old.
 TEST(GpsReceiver, WithoutAnEstimateTheLastFixIsHeld) {
   Scenario s = with_gps(0.5, {});
   s.sensors->speed.bias = 0.0;
@@ -297,7 +300,8 @@ ControlOptions::Observer observer(bool anti_windup) {
   return {.bandwidth_radps = 5.0, .yaw_max_m = 0.3, .surge_max = 0.5, .anti_windup = anti_windup};
 }
 
-/// Errors of neighbouring samples have the correlation exp(-T_s/tau), and the spread of independent ones.
+/// Errors of neighbouring samples have the correlation exp(-T_s/tau) and the given standard
+/// deviation.
 TEST(SensorChannels, HaveNoiseWithACorrelationTime) {
   Sensors sensors;
   sensors.heading = {.noise = 0.02, .correlation_s = 0.2};
@@ -359,7 +363,8 @@ TEST(Motors, TheForceFollowsItsCommandWithTheirTimeConstant) {
     u += 0.5 * kStep_s * (first + accel(u + kStep_s * first, next));
     force = next;
   }
-  // Held at its mean over each sample, the force is accurate to (T_s/tau)^2/24 of its change.
+  // The simulator holds each force at its mean over the sample, with an error of (T_s/tau)^2/24 of
+  // its change.
   EXPECT_NEAR(run.rows.back().state.u_mps, u, 1e-3 * u);
   EXPECT_LT(run.rows[5].state.u_mps, run_of(
                                          [&] {
@@ -406,7 +411,7 @@ TEST(Observer, OfTheGainsWorksAsThatOfTheScenarioWhichComesFirst) {
   EXPECT_EQ(rows(bare, tuned), rows(own, kPaperGains));
   EXPECT_EQ(rows(own, slower), rows(own, kPaperGains));
   EXPECT_NE(rows(bare, slower), rows(bare, kPaperGains));
-  // An LQI has its own integral.
+  // The observer of the gains has no effect with an LQI, which has its own integral.
   Scenario lqi = bare;
   lqi.control.lqi = {
       .heading_rad = 0.05, .yaw_rate_radps = 1.0, .integral_rad_s = 0.05, .tau_turn_m = 0.1};

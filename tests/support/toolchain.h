@@ -25,14 +25,14 @@ inline constexpr const char* kArmGcc = AWMR_TOOL_ARM_NONE_EABI_GCC;
 inline constexpr const char* kArmGxx = AWMR_TOOL_ARM_NONE_EABI_GXX;
 inline constexpr const char* kQemuArm = AWMR_TOOL_QEMU_SYSTEM_ARM;
 
-/// A compiler of the host for commands with -c: through the compiler cache of the build, where it
-/// is installed. The cache is keyed by content, and a changed source is compiled.
+/// Returns the command of a host compiler for use with -c, with the build's compiler cache in front
+/// if it is installed. The cache compares contents, so a changed source is compiled again.
 inline std::string cached(const std::string& compiler) {
   const std::string_view cache = AWMR_TOOL_CCACHE;
   return cache.ends_with("-NOTFOUND") ? compiler : std::string(cache) + " " + compiler;
 }
 
-/// For ASSERT_TRUE: the program was found when the build was configured.
+/// Assertion that the program was found when the build was configured.
 inline ::testing::AssertionResult found(std::string_view program) {
   if (program.ends_with("-NOTFOUND") || program.empty()) {
     return ::testing::AssertionFailure()
@@ -42,7 +42,7 @@ inline ::testing::AssertionResult found(std::string_view program) {
   return ::testing::AssertionSuccess();
 }
 
-/// For ASSERT_TRUE: the program ended with 0 and printed no warnings.
+/// Assertion that the program ended with 0 and printed no warnings.
 inline ::testing::AssertionResult succeeded(const ProcessResult& result) {
   if (result.exit_code == 0) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << "exit code " << result.exit_code << "\n"

@@ -20,7 +20,7 @@ inline Model uncertain_model() {
   return model;
 }
 
-/// One short heading step: enough for every heading metric.
+/// A scenario with one short heading step, which has a value of every heading metric.
 inline Scenario short_heading(const std::string& name = "step") {
   return {.name = name,
           .duration_s = 3.0,

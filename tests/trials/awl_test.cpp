@@ -24,7 +24,7 @@ std::vector<std::string> codes(const AwlLog& log) {
   return all;
 }
 
-/// Column 0 is the time in steps of 0.01 s.
+/// Checks that column 0 is the time in steps of 0.01 s.
 std::vector<int> steps(const AwlLog& log) {
   std::vector<int> all;
   for (const double t_s : log.columns[0]) all.push_back(static_cast<int>(std::lround(100.0 * t_s)));

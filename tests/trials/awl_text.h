@@ -26,7 +26,7 @@ inline std::string awl_json(const std::string& time_scale = "0.01") {
   return json + "]}";
 }
 
-/// A header with a valid checksum around any text.
+/// Returns the header of an on-board log with this text and a valid checksum.
 inline std::string awl_header(const std::string& json) {
   std::string bytes(reinterpret_cast<const char*>(kLogMagic), sizeof kLogMagic);
   bytes += json;

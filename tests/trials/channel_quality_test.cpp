@@ -22,7 +22,7 @@ std::vector<double> times() {
   return t_s;
 }
 
-/// A command that changes every 1.2 s, and a speed that follows within 0.3 s.
+/// Signals of a drive: a command that changes every 1.2 s, and a speed that follows within 0.3 s.
 struct Drive {
   std::vector<double> command;
   std::vector<double> speed;
@@ -100,7 +100,8 @@ TEST(ChannelQuality, SpikesAreFoundAndNothingElseIs) {
 }
 
 TEST(ChannelQuality, NoiseAloneHasNoSpikes) {
-  // Of 3,000 channels the bound of 1e-9 a reading lets none through; one in a hundred would be 30.
+  // A reading is a spike by chance with a probability of 1e-9, so none of the 3,000 channels has
+  // one.
   int alarms = 0;
   for (const std::size_t rows : {60U, 300U, 2000U}) {
     for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
@@ -118,8 +119,8 @@ TEST(ChannelQuality, NoiseAloneHasNoSpikes) {
 }
 
 TEST(ChannelQuality, SharpTurnsOfAMotionAreNoSpikes) {
-  // A triangle of two rows up and two down, once a second, far above the noise; and a slow position
-  // in circles of six readings each, between rests.
+  // The speed has a triangle of two rows up and two down once a second, far above the noise. The
+  // position sensor is slow: six readings per circle, between rests.
   Drive d = drive(9, 0.001);
   for (std::size_t i = 50; i + 4 < kRows; i += 50) {
     for (std::size_t k = 0; k < 5; ++k)
@@ -165,8 +166,8 @@ TEST(ChannelQuality, RestIsNotStuckForTinyNumbers) {
   }
 }
 
-/// A controller keeps the speed within one step of a coarse sensor while its command reacts to the
-/// ground.
+/// A speed controller keeps the speed within one step of a coarse sensor, so the reading is
+/// constant while the command changes with the ground.
 TEST(ChannelQuality, ASteadySpeedThatIsKeptIsNotStuck) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed, 3);

@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// `CONFIDENCE COLUMN=EXPRESSION` of each guess.
+/// Returns the text `CONFIDENCE COLUMN=EXPRESSION` for each guess.
 std::vector<std::string> guesses_of(const std::string& text, TrialKind kind = TrialKind::kLog) {
   const ScratchFile file("a.csv", text);
   const auto sample = sample_of(file.path());
@@ -61,7 +61,7 @@ TEST(GuessColumns, ReadsColumnsThatAreCalledByTheirUnit) {
               ElementsAre("likely t_s=ms*0.001", "likely speed_mps=kmh*0.2777778",
                           "likely yaw_rate_radps=gyro_dps*0.01745329",
                           "likely steering_cmd_deg=servo_deg"));
-  // Possibly metres per second: they do not grow from row to row.
+  // No guess for "ms": the values do not grow from row to row, so they may be metres per second.
   EXPECT_THAT(guesses_of("ms\n1\n1.2\n0.9\n"), IsEmpty());
 }
 

@@ -37,7 +37,7 @@ TEST(ForceUnits, TheLargestForceOfAllTablesDecidesForEachColumn) {
                              HasSubstr("force_right=\"force_right\"*0.003921569"),
                              HasSubstr("turning.csv:2: wheel_force is 89"),
                              HasSubstr("surge.csv:2: tau_speed is"), Not(HasSubstr("percent"))));
-  // The same mapping corrects the column wheel_force of both tables.
+  // One mapping corrects the column wheel_force of both tables.
   const std::string mapping = "wheel_force=\"wheel_force\"*0.003921569";
   EXPECT_NE(refused.find(mapping), refused.rfind(mapping));
 }
@@ -51,7 +51,7 @@ TEST(ForceUnits, TauSpeedIsFourTimesTheForceOfAWheel) {
   EXPECT_THAT(refusal_of("tau_speed,speed_mps\n300,0.55\n800,1.66\n", turns),
               AllOf(Not(HasSubstr("0.01568627")),
                     HasSubstr("tau_speed=\"tau_speed\"*0.003921569', or take it")));
-  // 400 is four times 100 %, and not the end of a scale itself.
+  // 400 means four wheels at 100 %; no scale ends at 400.
   EXPECT_THAT(refusal_of("tau_speed,speed_mps\n300,0.55\n400,1.66\n", ""),
               AllOf(HasSubstr("look like percent;"),
                     HasSubstr("tau_speed=\"tau_speed\"*0.01', or take it")));
@@ -67,14 +67,14 @@ TEST(ForceUnits, MicrosecondsOfAServoPulseHaveAnOffset) {
   EXPECT_THAT(refusal_of("", kTurns + "0,,0.2,1400,1600\n0,,0.3,1350,1900\n"),
               AllOf(HasSubstr("force_left=\"force_left\"*0.002-3"),
                     HasSubstr("force_right=\"force_right\"*0.002-3")));
-  // The mapping corrects it; an existing one is combined with it.
+  // The suggested mapping corrects the values, and includes an existing mapping.
   EXPECT_EQ(
       refusal_of(surge, "", {-1.0, 1.0}, {*parse_column("wheel_force=\"wheel_force\"*0.002-3")}),
       "");
   EXPECT_THAT(refusal_of("ms,speed_mps\n0.6,0.28\n1.0,1.66\n", "", {-1.0, 1.0},
                          {*parse_column("wheel_force=ms*1000+1000")}),
               HasSubstr("wheel_force=\"ms\"*2-1'"));
-  // Pulses below 900 us do not exist: these are counts.
+  // The values are PWM counts: servo pulses are not shorter than 900 us.
   EXPECT_THAT(refusal_of("wheel_force,speed_mps\n500,0.28\n2000,1.66\n", ""),
               Not(HasSubstr("microseconds")));
 }
@@ -89,11 +89,12 @@ TEST(ForceUnits, NamesAllUnitsIfNoneIsClear) {
   EXPECT_THAT(refusal_of("wheel_force,speed_mps\n20,0.55\n38,1.66\n", ""),
               AllOf(HasSubstr("percent, volts"), HasSubstr("newtons"),
                     HasSubstr("wheel_force=\"wheel_force\"*0.01' (percent), or take it")));
-  // 12 is below a fifth of every scale: volts, or newtons, for which no factor is known.
+  // 12 is below a fifth of the end of every scale, so it can be volts or newtons, whose factors are
+  // unknown.
   EXPECT_THAT(refusal_of("wheel_force,speed_mps\n4,0.55\n12,1.66\n", ""),
               AllOf(HasSubstr("volts"), HasSubstr("newtons"), Not(HasSubstr("map it")),
                     Not(HasSubstr("percent"))));
-  // Four times 1023 N would accelerate it by 111 m/s^2.
+  // The values are not newtons: 4 times 1023 N would accelerate the vehicle by 111 m/s^2.
   EXPECT_THAT(refusal_of("wheel_force,speed_mps\n300,0.55\n800,1.66\n", ""),
               Not(HasSubstr("newtons")));
 }

@@ -26,7 +26,7 @@ TrialFiles paper_files() {
           .coastdowns = {kPaper / "coastdown.csv"}};
 }
 
-/// Faults of a surge or turning table with these rows.
+/// Returns the faults of a surge or turning table with these rows.
 std::string refusal_of(const std::string& name, const std::string& text, bool as_is = false) {
   const ScratchFile file(name, text);
   TrialFiles files{.vehicle = paper_vehicle(), .options = {.columns = {}, .as_is = as_is}};
@@ -113,7 +113,7 @@ TEST(LoadTrials, AStopInMinutesIsRefused) {
   ASSERT_FALSE(trials);
   EXPECT_THAT(to_text(trials.error()),
               AllOf(HasSubstr("minutes"), HasSubstr("stop_time_s=\"stop_time_s\"*60")));
-  // One run of several is a row's fault, not the column's.
+  // A wrong value in one of several runs is reported as an error of the row, not of the column.
   const ScratchFile one("coastdown.csv", "initial_speed_mps,stop_time_s\n1.5,1.4\n3,0.03\n");
   files.coastdowns = {one.path()};
   EXPECT_TRUE(load_trials(files));

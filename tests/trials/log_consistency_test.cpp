@@ -39,7 +39,8 @@ Measured measured(std::vector<double> values) {
   return {std::move(values), std::vector<bool>(rows, true), static_cast<int>(rows), false, 0.0};
 }
 
-/// Speed follows thrust in 0.3 s, yaw rate follows steering and sides in 0.15 s.
+/// Simulated log in which the speed follows the thrust in 0.3 s, and the yaw rate follows steering
+/// and left/right forces in 0.15 s.
 DrivingLog sound_log(std::uint64_t seed, const Making& making = {}, std::size_t rows = kRows) {
   Random random(seed, 11);
   DrivingLog log;
@@ -151,7 +152,7 @@ TEST(LogConsistency, RefusesAVehicleThatNeverMoves) {
   }
 }
 
-/// The findings of the channels' calibration by code.
+/// Codes of the findings on the calibration of channels.
 int calibrations(const DrivingLog& log, const std::string& code, const std::string& words = "") {
   return static_cast<int>(
       std::ranges::count_if(calibration_findings(log, {}), [&](const Finding& finding) {
@@ -287,8 +288,8 @@ struct WrongTurn {
   std::function<void(DrivingLog&)> make;
   std::string column;
   std::string words;
-  /// Minimum number of ten drives whose first ten seconds reveal it. A unit shows at once, a sign
-  /// only when the drive makes it observable.
+  /// Minimum number of ten drives in which the first ten seconds reveal the fault. A wrong unit
+  /// shows at once, a wrong sign only when the drive makes it observable.
   int early = 9;
 };
 
@@ -425,8 +426,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "x_m", "mm"}),
     [](const auto& turn) { return turn.param.name; });
 
-// About 0.2 m/s and fixes of 0.2 m: the ends of a window of 1 s lie sqrt(0.2^2 + 4*0.2^2) = 0.45 m apart,
-// 2.2 times as far as the vehicle drives, which is beyond the 1.6 of an agreement.
+// About 0.2 m/s and fixes of 0.2 m: the ends of a window of 1 s lie sqrt(0.2^2 + 4*0.2^2) = 0.45 m
+// apart, 2.2 times as far as the vehicle drives, which is beyond the 1.6 of an agreement.
 TEST(LogConsistency, PositionsAreNoOtherUnitWhereTheirNoiseIsTheDistance) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     DrivingLog log = sound_log(seed);
@@ -591,7 +592,7 @@ TEST(LogConsistency, ASpeedOrRateThatNoVehicleHasIsImplausibleByItself) {
 }
 
 TEST(LogConsistency, AGyroInDegreesIsFoundByTheSteeringAngleWithoutAHeading) {
-  constexpr double kGently = 0.15;  // so that no rate is implausible for a vehicle
+  constexpr double kGently = 0.15;  // slow turns, so that also the rate in deg/s is plausible
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     DrivingLog log =
         sound_log(seed, {.position = false, .heading = false, .sides_apart = false, .noise = 0.2});

@@ -19,7 +19,7 @@ struct Campaign {
   std::string turning;  ///< yaw_rate_radps in the requested unit
 };
 
-/// Random properties of a vehicle that are not in its file.
+/// Random properties of a vehicle that are not in vehicle.json.
 struct DrawnVehicle {
   double top_speed_mps;  ///< at F' = 1
   double steepness;      ///< u ~ F'^steepness
@@ -27,8 +27,8 @@ struct DrawnVehicle {
   double slows;               ///< fraction of the speed that remains in a turn
   double characteristic_mps;  ///< of understeer
   double friction;            ///< of tyres on the ground
-  double agility;             ///< above 1: oversteer, or rear wheels that steer as well
-  double scrubs;              ///< fraction of the rolling speed difference left by scrub
+  double agility;             ///< factor on the yaw rate; above 1: oversteer, or rear steering
+  double scrubs;  ///< fraction of the left/right speed difference that remains with scrub
 };
 
 class CampaignDraw {
@@ -48,7 +48,7 @@ class CampaignDraw {
   double log_between(double lo, double hi) { return std::exp(between(std::log(lo), std::log(hi))); }
   double about(double value, double share) { return value * (1.0 + share * random_.normal()); }
 
-  /// From a model car of 17 cm to a field robot of 3 m.
+  /// Draws a vehicle, from a model car of 17 cm to a field robot of 3 m.
   Vehicle vehicle(Drive drive) {
     Vehicle v = paper_vehicle();
     v.drive = drive;
@@ -65,8 +65,8 @@ class CampaignDraw {
     }
     return v;
   }
-  /// From a crawl of a third of its length per second to a racing model car at 30 lengths/s, at
-  /// most 25 m/s. Without steering up to 15 lengths/s, at most 8 m/s.
+  /// Draws the top speed: from a third of the vehicle's length per second to 30 lengths/s (a racing
+  /// model car), at most 25 m/s; without steering up to 15 lengths/s, at most 8 m/s.
   DrawnVehicle behaviour() {
     const double length = made_.vehicle.length_m;
     const double top = made_.vehicle.has_steering()
@@ -116,7 +116,7 @@ class CampaignDraw {
     }
     return text;
   }
-  /// Sides roll as they would straight ahead, reduced by scrub.
+  /// Yaw rate of a differential turn: each side rolls as it would straight ahead, reduced by scrub.
   std::string side_table() {
     std::string text = "force_left,force_right,yaw_rate_radps\n";
     const std::pair<double, double> runs[] = {{-0.3, 0.3}, {-0.5, 0.5}, {-0.8, 0.8}, {0.2, 0.5},

@@ -55,7 +55,7 @@ std::vector<std::string> faults_of(Reader read, const std::string& text,
   return faults;
 }
 
-/// `CODE@LINE` of each finding.
+/// Returns the text `CODE@LINE` of each finding.
 inline std::vector<std::string> codes_of(const std::vector<Finding>& findings) {
   std::vector<std::string> codes;
   for (const Finding& finding : findings) {

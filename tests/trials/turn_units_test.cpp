@@ -21,7 +21,8 @@ constexpr double kDegree = 57.29577951308232;
 constexpr double kPerMinute = 9.549296585513721;
 constexpr Drive kDrives[] = {Drive::kFourWheel, Drive::kFrontWheel, Drive::kDifferential};
 
-/// Refusal of tables, with or without surge runs; empty if they are accepted.
+/// Returns the text of the refusal of tables, with or without surge runs; empty if they are
+/// accepted.
 std::string refusal_of(const Vehicle& vehicle, const std::string& surge,
                        const std::string& turning) {
   const ScratchFile surge_file("surge.csv", surge);
@@ -32,7 +33,8 @@ std::string refusal_of(const Vehicle& vehicle, const std::string& surge,
   return trials ? "" : to_text(trials.error());
 }
 
-/// Number of random campaigns, with all rates times `factor`, that are refused with `words`.
+/// Counts the random campaigns (vehicle and tables) that are refused with `words` if all yaw rates
+/// are multiplied by `factor`.
 int named(Drive drive, double factor, bool with_surge, int campaigns, std::string_view words) {
   int count = 0;
   for (int i = 0; i < campaigns; ++i) {
@@ -48,7 +50,7 @@ int named(Drive drive, double factor, bool with_surge, int campaigns, std::strin
   return count;
 }
 
-/// The paper's Table 3 with the rates times `factor`.
+/// The paper's Table 3 with all yaw rates multiplied by `factor`.
 std::string paper_turns(double factor) {
   std::string text = "steering_deg,wheel_force,yaw_rate_radps\n";
   const std::pair<double, double> runs[] = {{5, 0.038}, {10, 0.088}, {15, 0.15}, {20, 0.22}};
@@ -119,7 +121,8 @@ TEST(TurnUnits, TheBoundsAreTheDocumentedOnes) {
     return refusal_of(paper_vehicle(), surge,
                       fmt::format("steering_deg,wheel_force,yaw_rate_radps\n20,0.6,{}\n", rate));
   };
-  // u(0.6) = 2 m/s lies halfway between two runs; l_f = 0.35 m: up to three times u tan(d)/l_f = 6.24 rad/s.
+  // u(0.6) = 2 m/s lies halfway between two runs; l_f = 0.35 m: up to three times u tan(d)/l_f =
+  // 6.24 rad/s.
   const double rolled = 2.0 * tan20 / 0.35;
   EXPECT_EQ(steered(2.95 * rolled), "");
   EXPECT_THAT(steered(3.05 * rolled), HasSubstr("2 m/s by the surge runs"));

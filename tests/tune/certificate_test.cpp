@@ -1,4 +1,5 @@
-/// Worst-case damping and delay margin, compared with random points of the set and with simulations in time.
+/// Worst-case damping and delay margin, compared with random points of the set and with simulations
+/// in time.
 #include "awmr/tune/certificate.h"
 
 #include <fmt/format.h>
@@ -36,7 +37,7 @@ ConstraintContext context_of(const Model& model) {
 
 class CertificateOf : public ::testing::TestWithParam<TestVehicle> {};
 
-/// The parameters are a vehicle and the number of random points.
+/// Test parameters: a vehicle and the number of random points.
 class SampledCertificate : public ::testing::TestWithParam<std::tuple<TestVehicle, std::size_t>> {};
 
 TEST_P(SampledCertificate, IsNoBetterThanAnyRandomPointOfTheSet) {
@@ -53,7 +54,7 @@ TEST_P(SampledCertificate, IsNoBetterThanAnyRandomPointOfTheSet) {
     std::vector<double> damping(count, 1.0);
     std::vector<double> margin_s(count, 1e9);
     parallel_for(count, 0, [&](std::size_t i) {
-      // Half of the points on the surface, half within, where the minimum is if not on it.
+      // Half of the points are on the surface of the set, half inside it.
       Random random(7, i);
       std::vector<double> point(set.dimension());
       double square = 0.0;
@@ -105,8 +106,9 @@ TEST_P(CertificateOf, IsAttainedAtThePlaceThatItNames) {
   }
 }
 
-/// The loop in time: Euler steps of a 200th of the sample, the held command through a queue of these steps.
-/// Largest |psi| over the last tenth of the time, over that of the first tenth.
+/// Growth of the loop's free motion: the largest |psi| in the last tenth of the time, divided by
+/// that in the first tenth. Integrated by Euler steps of 1/200 of a sample; the held command is
+/// delayed by a queue of such steps.
 double growth(const SampledHeadingLoop& loop, double delay_s, double time_s) {
   constexpr int kSteps = 200;
   const double h = loop.sample_time_s / kSteps;
@@ -149,8 +151,9 @@ TEST_P(CertificateOf, HasTheDelayMarginOfASimulationInTime) {
     for (const auto& [id, value] : worst.parameters) there[id].value = value;
     const SampledHeadingLoop loop =
         certified_loop(gains, context, there.plant().value(), worst.yaw_rate_radps, one.mode);
-    // At 5 % of the margin from it a pole is about 5 % of w D from the circle: e-folds in some 20/w, of which the
-    // time has at least ten.
+    // With a delay 5 % below or above the margin D, a pole is about 0.05 w D from the unit circle.
+    // The motion decays or grows by a factor e in some 20/w; the simulated time has at least ten of
+    // these.
     const double time_s = 400.0 * (worst.value + loop.command_delay_s + loop.sample_time_s);
     EXPECT_LT(growth(loop, 0.95 * worst.value, time_s), 0.5) << name_of(one.mode);
     EXPECT_GT(growth(loop, 1.05 * worst.value, time_s), 2.0) << name_of(one.mode);
@@ -180,8 +183,8 @@ TEST(DampingRatio, TakesADelayOfWholeSamplesAsOneOfTheReadings) {
 }
 
 TEST(DampingRatio, ChangesContinuouslyWithTheDelay) {
-  // The fastest pole that samples show has |s| = pi/T_s = 157 1/s, and zeta changes by no more over a second of
-  // delay: by 1.6e-5 over 1e-7 s. A wrong split of the delay would jump by some 0.01.
+  // The fastest pole that samples show has |s| = pi/T_s = 157 1/s, and zeta changes by no more over
+  // a second of delay: by 1.6e-5 over 1e-7 s. A wrong split of the delay would jump by some 0.01.
   for (const double delay_s : {0.01, 0.02, 0.0333, 0.04}) {
     SampledHeadingLoop before = plain_loop();
     before.command_delay_s = delay_s - 5e-8;
@@ -207,9 +210,10 @@ TEST(DelayMargin, IsWhereTheLargestEigenvalueReachesTheCircle) {
   }
 }
 
-/// s^2 + (lambda + k) s + lambda k with an ideal plant: L = ((lambda + k) s + lambda k)/s^2 has the crossover
-/// w^2 = (b^2 + sqrt(b^4 + 4 c^2))/2, b = lambda + k, c = lambda k, and the margin atan(b w/c)/w. A sample of
-/// T_s holds T_s/2 of it, to first order.
+/// With an ideal plant the open loop is L = (b s + c)/s^2, b = lambda + k, c = lambda k, with the
+/// crossover frequency w and the delay margin D:
+///   w^2 = (b^2 + sqrt(b^4 + 4 c^2))/2,   D = atan(b w/c)/w
+/// To first order, sampling with T_s takes T_s/2 of the margin.
 TEST(DelayMargin, TendsToThatOfTheContinuousLoop) {
   constexpr double kSample_s = 1e-4;
   const SampledHeadingLoop loop{.lambda = 2.0,

@@ -104,7 +104,7 @@ TEST(Constraints, KnowTheAuthorityOfFrontWheelDriveAndOfMotorsWithBackEmf) {
 }
 
 TEST(Constraints, IgnoreAModeWithoutAuthority) {
-  // At rest steering has none; with F' at its upper limit the differential mode has none.
+  // At rest steering has no authority; with F' at its upper limit the differential mode has none.
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   context.speed_mps = 0.0;
   EXPECT_NEAR(turning_authority_m(context.own(), context.speed_mps), 4.0 * 0.36, kRounding);
@@ -125,7 +125,8 @@ TEST(Constraints, OfOneModeAreThoseOfItsActuationAlone) {
   }
   EXPECT_EQ(worst, named(all, "heading damping").value);
 
-  // Without a servo: the speed loop has T_s/2 of lag alone, and no steering command has a rate.
+  // The differential mode has no servo: the speed loop has only the lag T_s/2, and no constraint on
+  // the steering rate.
   context.mode = YawMode::kDifferential;
   const auto differential = constraints_of(kPaperGains, context);
   EXPECT_NEAR(named(differential, "speed lag").value, 5.0 / 1.2 * 0.005, kRounding);
@@ -133,7 +134,7 @@ TEST(Constraints, OfOneModeAreThoseOfItsActuationAlone) {
   EXPECT_NEAR(named(differential, "noise gain").limit, 4.0 * 0.36 * (1.0 - 1.3268 / 4.0) / 4.0,
               kRounding);
 
-  // The servo makes half of the moment.
+  // In combined mode the steering makes half of the moment.
   context.mode = YawMode::kCombined;
   EXPECT_NEAR(named(constraints_of(kPaperGains, context), "steering rate").value,
               0.5 * named(all, "steering rate").value, 1e-9);
@@ -181,8 +182,9 @@ TEST(SteeringRate, IsThatOfIndependentReadingsThroughTheLaw) {
   EXPECT_EQ(steering_rate_rms_degps(kPaperGains, context), 0.0);
 }
 
-/// RMS rate of the steering command that `law`, w of the noise of heading and yaw rate in standard
-/// deviations, makes of a million pairs of readings with the context's correlations.
+/// RMS rate of the steering command for a million pairs of readings with the context's
+/// correlations, deg/s. `law`: yaw acceleration w as a function of the noise of heading and yaw
+/// rate, in standard deviations.
 template <class Law>
 double drawn_rate_degps(const ConstraintContext& context, const Law& law) {
   std::mt19937_64 random(1);
@@ -205,7 +207,8 @@ double drawn_rate_degps(const ConstraintContext& context, const Law& law) {
                  context.sample_time_s);
 }
 
-/// Of the power law, whose w is no straight line, by a million pairs of readings with the correlation.
+/// The RMS rate for the power law, for which w is nonlinear, equals that of a million correlated
+/// pairs of readings.
 TEST(SteeringRate, OfCorrelatedReadingsIsThatOfDrawnPairs) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   context.heading_noise_rad = 0.02;
@@ -255,7 +258,8 @@ double simulated_rate_degps(const Gains<double>& gains, const ConstraintContext&
   return metrics_of(run, held, controller).steering_rate_rms_degps;
 }
 
-/// The friction that the law feeds forward at rest follows the measured heading error.
+/// At rest the friction that the law feeds forward has the sign of the measured heading error, so
+/// noise flips it.
 TEST(SteeringRate, WithCoulombFrictionIsThatOfASimulatedHeldHeading) {
   for (const bool is_heavy : {false, true}) {
     ConstraintContext context = coulomb_context(is_heavy);
@@ -274,7 +278,8 @@ TEST(SteeringRate, WithCoulombFrictionIsThatOfASimulatedHeldHeading) {
   }
 }
 
-/// The same law by a million pairs of correlated readings, slow noise included.
+/// The RMS rate with Coulomb friction equals that of a million pairs of correlated readings, also
+/// with slow noise.
 TEST(SteeringRate, WithCoulombFrictionOfCorrelatedReadingsIsThatOfDrawnPairs) {
   ConstraintContext context = coulomb_context(false);
   context.heading_correlation = 0.95;
@@ -666,7 +671,7 @@ TEST(Constraints, IncludeTheDifferenceOfADrawToTheModel) {
   EXPECT_LT(worst, 0.7);
   EXPECT_NEAR(named(all, "heading damping").value, worst, 1e-9);
   EXPECT_NEAR(named(all, "speed gain").value, 0.01 * 2.0 * 5.0 / 1.2, kRounding);
-  // The weaker motors leave the differential mode less than steering has: 4 d (0.5 - g1/4).
+  // With weaker motors the differential mode has the smaller authority, 4 d (0.5 - g1/4).
   EXPECT_NEAR(
       named(all, "noise gain").limit,
       0.25 * std::min(4.0 * 0.36 * (0.5 - 1.3268 / 4.0), turning_authority_m(context.own(), 1.0)),
@@ -680,7 +685,8 @@ TEST(Constraints, RequireDampingWithLatency) {
   const std::vector<ConstraintReport> late = constraints_of(kPaperGains, context);
   ASSERT_EQ(late.size(), without + 2);
   EXPECT_LT(named(late, "late damping").value, 0.7);
-  // Twice the latency plus a sample: 5 samples, worst of all modes and rates.
+  // "late damping" is the worst damping of all modes and rates with twice the latency plus a
+  // sample, 5 samples.
   double worst = 1.0;
   for (const double rate_degps : {1.0, 5.0, 20.0, 60.0}) {
     const double rate = rate_degps * std::acos(-1.0) / 180.0;
@@ -699,7 +705,8 @@ TEST(Constraints, RequireDampingWithLatency) {
   }
   EXPECT_NEAR(named(late, "delay margin").value, worst, 1e-9);
   EXPECT_EQ(named(late, "delay margin").limit, 0.05);
-  // For the draws too: with less resistance than the law compensates for, the loop is less damped.
+  // The constraints also hold for drawn plants: with less resistance than the law compensates,
+  // damping is lower.
   Plant<double> slippery = context.plant;
   slippery.yaw.alpha *= 0.8;
   context.draws = {{slippery, context.wheel_force}};

@@ -124,7 +124,7 @@ TuneOptions options_with(const TuningGoal& goal) {
   return options;
 }
 
-/// Quantile of the settling time of the fresh draws in differential mode, at the goal's share.
+/// Settling time in differential mode that the goal's fraction of the fresh draws does not exceed.
 double settled_s(const Tuning& tuning) {
   for (const EvaluatedGains& evaluated : tuning.robust->evaluated) {
     if (evaluated.gains != "robust" || evaluated.mode != YawMode::kDifferential) continue;
@@ -142,7 +142,7 @@ TEST(Goal, ThatIsHardHoldsOnTheDrawsOfTheSearchAndMovesTheGains) {
   without.goals.clear();
   const Result<Tuning> free = tune(model, without);
   ASSERT_TRUE(free) << to_text(free.error());
-  // Lower activity than the search would choose by itself.
+  // The goal requires 10 % less activity than the search chooses without a goal.
   double activity = 0.0;
   for (const ModeScore& score : free->scores) {
     if (score.mode == YawMode::kDifferential) activity = score.metrics.control_variation;
@@ -168,7 +168,7 @@ TEST(Goal, ThatNoGainsReachIsRefusedByItsName) {
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
   EXPECT_THAT(to_text(tuning.error()), HasSubstr("reach the goal \"settling_time_s <= 0.05"));
-  // A soft goal is approached.
+  // A soft goal that cannot be met refuses no gains; its verdict is "missed".
   goal.is_soft = true;
   const Result<Tuning> tuned = tune(uncertain_model(), options_with(goal));
   ASSERT_TRUE(tuned) << to_text(tuned.error());

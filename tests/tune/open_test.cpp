@@ -1,4 +1,4 @@
-/// Gains for vehicles with unmodelled variation.
+/// Tuning with the key `open`: gains for vehicles with unmodelled variation of mass and forces.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

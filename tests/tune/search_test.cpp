@@ -47,8 +47,8 @@ std::string text_of(const TuneOptions& options) {
   return gains_text(*tuning, options, {.command = "tune", .options = {}, .inputs = {}});
 }
 
-/// The documented objective, implemented independently: the weighted geometric mean of the metrics relative to
-/// the baseline's, floors 0.05 s, 0.1 deg s^2, 0.5 deg, 0.01/s, 0.001, 0.001 m s.
+/// The documented objective, implemented independently: the weighted geometric mean of the metrics
+/// relative to the baseline's, floors 0.05 s, 0.1 deg s^2, 0.5 deg, 0.01/s, 0.001, 0.001 m s.
 double mode_objective(const TuneOptions& options, const Gains<double>& gains, YawMode mode,
                       const Gains<double>& baseline) {
   const Model model = paper_model();
@@ -100,7 +100,7 @@ TEST(History, IsTheBestSoFarOfTheSearchAndEndsWithTheGainsThatItFound) {
   const TuneOptions options = short_options();
   const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_TRUE(tuning) << to_text(tuning.error());
-  // Afterwards mu and mu_s were reduced as far as possible without effect.
+  // After the search, mu and mu_s were reduced as far as the objective permits.
   const double found = tuning->history.best.back().objective;
   EXPECT_NEAR(tuning->objective, found, kIndifferent * found);
   EXPECT_EQ(tuning->history.evaluations, tuning->evaluations);
@@ -109,7 +109,8 @@ TEST(History, IsTheBestSoFarOfTheSearchAndEndsWithTheGainsThatItFound) {
   EXPECT_LE(history.best.size(), kMostHistorySteps);
   EXPECT_GT(history.global_evaluations, 0);
   EXPECT_LE(history.global_evaluations, history.evaluations);
-  // The first point is pole placement with wide layers, no worse than that with the least mu, which scores 1.
+  // The search starts from pole placement with wide boundary layers, which scores no worse than the
+  // baseline, 1.
   EXPECT_EQ(history.best.front().evaluation, 1);
   EXPECT_LE(history.best.front().objective, 1.0);
   int evaluation = 0;
@@ -251,7 +252,7 @@ TEST(Tune, NamesTheActiveConstraintAndItsCost) {
   const auto held = std::ranges::find(tuning.active, "T2 < T1 (strict)", &ActiveConstraint::name);
   ASSERT_NE(held, tuning.active.end());
   EXPECT_GT(held->wider_gains, 0.0);
-  // With a violation of a tenth, the limit is 0.3/0.9.
+  // A limit that may be exceeded by a tenth of the larger side is 0.3/0.9.
   options.margin = 0.3 / 0.9;
   const Tuning wider = tune(paper_model(), options).value();
   const double objective = mean_objective(options, wider.gains, tuning.baseline.gains);
@@ -486,7 +487,8 @@ TEST(Robust, BeatsThePapersGainsOnFreshDraws) {
     const EvaluatedFigure iae = figure("robust", mode, "heading_iae_degs");
     EXPECT_LT(iae.q95, figure("paper", mode, "heading_iae_degs").q95) << name_of(mode);
     EXPECT_LE(iae.median, iae.q95);
-    // The limit is the servo's rate limit minus a tenth while a heading is held; steps add to it.
+    // While a heading is held, the limit is 90 % of the servo's rate limit; heading steps add to
+    // the RMS rate.
     EXPECT_LE(figure("robust", mode, "steering_rate_rms_degps").median, 300.0);
   }
   // Each constraint holds for the model's own plant and for each draw.
@@ -630,7 +632,7 @@ TEST(TradeOff, HasTheGainsThatTheTuningNames) {
   std::map<std::string, TradeOffPoint> named;
   for (const NamedTradeOff& one : tuning.trade_off.named) named[one.gains] = one.point;
   for (const char* name : {"tuned", "baseline", "paper", "lqi"}) EXPECT_EQ(named.count(name), 1U);
-  // Without draws they are the means over the modes of what the scores have.
+  // Without draws the figures are the means of the scores over the modes.
   double settling_s = 0.0;
   double variation = 0.0;
   for (const ModeScore& score : tuning.scores) {

@@ -103,7 +103,7 @@ TEST_F(TuneShard, NamesFilesThatAreNotOfThePart) {
   EXPECT_THAT(fault({first, second}), HasSubstr("other options"));
 }
 
-/// Rows that are lost, duplicated or moved, with a matching hash.
+/// Tables with lost, duplicated or moved rows whose hash was adapted are refused.
 TEST_F(TuneShard, NamesTheFirstWrongLineOfATable) {
   const auto only = write({1, 1});
   const std::string table = read_all(only / "judged.csv");

@@ -191,13 +191,14 @@ TEST(AllowedSettling, AddsTheActuatorsAndTheLawsShare) {
   EXPECT_NEAR(allowed, 1.0 / 0.202832 + 2.293333, 1e-4);
 }
 
-/// Largest drop given after the mode's name in C5's figure.
+/// Returns the speed drop of a mode, m/s, from the text of claim C5.
 double drop_in(const Claim& claim, const std::string& mode) {
   const std::size_t at = claim.figure.find(mode + " ") + mode.size() + 1;
   return std::stod(claim.figure.substr(at));
 }
 
-/// With m' and I'z computed from the tables, for which there are independent simulations.
+/// The paper's model with m' and I'z computed from the tables; independent simulations used this
+/// model.
 Model identified_paper_model() {
   Model model = fitted_paper_model();
   model[ParameterId::kMassNorm].value = 0.0823643;
@@ -206,7 +207,8 @@ Model identified_paper_model() {
 }
 
 TEST(OpenCases, ThePapersSmallAnglesMakeTheDropThatTheExactAllocationRemoves) {
-  // Independent simulations: 0.0001, 0.108, 0.107 m/s for small angles; exact 0.0001, 0.0028, 0.003.
+  // Independent simulations: 0.0001, 0.108, 0.107 m/s for small angles; exact 0.0001, 0.0028,
+  // 0.003.
   Model model = identified_paper_model();
   const Claim exact = claim_of(heading_claims_of(model, kPaperGains), "C5");
   EXPECT_FALSE(exact.reproduced);
@@ -237,8 +239,8 @@ TEST(OpenCases, ClaimsAreEvaluatedInEachAsTheModelThereWouldBe) {
   add_open_cases(model, kPaperGains, batch_arithmetic().value(), claims);
   const Claim held = claim_of(claims, "C5");
   for (const ClaimCase& open : held.cases) {
-    // The deciding factors, by the reference figures: small angles cause the drop, and with F' up
-    // to 0.5 the differential mode drops as well.
+    // C5 is reproduced only with small angles, which cause the drop of steering and combined, and
+    // with F' above 0.5, because below it the differential mode drops as well.
     EXPECT_EQ(open.reproduced,
               open.allocation == AllocationForm::kPaper && open.wheel_force.hi > 0.5);
   }

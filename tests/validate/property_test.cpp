@@ -24,7 +24,8 @@ TrialPoint any_trial(TrialKind kind) {
   return trial;
 }
 
-/// Its runs would take minutes; simulate/bounds_test checks that each run has a bound.
+/// True for a plant whose runs would take minutes; simulate/bounds_test checks that each run is
+/// bounded.
 bool is_stiff(const Plant<double>& plant) {
   const auto decay_rate = [](const Resistance<double>& law, double inertia, double force) {
     const double w = steady_rate(law, force).value_or(0.0);

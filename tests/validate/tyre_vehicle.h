@@ -22,7 +22,7 @@ inline constexpr double kAxle_m = 0.35;
 inline constexpr double kTrack_m = 0.36;
 inline constexpr double kServo_s = 0.05;
 
-/// x, y, psi, u, v, r, d_r
+/// State: x, y, psi, u, v, r, d_r.
 using Numbers = std::array<double, 7>;
 
 struct Commands {
@@ -92,8 +92,8 @@ struct LogDrive {
   unsigned seed = 1;
 };
 
-/// Parts of 4 s: a differential turn, a steered turn, or a steered turn that coasts for its first
-/// second.
+/// Commands of a drive in parts of 4 s: a differential turn, a steered turn, or a steered turn that
+/// coasts for its first second.
 inline Commands commands(const LogDrive& drive, double t_s) {
   const int part = static_cast<int>(t_s / 4.0);
   std::mt19937 random(drive.seed * 1000 + static_cast<unsigned>(part));
@@ -114,7 +114,7 @@ inline Measured measured(std::size_t rows) {
   return {std::vector<double>(rows), std::vector<bool>(rows, true), static_cast<int>(rows), false};
 }
 
-/// 50 Hz, with noise of 2 cm/s, 0.5 deg/s and 1 deg.
+/// Log at 50 Hz with noise of 2 cm/s (speed), 0.5 deg/s (yaw rate) and 1 deg (heading).
 inline DrivingLog driven(const LogDrive& drive) {
   constexpr int kStepsOfRow = 40;
   constexpr double kStep_s = 0.02 / kStepsOfRow;

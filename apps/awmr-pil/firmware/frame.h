@@ -1,6 +1,6 @@
 // Frames exchanged by host and chip over a serial line; both compile this file.
-//   start, type, sequence, length, payload of `length` bytes, CRC-16 of all after the start (low
-//   byte first)
+//   start, type, sequence, length, payload of `length` bytes, CRC-16 of all bytes between the start
+//   and the CRC (low byte first)
 // The chip answers each request of the host once, with the same type and sequence number. If the
 // host repeats a request because the answer was lost, the chip repeats the answer but does not
 // execute the request again. Damaged frames are not answered: the host repeats the request after a
@@ -25,8 +25,8 @@ constexpr uint8_t kHello = 'H';   // nothing -> awmr_init()'s fault, AWMR_PARAME
 constexpr uint8_t kFollow = 'F';  // acceptance_m, points as x_m, y_m -> nothing
 constexpr uint8_t kStep = 'S';    // awmr_input -> awmr_output, cycles (16 bit)
 
-/// Consumes bytes as they arrive. Returns true when a byte completed a valid frame, which stays
-/// until the next byte. After a damaged frame it searches inside it for the start of another one.
+/// Reads frames byte by byte. take() returns true when its byte completes a valid frame, which can
+/// be read until the next call. Inside a damaged frame the reader searches for the next start.
 struct FrameReader {
   uint8_t bytes[kMaxFrame];  // of this frame, after its start
   uint8_t count;             // bytes received
@@ -65,7 +65,8 @@ struct FrameReader {
     if (count < kHeadBytes) return true;
     return length() <= kMaxPayload && count < kHeadBytes + length() + 2;
   }
-  /// Bytes after a complete frame, which occur only after a damaged one, are lost.
+  /// True for a complete frame with the right CRC. Bytes behind it, which exist only after a
+  /// damaged frame, are lost.
   bool is_whole() const {
     if (length() > kMaxPayload) return false;
     const uint8_t covered = static_cast<uint8_t>(kHeadBytes + length());

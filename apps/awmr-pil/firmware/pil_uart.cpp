@@ -20,8 +20,8 @@ volatile uint8_t ring[kRingMask + 1];  // the main loop takes each byte before 3
 volatile uint8_t ring_head;
 uint8_t ring_tail;
 
-// Timer 3 counts F_CPU/64. An incomplete frame is discarded after a pause of 20 ms plus the time of
-// 20 bytes. Pauses of USB inside a frame are shorter; the host waits longer before it repeats.
+// Pause after which an incomplete frame is discarded: 20 ms plus the time of 20 bytes, in counts of
+// timer 3 (F_CPU/64). Pauses of USB inside a frame are shorter; the host repeats a request later.
 const uint16_t kPause =
     static_cast<uint16_t>(F_CPU / 64UL / 50UL + 20UL * 10UL * (F_CPU / 64UL) / PIL_BAUD);
 
@@ -36,7 +36,7 @@ struct {
   uint8_t payload[sizeof(awmr_output) + sizeof(uint16_t)];
 } reply;
 bool is_answered;  // `reply` is the answer to a request
-bool is_greeted;   // greeted since the reset: before, only a hello is answered
+bool is_greeted;   // a hello came since the reset; before it no other request is answered
 
 void send(uint8_t byte) {
   while ((UCSR0A & _BV(UDRE0)) == 0) {

@@ -13,45 +13,45 @@ namespace awmr {
 namespace {
 
 constexpr std::string_view kIntro =
-    R"(/* awmr_autopilot_params.h, made by awmr {}: how the firmware computes the resistances, what its
-   safety checks let pass, and the check sum over all parameters. Values of the model and the gains
-   are in awmr_params.h; an edit there or here is found by the check sum at start-up. */
+    R"(/* awmr_autopilot_params.h, made by awmr {}: tables of the resistances, limits of the safety
+   checks, and the check sum over all parameters. Values of the model and the gains are in
+   awmr_params.h. The check sum detects an edit of either file at start-up. */
 #ifndef AWMR_AUTOPILOT_PARAMS_H
 #define AWMR_AUTOPILOT_PARAMS_H
 
-/* 1: the resistances by interpolated tables in flash; 0: by powf */
+/* 1: the firmware computes the resistances by interpolated tables in flash; 0: by powf */
 #define AWMR_RESISTANCE_TABLE {}
 
 /* tan(d_max/2) of AWMR_STEERING_MAX_RAD */
 #define AWMR_STEERING_MAX_TAN_HALF {}
 
-/* A measured |u| or |v| in m/s, |r| in rad/s above these is no measurement */
+/* Largest |u| and |v|, m/s, and |r|, rad/s, that are accepted as measurements */
 #define AWMR_SPEED_MAX_MPS {}
 #define AWMR_YAW_RATE_MAX_RADPS {}
-/* ms: oldest heading and yaw rate, oldest speed and position, longest silence of whoever gives the
-   reference, longest time between two steps */
+/* ms: largest age of heading and yaw rate, of speed and position, and of the last command; longest
+   time between two steps */
 #define AWMR_HEADING_TIMEOUT_MS {}UL
 #define AWMR_SPEED_TIMEOUT_MS {}UL
 #define AWMR_COMMAND_TIMEOUT_MS {}UL
 #define AWMR_STEP_TIMEOUT_MS {}UL
-/* m/s, of the sketch WaypointFollowing: 1, at most 60 % of the speed at full force */
+/* Speed of the sketch WaypointFollowing, m/s: 1, or 60 % of the speed at full force if that is less */
 #define AWMR_ROUTE_SPEED_MPS {}
-/* rad, of the sketches: largest steady difference of heading and wanted heading: twice what motors that
-   differ by 16 % cause with these gains, 15 to 45 deg */
+/* Largest steady heading error that the sketches accept, rad: twice the error that motors with 16 %
+   different forces cause with these gains, at least 15 and at most 45 deg */
 #define AWMR_ON_COURSE_RAD {}
-/* m rad, of the sketches: distance driven with a larger difference, times what is beyond it, before a
-   fault: 10, and what a turn by 180 deg takes at the speed above, at most 90 */
+/* Limit of the integral of (heading error - AWMR_ON_COURSE_RAD) over the distance driven, m rad; beyond
+   it the sketches report fault 17. 10, plus that of the widest turn by 180 deg, at most 90 */
 #define AWMR_OFF_COURSE_MRAD {}
-/* AWMR_SAMPLE_TIME_S as a text, for the header of logs */
+/* AWMR_SAMPLE_TIME_S as text, for the header of logs */
 #define AWMR_SAMPLE_TIME_TEXT "{}"
 /* CRC-32 of the parameter block and the tables' lines, as they lie in flash */
 #define AWMR_PARAMETERS_CRC32 0x{:08X}UL
 )";
 
 constexpr std::string_view kTable = R"(
-/* {} resistance: {} lines as slope, offset: the chord to the origin, then {} to an octave from {:g} to {:g} {}.
+/* {} resistance: {} straight lines (slope, offset): the chord to the origin, then {} per octave from {:g} to {:g} {}.
    Worst error, measured in float32 at 64 places of each cell: {:.2e} {} where the resistance is below
-   {:g} (bound {:.2e}), a share of {:.2e} of it above (bound {:.2e}). */
+   {:g} (bound {:.2e}), {:.2e} relative to the resistance above (bound {:.2e}). */
 #define {}_COUNT {}
 #define {}_FIRST {}
 #define {}_MANTISSA_BITS {}
@@ -59,23 +59,24 @@ constexpr std::string_view kTable = R"(
 )";
 
 constexpr std::string_view kParts = R"(
-/* 1: compiled in; awmr.h says what each is for */
-{}/* Law for lines: {} (its place in src/awmr/control/guidance/line_laws.h) */
+/* 1: this optional part is compiled in; awmr.h describes each */
+{}/* Law for lines: {} (its index in src/awmr/control/guidance/line_laws.h) */
 #define AWMR_LINE_LAW {}
-/* 1: in the combined mode half of the moment by each path, whatever the limits take away */
+/* Combined mode: 1: steering and wheel forces each make half of the yaw moment, also at a limit; 0: one
+   takes over what the other cannot make */
 #define AWMR_FIXED_HALF {}
 )";
 
 constexpr std::string_view kPosition = R"(
-/* Position from the fixes of a GPS (src/awmr/control/position_estimate.h). Variance of a fix, m^2 of one
-   axis: noise/position_m of the vehicle, else 1.5 m; ms between a fix and its sentence:
-   latency_s/position, else 200 */
+/* Position estimate from the fixes of a GPS (src/awmr/control/position_estimate.h). Variance of a fix
+   along one axis, m^2, from noise/position_m in vehicle.json, else 1.5 m; time between a fix and its
+   sentence, ms, from latency_s/position, else 200 */
 #define AWMR_FIX_VARIANCE_M2 {}
 #define AWMR_FIX_LATENCY_MS {}UL
-/* m^2: growth of the position's variance in a step */
+/* Growth of the variance of the position per step, m^2 */
 #define AWMR_DRIFT_M2 {}
 #define AWMR_SAMPLE_RATE_HZ {}
-/* steps between two travelled positions that are kept; steps over which a correction is spread */
+/* Steps between two stored positions of the travelled path; steps over which a correction is spread */
 #define AWMR_TRAVELLED_STRIDE {}
 #define AWMR_TRAVELLED_STRIDE_INVERSE {}
 #define AWMR_CORRECTION_STEPS {}
@@ -111,9 +112,9 @@ std::string parts_text(const AutopilotParameters& parameters) {
 }
 
 constexpr std::string_view kRest = R"(
-/* Friction at rest, a dead zone or the back-EMF of the motors is made up for. Below the speeds at
-   rest, m/s and rad/s, resistance is the chord from the origin to its value there. Forces are what
-   the motors make at rest beyond the dead zone. */
+/* The firmware compensates friction at rest, a dead zone and the back-EMF of the motors. Below
+   AWMR_SURGE_REST_SPEED (m/s) and AWMR_YAW_REST_SPEED (rad/s) a resistance is the straight line from
+   the origin to its value there. Allocated forces are those at rest, without the dead zone. */
 #define AWMR_FRICTION_AT_REST 1
 #define AWMR_DEAD_ZONE {}
 #define AWMR_SURGE_REST_SPEED {}
@@ -125,7 +126,7 @@ constexpr std::string_view kRest = R"(
 #define AWMR_ALLOCATED_FORCE_MAX {}
 )";
 constexpr std::string_view kNoRest = R"(
-/* 1: friction at rest, a dead zone or the back-EMF of the motors is made up for */
+/* 1: the firmware compensates friction at rest, a dead zone or the back-EMF of the motors */
 #define AWMR_FRICTION_AT_REST 0
 #define AWMR_ALLOCATED_FORCE_MIN AWMR_WHEEL_FORCE_MIN
 #define AWMR_ALLOCATED_FORCE_MAX AWMR_WHEEL_FORCE_MAX

@@ -62,8 +62,8 @@ std::optional<RestBlock> rest_of(const Plant<double>& plant, const Gains<double>
                    single(plant.back_emf_s_per_m)};
 }
 
-/// The controller in float. Values derived from it are also computed in float, because the
-/// firmware's compiler folds the expressions of awmr.cpp in float.
+/// Returns the controller in float. Values derived from it are also computed in float, because the
+/// firmware's compiler evaluates the expressions of awmr.cpp in float.
 Controller<float> float_controller(const Plant<double>& plant, const Model& model,
                                    const Gains<double>& gains) {
   Controller<float> controller{};
@@ -102,7 +102,7 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Ga
   return block;
 }
 
-/// The speed of a route, m/s. Less than at full force, which leaves none for turning.
+/// Returns AWMR_ROUTE_SPEED_MPS, m/s. At full force no force would be left for turning.
 double route_speed_mps(const Plant<double>& plant, double full_force) {
   constexpr double kUsual_mps = 1.0;
   constexpr double kShare = 0.6;
@@ -111,8 +111,8 @@ double route_speed_mps(const Plant<double>& plant, double full_force) {
   return std::min(kUsual_mps, kShare * top_mps);
 }
 
-/// Fastest steady turn at a speed, rad/s; with steering, by steering only. Absent if the moment
-/// does not exceed the resistance at rest.
+/// Fastest steady yaw rate of the vehicle at a speed, rad/s; with steering, by steering only.
+/// Absent if the yaw moment does not exceed the resistance at rest.
 ///   tau_turn = l_f tau_speed tan(d_max/2)                                      [paper (41)]
 ///   tau_turn = d (4 F'max - tau_speed)                              by the wheel forces
 std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle& vehicle,
@@ -129,8 +129,8 @@ double unequal_moment_m(const Plant<double>& plant, double speed_mps) {
   return 0.08 * plant.half_track_m * plant.surge.at(speed_mps);
 }
 
-/// Fastest steady turn that the heading law commands at a speed, rad/s, with 1.4 times the model's
-/// resistance and motors that differ by 16 %. Outside of the boundary layer, sat = 1:
+/// Fastest steady yaw rate that the heading law commands at a speed, rad/s, if the resistance is
+/// 1.4 times the model's and the motors differ by 16 %. Outside of the boundary layer, sat = 1:
 ///   1.4 g3(r) + 0.08 d tau_speed = g3(r) + I'z (mu - lambda r)                 [paper (89)]
 std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains<double>& gains,
                                   double speed_mps) {
@@ -149,14 +149,16 @@ double steady_error_rad(const Plant<double>& plant, const HeadingGains<double>& 
   return unequal_moment_m(plant, route_mps) / stiffness_m;
 }
 
-/// AWMR_ON_COURSE_RAD: twice the steady error of the heading, 15 to 45 deg.
+/// Returns AWMR_ON_COURSE_RAD, rad: twice the steady heading error, within 15 to 45 deg.
 double on_course_rad(double error_rad) {
   return std::clamp(2.0 * error_rad, radians(15.0), kMostOnCourse_rad);
 }
 
-/// AWMR_OFF_COURSE_MRAD: a turn by 180 deg with the radius R takes R (pi - e0)^2/2 of it
-/// (control/motion_check.h), the rest is for the distance until the turn begins. R is the largest
-/// at speeds from a quarter of the route's on, because friction at rest makes slow turns wide.
+/// Returns AWMR_OFF_COURSE_MRAD, the limit of the integral of (heading error - e0) over the
+/// distance (control/motion_check.h), m rad. A turn by 180 deg with the radius R adds R (pi -
+/// e0)^2/2 to that integral; 10 m rad are added for the distance until the turn begins. R is the
+/// largest radius at speeds from a quarter of the route's on, because friction at rest makes slow
+/// turns wide.
 double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
                        const HeadingGains<double>& gains, double full_force, double route_mps,
                        double on_course_rad) {
@@ -237,7 +239,7 @@ Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, std::optional<double
   return {};
 }
 
-/// Speed of routes and limits of the heading, for the sketches.
+/// Sets the speed of routes and the limits of the heading error, for the sketches.
 void set_sketch_values(const Plant<double>& plant, const Vehicle& vehicle,
                        const HeadingGains<double>& gains, double full_force,
                        AutopilotParameters& parameters) {

@@ -1,13 +1,14 @@
 /// Computes the parameters of ArduPilot Rover and of PX4's rovers from a model.
 ///
-/// Their loops, in the model's terms, with throttle and steering outputs in [-1, 1] like F':
+/// The loops of these autopilots with the model's symbols; throttle and steering are in [-1, 1]
+/// like F':
 ///
 ///     throttle = F' of every wheel                              4 F' = g1(u) at a steady speed u
 ///     skid steering s: F'L = throttle + s, F'R = throttle - s   4 d s = g3(r)
 ///     steered wheels:  d_r = steering times the stop            l_f g1(u) tan(d_r/2) = g3(r)
 ///
-/// The last two follow from (41) at constant speed, turns counted positive. Their inputs are in
-/// ArduPilot's libraries/APM_Control/AR_AttitudeControl.cpp (get_throttle_out_speed,
+/// The last two follow from (41) at constant speed, with turns counted positive. The autopilots'
+/// laws are in ArduPilot's libraries/APM_Control/AR_AttitudeControl.cpp (get_throttle_out_speed,
 /// get_steering_out_rate) and AR_Motors/AP_MotorsUGV.cpp, and in PX4's
 /// src/lib/rover_control/RoverControl.cpp (speedControl, rateControl) and rovercontrol_params.yaml.
 #include <fmt/format.h>
@@ -89,9 +90,10 @@ double speed_at(const Plant<double>& plant, double throttle) {
   return steady_or_never(plant.surge, 4.0 * beyond_dead_zone(throttle, plant.wheel_dead_zone));
 }
 
-/// A PI loop on the throttle with the closed-loop time constant T of the speed law in its layer,
+/// Adds the gains of the speed loop, a PI controller of the throttle that has the closed-loop time
+/// constant T of the speed law inside its boundary layer:
 ///   T = eps_s/mu_s,   K_p = m'/(4 T),   K_i = g1'(u)/(4 T)
-/// which cancels the plant's pole, m' du/dt = 4 dF' - g1'(u) du.
+/// Its zero cancels the plant's pole, m' du/dt = 4 dF' - g1'(u) du.
 /// [Skogestad 2003, J. Process Control 13, 291]
 void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throttle,
                     std::optional<Interval> usual = {}) {
@@ -126,8 +128,8 @@ Status check_surge(const Model& model) {
   AWMR_RETURN_IF_ERROR(model.plant(Motion::kSteadySurge));
   if (model.vehicle.driven_wheels() != 4) {
     return input_error(ErrorCode::kUnsupported, model.file + ":/vehicle/drive",
-                       "an autopilot's values are worked out for four driven wheels; the other "
-                       "formats have this vehicle");
+                       "the parameters of an autopilot can be derived for four driven wheels only; "
+                       "use the format ros2, matlab, python or csv");
   }
   const double back_emf = model[ParameterId::kBackEmf].value.value_or(0.0);
   if (!(back_emf > 0.0)) return {};
@@ -135,12 +137,13 @@ Status check_surge(const Model& model) {
       ErrorCode::kUnsupported,
       fmt::format("{}:{}", model.file, info(ParameterId::kBackEmf).pointer),
       fmt::format(
-          "an autopilot's values are worked out for ideal sources of force, and would leave "
-          "out the motors' back-EMF of {:.3g} s/m; the other formats have it",
+          "the parameters of an autopilot would neglect the motors' back-EMF of {:.3g} s/m; use "
+          "the format ros2, matlab, python or csv",
           back_emf));
 }
 
-/// Steering output of ArduPilot divided by turn rate, at half of the largest output.
+/// Adds ATC_STR_RAT_FF: ArduPilot's steering output divided by the turn rate, at half of the
+/// largest output.
 void add_steering_feed_forward(Autopilot& pilot, double throttle) {
   constexpr const char* kName = "ATC_STR_RAT_FF";
   constexpr Interval kUsual{0.0, 3.0};
@@ -185,8 +188,8 @@ double largest_yaw_rate(const Plant<double>& plant, const Vehicle& vehicle,
   return measured_degps ? std::min(rate, radians(*measured_degps)) : rate;
 }
 
-/// The rate loop of skid steering: with T = 1/(lambda + mu/epsilon), the closed-loop time constant
-/// of the heading law for the yaw rate inside its layer,
+/// Adds the gains of the yaw-rate loop of skid steering. T is the time constant of the yaw rate
+/// under the heading law inside its boundary layer, T = 1/(lambda + mu/epsilon):
 ///   K_p = I'z/(4 d T),   K_i = g3'(r)/(4 d T)
 void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
   const bool known = pilot.source.gains && pilot.knows(ParameterId::kInertiaNorm);
@@ -228,7 +231,7 @@ void add_steered(Autopilot& pilot) {
             [](const Plant<double>& plant) { return plant.steering_max_rad; });
   pilot.add("RA_STR_RATE_LIM", "deg/s", "the steering's fastest turn",
             [](const Plant<double>& plant) { return degrees(plant.steering_max_rate_radps); });
-  pilot.leave_out("RA_WHEEL_BASE", "the model has only the front axle; measure it");
+  pilot.leave_out("RA_WHEEL_BASE", "the model has only the front axle; measure the wheelbase");
   for (const char* name : {"RO_YAW_RATE_CORR", "RO_YAW_RATE_P", "RO_YAW_RATE_I"}) {
     pilot.leave_out(name,
                     "it corrects an angle that PX4 takes from the wheelbase; tune it in Acro");

@@ -6,9 +6,8 @@
 
 namespace awmr {
 
-/// Returns one line of printable ASCII, with other characters as '?', that neither ends nor appears
-/// to start a C89 comment. It also cannot end a comment that extends to the end of its line, in any
-/// language.
+/// Returns the text as one line of printable ASCII, with '?' for other characters. The result does
+/// not end or start a C comment, and does not continue a line comment of any language.
 std::string comment_safe(std::string_view text);
 
 }  // namespace awmr

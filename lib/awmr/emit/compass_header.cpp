@@ -46,7 +46,7 @@ Result<std::string> compass_header(const CompassCalibration& calibration, const 
   for (const auto& [name, value] : constants) {
     if (!is_compass_float(value.value)) {
       return input_error(ErrorCode::kOutOfRange, record.name,
-                         fmt::format("{} = {:g} is no float of the chip: record the "
+                         fmt::format("{} = {:g} does not fit the chip's 32-bit float: record the "
                                      "field in counts or microtesla",
                                      name, value.value));
     }

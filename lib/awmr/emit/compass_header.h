@@ -1,4 +1,4 @@
-/// The constants of a compass for the emitted sketches.
+/// Writes the calibration constants of a compass as a header for the emitted sketches.
 #pragma once
 
 #include <string>

@@ -21,16 +21,16 @@
 
 namespace awmr {
 
-/// Origin named in the emitted files, in addition to the model's file name.
+/// Hashes, gains file and certificate that the emitted files name, in addition to the model's file.
 struct EmitInputs {
-  std::string model_sha256;               ///< of the bytes of the model's file, lower-case digits
-  std::string gains_sha256;               ///< of the bytes of the gains' file, lower-case digits
-  std::string gains_file = "gains.json";  ///< without its folders
-  std::optional<CertifiedGains> certificate = {};  ///< of the gains; absent: they have none
+  std::string model_sha256;               ///< SHA-256 of the model file, lower-case hexadecimal
+  std::string gains_sha256;               ///< SHA-256 of the gains file, lower-case hexadecimal
+  std::string gains_file = "gains.json";  ///< name without directories
+  std::optional<CertifiedGains> certificate = {};  ///< robustness certificate of the gains, if any
 };
 
-/// AWMR_PARAMS_SHA256: SHA-256 of the 128 characters of the model's and the gains' SHA-256 in
-/// lower-case hexadecimal, the model's first.
+/// Returns AWMR_PARAMS_SHA256: the SHA-256 of 128 characters, which are the hexadecimal SHA-256 of
+/// the model followed by that of the gains.
 std::string params_sha256(const EmitInputs& inputs);
 
 /// Text of awmr_params.h: C89 and C++98 and later, in ASCII. Each value is rounded to float32 once
@@ -76,21 +76,21 @@ struct EmitOptions {
   /// largest force (4 F'max, surge) or moment (4 d F'max, yaw). A larger value gives a smaller
   /// table. Absent: kTableError, or the smallest error that a table achieves.
   std::optional<double> table_error = {};
-  /// Compiled in. Each needs flash, RAM and, while in use, time in every step.
+  /// Parts to compile in. Each needs flash, RAM and, while in use, time in every step.
   std::set<FirmwarePart> parts = {};
-  /// Law of the part kLine: its place in LineLaws.
+  /// Law of the part kLine: its index in LineLaws.
   std::size_t line_law = 0;
-  /// Action of the combined mode when a path saturates.
+  /// Combined mode, if steering or wheel forces saturate.
   CombinedSplit split = CombinedSplit::kRedistribute;
-  /// ms, > 0: maximum age of heading and yaw rate. Longer for a slow compass.
+  /// Maximum age of heading and yaw rate, ms, > 0. Longer for a slow compass.
   std::uint32_t heading_timeout_ms = 100;
-  /// ms, > 0: maximum age of speed and position; the default permits two failed fixes of a 5 Hz
+  /// Maximum age of speed and position, ms, > 0; the default permits two failed fixes of a 5 Hz
   /// GPS.
   std::uint32_t speed_timeout_ms = 600;
-  /// ms, > 0: maximum age of the reference before the motors stop. Longer for an unreliable radio
+  /// Maximum age of the last command, ms, > 0; then the motors stop. Longer for an unreliable radio
   /// link.
   std::uint32_t command_timeout_ms = 1000;
-  /// ms: longest time between two steps; 0: three sample times.
+  /// Longest time between two steps, ms; 0: three sample times.
   std::uint32_t step_timeout_ms = 0;
 };
 
@@ -99,8 +99,8 @@ struct EmittedTable {
   std::vector<ResistanceLine> lines;  ///< ResistanceTable::lines
   std::uint16_t first = 0;            ///< ResistanceTable::first
   std::uint8_t mantissa_bits = 0;     ///< ResistanceTable::mantissa_bits
-  double lowest_speed = 0.0;          ///< of the first cell; below it, the chord to the origin
-  double top_speed = 0.0;             ///< at the end of the last cell
+  double lowest_speed = 0.0;          ///< start of the first cell; below it, a line to the origin
+  double top_speed = 0.0;             ///< end of the last cell
   double split = 0.0;                 ///< a tenth of the largest force or moment, in the unit of g
   double worst_error = 0.0;           ///< where g is below `split`: absolute, in the unit of g
   double worst_relative_error = 0.0;  ///< where g is above `split`: relative to g
@@ -115,7 +115,7 @@ struct EmittedTable {
 inline constexpr double kUsualFixNoise_m = 1.5;
 inline constexpr double kUsualFixLatency_s = 0.2;
 
-/// The sketches take no larger error of the heading for a vehicle that is on its course, rad.
+/// Upper bound of AWMR_ON_COURSE_RAD, the steady heading error that the sketches accept, rad.
 inline constexpr double kMostOnCourse_rad = radians(45.0);
 
 /// The firmware's numbers in the chip's form.
@@ -131,12 +131,12 @@ struct AutopilotParameters {
   ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
   double table_error = 0.0;                            ///< bound for both tables
   float sample_time_s = 0.0F;                          ///< as in awmr_params.h
-  float route_speed_mps = 0.0F;      ///< of the sketches: 1 m/s, at most 60 % of the largest speed
-  double steady_error_rad = 0.0;     ///< of the heading, with motors that differ by 16 %
-  float on_course_rad = 0.0F;        ///< of the sketches: twice that, 15 deg to kMostOnCourse_rad
-  float off_course_mrad = 0.0F;      ///< of the sketches: GpsLimits::off_course_mrad
-  PositionFilter<float> position{};  ///< of the receiver's fixes
-  std::uint32_t position_latency_ms = 0;  ///< of the sketches' GPS
+  float route_speed_mps = 0.0F;                        ///< AWMR_ROUTE_SPEED_MPS of the sketches
+  double steady_error_rad = 0.0;          ///< heading error with motors that differ by 16 %
+  float on_course_rad = 0.0F;             ///< AWMR_ON_COURSE_RAD of the sketches
+  float off_course_mrad = 0.0F;           ///< AWMR_OFF_COURSE_MRAD, GpsLimits::off_course_mrad
+  PositionFilter<float> position{};       ///< filter of the GPS fixes
+  std::uint32_t position_latency_ms = 0;  ///< latency of the sketches' GPS
   std::set<FirmwarePart> parts;           ///< as in EmitOptions, and the observer of the gains
   std::size_t line_law = 0;               ///< as in EmitOptions
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< as in EmitOptions

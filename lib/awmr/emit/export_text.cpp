@@ -11,16 +11,15 @@
 namespace awmr {
 namespace {
 
-/// The shortest decimal that reads back to the same value, with a point, so that no language reads
-/// an integer and YAML 1.1 does not read an exponent as a string: 1.0, 1.5e-07 as 1.5e-07, 1e-07 as
-/// 1.0e-07.
+/// Returns the shortest decimal that reads back to the same value, always with a point: 1.0,
+/// 1.5e-07, 1.0e-07. Without the point a language could read an integer, and YAML 1.1 a string.
 std::string number(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find('.') != std::string::npos) return text;
   return text.insert(std::min(text.find('e'), text.size()), ".0");
 }
 
-/// Header of the file: its contents and inputs, one comment line each.
+/// Returns the head of the file: one comment line for its content and one for each input.
 std::string head(const ExportSource& source, std::string_view mark, std::string_view what) {
   std::string text = fmt::format("{} {} of \"{}\", by awmr {} export.\n", mark, what,
                                  comment_safe(source.model.vehicle.name), version());
@@ -102,8 +101,8 @@ std::string csv_text(const ExportSource& source) {
   return text;
 }
 
-/// Each value in the format of `row`, below its derivation; then the values that the model does not
-/// give.
+/// Returns each value in the format of `row`, with its derivation as a comment above; then a
+/// comment for each parameter that cannot be derived.
 template <class Row>
 std::string autopilot_text(std::string text, const AutopilotValues& found, const Row& row) {
   for (const ExportedValue& value : found.values) {

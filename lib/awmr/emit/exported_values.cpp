@@ -55,9 +55,9 @@ void export_vehicle(const Vehicle& vehicle, std::vector<ExportedValue>& values) 
                       .meaning = meaning,
                       .origin = "given, vehicle"});
   };
-  add("mass_kg", vehicle.mass_kg, "kg", "m: as it drives");
-  add("length_m", vehicle.length_m, "m", "of the body");
-  add("width_m", vehicle.width_m, "m", "of the body");
+  add("mass_kg", vehicle.mass_kg, "kg", "m: mass as it drives, with batteries");
+  add("length_m", vehicle.length_m, "m", "length of the body");
+  add("width_m", vehicle.width_m, "m", "overall width");
   if (vehicle.has_steering()) {
     add("front_axle_m", vehicle.front_axle_m, "m", "l_f: centre of gravity to front axle");
   }
@@ -65,8 +65,10 @@ void export_vehicle(const Vehicle& vehicle, std::vector<ExportedValue>& values) 
   add("wheel_force_min", vehicle.wheel_force.lo, "1", "least F' of a wheel, over F_max");
   add("wheel_force_max", vehicle.wheel_force.hi, "1", "largest F' of a wheel, over F_max");
   if (vehicle.has_steering()) {
-    add("steering_max_deg", vehicle.steering_max_deg, "deg", "stop, the same either side");
-    add("steering_max_rate_degps", vehicle.steering_max_rate_degps, "deg/s", "fastest turn");
+    add("steering_max_deg", vehicle.steering_max_deg, "deg",
+        "d_max: largest steering angle to either side");
+    add("steering_max_rate_degps", vehicle.steering_max_rate_degps, "deg/s",
+        "largest rate of the steering angle");
   }
   add("sample_time_s", vehicle.sample_time_s, "s", "T_s: between two steps of the controller");
 }
@@ -79,18 +81,22 @@ void export_gains(const Gains<double>& gains, std::vector<ExportedValue>& values
   };
   add("heading_lambda", gains.heading.lambda, "1/s", "lambda: slope of the sliding surface");
   add("heading_mu", gains.heading.mu, "rad/s^2", "mu: largest corrective yaw acceleration");
-  add("heading_epsilon", gains.heading.epsilon, "rad/s", "epsilon: half width of its layer");
+  add("heading_epsilon", gains.heading.epsilon, "rad/s",
+      "epsilon: half width of the heading law's boundary layer");
   if (gains.heading.friction_width_radps > feed_forward_rest_speed<double>()) {
     add("heading_friction_width", gains.heading.friction_width_radps, "rad/s",
-        "w0: below it Coulomb friction is fed forward in proportion to rate and error");
+        "w0: rate below which fed-forward Coulomb friction is proportional to rate and error");
   }
   add("speed_mu", gains.speed.mu, "m/s^2", "mu_s: largest corrective acceleration");
-  add("speed_epsilon", gains.speed.epsilon, "m/s", "eps_s: half width of its layer");
+  add("speed_epsilon", gains.speed.epsilon, "m/s",
+      "eps_s: half width of the speed law's boundary layer");
   if (!gains.observer.is_on()) return;
   add("observer_bandwidth_radps", gains.observer.bandwidth_radps, "rad/s",
       "L: bandwidth of the disturbance observer");
-  add("observer_yaw_max_m", gains.observer.yaw_max_m, "m", "largest moment that it compensates");
-  add("observer_surge_max", gains.observer.surge_max, "1", "largest force that it compensates");
+  add("observer_yaw_max_m", gains.observer.yaw_max_m, "m",
+      "largest moment that the observer compensates");
+  add("observer_surge_max", gains.observer.surge_max, "1",
+      "largest force that the observer compensates");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// Exported values, independent of the format. Private to emit/.
+/// The values that `awmr export` writes, before formatting. Private to emit/.
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ struct ExportedValue {
 /// The identified quantities, also in SI units, the vehicle and the gains; only known values.
 std::vector<ExportedValue> exported_values(const ExportSource& source);
 
-/// The values of an autopilot's file, and the parameters that the model does not give.
+/// Values of an autopilot's parameter file, and the parameters that cannot be derived.
 struct AutopilotValues {
   std::vector<ExportedValue> values;  ///< `meaning` is the derivation
   std::vector<std::string> left_out;  ///< "NAME: reason"

@@ -39,7 +39,7 @@ void add_parameters(std::vector<Macro>& macros, const Model& model, const std::s
   add("AWMR_SWAY_ALPHA", ParameterId::kSwayAlpha, MacroRange::kPositive);
   add("AWMR_MASS_NORM", ParameterId::kMassNorm, MacroRange::kPositive);
   add("AWMR_INERTIA_NORM", ParameterId::kInertiaNorm, MacroRange::kPositive);
-  // Only for friction models with these terms: the header of a power law stays short.
+  // Only if the friction model has these terms, so that the header of a power law stays short.
   const std::pair<const char*, ParameterId> terms[] = {
       {"AWMR_SURGE_COULOMB", ParameterId::kSurgeCoulomb},
       {"AWMR_SURGE_QUADRATIC", ParameterId::kSurgeQuadratic},
@@ -88,7 +88,8 @@ void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std
       "epsilon, rad/s: half width of the boundary layer of S", "/heading/epsilon");
   if (gains.heading.friction_width_radps > feed_forward_rest_speed<double>()) {
     add("AWMR_HEADING_FRICTION_WIDTH_RADPS", gains.heading.friction_width_radps,
-        "w0, rad/s: below it Coulomb friction is fed forward in proportion to rate and error",
+        "w0, rad/s: rate below which fed-forward Coulomb friction is proportional to rate and "
+        "error",
         "/heading/friction_width_radps");
   }
   add("AWMR_SPEED_MU", gains.speed.mu, "mu_s, m/s^2: corrective surge acceleration", "/speed/mu");
@@ -98,9 +99,9 @@ void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std
   add("AWMR_OBSERVER_BANDWIDTH_RADPS", gains.observer.bandwidth_radps,
       "L, rad/s: bandwidth of the disturbance observer", "/observer/bandwidth_radps");
   add("AWMR_OBSERVER_YAW_MAX_M", gains.observer.yaw_max_m,
-      "m: largest moment over F_max that it compensates", "/observer/yaw_max_m");
+      "m: largest moment over F_max that the observer compensates", "/observer/yaw_max_m");
   add("AWMR_OBSERVER_SURGE_MAX", gains.observer.surge_max,
-      "1: largest force over F_max that it compensates", "/observer/surge_max");
+      "1: largest force over F_max that the observer compensates", "/observer/surge_max");
 }
 
 /// True if a float32 has full precision for the value: 0 and normal numbers. False for NaN.

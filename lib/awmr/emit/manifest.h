@@ -1,5 +1,5 @@
-/// The manifest of an emitted directory: each file that emit wrote, with its hash. Files that are
-/// not in it, or were edited since, belong to the user and are never replaced.
+/// Manifest of an emitted directory: lists each file that emit wrote, with its hash. A file that is
+/// not listed, or was edited since, belongs to the user and is never replaced.
 #pragma once
 
 #include <filesystem>
@@ -23,9 +23,9 @@ std::string manifest_text(const std::filesystem::path& directory,
                           const std::vector<EmittedFile>& files, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);
 
-/// Errors (input): an invalid manifest; each file in `directory` that would be replaced without
-/// permission. A file can be replaced if it is already the same or if it matches the manifest
-/// there. If the manifest does not name it, it must be a header that begins with emit's own line.
+/// Checks that the files may be written to `directory`. An existing file may be replaced if it has
+/// the same content, if it matches the manifest, or if the manifest does not list it and it is a
+/// header that begins with emit's first line. Errors (input): an invalid manifest; each other file.
 Status check_replaceable(const std::filesystem::path& directory,
                          const std::vector<EmittedFile>& files);
 

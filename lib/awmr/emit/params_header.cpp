@@ -59,7 +59,7 @@ std::string checks_text(const std::vector<Macro>& macros, bool has_observer) {
   return text + "#undef AWMR_PARAMS_CHECK\n";
 }
 
-/// Lines of the introduction: worst cases by mode.
+/// Returns the certificate as lines of the introduction: worst damping and delay margin by mode.
 std::string certificate_text(const std::optional<CertifiedGains>& certificate) {
   if (!certificate) return {};
   std::string text = fmt::format(
@@ -124,8 +124,8 @@ Status check_relations(const Model& model, const Gains<double>& gains, const Emi
         ErrorCode::kSlowReaching,
         fmt::format(
             "T2 = epsilon/(2 mu) = {:g} s is not below T1 = 1/lambda = {:g} s in {}: the sliding "
-            "surface has to be reached faster than it decays; lower epsilon or lambda, raise mu, "
-            "or tune again",
+            "surface has to be reached faster than the error decays on it; lower epsilon or "
+            "lambda, raise mu, or tune again",
             gains.heading.reaching_time_constant_s(), gains.heading.sliding_time_constant_s(),
             inputs.gains_file));
   }

@@ -68,7 +68,8 @@ void measure(const ResistanceLaw& law, double lo, double hi, int samples, double
   }
 }
 
-/// Errors below the first entry, octave by octave: the law can be steepest at rest.
+/// Measures the errors below the first entry octave by octave, because the law can be steepest at
+/// rest.
 TableErrors measure_below(const ResistanceLaw& law, double rest_speed, const EmittedTable& table) {
   TableErrors errors;
   for (double hi = table.lowest_speed; hi > 1e-9; hi /= 2.0) {
@@ -99,9 +100,9 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
   const int top_exponent = std::ilogb(top);
   EmittedTable best;                 // the smallest within the bound
   EmittedTable closest;              // the one with the smallest error
-  std::map<int, TableErrors> below;  // of the first entry, which does not depend on the bits
+  std::map<int, TableErrors> below;  // errors below the first entry, the same for all mantissa bits
   for (int bits = 0; bits <= kMaxMantissaBits; ++bits) {
-    TableErrors from_first;  // an octave has the same lines wherever the table begins
+    TableErrors from_first;  // summed by octave, whose lines do not depend on the table's beginning
     for (int lowest = top_exponent - 1; lowest >= kLowestExponent; --lowest) {
       const int lines = (top_exponent - lowest) * (1 << bits) + 1;
       if (lines > kMaxLines) break;

@@ -16,15 +16,15 @@ namespace awmr {
 /// g as a function of a speed >= 0: g1 of m/s or g3 of rad/s.
 using ResistanceLaw = std::function<double(double)>;
 
-/// The smallest power of two, between 1 and 64 m/s or rad/s, at which g exceeds 1.5 times the
-/// largest force or moment. So the vehicle cannot reach a higher speed.
+/// Returns the top speed of a table: the smallest power of two, from 1 to 64 m/s or rad/s, at which
+/// g exceeds 1.5 times the largest force or moment. The vehicle cannot reach a higher speed.
 double table_top(const ResistanceLaw& law, double full_scale);
 
-/// The smallest table of `law` up to `top` whose error, in the chip's arithmetic, is below
-/// `error_share` of the law or, if that is less, of a tenth of `full_scale`. Without `error_share`,
-/// the bound is kTableError or, if no table achieves it, the smallest possible error. Below
-/// `rest_speed` the table is not used, and its error does not matter. `name` is for the message.
-/// Errors (refused): even the largest table exceeds the bound.
+/// Returns the smallest table of `law` up to `top` that meets the error bound in the chip's
+/// arithmetic. The error is relative to the law, or to a tenth of `full_scale` where the law is
+/// smaller; its bound is `error_share`. Without `error_share`, the bound is kTableError or, if no
+/// table achieves that, the smallest possible error. The table is not used below `rest_speed`.
+/// `name` is for the message. Errors (refused): even the largest table exceeds the bound.
 Result<EmittedTable> resistance_table(const std::string& name, const ResistanceLaw& law,
                                       double full_scale, double top,
                                       std::optional<double> error_share, double rest_speed);

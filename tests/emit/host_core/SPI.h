@@ -1,1 +1,1 @@
-// See SD.h.
+// Empty: the SD card of SD.h needs no SPI.

@@ -7,10 +7,10 @@
 
 namespace {
 
-/// The command that starts the drive.
+/// Sends the command that starts the drive.
 const char* start_command = "S 1.0\n";
 
-/// Command after an injected failure, and the duration of the drive that follows.
+/// Command that is sent after an injected failure, and duration of the drive that follows.
 struct Drive {
   const char* commands = "";
   double watch_s = 15;
@@ -92,8 +92,8 @@ void hold_still(double pushed_mps, double noise_mps) {
          before, fastest, w.u, hypot(w.x - x0, w.y - y0), driven_s, safety.is_armed());
 }
 
-/// On a slope, armed at speed 0 after a drive of 10 s, or from rest: how fast it gets in a minute, and which way it
-/// is driven meanwhile.
+/// On a slope, armed at speed 0, after a drive of 10 s or from rest. Prints the speed that the
+/// vehicle reaches in a minute, and the direction in which the motors drive it meanwhile.
 void stand_on_slope(double pull, bool drives_first) {
   World& w = world;
   start_and_arm(0.2);
@@ -114,7 +114,8 @@ void stand_on_slope(double pull, bool drives_first) {
          safety.is_armed());
 }
 
-/// A fault from the start: the compass is off by `offset_deg`, or the servo reversed. Drives, then heads 90 deg away.
+/// A fault from the start: the compass is off by `offset_deg`, or the servo reversed. Drives, then
+/// heads 90 deg away.
 void drive_wrong(double offset_deg, double servo_sign) {
   World& w = world;
   w.compass_offset = offset_deg / 57.29578;
@@ -129,7 +130,8 @@ void drive_wrong(double offset_deg, double servo_sign) {
   printf("stopped_s=%.2f cause=%d away_m=%.2f\n", stop.stopped_s, stop.cause, hypot(w.x, w.y));
 }
 
-/// Turned by hand at `rate` until t = 6 s: heading once it is at rest, and whether ARM waited for it.
+/// The vehicle is turned by hand at `rate` until t = 6 s. Prints the heading at rest, and whether
+/// ARM was refused until then.
 void start_turning(double rate) {
   World& w = world;
   w.forced_turn = rate;
@@ -144,7 +146,7 @@ void start_turning(double rate) {
          safety.is_armed(), error * 57.29578);
 }
 
-/// `turns` net turns while disarmed, then armed.
+/// Arms the vehicle after it was turned by hand `turns` times in one direction.
 void turn_often(double turns) {
   World& w = world;
   setup();
@@ -160,7 +162,7 @@ void turn_often(double turns) {
   printf("largest_rad=%.4f armed=%d fault=%d\n", largest, safety.is_armed(), output.fault);
 }
 
-/// Drives what start_command starts for `seconds`, then at speed 0 for a minute.
+/// Drives for `seconds` after start_command(), then holds speed 0 for a minute.
 void drive_and_stop(double seconds) {
   World& w = world;
   start_and_arm(0.2);

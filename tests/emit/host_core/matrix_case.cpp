@@ -26,7 +26,7 @@ struct Setting {
   double speed_mps, servo_lag_s, motor_lag_s;
 };
 
-/// When a failure happens.
+/// Times at which a failure begins.
 enum class Time {
   kWiring,   ///< before the start
   kStart,    ///< 1 s after the command to drive
@@ -130,7 +130,7 @@ void run_failure(const Failure& one, Time when, const Setting& setting) {
 
 using Uniform = std::function<double(double, double)>;
 
-/// Draws how a healthy vehicle and its sensors differ from the model.
+/// Sets random differences of a healthy vehicle and its sensors from the model.
 void draw_world(World& w, const Setting& setting, double wander_m, const Uniform& uniform) {
   w.psi = uniform(-kPi, kPi);
   w.mass_factor = uniform(0.7, 1.4);
@@ -151,7 +151,7 @@ void draw_world(World& w, const Setting& setting, double wander_m, const Uniform
   w.gps_delay_ms = static_cast<uint32_t>(uniform(50, 350));
 }
 
-/// A drive of two minutes in which nothing is wrong, but much differs from the model.
+/// Runs a healthy drive of two minutes with a vehicle and sensors that differ from the model.
 void run_healthy(int seed, double wander_m, Setting setting) {
   World& w = world;
   w.random.seed(static_cast<unsigned>(seed));
@@ -177,7 +177,7 @@ void run_healthy(int seed, double wander_m, Setting setting) {
       w.say(text_of("M %.0f\n", setting.mode));
     }
     const double chance = uniform(0, 1), speed_mps = uniform(0.25, 1) * setting.speed_mps;
-    // Backward, the steering alone cannot turn it.
+    // When driving backward, steering alone cannot turn the vehicle.
     const bool is_backward = chance < 0.2 && setting.mode != 1;
     w.say(text_of("S %.3f\n", chance < 0.1 ? 0.0 : is_backward ? -speed_mps : speed_mps));
     if (uniform(0, 1) < 0.8) w.say(text_of("H %.1f\n", uniform(-180, 180)));

@@ -79,7 +79,7 @@ struct World {
   uint32_t keep_period_ms = 300;
   std::string keep = "KEEP\n";
   int sequence = 0;
-  // Called every ms: a failure that changes with time.
+  // Called every ms; a test sets it to a failure that changes with time.
   std::function<void(World&)> each_ms = [](World&) {};
 
   double noise(double sigma) { return std::normal_distribution<double>(0, sigma)(random); }
@@ -160,7 +160,7 @@ struct World {
   }
   std::string sentence() {
     if (gps_wander_m > 0) {
-      // Correlated over a minute.
+      // Errors of the position, with a correlation time of a minute.
       for (double* wander : {&wander_x, &wander_y}) {
         *wander += noise(gps_wander_m * sqrt(2 * 0.2 / 60)) - 0.2 / 60 * *wander;
       }

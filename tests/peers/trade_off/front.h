@@ -9,7 +9,8 @@
 
 namespace awmr::peers {
 
-/// A vehicle with what is known of it, and what it is driven on.
+/// Inputs of the search: the model that the controller knows, the vehicle, its sensors and limits,
+/// and the courses.
 struct Case {
   Body model;
   Geometry vehicle;
@@ -21,14 +22,14 @@ struct Case {
   std::vector<Body> limit_bodies;  ///< for which the limits have to hold, in addition to the model
 };
 
-/// Bodies with the noise of their runs, by course.
+/// A body (masses and resistances of a vehicle), with the sensor noise of its run on each course.
 struct Trial {
   Body body;
   std::vector<Noise> noise;
 };
 std::vector<Trial> with_noise(const Case& one, const std::vector<Body>& bodies, std::uint64_t seed);
 
-/// Means over trials, modes and courses.
+/// Metrics averaged over trials, modes and courses.
 struct Means {
   double settling_s = 0.0, variation = 0.0, overshoot_deg = 0.0, steering_rms_degps = 0.0;
 };
@@ -36,15 +37,16 @@ Means means_of(const Case& one, const std::vector<Trial>& trials, const Controls
                double step_s = 2e-3);
 
 struct FrontOptions {
-  int scattered = 240;  ///< admissible gains that are driven, log-uniform
-  int rounds = 8;       ///< of refinement
-  int offspring = 20;   ///< of a round
+  int scattered = 240;  ///< number of log-uniform random gains within the limits that are simulated
+  int rounds = 8;       ///< generations of the evolution strategy
+  int offspring = 20;   ///< gains per generation
   std::uint64_t seed = 1;
 };
 
-/// The gains with the least settling time of those that keep every limit and are no more active than
-/// `most_variation`, nor overshoot more, on the trials: scattered over a factor of 30 either side of `near`
-/// (speed gains: 5), then refined by an evolution strategy from the best few and from `near`.
+/// Finds the gains with the shortest settling time that meet every limit, have at most the command
+/// activity `most_variation` and overshoot by at most `most_overshoot_deg` on the trials. Draws
+/// gains within a factor of 30 of `near` (speed gains: 5), then refines the best few and `near` by
+/// an evolution strategy.
 LawGains least_settling(const Case& one, const std::vector<Trial>& trials, const LawGains& near,
                         FedForward fed_forward, double most_variation, double most_overshoot_deg,
                         const FrontOptions& options = {});

@@ -10,19 +10,20 @@
 namespace awmr::peers {
 namespace {
 
-/// psi, r, angle moment, force moment, each of unit gain.
+/// State of the heading loop: psi, r, and the yaw moments by the steering angle and by the
+/// wheel forces, each with unit gain.
 using Vector4 = Eigen::Vector4d;
 
 struct Loop {
   double own_rate = 0.0;    ///< g3'/I'z of the body, 1/s
-  double known_rate = 0.0;  ///< that is fed forward, over the model's I'z
+  double known_rate = 0.0;  ///< g3'/I'z of the model, which the law feeds forward, 1/s
   double gain = 1.0;        ///< I'z of the model over the body's
-  double by_forces = 0.0;   ///< share of the moment
+  double by_forces = 0.0;   ///< fraction of the moment that the wheel forces make
   double motor_s = 0.0;
   double latency_s = 0.0;
 };
 
-/// The body over a time by the classical Runge-Kutta method, the command held.
+/// Returns the state after `time_s` with a constant command, by the classical Runge-Kutta method.
 Vector4 held(const Loop& loop, const Geometry& g, Vector4 x, double command, double time_s) {
   const double servo_s = g.servo_s > 0.0 ? g.servo_s : g.sample_s;
   const auto rates = [&](const Vector4& y) {
@@ -47,11 +48,12 @@ Vector4 held(const Loop& loop, const Geometry& g, Vector4 x, double command, dou
   return x;
 }
 
-/// Smallest damping ratio of the modes of the map from sample to sample: the columns are what becomes of
-/// each unit state. A mode of which less than a tenth is left after a sample does not count.
+/// Smallest damping ratio of the sampled loop, from the eigenvalues of its transition matrix over
+/// one sample. Modes that decay to less than a tenth within a sample do not count.
 double damping(const Loop& loop, const Geometry& g, const LawGains& k) {
   const double k_s = k.mu / k.epsilon;
-  // Commands under way, the oldest first: it acts in the first part of the sample, the next one after that.
+  // Delayed commands, the oldest first: the oldest acts in the first part of the sample, the next
+  // one after it.
   const double late = loop.latency_s / g.sample_s;
   const auto whole = static_cast<Eigen::Index>(late + 1e-9);
   const double part = std::max(0.0, late - static_cast<double>(whole));
@@ -100,7 +102,7 @@ double least_damping(const Controls& c, const Geometry& g, const Body& body, dou
   return least;
 }
 
-/// E[f(z) g(z)], z standard normal.
+/// Returns the expectation of f(z) g(z) for a standard normal z.
 template <class F, class G>
 double mean(const F& f, const G& g) {
   constexpr int kPoints = 2000;
@@ -115,7 +117,8 @@ double mean(const F& f, const G& g) {
   return sum / weights;
 }
 
-/// RMS rate of the steering command by noise while a heading is held, deg/s. The yaw acceleration is
+/// RMS rate of the steering command by noise while a heading is held, deg/s. The yaw acceleration
+/// is
 ///   a(n) + 1{|n| < w0} b(m) + c(m),   n, m: noise of the yaw rate and of the heading
 /// with dry friction b of a vehicle at rest; a, b and c are odd.
 double steering_rate_degps(const Controls& c, const Geometry& g, const SensorErrors& errors,

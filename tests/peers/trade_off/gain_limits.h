@@ -1,5 +1,5 @@
-/// Limits that the README of tune states for gains, in code of its own: the independent admissible set of the
-/// cross-check.
+/// Limits that the README of tune states for gains, in code of its own: the independent admissible
+/// set of the cross-check.
 #pragma once
 
 #include <vector>
@@ -12,16 +12,16 @@ struct Limits {
   double margin = 0.8;  ///< epsilon/mu <= margin/lambda
   double damping = 0.7, late_damping = 0.25, delayed_damping = 0.05;
   double noise_share = 0.25;
-  double steering_rate_degps = 0.0;  ///< RMS
+  double steering_rate_degps = 0.0;  ///< largest RMS rate of the steering command, deg/s
 };
 
-/// Conditions for which the limits are checked.
+/// Speed and largest yaw rate at which the limits are checked.
 struct Examined {
   double speed_mps = 0.0, fastest_radps = 0.0;
 };
 
-/// Largest excess of any limit over the model and the drawn bodies, relative to the limit; <= 0: all are kept.
-/// Stops at the first body that breaks one.
+/// Largest violation of a limit by the model or a drawn body, relative to the limit; <= 0: all
+/// limits are met. Stops at the first body that violates one.
 double excess(const Controls& controls, const Geometry& vehicle, const SensorErrors& errors,
               const std::vector<Body>& bodies, const Limits& limits, const Examined& examined);
 

@@ -20,8 +20,8 @@ constexpr double kDeg = 180.0 / std::numbers::pi;
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
-/// The speed after `step` under `push` (an acceleration) and friction over an inertia. Dry friction is
-/// taken off exactly, up to rest; the smooth part is implicit by its chord.
+/// Returns the speed after `step` under the acceleration `push` and a friction. Dry friction is
+/// integrated exactly, up to rest, the smooth part implicitly by its chord.
 double after_step(const Friction& friction, double inertia, double w, double push, double step) {
   double next = w + step * push;
   const double dry = step * friction.coulomb / inertia;
@@ -37,7 +37,8 @@ double after_step(const Friction& friction, double inertia, double w, double pus
   return next / (1.0 + h);
 }
 
-/// g(w) that a law adds; dry friction as a chord below `rest`, in the direction of `intent`.
+/// Resistance that a law feeds forward at w. Below `rest`, dry friction is replaced by a chord and
+/// follows `intent`.
 double fed_forward(const Friction& friction, double w, double intent, double rest = 0.02) {
   if (friction.coulomb > 0.0 && std::abs(w) < rest) {
     return friction.of_magnitude(rest) * std::clamp((w + intent) / rest, -1.0, 1.0);
@@ -50,7 +51,8 @@ struct Commands {
   double left = 0.0, right = 0.0, angle = 0.0;
 };
 
-/// Largest angle at a thrust: it falls linearly below a thrust of 1/16.
+/// Largest steering angle at a thrust: its half-angle tangent falls linearly to 0 below a thrust of
+/// 1/16.
 double largest_angle(const Geometry& g, double thrust) {
   const double share = std::clamp(16.0 * thrust, 0.0, 1.0);
   return 2.0 * std::atan(share * std::tan(0.5 * g.steering_max_rad));
@@ -102,7 +104,8 @@ struct Reference {
   double psi = 0.0, rate = 0.0, acceleration = 0.0;
 };
 
-/// Filter of rate-limited heading commands, 4 rad/s, critically damped.
+/// Moves the heading reference towards `goal` by a critically damped filter of 4 rad/s with a rate
+/// limit.
 void lead(double goal, double limit, double sample_s, Reference& ref) {
   constexpr double kBandwidth = 4.0;
   const double rate = std::clamp(0.5 * kBandwidth * wrapped(goal - ref.psi), -limit, limit);
@@ -161,7 +164,7 @@ void move(const Body& b, const Geometry& g, const Commands& c, int steps, State&
   }
 }
 
-/// Figures of a run, sample by sample.
+/// Accumulates the metrics of a run, sample by sample.
 class Meter {
  public:
   Meter(const Geometry& g, const Course& course) : g_(g), course_(course) {}

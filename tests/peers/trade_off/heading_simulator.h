@@ -1,5 +1,5 @@
-/// Simulator of headings that shares no code with lib/awmr: its own integrator, laws, allocation, sensors and
-/// metrics, written from the equations of the READMEs. The cross-check of `tune`.
+/// Simulator of headings that shares no code with lib/awmr: its own integrator, laws, allocation,
+/// sensors and metrics, written from the equations of the READMEs. The cross-check of `tune`.
 #pragma once
 
 #include <array>
@@ -44,7 +44,8 @@ struct LawGains {
       0.02;  ///< dry friction in yaw is fed forward in proportion below it
 };
 
-/// The yaw rate whose g3 the heading law adds: the measured one (the paper's) or that of the reference.
+/// Yaw rate at which the heading law feeds g3 forward: the measured one (as in the paper) or the
+/// reference.
 enum class FedForward { kMeasured, kReference };
 
 struct Controls {
@@ -55,14 +56,15 @@ struct Controls {
 
 enum class Mode { kDifferential, kSteering, kCombined };
 
-/// Headings, each held for `hold_s`, at a speed; with a rate limit through a second-order filter.
+/// Heading commands, each held for `hold_s`, at a constant speed. With `rate_limit_radps`, a
+/// second-order filter limits their rate.
 struct Course {
   double speed_mps = 0.0, hold_s = 0.0;
   std::vector<double> headings_rad;
   std::optional<double> rate_limit_radps;
 };
 
-/// Standard normals of the readings of one run: heading, yaw rate, speed.
+/// Standard normal numbers for the sensor noise of one run: heading, yaw rate, speed.
 using Noise = std::array<std::vector<double>, 3>;
 
 struct RunFigures {
@@ -72,12 +74,13 @@ struct RunFigures {
   double steering_rms_degps = 0.0;  ///< RMS rate of the steering command
 };
 
-/// Two runs with steps of the integrator of `step_s` and half of it differ by its error.
+/// Simulates one run. `step_s`: step of the integrator; a run with half of it shows the
+/// integrator's error.
 RunFigures drive(const Body& body, const Geometry& vehicle, const SensorErrors& errors,
                  const Controls& controls, Mode mode, const Course& course, const Noise& noise,
                  double step_s = 2e-3);
 
-/// Readings that a course takes.
+/// Number of sensor readings on a course.
 std::size_t readings_of(const Course& course, const Geometry& vehicle);
 
 }  // namespace awmr::peers

@@ -1,4 +1,5 @@
-/// `tune` cross-checked by a simulator, limits and a search that share no code with it: nine vehicles of 2 to 300 kg.
+/// `tune` cross-checked by a simulator, limits and a search that share no code with it: nine
+/// vehicles of 2 to 300 kg.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ namespace {
 
 class TradeOff : public ::testing::TestWithParam<testing::TestVehicle> {};
 
-/// The largest |ln| of a ratio of gains.
+/// Distance of two sets of gains: the largest |ln| of the ratio of two gains.
 double distance_of(const LawGains& a, const LawGains& b) {
   double most = 0.0;
   for (const double ratio : {a.lambda / b.lambda, a.mu / b.mu, a.epsilon / b.epsilon,
@@ -39,8 +40,8 @@ TEST_P(TradeOff, TunedGainsAreOnTheIndependentFront) {
   const LawGains tuned = law_gains(tuning->gains);
   const LawGains baseline = law_gains(tuning->baseline.gains);
 
-  // The model's own vehicle is among those of the search, so the limits hold for it: but for the quadratures of the
-  // steering rate, which agree to 1e-4.
+  // `tune` checks the limits for the model's own vehicle, so they hold here, too; the two
+  // computations of the steering rate agree to 1e-4.
   const Controls controls{one.model, tuned};
   const auto excess_over = [&](const std::vector<Body>& bodies) {
     return excess(controls, one.vehicle, one.errors, bodies, one.limits, one.examined);
@@ -48,8 +49,9 @@ TEST_P(TradeOff, TunedGainsAreOnTheIndependentFront) {
   EXPECT_LT(excess_over({}), 1e-3);
   EXPECT_GT(distance_of(tuned, baseline), 0.01) << "a copy of the baseline";
 
-  // The front is searched on eight drawn bodies, both ends are compared on 24 others; on three times as many where
-  // there is one mode, so that the means are of as many runs.
+  // The front is searched on eight drawn bodies, and the results are compared on 24 others. A
+  // vehicle with one mode has three times as many bodies, so that means are over the same number of
+  // runs.
   const int more = 3 / static_cast<int>(one.modes.size());
   const std::vector<Trial> searched = with_noise(one, drawn_bodies(model, 8 * more, 5), 11);
   const std::vector<Trial> fresh = with_noise(one, drawn_bodies(model, 24 * more, 6), 12);
@@ -90,8 +92,8 @@ TEST(IndependentSimulator, AgreesWithTheLibraryOnSettlingAndActivity) {
     const Gains<double>& gains = named.gains == "tuned" ? tuning->gains : tuning->baseline.gains;
     const Controls controls{one.model, law_gains(gains)};
     const Means means = means_of(one, trials, controls);
-    // Means over 5 and 24 draws whose settling times scatter by 5 %: 3 sqrt(1/5 + 1/24) 5 % = 7 %. Activity
-    // scatters by less than 1 %.
+    // Means over 5 and 24 draws whose settling times scatter by 5 %: 3 sqrt(1/5 + 1/24) 5 % = 7 %.
+    // Activity scatters by less than 1 %.
     EXPECT_NEAR(means.settling_s / named.point.settling_time_s, 1.0, 0.07) << named.gains;
     EXPECT_NEAR(means.variation / named.point.control_variation, 1.0, 0.03) << named.gains;
     // Half the step: the integrator's own error.
@@ -101,7 +103,8 @@ TEST(IndependentSimulator, AgreesWithTheLibraryOnSettlingAndActivity) {
   }
 }
 
-/// No gains at all keep the limits: the independent grid over all scales finds none either.
+/// If `tune` reports that no gains meet the limits, the independent search on a grid of gains finds
+/// none either.
 TEST(Refusals, NameTheLimitThatNoGainsKeep) {
   Model model = testing::model_of(testing::test_vehicles()[6]);
   TuneOptions options;
@@ -117,8 +120,8 @@ TEST(Refusals, NameTheLimitThatNoGainsKeep) {
   Case one = case_of(model, default_tuning_scenarios(model, {}).value(), wider->limits,
                      wider->examined, 0);
   one.limits.steering_rate_degps = 1.0;
-  // The limits depend on lambda and mu/epsilon, and on mu and the speed gains by themselves: those of the gains
-  // that were found keep theirs.
+  // Some limits depend on lambda and mu/epsilon, which the grid varies. Others depend on mu or on
+  // the speed gains only; for these the grid uses the gains that were found, which meet them.
   const LawGains found = law_gains(wider->gains);
   const auto kept = [&](double lambda, double k) {
     const LawGains gains{lambda,

@@ -1,4 +1,5 @@
-/// A vehicle of tests/tune/vehicles.h, as the independent simulator takes it: numbers alone go over.
+/// Converts a vehicle of tests/tune/vehicles.h to the inputs of the independent simulator, as plain
+/// numbers.
 #pragma once
 
 #include <Eigen/Core>
@@ -77,7 +78,7 @@ inline Course course_of(const Scenario& scenario) {
   return course;
 }
 
-/// `limit_draws`: bodies for which the limits have to hold.
+/// `limit_draws`: number of drawn bodies for which the limits have to hold.
 inline Case case_of(const Model& model, const std::vector<Scenario>& scenarios,
                     const TuningLimits& limits, const ExaminedRange& examined, int limit_draws) {
   const Vehicle& v = model.vehicle;

@@ -1,7 +1,7 @@
-// Bits of the results of batches and of the inner loops of log fits, for processors on which the
-// tests do not run. other_processor.py builds this for one, runs it there, and compares the output
-// with this machine's. Headings and open loop only: there every number comes from the kernels and
-// none from a C library.
+// Prints the bits of results of batches and of the inner loops of log fits, for processors on which
+// the tests do not run. other_processor.py builds this program for such a processor, runs it in an
+// emulator, and compares the output with this machine's. It has headings and open loop only, for
+// which no number comes from a C library.
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>

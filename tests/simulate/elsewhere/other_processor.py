@@ -2,10 +2,10 @@
 """Runs the kernels of batches on emulated processors and compares every bit of the metrics with this
 machine's (lane_bits.cpp).
 usage: other_processor.py neon|avx512
-  neon    a 64-bit ARM, as qemu-user emulates it: the numbers of the AVX2 kernel
-  avx512  a Skylake-X, as Bochs emulates it with a kernel of Debian's: those of the AVX2 kernel, and every operation of lanes
-          (lane_operations_test.cpp)
-Ends with 77 where the emulator or a processor with AVX2 is missing (scripts/setup all)."""
+  neon    a 64-bit ARM emulated by qemu-user, compared with the AVX2 kernel
+  avx512  a Skylake-X emulated by Bochs with a Linux kernel of Debian, compared with the AVX2 kernel; also tests every operation of
+          lanes (lane_operations_test.cpp)
+Ends with 77 if the emulator or a processor with AVX2 is missing (scripts/setup all)."""
 import gzip
 import os
 import pathlib

@@ -1,7 +1,7 @@
 // C interface of awmr/control/, the source that was simulated and tuned.
 
-// A chip that rounds a b + c once instead of twice would give other bits than the host used for
-// tuning. So products and sums stay separate, whatever the compiler's default is.
+// Products and sums are rounded separately, whatever the compiler's default is: with fused
+// multiply-add, which rounds a b + c once, the chip's results would differ from the host's.
 #if defined(__FAST_MATH__)
 #error "awmr: compile without -ffast-math; infinities and NaN have to be seen, and bits be the host's"
 #elif defined(__clang__)
@@ -16,7 +16,8 @@
 
 #include "awmr/control/autopilot.h"
 
-// 0: for a speed sensor with a sign; saves flash. awmr_input.speed_unsigned is then a fault.
+// 1: the direction of an unsigned speed is computed. 0: for a speed sensor with a sign; saves flash,
+// and awmr_input.speed_unsigned is then a fault.
 #ifndef AWMR_WITH_DIRECTION
 #define AWMR_WITH_DIRECTION 1
 #endif
@@ -125,7 +126,7 @@ awmr::Autopilot<Resistance, Parts> autopilot;
 // The barriers prevent the compiler from moving the caller's writes and reads across the call,
 // whatever it assumes about aliasing of the two types.
 __attribute__((noinline)) void follow(const awmr_point* points, int16_t count, float acceptance_m, bool skip_passed) {
-  // An acceptance that is no distance: each step is a fault, AWMR_FAULT_OUTPUT, until the next route.
+  // With an invalid acceptance radius, each step gives AWMR_FAULT_OUTPUT until the next route.
   static const awmr_point kNowhere = {__builtin_nanf(""), __builtin_nanf("")};
   if (!(acceptance_m >= 0.0f && acceptance_m < 1e6f)) {
     points = &kNowhere;

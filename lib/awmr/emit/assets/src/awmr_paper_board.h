@@ -42,7 +42,7 @@ const float kServoUsPerRad = 573.0f; /* 10 us per degree of the wheels: measure 
 
 namespace awmr_board {
 
-/* The time stamp, or an outdated one if there is none yet, even directly after the start. */
+/* Returns the time stamp; before the first reading, one that counts as outdated. */
 inline uint32_t time_or_old(bool is_taken, uint32_t time_ms, uint32_t now_ms, uint32_t timeout_ms) {
   return is_taken ? time_ms : now_ms - timeout_ms - 1;
 }

@@ -25,7 +25,7 @@ struct GpsLimits {
   static constexpr float on_course_rad = AWMR_ON_COURSE_RAD;
   static constexpr float off_course_mrad = AWMR_OFF_COURSE_MRAD;
   static constexpr uint32_t timeout_ms = AWMR_SPEED_TIMEOUT_MS;
-  /* A long sample time has room for all of a sentence's work, and too few steps to spread it. */
+  /* True if the work on a fix is spread over several steps, as for short sample times. */
   static constexpr bool spreads_work = AWMR_SPREADS_FIXES;
 };
 
@@ -49,8 +49,8 @@ class Gps : public awmr::GpsReceiver<GpsLimits> {
   /* Call in receive(): reads the characters that have arrived. */
   void receive() { awmr::GpsReceiver<GpsLimits>::receive(*port_, millis()); }
 
-  /* Call in the step, with the commanded speed, the heading, the heading that is to be held and
-     whether the vehicle is armed. */
+  /* Call in the step, with the commanded speed, the measured and the commanded heading, and whether
+     the vehicle is armed. */
   void step(float u_ref_mps, float psi_rad, float psi_ref_rad, bool is_armed) {
     const int8_t direction = u_ref_mps > 0.0f ? 1 : u_ref_mps < 0.0f ? -1 : 0;
     const awmr::GpsContext context = {psi_rad, psi_ref_rad, direction, is_armed};

@@ -58,10 +58,10 @@ class Imu {
     check_.turn.begin(kRadpsPerWord, AWMR_SAMPLE_TIME_S);
   }
 
-  /* After awmr_step(): the yaw moment that is commanded until the next step, m; 0: the motors are off. */
+  /* Call after awmr_step() with the yaw moment that is commanded until the next step, m; 0: motors off. */
   void note_moment(float tau_turn_m) { moment_m_ = tau_turn_m; }
 
-  /* In the step: integrates the gyroscope; the magnetometer corrects it with a time constant of 2 s.
+  /* Call in the step: integrates the gyroscope and corrects it by the magnetometer (time constant 2 s).
      The first second at rest calibrates the gyroscope. */
   void read(float dt_s) {
     const uint32_t now_ms = millis();
@@ -105,7 +105,7 @@ class Imu {
   static int16_t word(uint8_t high, uint8_t low) {
     return static_cast<int16_t>(static_cast<uint16_t>(high) << 8 | low);
   }
-  /* True: there is a new field, within the sensor's range and not zero. */
+  /* Reads the magnetic field. True if the reading is new, within the sensor's range and not zero. */
   bool read_field(uint32_t now_ms) {
     uint8_t bytes[7];
     if (!request(kMag, 0x02, bytes, 1) || (bytes[0] & 0x01) == 0) return false;

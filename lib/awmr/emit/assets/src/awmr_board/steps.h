@@ -60,7 +60,7 @@ inline void begin_steps(Function receive, Function step) {
   wdt_enable(watchdog_time());
 }
 
-/* The sample time, from 1, at which the running step began. Call only in the step. */
+/* Number of the running step's sample time, counted from 1. Call only in the step. */
 inline uint32_t step_number() { return the_step_number; }
 
 }  // namespace awmr_board
