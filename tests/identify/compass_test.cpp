@@ -133,7 +133,8 @@ TEST(Compass, ReportsAxesThatContradictTheGyroscope) {
     const auto fit = fit_compass(record, 0.0);
     ASSERT_FALSE(fit);
     EXPECT_EQ(exit_code(fit.error()), 1);
-    EXPECT_THAT(to_text(fit.error()), HasSubstr("signs of field_ahead and field_left, whether they are exchanged"));
+    EXPECT_THAT(to_text(fit.error()),
+                HasSubstr("signs of field_ahead and field_left, whether they are exchanged"));
   }
   // deg/s, a gyroscope stuck at zero, and turns that differ by 11 %; 9 % are accepted.
   for (const double factor : {57.3, 0.0, 1.11, 0.89}) {
