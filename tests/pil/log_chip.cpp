@@ -4,6 +4,7 @@
 #include <avr/io.h>
 #include <avr/sleep.h>
 
+#include "awmr/control/sensor_fault.h"
 #include "awmr_log.h"
 #include "chip_uart.h"
 
@@ -46,7 +47,7 @@ ISR(TIMER3_COMPA_vect) {
   output.force_limited = static_cast<uint8_t>(step & 1);
   __asm__ volatile("" ::: "memory");
   const uint16_t start = TCNT1;
-  awmr_log::put(ring, input, output, step, 1);
+  awmr_log::put(ring, input, output, step, 1, static_cast<uint8_t>(step % awmr::kSensorFaultCount));
   const uint16_t cycles = static_cast<uint16_t>(TCNT1 - start);
   if (cycles > log_cycles_max) log_cycles_max = cycles;
   step = static_cast<uint8_t>(step + 1);

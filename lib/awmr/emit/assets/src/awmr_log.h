@@ -67,7 +67,7 @@ inline void put(awmr::LogRing<kBlocks>& ring, const awmr_input& in, const awmr_o
   row->fault = out.fault;
   row->limits = static_cast<uint8_t>(out.speed_limited | out.steering_limited << 1 |
                                      out.force_limited << 2 | out.steering_powerless << 3 | sensor_fault << 4);
-  row->reset_cause = reset_cause;
+  row->reset_cause = static_cast<uint8_t>(reset_cause | (sensor_fault & 16) << 3);
   ring.end_row();
 }
 
