@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Lines of the table: number of leads that the measured scrub ends. `all`: entries of one pair of
-/// modes.
+/// Lines for one pair of modes: in how many scenarios the first is still ahead with the measured
+/// scrub. `all`: the entries of the pair.
 std::string decided(const std::vector<const BreakEven*>& all) {
   std::map<Lead, int> count;
   int at_other_rates = 0;

@@ -11,12 +11,12 @@
 namespace awmr {
 namespace {
 
-/// At most 7 characters up to 10^7.
+/// Formats a metric in at most 7 characters, for values below 10^7.
 std::string figure(double value) {
   return fmt::format("{:.{}f}", value, std::abs(value) < 100.0 ? 3 : std::abs(value) < 1e4 ? 1 : 0);
 }
 
-/// "1", "2=" for a tie, "-" without a ranking.
+/// Rank of a contender: "1", "2=" for a tie, "-" without a ranking.
 std::string place_of(const Contender& contender, const std::vector<RankedMode>& ranking) {
   for (const RankedMode& ranked : ranking) {
     if (ranked.contender == contender) {

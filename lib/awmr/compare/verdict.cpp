@@ -19,8 +19,8 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-/// The scored metric with the largest relevant difference of `other` to `best`, in units of its
-/// margin.
+/// The metric with a weight in which `other` is behind `best` by the largest relevant difference,
+/// as a multiple of the metric's margin. Null if there is none.
 const PairedDifference* widest_gap(const std::vector<PairedDifference>& differences,
                                    const Preferences& preferences, const Contender& best,
                                    const Contender& other) {
@@ -70,7 +70,7 @@ std::string completion_text(const ScenarioRows& scenario) {
   return text.empty() ? "all completed" : text;
 }
 
-/// " by 31 % (95 %: 28 to 35 %)": of the score.
+/// How far the score is behind that of the best mode: " by 31 % (95 %: 28 to 35 %)".
 std::string share_text(const RankedMode& other) {
   if (!(other.score > 1.0)) return "";
   const auto percent = [](double ratio) { return 100.0 * (ratio - 1.0); };
