@@ -15,8 +15,8 @@ namespace awmr {
 struct TuneConfig {
   TuneOptions options;
   std::vector<std::filesystem::path> scenario_files;  ///< of `options.scenarios`
-  std::optional<std::filesystem::path> baseline_file =
-      {};  ///< of `options.baseline`, if it has one
+  /// File of `options.baseline`, if it was read from one.
+  std::optional<std::filesystem::path> baseline_file = {};
 };
 
 /// Reads a baseline: "pole-placement" (returns no gains), "paper" or the path of a gains.json.

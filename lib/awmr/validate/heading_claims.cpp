@@ -1,4 +1,4 @@
-// C3, C6, C7 and C13: the closed heading loop.
+// Checks of the claims C3, C6, C7 and C13 about the closed heading loop.
 
 #include <fmt/format.h>
 
@@ -15,12 +15,12 @@ namespace {
 
 const std::vector<double> kDriven_deg{30.0, 45.0};  ///< headings of the experiment     [paper 6]
 
-/// "Without overshoot": not visible in a figure of the paper; also the smallest settling band of
-/// metrics.h.
+/// Criterion for "without overshoot": an overshoot that is not visible in a printed figure. It is also
+/// the smallest settling band of metrics.h.
 constexpr double kNoOvershoot_deg = 0.5;
-/// A command chatters if it reverses by more than 1 % of its range more than once per second, on
-/// average over the run. A discontinuous law reverses at up to every second sample: 50 times per
-/// second.
+/// Criterion for "chattering": a command reverses by more than 1 % of its range more than once per
+/// second, on average over the run. A discontinuous law reverses up to every second sample: 50 times
+/// per second at a sample time of 0.01 s.
 constexpr double kReversalBand = 0.01;
 constexpr double kReversalsPerSecond = 1.0;
 constexpr double kDrivenTauSpeed = 1.4;     ///< 35 % of four motors' thrust       [paper 6]
@@ -84,8 +84,8 @@ bool same_heading_gains(const HeadingGains<double>& a, const HeadingGains<double
          1e-9;
 }
 
-/// The sideslip in differential mode depends on its yaw rate, so results for other gains are shown
-/// next to those for the paper's gains.
+/// C6. The sideslip in differential mode depends on the yaw rate, which depends on the gains.
+/// Therefore the result with the paper's gains is shown in addition to that with other gains.
 Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
   const auto sideslip = [](const ModeRun& run) -> std::optional<double> {
     return run.metrics.sideslip_max_deg;
@@ -118,7 +118,7 @@ Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
   return claim;
 }
 
-/// Largest number of reversals per second of the commanded F'L, F'R and d_r.
+/// Number of reversals per second of the command that reverses most: F'L, F'R or d_r.
 double reversals_per_second(const Model& model, const ModeRun& run) {
   std::vector<double> left, right, steering;
   for (const RunRow& row : run.run.rows) {
@@ -156,7 +156,7 @@ Claim no_chattering(const Model& model, const ModeRuns& runs) {
           .modes = verdicts_by_mode(runs, rests)};
 }
 
-/// The experiment's headings under its constant thrust.
+/// Scenario of C13: headings and constant thrust of the paper's experiment.
 Scenario driven_headings(const HeadingSetting& setting) {
   Scenario driven = heading_steps(kDriven_deg, {.hold_s = setting.hold_s(), .name = "C13"});
   driven.speed_mps = 0.0;
