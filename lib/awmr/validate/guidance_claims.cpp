@@ -62,7 +62,7 @@ Claim waypoints_reached(const ModeRuns& runs) {
   Claim claim{.id = "C8",
               .statement = "line of sight over E, F, G, H: all reached, |d_r| at most 20 deg",
               .reproduced = reached && all_within,
-              .figure = fmt::format("all reached after {}; largest |d_r| {}; way {}",
+              .figure = fmt::format("all reached after {}; largest |d_r| {}; path length {}",
                                     by_mode(runs, "s", finish_s), by_mode(runs, "deg", steering),
                                     by_mode(runs, "m", path_m)),
               .tolerance = "each within 1 m (the paper prints no radius); d_r at most 20 deg",
@@ -73,8 +73,8 @@ Claim waypoints_reached(const ModeRuns& runs) {
                              " turns too wide for the acceptance radius"
               : !all_within ? "the front wheels of this vehicle turn further than 20 deg"
                             : "each turn fits between the points, and the allocation clips d_r at "
-                              "its stop; the paper finds the longest way in combined mode, here "
-                              "it is the mode that turns widest";
+                              "its stop; the longest path is in the mode with the widest turns, in "
+                              "the paper in combined mode";
   return claim;
 }
 
@@ -105,8 +105,8 @@ Claim line_followed(const ModeRuns& runs) {
           .tolerance = fmt::format("{} m, a hundredth of the lane's half width, and the end of the "
                                    "line passed",
                                    accepted_m),
-          .why = all_on_it ? "with beta taken off, d_dot = -U sin(Delta sat(d/R)) [paper (113)] "
-                             "once the heading follows"
+          .why = all_on_it ? "with beta subtracted, d_dot = -U sin(Delta sat(d/R)) [paper (113)] "
+                             "as soon as the heading follows"
                            : "the heading does not follow its reference closely enough in " +
                                  modes_without(runs, on_it),
           .modes = verdicts_by_mode(runs, on_it)};
@@ -140,8 +140,9 @@ Claim obstacles_avoided(const ModeRuns& line, const ModeRuns& points) {
                                    100.0 * kAlikeShare),
           .why = !avoided ? "at least one mode does not complete its path"
                  : !same  ? "all modes avoid the obstacles, but one turns wider and takes longer"
-                          : "MMD is chosen for the widest turn, so every mode has room; the "
-                            "paper's own rule is lost with its figure, this is the project's"};
+                          : "the minimum manoeuvring distance is chosen for the widest turn, so "
+                            "every mode has room; the paper's rule is lost with its figure, this "
+                            "is the project's"};
 }
 
 /// Largest distance of the vehicle from the point of the path at the same time, m.
@@ -186,8 +187,8 @@ Claim timed_path_followed(const ModeRuns& open, const OffPath& closed_off_m) {
   return {.id = "C11",
           .statement = "the Lissajous path x = 10 cos 0.01t, y = 10 sin 0.03t is followed",
           .reproduced = all,
-          .figure = fmt::format("largest distance from the path's point, heading alone (the "
-                                "paper's form): {}; with the position fed back: {}",
+          .figure = fmt::format("largest distance from the point of the path, heading alone (the "
+                                "paper's form): {}; with position feedback: {}",
                                 by_mode(open, "m", off), by_mode(open, "m", closed_off)),
           .tolerance = fmt::format("{} m in every mode with the paper's form, a twentieth of the "
                                    "path's width",

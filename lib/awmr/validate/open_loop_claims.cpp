@@ -85,7 +85,7 @@ Turn turn_of(const Model& model, YawMode mode, const ControlOptions& control) {
 
 std::string figure_of(const Turn& turn) {
   if (!turn.circle) return fmt::format("{}: no two turns in 960 s", name_of(turn.mode));
-  return fmt::format("{}: diameter {:.2f} m, off the circle by {:.3f} % of the radius, {:.2f} m/s",
+  return fmt::format("{}: diameter {:.2f} m, deviation {:.3f} % of the radius, {:.2f} m/s",
                      name_of(turn.mode), 2.0 * turn.circle->radius_m,
                      100.0 * turn.circle->deviation_m / turn.circle->radius_m, turn.speed_mps);
 }
@@ -147,7 +147,7 @@ Claim check_straight_run(const Model& model, const Plant<double>& plant,
   claim.figure +=
       fmt::format(", measured u_max {:.4g} m/s ({:+.1f} %)", fastest->measured, 100.0 * difference);
   claim.tolerance +=
-      fmt::format(" and {:.0f} % of the measured one, by which Table 2 disagrees with itself",
+      fmt::format(" and {:.0f} % of the measured one, because Table 2 has an error of that size",
                   100.0 * kMeasuredTolerance);
   claim.why = !settles ? why_not_settled(model)
               : claim.reproduced
@@ -188,8 +188,8 @@ Claim check_time_constants(const std::optional<Gains<double>>& gains) {
       .statement = "lambda 3, mu 50, eps 12 give T1 = 0.33 s and T2 = 0.12 s",
       .figure = fmt::format("T1 = 1/lambda = {:.4f} s, T2 = eps/(2 mu) = {:.4f} s", t1_s, t2_s),
       .tolerance = "0.005 s, half of the last printed digit",
-      .why = fmt::format("arithmetic; S itself decays with 2 T2 = {:.2f} s, which is {} T1 "
-                         "too",
+      .why = fmt::format("computed from the gains; S itself decays with 2 T2 = {:.2f} s, which is "
+                         "also {} T1",
                          2.0 * t2_s, 2.0 * t2_s < t1_s ? "below" : "not below")};
   claim.reproduced = std::abs(t1_s - 0.33) <= 0.005 && std::abs(t2_s - 0.12) <= 0.005;
   if (gains) {

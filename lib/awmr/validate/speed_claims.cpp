@@ -60,9 +60,9 @@ Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs)
                                "excess after a heading step is for information",
                                kAccepted_mps),
       .why = none_over && no_error
-                 ? "the law is of first order in u and knows the resistance exactly here; the "
+                 ? "the speed loop is of first order, and its law has the exact resistance; the "
                    "excess at a step comes from the servo's lag: forces are allocated for the "
-                   "commanded angle but act at the actual one"
+                   "commanded steering angle but act at the actual one"
              : !no_error ? "force limits, or a turn that has not ended, leave a steady error"
                          : "while the front wheels move, their lag and the force limits make "
                            "the thrust differ from the command",
@@ -117,8 +117,8 @@ std::string why_speed_is_held_or_not(bool holds, bool saturates, bool others_dro
   why += others_drop
              ? "; steering and combined: in the turn the thrust falls short of the command"
              : "; steering and combined do not both drop by a visible and slight amount: the exact "
-               "allocation keeps tau_speed and the speed law compensates m' r v, which leaves only "
-               "the servo's lag and the limits to cause a drop";
+               "allocation keeps tau_speed and the speed law compensates m' r v, so only the "
+               "servo's lag and the limits can cause a drop";
   return why;
 }
 
