@@ -141,21 +141,20 @@ Claim no_chattering(const Model& model, const ModeRuns& runs) {
   };
   const auto rests = [&](const ModeRun& run) { return *rate(run) <= kReversalsPerSecond; };
   const bool quiet = all_modes(runs, rests);
-  return {
-      .id = "C7",
-      .statement = "no chattering",
-      .reproduced = quiet,
-      .figure = "F'L, F'R or d_r, whichever reverses most: " + by_mode(runs, "reversals/s", rate),
-      .tolerance = fmt::format("no command reverses by more than {:.0f} % of its range more "
-                               "than {} time(s) per second; with chattering it does so up to "
-                               "{:.0f} times",
-                               100.0 * kReversalBand, kReversalsPerSecond,
-                               0.5 / model.vehicle.sample_time_s),
-      .why = quiet ? "inside the boundary layer the law is continuous: the commands follow the "
-                     "heading steps and then stay constant"
-                   : "the loop is too stiff for the sample time or the servo: the commands "
-                     "reverse without a step",
-      .modes = verdicts_by_mode(runs, rests)};
+  return {.id = "C7",
+          .statement = "no chattering",
+          .reproduced = quiet,
+          .figure = "most reversals of F'L, F'R, d_r: " + by_mode(runs, "reversals/s", rate),
+          .tolerance = fmt::format("no command reverses by more than {:.0f} % of its range more "
+                                   "than {} time(s) per second; with chattering it does so up to "
+                                   "{:.0f} times",
+                                   100.0 * kReversalBand, kReversalsPerSecond,
+                                   0.5 / model.vehicle.sample_time_s),
+          .why = quiet ? "inside the boundary layer the law is continuous: the commands follow the "
+                         "heading steps and then stay constant"
+                       : "the loop is too stiff for the sample time or the servo: the commands "
+                         "reverse without a step",
+          .modes = verdicts_by_mode(runs, rests)};
 }
 
 /// Scenario of C13: headings and constant thrust of the paper's experiment.
