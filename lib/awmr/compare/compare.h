@@ -27,7 +27,7 @@ namespace awmr {
 
 /// One set of gains, with its name in the rows of the comparison.
 struct NamedGains {
-  std::string name;  ///< empty with a single set
+  std::string name;  ///< empty if there is a single set
   Gains<double> gains;
 };
 
@@ -189,7 +189,7 @@ std::vector<std::pair<std::string_view, std::optional<double>>> named_metrics(
 /// Content of comparison.csv. `completed` is 1 or 0; a metric that does not apply has an empty cell.
 /// With several sets of gains, the last column is `gains`.
 std::string comparison_csv(const Comparison& comparison);
-/// Content of comparison.json.
+/// Content of comparison.json: options, statistics, ranking and verdict of each scenario.
 std::string comparison_text(const Comparison& comparison, const CompareOptions& options,
                             const Provenance& provenance);
 

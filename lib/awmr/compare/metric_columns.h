@@ -45,7 +45,7 @@ struct MetricColumn {
   /// Difference in the metric's unit that is too small to matter, >= 0 (scoring.h). A metric with a
   /// floor above 0 can rank modes; lower values are better. 0: the metric is not used in rankings.
   double ranking_floor = 0.0;
-  double default_weight = 0.0;  ///< in the ranking
+  double default_weight = 0.0;  ///< weight in the ranking if the user gives none
 
   bool can_rank() const { return ranking_floor > 0.0; }
   /// Absent if the metric does not apply to the run.

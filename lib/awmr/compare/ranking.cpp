@@ -22,8 +22,8 @@ constexpr int kWeightings = 1000;
 /// A mode with the logarithms that its score is computed from.
 struct Entry {
   const ModeRows* rows = nullptr;
-  std::vector<double> log_scores;   ///< by counted run
-  std::vector<double> mean_losses;  ///< by scored metric, over the counted runs
+  std::vector<double> log_scores;   ///< log_score() of each counted run
+  std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() of the counted runs
   bool completes = true;            ///< completes not significantly less often than the best
 
   double log_score() const { return mean(log_scores); }

@@ -206,7 +206,7 @@ std::vector<double> holm(std::span<const double> p) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return p[a] < p[b]; });
   std::vector<double> corrected(p.size());
-  double largest = 0.0;  // largest corrected p so far, because the correction is monotonic
+  double largest = 0.0;  // largest corrected p so far: a larger p never gets a smaller correction
   for (std::size_t i = 0; i < order.size(); ++i) {
     largest = std::max(largest, static_cast<double>(p.size() - i) * p[order[i]]);
     corrected[order[i]] = std::min(1.0, largest);

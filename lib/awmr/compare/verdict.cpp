@@ -38,7 +38,7 @@ const PairedDifference* widest_gap(const std::vector<PairedDifference>& differen
   return widest;
 }
 
-/// ", most of all in finish_time_s: 8.2 s more (95 %: 8 to 8.4)"
+/// Metric in which a mode is behind most: ", most of all in finish_time_s: 8.2 s more (95 %: 8 to 8.4)"
 std::string gap_text(const PairedDifference* gap, const Contender& other) {
   if (gap == nullptr) return "";
   // If `other` is the second of the pair, first minus second is below 0.
@@ -54,7 +54,7 @@ std::string gap_text(const PairedDifference* gap, const Contender& other) {
   return text;
 }
 
-/// "steering completed 10 of 20 (95 %: 27 to 73 %)", or "all completed".
+/// Completed runs: "steering completed 10 of 20 (95 %: 27 to 73 %)", or "all completed".
 std::string completion_text(const ScenarioRows& scenario) {
   std::string text;
   for (const ModeRows& rows : scenario.modes) {
@@ -82,7 +82,7 @@ std::string share_text(const RankedMode& other) {
   return text;
 }
 
-/// "combined is best", "combined and steering tie for the first place".
+/// The modes of rank 1: "combined is best", "combined and steering are tied for best".
 std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided,
                        const Preferences& preferences) {
   const RankedMode& best = ranking.front();
@@ -98,7 +98,7 @@ std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided
                      100.0 * preferences.relevance);
 }
 
-/// "; combined is first under 83 % of all weights and in 97 % of the samples"
+/// Robustness of rank 1: "; combined is best for 83 % of all metric weightings and in 97 % of the samples"
 std::string stability_text(const RankedMode& best) {
   if (!best.tied_with.empty()) return {};  // no mode is first
   std::string text = fmt::format("; {} is best for {:.0f} % of all metric weightings",

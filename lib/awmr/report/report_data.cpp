@@ -27,7 +27,7 @@ namespace {
 /// Hashes of model.json and gains.json in the directory.
 struct Origin {
   std::string model_sha256;
-  std::string gains_sha256 = {};  ///< empty: no gains.json of this model
+  std::string gains_sha256 = {};  ///< empty if there is no gains.json for this model
 };
 
 /// Finding if a result was made from another model or other gains than those in the directory. Empty if

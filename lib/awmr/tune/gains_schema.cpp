@@ -188,7 +188,7 @@ void describe_worst_case(JsonObject json, const char* value) {
 
 /// Worst cases over the model's confidence set, by mode.
 void describe_certificate(JsonObject json) {
-  json.string("set");  // "95 %", or the model's own values
+  json.string("set");  // examined set of plants: kCertifiedSet or kUncertifiedSet
   json.number("damping_min", {.min = -1.0, .max = 1.0});
   json.nullable_number("delay_margin_s", kNonNegative);
   json.string("method");

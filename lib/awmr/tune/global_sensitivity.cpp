@@ -94,7 +94,7 @@ Result<std::vector<Sample>> drawn_samples(const Model& model, std::uint64_t seed
     if (sampler) {
       AWMR_ASSIGN_OR_RETURN(sample.model, sampler->draw_model(seed, number));
     }
-    sample.model.record = {};  // saves memory: there is one model per sample
+    sample.model.record = {};  // not needed; saves memory, because each sample has a model
     Random random(seed ^ 0x736f626f6cULL, static_cast<std::uint64_t>(number));
     for (double* level : {&sample.noise_level, &sample.latency, &sample.motor_lag}) {
       *level = 2.0 * random.uniform();

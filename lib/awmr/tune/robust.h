@@ -33,9 +33,9 @@ std::vector<EvaluatedRuns> run_candidates(const ObjectiveSetting& setting,
                                           const std::vector<NamedCandidate>& candidates);
 
 struct EvaluationResult {
-  std::vector<EvaluatedGains> gains;  ///< by gains, then mode
-  std::vector<EvaluatedGains>
-      by_scenario;  ///< by scenario, then gains, then mode; empty with a single scenario
+  std::vector<EvaluatedGains> gains;  ///< over all scenarios, by gains, then mode
+  /// By scenario, then gains, then mode; empty with a single scenario.
+  std::vector<EvaluatedGains> by_scenario;
   std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode
 };
 /// Modes, scenarios and goals by which runs are evaluated.

@@ -49,8 +49,8 @@ Matrix5 held_over(const SampledHeadingLoop& loop, double time_s) {
 
 /// A delay as whole samples and a fraction of a sample.
 struct SplitDelay {
-  int samples;  ///< >= 0
-  double part;  ///< [0, 1)
+  int samples;  ///< whole samples, >= 0
+  double part;  ///< the rest as a fraction of a sample, [0, 1)
 };
 SplitDelay split_delay(double delay_s, double sample_time_s) {
   constexpr double kRounding = 1e-9;
@@ -158,7 +158,7 @@ class CompensatedLoop {
 };
 
 bool is_same_delay(double a_s, double b_s, const SampledHeadingLoop& loop) {
-  constexpr double kConverged = 1e-7;  // of a sample time
+  constexpr double kConverged = 1e-7;  // largest difference, as a fraction of the sample time
   return std::abs(a_s - b_s) < kConverged * loop.sample_time_s;
 }
 

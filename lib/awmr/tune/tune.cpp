@@ -41,7 +41,7 @@ constexpr double kMostSearchSteps = 1e11;
 Status check_work(const TuneOptions& options, const std::vector<Scenario>& scenarios,
                   const Plant<double>& plant, const Model& model) {
   const double sample_time_s = model.vehicle.sample_time_s;
-  double steps = 0.0;  // of one evaluation
+  double steps = 0.0;  // RK4 steps of one evaluation
   for (const Scenario& scenario : scenarios) {
     AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, sample_time_s));
     steps += static_cast<double>(tuned_modes(model.vehicle, options.mode).size()) *
@@ -305,7 +305,8 @@ Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const T
   return {};
 }
 
-/// `setting` and `context` are those of the nominal search.
+/// Tunes robust gains: adds draws, noise, latency and motor lag to the `setting` and `context` of the
+/// nominal search.
 Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                              ConstraintContext context, const TuneOptions& options,
                              const Scenario& held_out) {

@@ -115,8 +115,8 @@ inline constexpr double kWider = 0.1;
 /// missing in a paper. Each draw gets the next combination of a mass factor and a wheel-force
 /// range; the nominal plant is not varied.
 struct UnmodelledVariation {
-  std::vector<double> mass_factors = {};    ///< of m' and I'z alike; empty: 1
-  std::vector<Interval> wheel_forces = {};  ///< F' of one wheel over F_max; empty: the vehicle's
+  std::vector<double> mass_factors = {};    ///< factors on both m' and I'z; empty: 1
+  std::vector<Interval> wheel_forces = {};  ///< ranges of F'; empty: the vehicle's own range
 
   std::size_t combinations() const;  ///< >= 1
   bool any() const { return !mass_factors.empty() || !wheel_forces.empty(); }
@@ -133,8 +133,8 @@ struct GoalLimit {
 /// Goal: at least this share of the draws meets every limit in all scenarios.
 struct TuningGoal {
   std::vector<GoalLimit> at_most;  ///< one or more limits, each of another metric
-  double share = 0.95;             ///< [kLeastShare, kMostShare]
-  std::optional<YawMode> mode;     ///< absent: in each mode
+  double share = 0.95;             ///< of the draws, in [kLeastShare, kMostShare]
+  std::optional<YawMode> mode;     ///< the mode in which it must be met; absent: in each mode
   /// true: the objective has a penalty for missing the goal. false: a constraint; gains that miss
   /// it on the draws of the search are rejected.
   bool is_soft = false;
@@ -196,7 +196,7 @@ struct TuneOptions {
 
 /// A constraint that is active at the tuned gains.
 struct ActiveConstraint {
-  std::string name;  ///< of a constraint or a goal, or "activity, MODE"
+  std::string name;  ///< name of a constraint or a goal, or "activity, MODE"
   /// Relative improvement of the objective if the limit is relaxed by kWider, >= 0.
   double wider_gains = 0.0;
 };
@@ -229,7 +229,7 @@ struct ModeScore {
 
 /// An evaluation of the search that improved on all earlier ones.
 struct SearchStep {
-  int evaluation = 0;      ///< from 1
+  int evaluation = 0;      ///< number of the evaluation, from 1
   double objective = 0.0;  ///< the gains meet every constraint
 };
 
@@ -263,7 +263,7 @@ struct EvaluatedFigure {
   std::string name;  ///< "heading_iae_degs"
   double median = 0.0;
   double q95 = 0.0;
-  double tail_mean = 0.0;  ///< over the worst tail_share of the draws (CVaR)
+  double tail_mean = 0.0;  ///< mean over the worst tail_share of the draws (CVaR)
 };
 
 /// EvaluatedGains::gains of the tuned gains.
@@ -284,13 +284,13 @@ struct EvaluatedGains {
 struct SobolIndex {
   double first = 0.0;               ///< first order: in [0, 1], apart from the sampling error
   double total = 0.0;               ///< total, >= 0: including interactions with other inputs
-  Interval first_ci95, total_ci95;  ///< by bootstrap
+  Interval first_ci95, total_ci95;  ///< 95 % intervals of `first` and `total`, by bootstrap
 };
 /// Mean, spread and Sobol indices of a metric of the runs in one mode.
 struct SensitiveFigure {
   YawMode mode{};
   std::string name;                  ///< "settling_time_s"
-  double mean = 0.0;                 ///< in its unit
+  double mean = 0.0;                 ///< in the unit of the metric
   double deviation = 0.0;            ///< standard deviation, >= 0
   std::vector<SobolIndex> by_input;  ///< in the order of GlobalSensitivity::inputs
 };
@@ -298,7 +298,7 @@ struct SensitiveFigure {
 struct GlobalSensitivity {
   int samples = 0;  ///< N; the loop is simulated for N (2 + number of inputs) samples
   std::vector<std::string> inputs;
-  std::vector<SensitiveFigure> figures;  ///< by mode, then figure
+  std::vector<SensitiveFigure> figures;  ///< by mode, then metric
 };
 
 /// Result of a goal on fresh draws.
@@ -388,7 +388,7 @@ inline constexpr double kCertifiedShare = 0.95;  ///< probability of the confide
 struct Tuning {
   Gains<double> gains{};
   std::vector<ConstraintReport> constraints;
-  double objective = 0.0;         ///< over all modes, scenarios and plants (objective.h)
+  double objective = 0.0;         ///< J over all modes, scenarios and plants (objective.h)
   std::vector<ModeScore> scores;  ///< of the nominal plant, by mode, then scenario
   Baseline baseline;
   TuningLimits limits;  ///< of the search, with the defaults filled in

@@ -116,8 +116,8 @@ DriveChannel measured_channel(const DrivingLog& log, LogChannel which, std::size
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s) {
   if (from_s && *from_s < log.t_s.front()) {
     return input_error(ErrorCode::kTooFewData, log.file,
-                       fmt::format("the log begins at {:g} s, but the scenario shall begin at "
-                                   "{:g} s; give a later time with --from",
+                       fmt::format("the log begins at {:g} s, but --from is {:g} s; give a later "
+                                   "time",
                                    log.t_s.front(), *from_s));
   }
   for (std::size_t row = 0; row < log.rows(); ++row) {
@@ -127,9 +127,7 @@ Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<doub
   }
   return input_error(
       ErrorCode::kTooFewData, log.file,
-      from_s ? fmt::format("the log ends before {:g} s, at which the scenario shall begin; give an "
-                           "earlier time with --from",
-                           *from_s)
+      from_s ? fmt::format("the log ends before {:g} s (--from); give an earlier time", *from_s)
              : "the log commands nothing (every force and steering command is 0); give a log of "
                "the drive");
 }

@@ -16,9 +16,9 @@ struct ChannelValidation {
   std::string channel;  ///< "yaw_rate_radps"
   std::string unit;
   int samples = 0;
-  PredictionError one_step;      ///< from one measured row to the next
-  PredictionError long_horizon;  ///< from the commands alone, over windows of `horizon_s`
-  PredictedSeries series = {};   ///< of the long horizon, reduced to the points that a chart needs
+  PredictionError one_step;      ///< of the prediction from each measured row to the next
+  PredictionError long_horizon;  ///< of the prediction from the commands over windows of horizon_s
+  PredictedSeries series = {};   ///< that prediction, reduced to the points that a chart needs
 };
 
 /// Result of validate_log().

@@ -45,8 +45,8 @@ namespace awmr {
 /// Prediction errors of both plants for one channel of windows that the tyres were not fitted to.
 struct HeldOutError {
   std::string channel;          ///< "yaw_rate_radps"
-  double model_rms = 0.0;       ///< of the 3-DOF plant, SI, >= 0
-  double four_wheel_rms = 0.0;  ///< SI, >= 0
+  double model_rms = 0.0;       ///< RMS error of the 3-DOF plant in SI units, >= 0
+  double four_wheel_rms = 0.0;  ///< RMS error of the four-wheel plant in SI units, >= 0
 };
 
 /// Result of fit_tyres().
@@ -55,7 +55,7 @@ struct TyreFit {
   std::optional<Estimate> friction;  ///< mu; absent if the logs do not determine it
   /// c_a, 1/rad; absent if the logs do not determine it.
   std::optional<Estimate> cornering_per_rad;
-  int windows = 0;                          ///< of 5 s each, >= kFewestTyreWindows
+  int windows = 0;                          ///< number of windows of 5 s, >= kFewestTyreWindows
   std::vector<HeldOutError> held_out = {};  ///< by channel
   /// The plant with the smaller errors on held-out windows; absent if the interval of D_w contains 0.
   std::optional<PlantKind> better = {};

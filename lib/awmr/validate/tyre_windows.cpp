@@ -9,7 +9,7 @@ namespace awmr::tyre_fit {
 namespace {
 
 std::vector<double> steering_angles(const DrivingLog& log, const Plant<double>& plant) {
-  constexpr double kLongestStep = 0.25;  // of the servo's time constant
+  constexpr double kLongestStep = 0.25;  // longest step, as a fraction of the servo's time constant
   std::vector<double> angles;
   if (!log.steering_command_rad) return angles;
   const std::vector<double>& commands = *log.steering_command_rad;

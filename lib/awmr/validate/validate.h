@@ -68,8 +68,8 @@ struct Validation {
   std::optional<double> turning_rms_relative_error;
   std::optional<double> coastdown_rms_relative_error;
   std::vector<LogValidation> logs;
-  std::optional<TyreFit> tyres;    ///< of the four-wheel plant, fitted to the logs if requested
-  std::vector<Acceptance> drives;  ///< from logs of a scenario under the controller
+  std::optional<TyreFit> tyres;    ///< tyres fitted to the logs, if requested
+  std::vector<Acceptance> drives;  ///< results for drives of a scenario under the controller
   std::vector<Claim> claims;
   /// True if every kind of trial and every log is predicted within its tolerance, and every drive of
   /// a scenario is within the prediction. False if there is none of them.
@@ -113,7 +113,8 @@ std::string validation_text(const Validation& validation, const Provenance& prov
 
 /// Prediction errors of each log by channel, as text for a terminal; empty without logs.
 std::string logs_table(const Validation& validation);
-/// Residuals and claims as a table for a terminal.
+/// Table for a terminal: measured and predicted values of the trials, errors of the logs, verdict, and
+/// claims.
 std::string validation_table(const Validation& validation);
 
 /// Every claim with verdict, simulated numbers, criterion and reason, for a terminal.

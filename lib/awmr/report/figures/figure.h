@@ -24,7 +24,7 @@ enum class Role {
 enum class SeriesShape {
   kLine,
   kPoints,
-  kBand,    ///< over x from `low` to `high`
+  kBand,    ///< a filled area over x, from `low` to `high`
   kTicks,   ///< short vertical lines at x, in row y of an axis with names
   kRanges,  ///< a bar from `low` to `high` along x with a mark at x, in row y of an axis with names
 };

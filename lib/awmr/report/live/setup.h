@@ -14,9 +14,9 @@ namespace awmr {
 struct LiveSetup {
   ConstraintContext context;  ///< its plant is the nominal one of the model
   double allocation_form = 0.0;
-  double observer_yaw_max_m = 0.0;  ///< for an observer tuned with the gains
+  double observer_yaw_max_m = 0.0;  ///< limit of the observer, if one was tuned with the gains
   double observer_surge_max = 0.0;
-  double speed_mps = 0.0;  ///< of the scenario
+  double speed_mps = 0.0;  ///< u_d of the scenario
   double duration_s = 0.0;
   State<double> initial{};
   std::vector<HeadingStep> steps;
