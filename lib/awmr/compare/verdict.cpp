@@ -93,7 +93,7 @@ std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided
   const bool equal = std::all_of(ranking.begin() + 1, ranking.end(), [](const RankedMode& mode) {
     return mode.towards_leader == Conclusion::kEquivalent;
   });
-  if (!equal) return joined(first) + " are tied: these runs do not separate them";
+  if (!equal) return joined(first) + " are tied: these runs show no significant difference";
   return fmt::format("{} are tied: equal within {:g} %", joined(first),
                      100.0 * preferences.relevance);
 }

@@ -276,8 +276,8 @@ Status check_options(const TuneOptions& options, const Vehicle& vehicle) {
         {ErrorCode::kOutOfRange, "", fmt::format("margin: {} is not in (0, 1)", options.margin)});
   }
   if (options.global_evaluations < 1 || options.local_evaluations < 0) {
-    faults.push_back(
-        {ErrorCode::kOutOfRange, "", "evaluations: global at least 1, local at least 0"});
+    faults.push_back({ErrorCode::kOutOfRange, "",
+                      "global_evaluations must be at least 1, local_evaluations at least 0"});
   }
   check_robustness(options, faults);
   check_limits(options.limits, faults);

@@ -129,8 +129,8 @@ tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs
           : fmt::format("'{}' is at its limit: {}", costliest->name, advice_on(costliest->name));
   return refusal(
       ErrorCode::kNoGains,
-      fmt::format("no run settles with gains within the limits: none of {} does with the "
-                  "best ({}); {}{}",
+      fmt::format("no run settles with gains within the limits: none of {} runs settles with the "
+                  "best gains ({}); {}{}",
                   runs, in_words(gains), advice,
                   is_held ? fmt::format("; an observer ({}) compensates the friction that holds "
                                         "the vehicle off its heading",

@@ -58,7 +58,7 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
   if (const auto margin =
           json.optional_number("margin", {.min = 0.0, .max = 1.0, .min_excluded = true})) {
     if (*margin >= 1.0) {
-      json.fault(ErrorCode::kOutOfRange, "margin", "1 is not below 1; give a number in (0, 1)");
+      json.fault(ErrorCode::kOutOfRange, "margin", "must be below 1; give a number in (0, 1)");
     }
     options.margin = *margin;
   }

@@ -19,13 +19,13 @@ void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
   const bool is_missed = evaluated.verdict == GoalVerdict::kMissed;
   findings.push_back(
       {"", 0, Severity::kWarning, is_missed ? "goal-missed" : "goal-open",
-       fmt::format("{} of {} fresh draws in {} meet the goal ({:.1f} to {:.1f} %), {:g} % are "
-                   "required: {}",
+       fmt::format("{} of {} fresh draws in {} meet the goal (95 %: {:.1f} to {:.1f} %); {:g} % "
+                   "are required: {}",
                    evaluated.held, evaluated.runs, name_of(evaluated.mode),
                    100.0 * evaluated.ci95.lo, 100.0 * evaluated.ci95.hi,
                    100.0 * evaluated.goal.share,
-                   is_missed ? "tune on more draws (--draws), or raise the goal's limits or lower "
-                               "its share"
+                   is_missed ? "tune on more draws (--draws), raise the goal's limits or lower its "
+                               "share"
                              : "increase judged_draws")});
 }
 
