@@ -224,8 +224,8 @@ bool Decision::survives(const Change& change) const {
                      [&](const Contender& one) { return has(change.first, one); });
 }
 
-/// The plants differ in differential turns by tyre scrub, and in steered turns because rolling
-/// tyres steer even without thrust.
+/// If the best modes of the plants differ, names the trials in which the plants behave differently:
+/// differential turns (tyre scrub), and steering while coasting (rolling tyres steer without thrust).
 std::vector<std::string_view> Decision::deciding_trials() const {
   bool differential = false;
   bool steered = false;

@@ -54,7 +54,7 @@ inline constexpr ObjectiveTerm kObjectiveTerms[] = {
 /// the least active ones. Precondition: heading guidance.
 double unsettled_s(const Scenario& scenario, double itae_degs2);
 
-/// x_i of one run, in the order of kObjectiveTerms.
+/// The metrics x_i of one run, in the order of kObjectiveTerms.
 std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score);
 
 /// J of one run; exactly 1 with the baseline gains. Infinite or NaN if a metric is.
@@ -72,7 +72,7 @@ struct ObjectiveSetting {
   std::vector<Scenario> scenarios;  ///< with heading guidance; not empty
   double tail_share = 1.0;          ///< (0, 1]
   std::uint64_t seed = 0;           ///< of the random numbers of the runs
-  BatchArithmetic arithmetic = {};  ///< of the runs
+  BatchArithmetic arithmetic = {};  ///< instruction set and rounding of the runs
   std::vector<TuningGoal> goals = {};
   /// Number of each vehicle, which with the seed selects its random numbers; empty: 0, 1, ...
   std::vector<std::uint64_t> numbers = {};

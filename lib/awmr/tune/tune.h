@@ -407,8 +407,8 @@ struct Tuning {
   std::vector<ActiveConstraint> active;
   std::string arithmetic;  ///< how the runs were rounded: as BatchArithmetic::rounding
   SearchHistory history;
-  /// The tuned gains in a scenario that the search did not use; the baseline's objective there is
-  /// 1. For information only.
+  /// Scores and objective of the tuned gains in a scenario that the search did not use
+  /// (held_out_scenario()), for information only. The baseline has the objective 1 there.
   std::vector<ModeScore> held_out_scores;
   double held_out_objective = 0.0;
   std::optional<Certificate> certificate;  ///< always present in the result of tune()

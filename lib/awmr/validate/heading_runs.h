@@ -22,7 +22,7 @@ inline constexpr double kLargestStep_deg = 60.0;               ///< largest step
 /// Rounds a result to 1e-4, because smaller differences are rounding errors.
 inline double to_figure(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
 
-/// "differential 0.1, steering 0.2, combined 0.3 UNIT"
+/// Text of a value by mode: "differential 0.1, steering 0.2, combined 0.3 UNIT".
 template <class Value>
 std::string by_mode(const ModeRuns& runs, const std::string& unit, Value value) {
   std::string text;
