@@ -119,7 +119,7 @@ TEST_F(Shards, DamagedOrStoppedPartsAreRefused) {
   EXPECT_THAT(fault({first, write({2, 2}, half)}),
               HasSubstr("part 2 of 2 has fewer rows than another"));
   std::copy_n(half.rows.begin(), half.rows.size(), std::back_inserter(half.rows));
-  EXPECT_THAT(fault({first, write({2, 2}, half)}), HasSubstr("is not in its place"));
+  EXPECT_THAT(fault({first, write({2, 2}, half)}), HasSubstr("are missing or appear twice"));
   // The file of this shard contains rows of another one.
   EXPECT_THAT(fault({first, write({2, 2}, run({1, 2}))}),
               HasSubstr("row 1 has sample 0 instead of 1"));

@@ -65,7 +65,8 @@ TEST(Verdict, GivesTheDifferenceOfTheOtherInEitherOrder) {
 TEST(Verdict, ReportsATie) {
   // A mean of 0.1 s with a standard error of 5/sqrt(20) = 1.1 s: 11 % of 10 s, in one of four
   // metrics.
-  EXPECT_THAT(verdict(twenty(0.1, 5.0)), HasSubstr("are tied: these runs do not separate them"));
+  EXPECT_THAT(verdict(twenty(0.1, 5.0)),
+              HasSubstr("are tied: these runs show no significant difference"));
   // 0.4 s with 0.02 s: less than 5 %, whatever p is.
   EXPECT_THAT(verdict(twenty(0.4, 0.1)), HasSubstr("are tied: equal within 5 %"));
 }

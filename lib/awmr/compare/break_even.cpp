@@ -20,11 +20,11 @@
 namespace awmr {
 namespace {
 
-/// Smallest moment tried, as a share of the largest. The search goes up by decades, because runs
-/// with a larger moment need shorter steps.
+/// Smallest moment that is tried, as a share of the largest one. The search proceeds from small to
+/// large moments by decades, because runs with a larger moment need shorter integration steps.
 constexpr double kLeast = 1e-4;
 
-/// A scenario with the mode under test, on the nominal model.
+/// A scenario on the nominal model, with the mode whose lead is examined.
 struct ModeSetting {
   const Scenario* scenario;
   YawMode mode;
@@ -34,7 +34,8 @@ struct ModeSetting {
   BatchArithmetic arithmetic;
 };
 
-/// Metrics of the scenario in this mode, by scrub moment. Empty for a failed run.
+/// Simulates the scenario in a mode with each scrub moment. Returns the metrics; empty for a run that
+/// fails.
 std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawMode mode,
                                                 const std::vector<double>& moments_m) {
   std::vector<BatchRun> runs;
@@ -51,9 +52,9 @@ std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawM
   return driven;
 }
 
-/// True if the run with scrub completes and scores no worse than the other mode with the same
-/// scrub. False if it lacks a metric that it has without scrub (it no longer settles, or does not
-/// arrive). True if the run of the other mode failed.
+/// True if the run of a mode with scrub is not worse than the run `other` of the other mode with the
+/// same scrub, or if `other` failed. False if the run fails, or lacks a metric that it has without
+/// scrub (it no longer settles, or does not arrive).
 bool is_ahead(const std::optional<Metrics>& run, const Metrics& without,
               const std::optional<Metrics>& other, const std::vector<ScoredMetric>& scoring) {
   if (!run || (without.completed && !run->completed)) return false;
@@ -64,7 +65,7 @@ bool is_ahead(const std::optional<Metrics>& run, const Metrics& without,
   return !lost && log_score(*run, scoring) <= log_score(*other, scoring);
 }
 
-/// Equidistant values from `lo` to `hi`, both included, as many as fill a batch.
+/// kBatchRuns equidistant values from `lo` to `hi`, both included.
 std::vector<double> evenly_between(double lo, double hi) {
   std::vector<double> values;
   for (std::size_t i = 0; i < kBatchRuns; ++i) {
@@ -72,7 +73,7 @@ std::vector<double> evenly_between(double lo, double hi) {
   }
   return values;
 }
-/// The same with equal ratios.
+/// kBatchRuns values from `lo` to `hi` with equal ratios.
 std::vector<double> in_ratios_between(double lo, double hi) {
   std::vector<double> values = evenly_between(std::log(lo), std::log(hi));
   std::transform(values.begin(), values.end(), values.begin(),
@@ -86,8 +87,8 @@ std::optional<std::size_t> first_false(const std::vector<bool>& all) {
   return at(found - all.begin());
 }
 
-/// Smallest moment that ends a lead, with an error of 1 %; absent if none up to `most_m` does.
-/// `ahead`: for each moment of a batch, whether the mode still leads.
+/// Smallest moment with which the mode is no longer ahead, with an error of 1 %; absent if there is
+/// none up to `most_m`. `ahead` returns for each moment whether the mode is still ahead.
 template <class Ahead>
 std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   constexpr double kFine = 0.01;
@@ -109,7 +110,7 @@ std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   return std::nullopt;
 }
 
-/// The runs of sample 0; if the model has scrub, they are repeated without it.
+/// The rows of sample 0 without scrub. If the model has scrub, the runs are repeated without it.
 Result<std::vector<ComparisonRow>> rows_without_scrub(const Model& model,
                                                       const Gains<double>& gains,
                                                       const std::vector<Scenario>& scenarios,
@@ -135,16 +136,16 @@ ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::stri
   return rows;
 }
 
-/// A pair of modes with an incomplete result, and the inputs for it.
+/// A pair of modes whose break-even scrub is to be computed: the inputs, and the entry to complete.
 struct Question {
   ModeSetting setting;
   std::vector<ScoredMetric> scoring;
-  Metrics own;  ///< without scrub
+  Metrics own;  ///< of the mode `setting.mode` without scrub
   BreakEven entry;
 };
 
-/// One question for each mode with smaller wheel-force differences that the given mode is ahead of.
-/// `rows`: those of sample 0.
+/// One question for each mode that has smaller wheel-force differences than `setting.mode` and a
+/// worse score. `rows`: those of sample 0.
 std::vector<Question> questions_of(const ModeSetting& setting, const ScenarioRows& rows,
                                    const std::vector<ScoredMetric>& scoring, BreakEven entry) {
   std::vector<Question> questions;
@@ -179,7 +180,7 @@ void answer(Question& question) {
       });
 }
 
-/// Adds the measured scrub of the model's differential turns to an otherwise complete entry.
+/// Adds the scrub that was measured in differential turns to an otherwise complete entry.
 void add_measured(const Model& model, BreakEven& entry) {
   const auto& scrub = model.yaw_scrub;
   if (scrub) {
@@ -199,8 +200,8 @@ void add_measured(const Model& model, BreakEven& entry) {
       lead_of(entry) != Lead::kOpen || !scrub->ci95_m.contains(*entry.yaw_coulomb_m)) {
     return;
   }
-  // The half width of the interval decreases as 1/sqrt(n), until the interval no longer contains
-  // the moment that ends the lead.
+  // The half width of the interval decreases as 1/sqrt(n) with the number n of turns. Enough turns
+  // are those with which the interval no longer contains the moment that ends the lead.
   constexpr double kMostTurns = 1000.0;
   const double half = 0.5 * (scrub->ci95_m.hi - scrub->ci95_m.lo);
   const double shrunk = half / std::abs(*entry.yaw_coulomb_m - scrub->moment_m);
@@ -208,8 +209,8 @@ void add_measured(const Model& model, BreakEven& entry) {
   if (turns <= kMostTurns) entry.turns_to_decide = static_cast<int>(turns);
 }
 
-/// The questions of all scenarios and modes. `without`: rows of sample 0 without scrub. `entry`: the
-/// values that are common to all.
+/// The questions of all scenarios and modes. `without`: the rows of sample 0 without scrub.
+/// `entry`: an entry with the values that all questions share.
 Result<std::vector<Question>> all_questions(const Model& model, const Gains<double>& gains,
                                             const std::vector<Scenario>& scenarios,
                                             const std::vector<ComparisonRow>& without,

@@ -1,5 +1,5 @@
-/// Break-even analysis: tyre scrub at which a mode is no longer better than another. Private to
-/// this folder.
+/// Break-even analysis: the tyre scrub at which a mode is no longer better than another. Scrub is
+/// the Coulomb yaw moment of tyres in a differential turn. Private to compare/.
 #pragma once
 
 #include <string>
@@ -9,20 +9,22 @@
 
 namespace awmr {
 
-/// For each scenario, and each pair of modes of which the first has larger wheel-force differences
-/// (differential > combined > steering) and the better score without scrub: the scrub at which it
-/// is no longer better. The controller does not compensate the scrub. `comparison` holds the rows
-/// of sample 0 with one set of gains. Errors (input): as sample_plants().
+/// Computes, for each scenario and each pair of modes, the scrub at which the first mode is no
+/// longer better than the second. Pairs are those in which the first has larger wheel-force
+/// differences (differential > combined > steering) and the better score without scrub. The
+/// controller does not compensate the scrub. `comparison` holds the rows of sample 0 with one set of
+/// gains. Errors (input): as sample_plants().
 Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<double>& gains,
                                              const std::vector<Scenario>& scenarios,
                                              const Comparison& comparison,
                                              const CompareOptions& options);
 
-/// True if the run turns at rates outside those of the scrub measurement by more than the allowed
-/// extrapolation.
+/// True if the yaw rate of the run is outside the rates at which scrub was measured by more than a
+/// factor of kLittleFurther.
 bool turns_at_other_rates(const BreakEven& entry);
 
-/// One line for each pair of modes over all scenarios, and the trials that decide it.
+/// Text for a terminal: for each pair of modes the break-even scrub over all scenarios, and the
+/// trials that would decide which mode is better.
 std::string break_even_table(const std::vector<BreakEven>& entries);
 
 }  // namespace awmr

@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Lines of the table: number of leads that the measured scrub ends. `all`: entries of one pair of
-/// modes.
+/// Lines for one pair of modes: in how many scenarios the first is still ahead with the measured
+/// scrub. `all`: the entries of the pair.
 std::string decided(const std::vector<const BreakEven*>& all) {
   std::map<Lead, int> count;
   int at_other_rates = 0;
@@ -85,16 +85,16 @@ std::string break_even_table(const std::vector<BreakEven>& entries) {
   const BreakEven& first = entries.front();
   if (first.measured_m && !first.measured_degps) {
     return text + fmt::format(
-                      "yours: at least {:.3g} m: with this moment\n"
-                      "  the vehicle did not turn (awmr suggest lists forces to turn with)\n",
+                      "this vehicle: at least {:.3g} m,\n"
+                      "  with which the vehicle did not turn (awmr suggest lists larger forces)\n",
                       first.measured_m->lo);
   }
   if (const auto& measured_m = first.measured_m) {
-    return text +
-           fmt::format("yours, measured: {:.3g} to {:.3g} m\n", measured_m->lo, measured_m->hi);
+    return text + fmt::format("measured in this vehicle: {:.3g} to {:.3g} m\n", measured_m->lo,
+                              measured_m->hi);
   }
   return text +
-         "yours: unknown.\n"
+         "not measured in this vehicle.\n"
          "  Record differential turns with straight wheels (awmr suggest lists them) in the "
          "turning table\n";
 }

@@ -46,8 +46,8 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
   for (const Scenario& scenario : scenarios) {
     if (!names.insert(scenario.name).second) {
       faults.push_back({ErrorCode::kGivenTwice, option_text("scenario"),
-                        fmt::format("two scenarios are named '{}' and their rows "
-                                    "could not be distinguished: rename one",
+                        fmt::format("two scenarios are named '{}', so their rows "
+                                    "could not be distinguished; rename one",
                                     scenario.name)});
     }
   }
@@ -55,16 +55,17 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
     if (options.break_even && scenario.tyres) {
       faults.push_back(
           {ErrorCode::kConflict, option_text("break_even"),
-           fmt::format("varies the model's yaw resistance, which scenario '{}' replaces by tyres; "
-                       "remove it, or use the model's plant",
+           fmt::format("varies the yaw resistance of the 3-DOF model, but scenario '{}' is on the "
+                       "four-wheel plant; leave the option out, or use --plant model",
                        scenario.name)});
     }
   }
   std::set<std::string> sets;
   for (const NamedGains& set : gains) {
     if (!sets.insert(set.name).second) {
-      faults.push_back({ErrorCode::kGivenTwice, option_text("gains"),
-                        fmt::format("two sets of gains are named '{}'", set.name)});
+      faults.push_back(
+          {ErrorCode::kGivenTwice, option_text("gains"),
+           fmt::format("two sets of gains are named '{}'; rename one file", set.name)});
     }
   }
   if (options.break_even && (gains.size() > 1 || options.shard.count > 1)) {
@@ -79,19 +80,20 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
   return faults;
 }
 
-/// Checked before memory is allocated for the samples.
+/// Error (input) if there are more than kMaxRuns runs. To be called before memory is allocated for
+/// the samples. `per_sample`: number of runs of each sample.
 Status check_runs(std::size_t per_sample, int samples) {
   const std::size_t most = kMaxRuns / per_sample;
   if (at(samples) + 1 <= most) return {};
   return input_error(
       ErrorCode::kTooLarge, option_text("samples"),
-      fmt::format("{} samples and the nominal one in {} runs each are {:.3g} runs, more than the "
+      fmt::format("{} samples and the nominal one, in {} runs each, are {:.3g} runs, more than the "
                   "limit of {}; give at most {} samples, or fewer scenarios or sets of gains",
                   samples, per_sample, (samples + 1.0) * static_cast<double>(per_sample), kMaxRuns,
                   most > 0 ? most - 1 : 0));
 }
 
-/// Index of a run: positions in the lists of scenarios, gains and kYawModes, and the sample.
+/// Identifies a run by its indices in the lists of scenarios, gains and kYawModes, and its sample.
 struct Place {
   std::size_t scenario, gains, mode, sample;
 };
@@ -136,7 +138,7 @@ Status take_finished(const std::vector<Scenario>& scenarios, const std::vector<N
   return {};
 }
 
-/// A batch: a scenario, gains, a mode and the samples to run.
+/// A batch of runs: one scenario, set of gains and mode, with the samples to run.
 struct Block {
   std::size_t scenario, gains, mode;
   std::vector<std::size_t> samples;
@@ -144,8 +146,8 @@ struct Block {
   Place place(std::size_t i) const { return {scenario, gains, mode, samples[i]}; }
 };
 
-/// The samples of this part in blocks that fill the registers. Each block is run in all scenarios,
-/// gains and modes before the next one, so that a stopped comparison has complete samples.
+/// Divides the samples of this part into blocks of kBatchRuns. The blocks of the same samples in all
+/// scenarios, gains and modes are consecutive, so that a stopped comparison has complete samples.
 std::vector<Block> blocks_of(const Layout& layout, const Shard& shard, const Slots& slots) {
   std::vector<std::size_t> samples;
   for (std::size_t sample = 0; sample < layout.samples; ++sample) {
@@ -175,14 +177,14 @@ std::vector<BatchRun> runs_of(const SampledPlants& plants, const Controller<doub
                               const Block& block, YawMode mode, std::uint64_t seed) {
   std::vector<BatchRun> runs;
   for (const std::size_t sample : block.samples) {
-    // Sample 0 is the run of `awmr simulate`, with only the scenario's seed.
+    // Seed 0 for sample 0: the run is that of `awmr simulate`, whose only seed is the scenario's.
     runs.push_back({plants.vehicle(block.scenario, sample), controller, mode,
                     sample == 0 ? 0 : seed, static_cast<std::uint64_t>(sample)});
   }
   return runs;
 }
 
-/// Runs a block and stores its rows in `slots`, or the errors in `failures`; both are by row.
+/// Runs a block. Stores each result at its row's index in `slots`, or the error in `failures`.
 void run_block(const Model& model, const std::vector<NamedGains>& gains,
                const std::vector<Scenario>& scenarios, std::uint64_t seed,
                const SampledPlants& plants, const BatchArithmetic& arithmetic, const Layout& layout,

@@ -25,12 +25,13 @@
 
 namespace awmr {
 
-/// One set of gains, with the name in its rows.
+/// One set of gains, with its name in the rows of the comparison.
 struct NamedGains {
-  std::string name;  ///< empty with a single set
+  std::string name;  ///< empty if there is a single set
   Gains<double> gains;
 };
 
+/// Result of one run: a row of comparison.csv.
 struct ComparisonRow {
   std::string scenario;
   YawMode mode{};
@@ -49,39 +50,39 @@ struct Contender {
   friend bool operator==(const Contender&, const Contender&) = default;
 };
 
-/// With fewer samples, the coverage of 95 % intervals is lower.
+/// With fewer samples than this, 95 % intervals cover less than 95 %.
 inline constexpr int kFewSamples = 6;
 
-/// Maximum number of runs of a comparison: scenarios times sets of gains times modes times samples,
-/// the nominal one included. Each takes some 2 kB of memory.
+/// Maximum number of runs of a comparison: scenarios times sets of gains times modes times samples
+/// (including the nominal one). A run takes about 2 kB of memory.
 inline constexpr std::size_t kMaxRuns = 1'000'000;
 
 struct CompareOptions {
   /// Monte-Carlo samples in addition to the nominal model (sample 0), >= 0. More samples resolve
   /// smaller differences. 0: only the nominal model, without intervals or tests.
   int samples = 0;
-  /// Seed of the draws, the noise and the bootstrap. Other seeds show the effect of chance on a
-  /// verdict.
+  /// Seed of the draws, the noise and the bootstrap. Repeat with other seeds to see how much a
+  /// verdict depends on chance.
   std::uint64_t seed = 1;
   /// Weights of the ranking. The rows do not depend on them.
   Preferences preferences = {};
   /// Computes Comparison::break_even; needs a single set of gains.
   bool break_even = false;
-  /// Computes Comparison::changes: the ranking on the other plant and with slower and faster gains.
-  /// In a comparison in parts, only the first part has them.
+  /// Computes Comparison::changes: the ranking on the other plant (3-DOF model or four wheels) and
+  /// with slower and faster gains. If the comparison is divided into parts, only the first has them.
   bool other_settings = false;
   /// Tyres of the four-wheel plant, if that is the other plant.
   Tyres<double> tyres = {};
-  /// Samples to run: all, or a part for merge_shards() (shard.h). At most as many parts as samples,
-  /// including the nominal one.
+  /// Part of the samples to run, for merge_shards() (shard.h); default: all. There are at most as
+  /// many parts as samples, including the nominal one.
   Shard shard = {};
-  /// >= 0; 0: one per core. Results do not depend on it.
+  /// Number of threads, >= 0; 0: one per core. Results do not depend on it.
   int threads = 0;
   /// Finished rows of a comparison with the same inputs and seed, to resume one that was stopped.
   std::vector<ComparisonRow> finished = {};
   /// Called with the numbers of finished and of all runs, on the thread that called compare().
   std::function<void(std::size_t done, std::size_t total)> progress = {};
-  /// Stops the comparison once true, before the next run. Null: never.
+  /// If it becomes true, the comparison stops before its next run. Null: it never stops.
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -91,36 +92,37 @@ struct BreakEven {
   std::string scenario;
   YawMode mode{};     ///< differential or combined: it has the better score without scrub
   YawMode against{};  ///< a mode with smaller wheel-force differences
-  /// c, m, > 0, at which the lead ends, with an error of 1.2 % or 7e-6 of most_m; absent if it
-  /// lasts up to most_m.
+  /// Scrub c at which `mode` is no longer ahead, m, > 0; its error is at most 1.2 %, or 7e-6 of
+  /// most_m. Absent if the mode stays ahead up to most_m.
   std::optional<double> yaw_coulomb_m;
   double most_m = 0.0;  ///< the largest yaw moment of left and right wheel forces, m
-  /// Upper bound of scrub, m: four tyres that slide sideways at friction 0.8, 0.8 g m' l_f, with
-  /// the centre of gravity half-way between the axles.
+  /// Largest possible scrub, m: 0.8 g m' l_f, the moment of four tyres that slide sideways at
+  /// friction 0.8, with the centre of gravity half-way between the axles.
   double sliding_m = 0.0;
-  double fastest_degps =
-      0.0;  ///< yaw rate of the mode's run on the model's own values, deg/s, >= 0
-  /// Measured scrub of the vehicle's differential turns, m: the 95 % interval, widened if it
-  /// changes with the rate and up to the largest moment at which the vehicle did not turn. From
-  /// that moment to most_m if the model has no scrub; absent if it has neither.
+  /// Highest yaw rate in the run of `mode` on the nominal model without scrub, deg/s, >= 0.
+  double fastest_degps = 0.0;
+  /// Scrub measured in differential turns of the vehicle, m: its 95 % interval. The interval is
+  /// widened if scrub changes with the yaw rate, and up to the largest moment at which the vehicle
+  /// did not turn. If the model has only that moment, the range is from there to most_m. Absent if
+  /// the model has neither.
   std::optional<Interval> measured_m = {};
   std::optional<Interval> measured_degps =
       {};  ///< yaw rates of those turns; absent if the model has no scrub
-  /// Total number of such turns needed for a decision at the same scatter, at most 1000; absent if
-  /// the lead is decided or more turns would not decide it.
+  /// Total number of differential turns needed to decide whether `mode` is ahead, if their scatter
+  /// stays the same; at most 1000. Absent if it is decided, or if more turns would not decide it.
   std::optional<int> turns_to_decide = {};
 };
 
-/// Effect of the measured scrub on a lead.
+/// Whether BreakEven::mode stays ahead with the measured scrub.
 enum class Lead {
-  kKept,  ///< the lead holds over the whole measured range
-  kLost,  ///< the lead holds nowhere in the measured range
-  kOpen,  ///< undecided: it holds in part of the range, or the run turns at rates at which scrub
-          ///< was not measured
+  kKept,  ///< the mode is ahead in the whole measured range
+  kLost,  ///< the mode is ahead nowhere in the measured range
+  kOpen,  ///< undecided: the mode is ahead in a part of the range, or the run turns at rates at
+          ///< which scrub was not measured
 };
 inline constexpr NameTable<Lead, 3> kLeadNames{
     {{"kept", Lead::kKept}, {"lost", Lead::kLost}, {"open", Lead::kOpen}}};
-/// Absent without measured scrub.
+/// The lead of an entry; absent without measured scrub.
 std::optional<Lead> lead_of(const BreakEven& entry);
 
 /// An assumption that is changed to test whether the ranking depends on it.
@@ -129,7 +131,7 @@ inline constexpr NameTable<ChangeKind, 3> kChangeKindNames{{{"plant", ChangeKind
                                                             {"weights", ChangeKind::kWeights},
                                                             {"gains", ChangeKind::kGains}}};
 
-/// Completed runs of one contender.
+/// Number of completed runs of one contender.
 struct Completion {
   Contender contender;
   std::size_t count = 0;
@@ -141,16 +143,17 @@ struct Change {
   std::string scenario;
   ChangeKind kind{};
   std::string setting;           ///< "four-wheel", "model"; "slower", "faster"; "within a factor 2"
-  std::vector<Contender> first;  ///< of rank 1; for weights: of rank 1 for all of them
+  std::vector<Contender> first;  ///< modes of rank 1; for weights: of rank 1 with all weights
   std::string not_run = {};      ///< why there is no ranking in this setting; empty if there is one
   std::vector<Completion> completed = {};  ///< by contender; empty for weights, which need no runs
 };
 
+/// Result of compare().
 struct Comparison {
   std::vector<ComparisonRow> rows;  ///< finished rows, by scenario, gains, mode, sample
-  /// Number of evaluated samples, including the nominal one: 0, 1, ... as far as every scenario,
-  /// mode and set of gains has them. Fewer than requested if the comparison was stopped, or is a
-  /// part.
+  /// Number of evaluated samples, including the nominal one: the samples 0, 1, ... up to the first
+  /// that some scenario, mode or set of gains lacks. Fewer than requested if the comparison was
+  /// stopped, or is a part.
   int whole_samples = 0;
   bool stopped = false;  ///< true: not all runs were done
   /// Rounding of the runs (BatchArithmetic::rounding). Rows with different rounding cannot be
@@ -158,33 +161,35 @@ struct Comparison {
   std::string arithmetic = {};
   /// Highest yaw rate at which yaw resistance was measured, deg/s, > 0; absent if unknown.
   std::optional<double> measured_yaw_rate_degps = {};
-  /// By break_even_of() (break_even.h); absent if not requested.
+  /// Result of break_even_of() (break_even.h); absent if not requested.
   std::optional<std::vector<BreakEven>> break_even = {};
-  /// By changes_of_runs() (decision.h): plants and gains; empty if not requested.
+  /// Rankings on the other plant and with other gains, by changes_of_runs() (decision.h); empty if
+  /// not requested.
   std::vector<Change> changes = {};
 };
 
-/// Samples draw the fitted parameters from the model's covariance (simulate/plant_sampler.h), and
-/// the scenarios' noise and disturbances from the seeds: the same draws for all modes and gains.
-/// The controller keeps the model's own values. Samples are run kBatchRuns at a time
-/// (simulate/batch.h), each of these blocks in every scenario and mode, so that a stopped
-/// comparison is a valid one with fewer samples. Errors (input): the model lacks a parameter, or,
-/// with samples, a covariance to draw from, or an interval that a scenario's corner needs; no
-/// scenario, or two of the same name; a negative number of samples or threads; more than kMaxRuns
-/// runs; a finished row of another comparison.
+/// Runs every scenario with every mode and set of gains, on the nominal model and on samples. A
+/// sample draws the fitted parameters from the model's covariance (simulate/plant_sampler.h), and
+/// the noise and disturbances of the scenarios from the seeds. All modes and gains use the same
+/// draws. The controller uses the nominal values. Blocks of kBatchRuns samples (simulate/batch.h)
+/// are run in every scenario and mode before the next block, so a stopped comparison is valid, with
+/// fewer samples.
+/// Errors (input): the model lacks a parameter, a covariance (with samples) or an interval that a
+/// scenario's corner needs; no scenario, or two of the same name; a negative number of samples or
+/// threads; more than kMaxRuns runs; a finished row of another comparison.
 Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
 Result<Comparison> compare(const Model& model, const Gains<double>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
 
-/// A run's metrics under their names in comparison.csv, in its order.
+/// The metrics of a run with their names, in the order of comparison.csv.
 std::vector<std::pair<std::string_view, std::optional<double>>> named_metrics(
     const Metrics& metrics);
 
-/// Content of comparison.csv: the fixed columns, `completed` as 1 or 0, empty cells for metrics
-/// that do not apply; with several sets of gains also `gains`.
+/// Content of comparison.csv. `completed` is 1 or 0; a metric that does not apply has an empty cell.
+/// With several sets of gains, the last column is `gains`.
 std::string comparison_csv(const Comparison& comparison);
-/// Content of comparison.json.
+/// Content of comparison.json: options, statistics, ranking and verdict of each scenario.
 std::string comparison_text(const Comparison& comparison, const CompareOptions& options,
                             const Provenance& provenance);
 

@@ -16,13 +16,12 @@ void note_samples(const CompareOptions& options, const Comparison& comparison,
   if (samples < 2 || samples >= kFewSamples) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "few-samples",
-       fmt::format("intervals of {} samples have a coverage of at most {:.0f} %, not 95; give {} "
-                   "samples or more",
+       fmt::format("95 % intervals from {} samples cover at most {:.0f} %; give {} samples or more",
                    samples, 100.0 * (1.0 - std::pow(0.5, samples - 1)), kFewSamples)});
 }
 
-/// Adds a warning if yaw resistance includes scrub that steered turns do not have, and a note if
-/// measured scrub is simulated.
+/// Adds a warning if yaw resistance was identified from differential turns, which include scrub, and
+/// a note if measured scrub is simulated.
 void note_scrub(const Model& model, std::vector<Finding>& findings) {
   if (model.yaw_by_sides_alone) {
     findings.push_back(
@@ -36,7 +35,7 @@ void note_scrub(const Model& model, std::vector<Finding>& findings) {
       {model.file, 0, Severity::kNote, "scrub-simulated",
        fmt::format("the simulated plant adds the measured tyre scrub, {:.3g} m (95 %: {:.3g} to "
                    "{:.3g}), to differential and combined turns; the controller does not "
-                   "compensate it. --break-even gives the scrub that changes each ranking",
+                   "compensate it. Add --break-even to see which scrub changes each ranking",
                    model.yaw_scrub->moment_m, model.yaw_scrub->ci95_m.lo,
                    model.yaw_scrub->ci95_m.hi)});
 }

@@ -1,4 +1,4 @@
-// comparison.csv and comparison.json.
+// Writes the text of comparison.csv and comparison.json.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -93,7 +93,7 @@ Json labels_json(const std::vector<Contender>& contenders) {
   return labels;
 }
 
-/// `all`: includes the changes that could not be run.
+/// `all`: the changes of all scenarios, including those that could not be run.
 Json decision_json(const std::string& scenario, const Decision& decision,
                    const std::vector<Change>& all) {
   Json json = {{"kind", name_in(kDecisionKindNames, decision.kind())},
@@ -142,7 +142,7 @@ Json scenario_json(const EvaluatedScenario& scenario, const std::vector<Change>&
   return json;
 }
 
-/// The scenarios that are represented by another one with identical runs.
+/// The scenarios that are not counted, because an earlier scenario has identical runs.
 Json counted_once_json(const std::vector<EvaluatedScenario>& ranked) {
   const std::vector<std::size_t> first = first_with_same_runs(ranked);
   Json json = Json::array();
@@ -215,11 +215,11 @@ Json statistics_json(int samples) {
   json["p_holm"] = samples >= 2 ? "p corrected for all differences of the scenario (Holm)"
                                 : "null: a test needs at least 2 samples (option samples)";
   json["margin"] =
-      "the metric's floor, or the share `relevance` of the lesser mean if that is more";
+      "the larger of the metric's floor and `relevance` times the smaller of the two means";
   json["conclusion"] = samples >= 2
                            ? "relevant: p_holm below 0.05 and ci95 beyond the margin; equivalent: "
                              "p_equivalent (two one-sided t tests, TOST) below 0.05; else undecided"
-                           : "relevant where the difference is beyond the margin, else equivalent";
+                           : "relevant if the difference is beyond the margin, else equivalent";
   json["completed_ci95"] = samples >= 2
                                ? "of the share, exact (Clopper-Pearson)"
                                : "null: an interval needs at least 2 samples (option samples)";
@@ -242,11 +242,11 @@ Json ranking_json(const Preferences& preferences) {
   }
   json["first_by_weights"] =
       "fraction of random weightings (uniform over all that sum to 1) for which the mode has the "
-      "best score; modes within relevance of it, and modes tied for best, share it";
+      "best score; modes within relevance of the best score, and modes tied for best, share it";
   json["decision"] = fmt::format(
-      "decided: one mode is of rank 1 in the ranking and under every change; level: "
-      "several are; undecided: none is. Changes: any weights within a factor {:g}; with "
-      "option plant both, the other plant, and the rates of both loops times and over "
+      "decided: one mode has rank 1 in the ranking and under every change; level: several modes "
+      "have; undecided: no mode has. Changes: any weights within a factor {:g}; with option plant "
+      "both, also the other plant, and the rates of both closed loops multiplied and divided by "
       "{:.3g}, each with up to {} samples",
       kWeightFactor, kGainsFactor, kBatchRuns - 1);
   return json;
@@ -293,8 +293,8 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
                             const Provenance& provenance) {
   Json json = output_document("awmr.comparison/1", provenance);
   json["arithmetic"] = comparison.arithmetic;
-  json["csv_sha256"] = sha256_hex(comparison_csv(comparison));  // identifies the rows that belong
-                                                                // to it
+  // Identifies the comparison.csv that belongs to this comparison.json.
+  json["csv_sha256"] = sha256_hex(comparison_csv(comparison));
   const Comparison evaluated = evaluated_part(comparison);
   const int samples =
       comparison.stopped ? std::max(0, evaluated.whole_samples - 1) : options.samples;

@@ -1,4 +1,4 @@
-// Schema of comparison.json.
+// JSON Schema of comparison.json.
 #include <limits>
 
 #include "awmr/compare/decision.h"
@@ -70,7 +70,7 @@ void describe_decision(JsonObject& scenario) {
   for (JsonObject& change : decision->objects("changes")) {
     change.choice("kind", kChangeKindNames);
     change.string("setting");
-    // The ranking in this setting, or the reason why there is none.
+    // A change has `first`, the modes of rank 1, or `not_run`, the reason why it was not run.
     if (change.has("first")) change.strings("first");
     change.optional_boolean("survives");
     change.optional_string("not_run");
@@ -143,7 +143,7 @@ void describe_break_even(JsonObject& json) {
     entry.number("fastest_degps", kNonNegative);
     entry.optional_interval("measured_m");
     entry.optional_interval("measured_degps");
-    if (entry.has("lead")) entry.choice("lead", kLeadNames);  // with measured_m
+    if (entry.has("lead")) entry.choice("lead", kLeadNames);  // present if measured_m is
     entry.optional_integer("turns_to_decide", 0, kMost);
     entry.reject_unknown_keys();
   }

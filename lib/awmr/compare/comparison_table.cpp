@@ -11,12 +11,12 @@
 namespace awmr {
 namespace {
 
-/// At most 7 characters up to 10^7.
+/// Formats a metric in at most 7 characters, for values below 10^7.
 std::string figure(double value) {
   return fmt::format("{:.{}f}", value, std::abs(value) < 100.0 ? 3 : std::abs(value) < 1e4 ? 1 : 0);
 }
 
-/// "1", "2=" for a tie, "-" without a ranking.
+/// Rank of a contender: "1", "2=" for a tie, "-" without a ranking.
 std::string place_of(const Contender& contender, const std::vector<RankedMode>& ranking) {
   for (const RankedMode& ranked : ranking) {
     if (ranked.contender == contender) {
@@ -76,7 +76,7 @@ std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>
   return text;
 }
 
-/// "decisions: 3 decided, 1 level, 2 undecided; survive plant 3 of 6, weights 5 of 6, gains 6 of 6"
+/// "decisions: 3 decided, 1 level, 2 undecided; survive a change of plant in 3 of 6, weights in 5 of 6"
 std::string decisions_of(const std::vector<EvaluatedScenario>& scenarios) {
   DecisionTally tally = tally_decisions(scenarios);
   std::string text;

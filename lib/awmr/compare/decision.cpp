@@ -35,10 +35,10 @@ double mean_log_loss(const ModeRows& rows, const ScoredMetric& scored) {
   return sum / static_cast<double>(rows.counted().size());
 }
 
-/// The weights w_k within the factor that are worst for `own` compared with `other`. With d_k the
-/// loss of own minus that of other in metric k, own is behind by more than the margin m if
-///   sum w_k (d_k - m) > 0,
-/// which is maximised term by term: w_k is doubled if d_k > m, else halved.
+/// The weights w_k within kWeightFactor that are worst for `own` compared with `other`. Let d_k be
+/// the loss of own minus that of other in metric k, and m = ln(1 + relevance). Own is behind if
+///   sum w_k (d_k - m) > 0.
+/// Each term is maximised separately: w_k is multiplied by the factor if d_k > m, else divided.
 Preferences worst_weights(const ModeRows& own, const ModeRows& other,
                           const std::vector<ScoredMetric>& scoring,
                           const Preferences& preferences) {
@@ -53,7 +53,7 @@ Preferences worst_weights(const ModeRows& own, const ModeRows& other,
   return worst;
 }
 
-/// Contenders of rank 1 for all weights within the factor.
+/// Contenders that have rank 1 with all weights within kWeightFactor.
 Change change_of_weights(const ScenarioRows& scenario,
                          const std::vector<PairedDifference>& differences,
                          const Preferences& preferences, std::uint64_t seed) {
@@ -86,8 +86,8 @@ void evaluate(const std::vector<ComparisonRow>& rows, const CompareOptions& opti
   }
 }
 
-/// The given gains with all rates of both closed loops times the factor: lambda and mu/epsilon of
-/// the heading, mu_s/epsilon_s of the speed.
+/// Multiplies the rates of both closed loops by the factor: lambda and mu/epsilon of the heading
+/// loop, mu_s/epsilon_s of the speed loop.
 NamedGains with_rates_times(double factor, NamedGains set) {
   set.gains.heading.lambda *= factor;
   set.gains.heading.mu *= factor;
@@ -95,7 +95,7 @@ NamedGains with_rates_times(double factor, NamedGains set) {
   return set;
 }
 
-/// The first fault as one line of text.
+/// The first fault of an error as one line of text.
 std::string message_of(const Error& error) {
   const Fault& fault = error.faults.front();
   return fault.place.empty() ? fault.message : fmt::format("{}: {}", fault.place, fault.message);
@@ -106,7 +106,8 @@ PlantKind other_plant(const Scenario& scenario) {
   return scenario.tyres ? PlantKind::kModel : PlantKind::kFourWheel;
 }
 
-/// The scenario on that plant. Errors (input): it does not apply there.
+/// The scenario on the plant that it does not use. Errors (input): a key of the scenario has no
+/// meaning on that plant.
 Result<Scenario> on_other_plant(Scenario scenario, const Tyres<double>& tyres) {
   if (scenario.tyres) {
     scenario.tyres.reset();
@@ -119,15 +120,15 @@ Result<Scenario> on_other_plant(Scenario scenario, const Tyres<double>& tyres) {
   return scenario;
 }
 
-/// A scenario in another setting.
+/// A scenario with a changed plant or changed gains, and the result to complete.
 struct ChangedScenario {
   Change change;
   Scenario scenario;
   std::vector<NamedGains> gains;
 };
 
-/// Returns the required runs, in the order of the scenarios. Changes that cannot be run are added
-/// to `changes` with their reason.
+/// Returns the scenarios to run for all changes, in the order of `scenarios`. Changes that cannot be
+/// run are added to `changes` with their reason.
 std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& gains,
                                                const std::vector<Scenario>& scenarios,
                                                const Tyres<double>& tyres,
@@ -145,7 +146,7 @@ std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& ga
       change.not_run = message_of(other.error());
       changes.push_back(std::move(change));
     }
-    if (gains.size() > 1) continue;  // several sets of gains are not varied further
+    if (gains.size() > 1) continue;  // gains are varied only if there is a single set
     for (const auto& [setting, factor] :
          {std::pair("slower", 1.0 / kGainsFactor), std::pair("faster", kGainsFactor)}) {
       changed.push_back(
@@ -223,8 +224,8 @@ bool Decision::survives(const Change& change) const {
                      [&](const Contender& one) { return has(change.first, one); });
 }
 
-/// The plants differ in differential turns by tyre scrub, and in steered turns because rolling
-/// tyres steer even without thrust.
+/// If the best modes of the plants differ, names the trials in which the plants behave differently:
+/// differential turns (tyre scrub), and steering while coasting (rolling tyres steer without thrust).
 std::vector<std::string_view> Decision::deciding_trials() const {
   bool differential = false;
   bool steered = false;
@@ -252,7 +253,7 @@ std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedG
   if (gains.size() * yaw_modes(model.vehicle).size() < 2) return changes;  // nothing to rank
   std::vector<ChangedScenario> changed =
       changed_scenarios(gains, scenarios, options.tyres, changes);
-  // One task per thread; each has at most as many samples as a batch.
+  // The changes are distributed over the threads; each comparison runs on one, with one batch.
   CompareOptions few;
   few.samples = std::min(options.samples, static_cast<int>(kBatchRuns) - 1);
   few.seed = options.seed;

@@ -1,4 +1,5 @@
-/// The metrics by name, in the order of comparison.csv. Private to this folder.
+/// Table of the metrics: names, units and weights, in the order of comparison.csv. Private to
+/// compare/.
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@
 
 namespace awmr {
 
-/// The position in kMetricColumns.
+/// Index of a metric in kMetricColumns.
 enum class MetricId {
   kSettlingTime,
   kOvershoot,
@@ -41,10 +42,10 @@ struct MetricColumn {
                           ///< in the table
   std::string_view unit;
   std::variant<double Metrics::*, std::optional<double> Metrics::*> figure;
-  /// Irrelevant difference in the metric's unit, >= 0 (scoring.h). A metric with a floor > 0 can
-  /// rank modes, and lower is better. 0: the metric cannot rank.
+  /// Difference in the metric's unit that is too small to matter, >= 0 (scoring.h). A metric with a
+  /// floor above 0 can rank modes; lower values are better. 0: the metric is not used in rankings.
   double ranking_floor = 0.0;
-  double default_weight = 0.0;  ///< in the ranking
+  double default_weight = 0.0;  ///< weight in the ranking if the user gives none
 
   bool can_rank() const { return ranking_floor > 0.0; }
   /// Absent if the metric does not apply to the run.
@@ -56,9 +57,9 @@ struct MetricColumn {
   }
 };
 
-/// Default weights: accuracy (heading or cross-track error), time (settled or finished), and cost
-/// in speed, energy and tyre wear. Weight 0: sideslip, which is the geometry of the turn, and the
-/// variation of commands, which is nearly 0 in some modes.
+/// Weight 1 by default: accuracy (heading or cross-track error), time (settled or finished), speed
+/// drop, mechanical work and tyre wear. Weight 0 by default, for example: sideslip, because it
+/// follows from the geometry of the turn; control variation, because it is nearly 0 in some modes.
 inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1,
      1.0},
@@ -84,7 +85,7 @@ inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {MetricId::kElectricWork, "electric_work_j", "", "J", &Metrics::electric_work_j, 1.0, 0.0},
 }};
 
-/// The columns of comparison.csv; with several sets of gains, `gains` is the last.
+/// Names of the columns of comparison.csv. `with_gains`: the last column is `gains`.
 std::vector<std::string> comparison_columns(bool with_gains);
 
 inline const MetricColumn& column_of(MetricId id) { return kMetricColumns[at(id)]; }

@@ -13,18 +13,18 @@
 namespace awmr {
 namespace {
 
-/// Random streams of the bootstrap of scores and of the weights, separate from those of the
-/// bootstrap of differences (statistics.cpp) and of the samples.
+/// Random streams of the bootstrap of scores and of the random weightings. They differ from the
+/// streams of the bootstrap of differences (statistics.cpp) and of the samples.
 constexpr std::uint64_t kScoreStream = std::uint64_t{3} << 62U;
 constexpr std::uint64_t kWeightStream = std::uint64_t{5} << 61U;
 constexpr int kWeightings = 1000;
 
-/// A mode with the logarithms of which its score consists.
+/// A mode with the logarithms that its score is computed from.
 struct Entry {
   const ModeRows* rows = nullptr;
-  std::vector<double> log_scores;   ///< by counted run
-  std::vector<double> mean_losses;  ///< by scored metric, over the counted runs
-  bool completes = true;            ///< as often as the best, or not significantly less
+  std::vector<double> log_scores;   ///< log_score() of each counted run
+  std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() of the counted runs
+  bool completes = true;            ///< completes not significantly less often than the best
 
   double log_score() const { return mean(log_scores); }
 
@@ -61,13 +61,14 @@ bool complete_alike(const ModeRows& a, const ModeRows& b) {
   return mcnemar_p(only_first, only_second) >= kSignificance;
 }
 
-/// Ties are ordered by mode and name, not by the order of the given gains.
+/// Order of tied modes: by mode, then by name of the gains, whatever the order of the given gains.
 bool is_before(const ModeRows& a, const ModeRows& b) {
   return std::tie(a.contender.mode, a.contender.gains) <
          std::tie(b.contender.mode, b.contender.gains);
 }
 
-/// Best first: those that complete as often as the best by their scores, then the others.
+/// Entries, best first: those that complete as often as the best, by score; then the others, by
+/// number of completed runs.
 std::vector<Entry> sorted_entries(const ScenarioRows& scenario,
                                   const std::vector<ScoredMetric>& scoring) {
   std::vector<Entry> entries;
@@ -91,7 +92,7 @@ std::vector<Entry> sorted_entries(const ScenarioRows& scenario,
   return entries;
 }
 
-/// Means of resamples of own minus leader's score, ascending.
+/// Bootstrap of the score of `own` minus that of the leader: means of the resamples, ascending.
 std::vector<double> resampled_differences(const Entry& own, const Entry& leader, Random random) {
   const std::size_t n = own.log_scores.size();
   std::vector<double> means;
@@ -130,8 +131,8 @@ Behind behind(const Entry& own, const Entry& leader, double relevance, Random ra
   return {ratio, within ? Conclusion::kEquivalent : Conclusion::kUndecided};
 }
 
-/// Counts the entry with the smallest value among those that complete as often as the best. Entries
-/// within `margin` of it share the count, because smaller differences are irrelevant.
+/// Adds 1 to the count of the entry with the smallest value among those that complete as often as
+/// the best. Entries within `margin` of it share that 1, because smaller differences do not matter.
 template <class Value>
 void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
                 std::vector<double>& counts) {
@@ -175,8 +176,8 @@ std::vector<double> shares_by_samples(const std::vector<Entry>& entries, double 
   return shares;
 }
 
-/// True if two modes are equivalent in every scored metric that both have. The difference of their
-/// scores is then irrelevant, even if it is significant.
+/// True if two modes are equivalent in every scored metric that both have. Then the difference of
+/// their scores does not matter, even if it is significant.
 bool equivalent_in_all(const Contender& a, const Contender& b,
                        const std::vector<ScoredMetric>& scoring,
                        const std::vector<PairedDifference>& differences) {
@@ -209,8 +210,8 @@ bool dominates(const Contender& other, const Contender& own,
   return better;
 }
 
-/// Modes that are tied for rank 1 share the count of weights and, if they are equivalent, of
-/// samples, because the ranking puts none of them alone in rank 1.
+/// Gives all modes that are tied for rank 1 the mean of their shares of weightings and, if they are
+/// equivalent, of samples: none of them alone has rank 1.
 void share_firsts_of_ties(std::vector<RankedMode>& ranking) {
   const auto end = std::find_if(ranking.begin(), ranking.end(),
                                 [](const RankedMode& mode) { return mode.rank > 1; });

@@ -19,11 +19,11 @@
 namespace awmr {
 namespace {
 
-/// Options that may change between a comparison and its continuation.
+/// Options that may change when a comparison is resumed: they do not change finished rows.
 const std::set<std::string, std::less<>> kFreeOptions{"samples", "weight", "relevance",
                                                       "break_even"};
 
-/// Upper bound of a metric, with which sums over samples of squares are finite.
+/// Largest accepted metric: sums of squares over the samples stay finite.
 constexpr double kLargest = 1e100;
 
 template <class Number>
@@ -32,7 +32,7 @@ bool read_number(const std::string& text, Number& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// Empty if the cells are not a row as written by comparison_csv().
+/// Reads a row of comparison.csv. Empty if comparison_csv() does not write such cells.
 std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool with_gains) {
   constexpr std::size_t kFirst = 4;
   if (cells.size() != kFirst + kMetricColumns.size() + (with_gains ? 1 : 0)) return std::nullopt;
@@ -56,12 +56,12 @@ std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool 
   return row;
 }
 
-/// Origin and row hash of comparison.json.
+/// Keys of comparison.json that show which comparison its rows belong to.
 struct Origin {
   Provenance provenance;
   std::string version;                    ///< of the program that wrote it
   std::string arithmetic;                 ///< of its rows; "scalar" if the key is missing
-  std::optional<std::string> csv_sha256;  ///< none in files of earlier versions
+  std::optional<std::string> csv_sha256;  ///< of comparison.csv; absent in older files
 };
 
 Origin origin_from_json(JsonObject& json) {
@@ -80,7 +80,7 @@ Result<Origin> read_origin(const std::filesystem::path& path) {
   return origin;
 }
 
-/// The part of the provenance that determines the rows: all except the free options.
+/// The part of the provenance that determines the rows: all except kFreeOptions.
 Provenance fixed(Provenance provenance) {
   std::erase_if(provenance.options,
                 [](const auto& option) { return kFreeOptions.contains(option.first); });
@@ -91,7 +91,9 @@ Provenance fixed(Provenance provenance) {
 std::string difference(const Origin& before, const Provenance& now, std::string_view arithmetic) {
   const std::string other =
       origin_difference(fixed(before.provenance), before.version, fixed(now), "this comparison");
-  if (!other.empty()) return other + "; resume with the same, or compare into another directory";
+  if (!other.empty()) {
+    return other + "; resume with the same inputs and options, or compare into another directory";
+  }
   if (before.arithmetic == arithmetic) return {};
   return fmt::format(
       "was computed in {} arithmetic, this comparison would be in {}; compare into "
@@ -116,7 +118,7 @@ Result<std::vector<ComparisonRow>> comparison_rows(std::string_view text, const 
     if (!row) {
       const auto line = 1 + std::count(before.begin(), before.end(), '\n');
       return input_error(ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line),
-                         "is not a row of a comparison; compare into another directory");
+                         "this line is not a row of a comparison; compare into another directory");
     }
     rows.push_back(std::move(*row));
   }
@@ -152,8 +154,8 @@ Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& di
   AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(csv));
   if (before.csv_sha256 && *before.csv_sha256 != sha256_hex(text)) {
     return input_error(ErrorCode::kStaleResult, csv.string(),
-                       "is not as it was written with comparison.json: it was changed, or is of "
-                       "another comparison; compare into another directory");
+                       "does not belong to this comparison.json: it was changed, or is of another "
+                       "comparison; compare into another directory");
   }
   return comparison_rows(text, csv.string());
 }

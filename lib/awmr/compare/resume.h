@@ -1,4 +1,4 @@
-/// Writes the files of a comparison, and reads them to resume one that was stopped.
+/// Files of a comparison: writes them, and reads them to resume a stopped comparison.
 #pragma once
 
 #include <filesystem>
@@ -12,20 +12,21 @@
 
 namespace awmr {
 
-/// Reads the rows of an existing comparison.csv. The inputs and options in its comparison.json must
-/// be the same, except for the numbers of samples and threads. Errors (input): the files are
-/// missing or malformed, or from another comparison, program version or arithmetic.
+/// Reads the rows of an existing comparison.csv. Its comparison.json must have the inputs and
+/// options of `provenance`, except for samples, weights, relevance and break-even, which may change.
+/// Errors (input): the files are missing or malformed, or from another comparison, program version
+/// or arithmetic.
 Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
                                                  const Provenance& provenance);
 
-/// Reads the text of a comparison.csv. `file`: its name in errors. Errors (input): other columns,
-/// or an invalid row.
+/// Reads the rows from the text of a comparison.csv. `file`: its name in errors. Errors (input):
+/// other columns, or an invalid row.
 Result<std::vector<ComparisonRow>> comparison_rows(std::string_view text, const std::string& file);
 
-/// Read-back (core/file.h) of comparison.csv.
+/// Checks the text of comparison.csv, as write_files() (core/file.h) requires after writing it.
 Status check_comparison_csv(std::string_view text, const std::string& file);
 
-/// Files of a comparison in its directory.
+/// Names of the files of a comparison in its directory.
 inline constexpr const char* kComparisonTable = "comparison.csv";
 inline constexpr const char* kComparisonJson = "comparison.json";
 

@@ -1,4 +1,4 @@
-/// The vehicles of a comparison. Private to this folder.
+/// Plants that a comparison simulates: the nominal one and the drawn samples. Private to compare/.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ struct SampledPlants {
   }
 };
 
-/// Sample 0 is the model itself, samples 1 ... options.samples are drawn from it
-/// (simulate/plant_sampler.h), and each scenario applies its corner to them, if it has one. Errors
-/// (input): the model lacks a parameter, a covariance to draw from, or an interval that a corner
-/// needs.
+/// Sample 0 is the model itself, samples 1 ... options.samples are drawn from its covariance
+/// (simulate/plant_sampler.h). A scenario with a corner (parameters moved to the ends of their
+/// intervals) applies it to every sample. Errors (input): the model lacks a parameter, a covariance,
+/// or an interval that a corner needs.
 Result<SampledPlants> sample_plants(const Model& model, const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options);
 

@@ -19,7 +19,7 @@ namespace {
 /// Maximum number of samples of a comparison.
 constexpr long kMaxSamples = 1'000'000'000;
 
-/// The keys of shard.json that a comparison adds.
+/// Keys of shard.json that only a comparison has.
 struct Payload {
   int samples = 0;
   std::uint64_t seed = 0;
@@ -106,7 +106,7 @@ Result<std::vector<ComparisonRow>> rows_of(const std::vector<Part>& parts, int i
   return in_order_of_items(rows, items);
 }
 
-/// Errors (input): some scenario, mode and set of gains does not have `items` consecutive rows.
+/// Error (input) if a scenario, mode and set of gains does not have `items` consecutive rows.
 Status check_groups(const std::vector<ComparisonRow>& rows, std::size_t items) {
   const auto group_of = [&](std::size_t i) {
     return std::tuple(rows[i].scenario, rows[i].gains, rows[i].mode);
@@ -116,8 +116,8 @@ Status check_groups(const std::vector<ComparisonRow>& rows, std::size_t items) {
     const std::size_t first = i - i % items;
     if (i == first ? seen.insert(group_of(i)).second : group_of(i) == group_of(first)) continue;
     return input_error(ErrorCode::kStaleResult, "",
-                       fmt::format("sample {} of scenario '{}' is not in its place in every "
-                                   "part: rows were lost or appear twice; run the parts again",
+                       fmt::format("rows of sample {} of scenario '{}' are missing or appear twice "
+                                   "in the parts; run the parts again",
                                    rows[i].sample, rows[i].scenario));
   }
   return {};

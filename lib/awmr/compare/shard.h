@@ -1,5 +1,5 @@
-/// Comparison on several machines, each of which runs some of the samples. merge_shards() combines
-/// the parts to the output of a single comparison, byte for byte.
+/// Comparison on several machines: each runs a part of the samples, and merge_shards() combines the
+/// parts to the output of a single comparison, byte for byte.
 #pragma once
 
 #include <filesystem>
@@ -13,19 +13,20 @@
 
 namespace awmr {
 
-/// Parts of a comparison: comparison.csv has the rows.
+/// Files of one part (shard) of a comparison: comparison.csv has the rows of its samples.
 const ShardKind& comparison_shards();
 
 /// Text of the part of a comparison that options.shard selects.
 PartText comparison_part(const Comparison& part, const CompareOptions& options,
                          const Provenance& provenance, const std::vector<Finding>& findings = {});
 
-/// A whole comparison with the data for its files.
+/// A whole comparison with the data that its files need.
 struct Merged {
   Comparison comparison;
   CompareOptions options;  ///< samples, seed and preferences
   Provenance provenance;
-  std::vector<Finding> findings;  ///< of the fastest turn of all runs, then of the first part
+  /// extrapolation_findings() of all runs, then the findings of the first part.
+  std::vector<Finding> findings;
 };
 
 /// Combines the parts in these directories, in any order. Errors (input): as read_parts(); a row of

@@ -14,7 +14,8 @@
 namespace awmr {
 namespace {
 
-/// Streams of the bootstrap, separate from those of the draws, which are sample numbers.
+/// Random stream of the bootstrap. It differs from the streams of the draws, which are the sample
+/// numbers.
 constexpr std::uint64_t kBootstrapStream = std::uint64_t{1} << 63U;
 
 double mean_of(std::span<const double> values) {
@@ -28,11 +29,12 @@ std::optional<double> difference(const MetricColumn& metric, const Metrics& a, c
   return *x - *y;
 }
 
-/// Differences of pairs (rows) by sample (columns), so that a resample is a sum of columns.
+/// Differences of all metrics and pairs (rows) by sample (columns), so that a bootstrap resample is
+/// a sum of columns.
 struct Differences {
   std::vector<PairedDifference> results;
-  Eigen::ArrayXXd values;  ///< 0 if one of the pair has no value
-  Eigen::ArrayXXd counts;  ///< 0 there, else 1
+  Eigen::ArrayXXd values;  ///< 0 if a contender of the pair has no value
+  Eigen::ArrayXXd counts;  ///< 0 if a contender of the pair has no value, else 1
 };
 
 double margin_between(const ModeRows& a, const ModeRows& b, const MetricColumn& metric,
@@ -42,7 +44,7 @@ double margin_between(const ModeRows& a, const ModeRows& b, const MetricColumn& 
   return std::max(metric.ranking_floor, relevance * std::min(std::abs(first), std::abs(second)));
 }
 
-/// Sets the conclusion, from the interval and Holm's p.
+/// Conclusion from the interval, p_holm and p_equivalent (PairedDifference::conclusion).
 std::optional<Conclusion> conclusion_of(const PairedDifference& d) {
   if (!d.mean) return std::nullopt;
   if (!d.ci95 || !d.p_holm || !d.p_equivalent) {
@@ -53,7 +55,8 @@ std::optional<Conclusion> conclusion_of(const PairedDifference& d) {
   return *d.p_equivalent < kSignificance ? Conclusion::kEquivalent : Conclusion::kUndecided;
 }
 
-/// One row: the differences of a metric and their statistics.
+/// Differences of one metric between two contenders, with their statistics. The differences and the
+/// counts of the samples are written to `values` and `counts`.
 PairedDifference difference_of(const ModeRows& first, const ModeRows& second,
                                const MetricColumn& metric, double relevance,
                                Eigen::ArrayXXd::RowXpr values, Eigen::ArrayXXd::RowXpr counts) {
@@ -104,7 +107,7 @@ std::vector<std::pair<const ModeRows*, const ModeRows*>> comparable_pairs(
   return pairs;
 }
 
-/// Every metric of every pair.
+/// The differences of every metric of every pair.
 Differences all_differences(const ScenarioRows& scenario, double relevance) {
   const auto pairs = comparable_pairs(scenario);
   const Eigen::Index rows = eigen_index(pairs.size() * std::size(kMetricColumns));
@@ -120,8 +123,8 @@ Differences all_differences(const ScenarioRows& scenario, double relevance) {
   return all;
 }
 
-/// The bootstrap: mean of each row (rows) in each resample (columns). NaN if a resample has no
-/// value.
+/// Bootstrap: the mean difference of each metric and pair (rows) in each resample (columns). NaN if
+/// a resample has no value.
 Eigen::ArrayXXd resampled_means(const Differences& all, Random random) {
   const Eigen::Index samples = all.values.cols();
   Eigen::ArrayXXd means(all.values.rows(), kResamples);
@@ -140,8 +143,8 @@ Eigen::ArrayXXd resampled_means(const Differences& all, Random random) {
   return means;
 }
 
-/// The 95 % interval of the mean of `values` values by its resamples; empty if no resample has a
-/// value.
+/// 95 % interval of a mean over `values` samples, from the means of its resamples. Empty if no
+/// resample has a value.
 std::optional<Interval> interval_of(Eigen::ArrayXXd::ConstRowXpr means, std::size_t values) {
   std::vector<double> sorted;
   for (const double mean : means) {
@@ -203,7 +206,7 @@ std::vector<double> holm(std::span<const double> p) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return p[a] < p[b]; });
   std::vector<double> corrected(p.size());
-  double largest = 0.0;  // largest corrected p so far, because the correction is monotonic
+  double largest = 0.0;  // largest corrected p so far: a larger p never gets a smaller correction
   for (std::size_t i = 0; i < order.size(); ++i) {
     largest = std::max(largest, static_cast<double>(p.size() - i) * p[order[i]]);
     corrected[order[i]] = std::min(1.0, largest);

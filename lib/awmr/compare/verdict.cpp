@@ -19,8 +19,8 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-/// The scored metric with the largest relevant difference of `other` to `best`, in units of its
-/// margin.
+/// The metric with a weight in which `other` is behind `best` by the largest relevant difference,
+/// as a multiple of the metric's margin. Null if there is none.
 const PairedDifference* widest_gap(const std::vector<PairedDifference>& differences,
                                    const Preferences& preferences, const Contender& best,
                                    const Contender& other) {
@@ -38,7 +38,7 @@ const PairedDifference* widest_gap(const std::vector<PairedDifference>& differen
   return widest;
 }
 
-/// ", most of all in finish_time_s: 8.2 s more (95 %: 8 to 8.4)"
+/// Metric in which a mode is behind most: ", most of all in finish_time_s: 8.2 s more (95 %: 8 to 8.4)"
 std::string gap_text(const PairedDifference* gap, const Contender& other) {
   if (gap == nullptr) return "";
   // If `other` is the second of the pair, first minus second is below 0.
@@ -54,7 +54,7 @@ std::string gap_text(const PairedDifference* gap, const Contender& other) {
   return text;
 }
 
-/// "steering completed 10 of 20 (95 %: 27 to 73 %)", or "all completed".
+/// Completed runs: "steering completed 10 of 20 (95 %: 27 to 73 %)", or "all completed".
 std::string completion_text(const ScenarioRows& scenario) {
   std::string text;
   for (const ModeRows& rows : scenario.modes) {
@@ -70,7 +70,7 @@ std::string completion_text(const ScenarioRows& scenario) {
   return text.empty() ? "all completed" : text;
 }
 
-/// " by 31 % (95 %: 28 to 35 %)": of the score.
+/// How far the score is behind that of the best mode: " by 31 % (95 %: 28 to 35 %)".
 std::string share_text(const RankedMode& other) {
   if (!(other.score > 1.0)) return "";
   const auto percent = [](double ratio) { return 100.0 * (ratio - 1.0); };
@@ -82,7 +82,7 @@ std::string share_text(const RankedMode& other) {
   return text;
 }
 
-/// "combined is best", "combined and steering tie for the first place".
+/// The modes of rank 1: "combined is best", "combined and steering are tied for best".
 std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided,
                        const Preferences& preferences) {
   const RankedMode& best = ranking.front();
@@ -93,12 +93,12 @@ std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided
   const bool equal = std::all_of(ranking.begin() + 1, ranking.end(), [](const RankedMode& mode) {
     return mode.towards_leader == Conclusion::kEquivalent;
   });
-  if (!equal) return joined(first) + " are tied: these runs do not separate them";
+  if (!equal) return joined(first) + " are tied: these runs show no significant difference";
   return fmt::format("{} are tied: equal within {:g} %", joined(first),
                      100.0 * preferences.relevance);
 }
 
-/// "; combined is first under 83 % of all weights and in 97 % of the samples"
+/// Robustness of rank 1: "; combined is best for 83 % of all metric weightings and in 97 % of the samples"
 std::string stability_text(const RankedMode& best) {
   if (!best.tied_with.empty()) return {};  // no mode is first
   std::string text = fmt::format("; {} is best for {:.0f} % of all metric weightings",

@@ -16,19 +16,20 @@ namespace {
 constexpr int kCurvePoints = 120;
 constexpr int kCoastSteps = 400;
 constexpr std::size_t kMostCoastdowns = 8;
-/// Normal distribution: 99 % of the values are within this number of standard deviations.
+/// 99 % of the values of a normal distribution are within this number of standard deviations.
 constexpr double kWithin99 = 2.576;
-/// Used if the exponent's interval does not give a Student quantile.
+/// Half width of a 95 % interval in standard errors, for a normal distribution.
 constexpr double kNormalQuantile95 = 1.96;
 
-/// Student quantile that was used for the exponent's interval.
+/// Half width of the 95 % interval of the exponent in standard errors, which is the Student quantile of
+/// the fit; kNormalQuantile95 if the exponent has no interval.
 double quantile_of_exponent(const Estimate& beta) {
   if (!beta.std_error || !(*beta.std_error > 0.0) || !beta.ci95) return kNormalQuantile95;
   return (beta.ci95->hi - beta.ci95->lo) / (2.0 * *beta.std_error);
 }
 
-/// Computes the curve from rest to slightly above the fastest row, with more points where it is
-/// steep.
+/// Computes the curve from rest to 1.05 times the fastest row, with more points at low rates, where it
+/// is steep.
 void add_curve(const Model& model, TrialKind kind, DrawnFit& fit) {
   const auto law = fitted_law(model, kind);
   if (!law) return;
@@ -64,8 +65,8 @@ void add_left_over(const Model& model, DrawnFit& fit) {
       kWithin99 * std::sqrt(squares / static_cast<double>(fit.left_over.size() - 2));
 }
 
-/// Initial speeds, each once, ascending, at even ranks if there are many; and the longest stop from
-/// each.
+/// Pairs of initial speed and longest stop time of the coast-downs. Each speed occurs once, ascending;
+/// of many speeds, kMostCoastdowns evenly spaced ones are kept.
 std::vector<std::pair<double, double>> coasts_of(const Model& model) {
   std::vector<std::pair<double, double>> coasts;
   for (const TrialPoint& trial : model.record.trials) {
@@ -88,7 +89,7 @@ std::vector<std::pair<double, double>> coasts_of(const Model& model) {
   return some;
 }
 
-/// Integrates by the midpoint rule; stays at rest once stopped.
+/// Integrates a coast-down by the midpoint rule. After the stop the speed stays 0.
 CoastdownCurve coasted(const Resistance<double>& law, double mass_norm, double speed_mps,
                        double end_s) {
   CoastdownCurve curve{speed_mps, {0.0}, {speed_mps}};

@@ -16,7 +16,7 @@
 namespace awmr {
 namespace {
 
-/// Reads the form of T2 < T1 that was required, and its margin: the limit is margin/lambda.
+/// Reads which form of T2 < T1 was required, and its margin, from the limit margin/lambda.
 void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context) {
   for (JsonObject& constraint : gains.optional_objects("constraints")) {
     const bool strict = constraint.string("name") == "T2 < T1 (strict)";
@@ -28,15 +28,14 @@ void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context)
   }
 }
 
-/// Number of sampled vehicles in addition to the model's own, their seed and their unmodelled
-/// variation.
+/// Vehicles drawn for the tuning: their number, seed and unmodelled variation.
 struct Draws {
   int count = 0;
   std::uint64_t seed = 1;
   UnmodelledVariation open = {};
 };
 
-/// Reads noise, latency and lag used for tuning robust gains, and the samples.
+/// Reads noise, latency and lag with which robust gains were tuned, and the draws.
 Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   JsonObject latency = robust.object("latency");
   const double latest_s = std::max(latency.number("heading_s", kNonNegative),
@@ -48,7 +47,7 @@ Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   context.motor_time_constant_s = robust.number("motor_time_constant_s", kNonNegative);
   if (!(latest_s < (kMostLatencySamples + 1e-9) * context.sample_time_s)) {
     robust.fault(ErrorCode::kTooLarge, "latency",
-                 "more samples than gains are tuned for; tune again");
+                 "is more than 20 samples, for which no gains are tuned; tune again");
   }
   Draws draws{static_cast<int>(robust.integer("draws", 0, 1000)),
               static_cast<std::uint64_t>(robust.integer("seed", 0, 4'294'967'295L))};
@@ -56,7 +55,7 @@ Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   return draws;
 }
 
-/// Reads the tuning conditions from gains.json. Errors (input): they have another form.
+/// Reads the tuning conditions from gains.json. Errors (input): gains.json has another format.
 Result<Draws> take_tuning(const Json& gains, LiveSetup& setup) {
   std::vector<Fault> faults;
   JsonObject json(gains, "gains.json", "", faults);

@@ -1,4 +1,4 @@
-/// Initial numbers of the interactive part of the page. Private to this folder.
+/// Initial numbers of the interactive part (sliders) of the page. Private to report/.
 #pragma once
 
 #include <vector>
@@ -10,15 +10,15 @@
 
 namespace awmr {
 
-/// The setup of live/setup.h as numbers; empty if the model has no turning motion. `gains` is
-/// gains.json: its constraints are computed again under its tuning conditions (/robust,
-/// /constraints).
-/// Errors (input): gains.json does not have the format of tune.
+/// Returns LiveSetup (live/setup.h) as numbers; empty if the model has no turning motion. `gains` is
+/// gains.json. The page computes the constraints with the conditions in it (`/robust`,
+/// `/constraints`, `/limits`, `/examined`). Errors (input): gains.json does not have the format of
+/// `awmr tune`.
 Result<std::vector<double>> live_numbers(const Model& model, const Json& gains,
                                          const Scenario& scenario);
 
-/// True for a scenario that the interactive part can run: headings to hold, without any other
-/// effect.
+/// True if the interactive part can run the scenario: it commands headings and has no other effects
+/// (sensors, disturbances, ...).
 bool is_plain_heading(const Json& scenario);
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// Readable names of the metrics of a comparison. Private to this folder.
+/// Readable names and units of the metrics of a comparison. Private to report/.
 #pragma once
 
 #include <string>
@@ -8,15 +8,16 @@
 
 namespace awmr {
 
+/// Readable name and unit of a metric.
 struct MetricWords {
   std::string words;  ///< "settling time"
   std::string unit;   ///< "s"; empty if dimensionless
 };
 
-/// For a name as in comparison.json; an unknown metric keeps its name.
+/// Returns the words for a metric's name in comparison.json. An unknown metric keeps its name.
 MetricWords metric_words(std::string_view name);
 
-/// All of them in the form used by the page: {"settling_time_s": "settling time, s", ...}.
+/// The words of all metrics, as the page needs them: {"settling_time_s": "settling time, s", ...}.
 Json metric_words_json();
 
 }  // namespace awmr

@@ -28,7 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// JSON inside a script element: `<` is escaped, so that text cannot close the element.
+/// Text of JSON for a script element of the page. `<` is escaped, so that no text in the data can close
+/// the element.
 std::string script_safe(const Json& json) {
   std::string text;
   for (const char c : json.dump()) {
@@ -41,8 +42,8 @@ std::string script_safe(const Json& json) {
   return text;
 }
 
-/// True if mass, box, axle and track are those of the paper's Table 1; its claims apply only to
-/// this vehicle.
+/// True if mass, box, axle and track are those of the paper's Table 1. The paper's claims are shown for
+/// this vehicle only.
 bool is_vehicle_of_paper(const Vehicle& vehicle) {
   const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-9 * b; };
   return near(vehicle.mass_kg, 37.0) && near(vehicle.length_m, 1.32) &&
@@ -50,14 +51,15 @@ bool is_vehicle_of_paper(const Vehicle& vehicle) {
          near(vehicle.half_track_m, 0.36);
 }
 
-/// Rounds all numbers to eight digits; the page shows at most two of a standard error.
+/// Rounds all numbers to eight digits, which is more than the page shows.
 void round_numbers(Json& json) {
   if (json.is_number_float()) json = rounded_number(json.get<double>(), 8);
   if (!json.is_structured()) return;
   for (Json& value : json) round_numbers(value);
 }
 
-/// Rounds the numbers that the page only displays. The gains themselves are simulated and copied.
+/// Rounds the numbers that the page only displays. The gains are not rounded, because the page simulates
+/// and copies them.
 void round_shown(Json& data) {
   for (const char* name : {"model", "validation", "comparison", "pil", "suggest"}) {
     if (data.contains(name)) round_numbers(data[name]);
@@ -68,7 +70,8 @@ void round_shown(Json& data) {
   }
 }
 
-/// The page, with each `@name@` of its frame replaced once by the part of that name.
+/// Makes the page: replaces each `@name@` in page.html by the part of that name. Parts are not searched
+/// for further names.
 std::string assembled(const Json& data) {
   const std::string json = script_safe(data);
   const std::array<std::pair<std::string_view, std::string_view>, 5> parts{
@@ -88,8 +91,8 @@ std::string assembled(const Json& data) {
   }
 }
 
-/// Adds the initial data of the interactive part: the first plain heading scenario, or the paper's.
-/// Nothing without gains, or if the model has no turning motion.
+/// Adds the initial data of the interactive part, for the first scenario that it can run, or headings of
+/// 30 then -30 deg. Adds nothing without gains, or if the model has no turning motion.
 Status add_live(const fs::path& directory, const Model& model, Json& data) {
   if (kLiveWasm.empty() || !data.contains("gains")) return {};
   Scenario scenario = heading_steps({30.0, -30.0}, {.name = "headings 30 then -30 deg"});
@@ -127,7 +130,7 @@ Status check_report_page(const fs::path& path) {
   if (page.find("<title>awmr report</title>") != std::string::npos) return {};
   return input_error(
       ErrorCode::kWouldOverwrite, path.string(),
-      "is not a page that awmr wrote, and the report would replace it. Move it away");
+      "is not a page that awmr wrote, and the report would replace it. Move the file away");
 }
 
 Result<std::string> report_html(const fs::path& directory) {

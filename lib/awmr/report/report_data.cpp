@@ -24,14 +24,14 @@
 namespace awmr {
 namespace {
 
-/// Hashes of the files in the directory.
+/// Hashes of model.json and gains.json in the directory.
 struct Origin {
   std::string model_sha256;
-  std::string gains_sha256 = {};  ///< empty: no gains.json of this model
+  std::string gains_sha256 = {};  ///< empty if there is no gains.json for this model
 };
 
-/// Reason to omit a result: it was made from a model or gains other than those in the directory.
-/// None if it was made from them, or names no inputs.
+/// Finding if a result was made from another model or other gains than those in the directory. Empty if
+/// it was made from them, or does not name its inputs.
 std::optional<Finding> foreign_result(const std::string& result, const Json& json,
                                       const Origin& origin) {
   const std::optional<bool> is_of_model = is_made_from(json, origin.model_sha256);
@@ -51,7 +51,7 @@ std::optional<Finding> foreign_result(const std::string& result, const Json& jso
                              *is_of_model ? "gains.json" : "model.json")};
 }
 
-/// Adds the findings in a result's document. Invalid ones are skipped.
+/// Adds the findings of a result to the list. Invalid findings are skipped.
 void add_findings_of(const Json& json, std::vector<Finding>& findings) {
   if (!json.is_object() || !json.contains("findings")) return;
   std::vector<Fault> faults;
@@ -60,8 +60,8 @@ void add_findings_of(const Json& json, std::vector<Finding>& findings) {
   if (faults.empty()) findings.insert(findings.end(), more.begin(), more.end());
 }
 
-/// Reason to omit a run: its side file has another hash or names another model. Adds the findings
-/// of a run that is shown.
+/// Finding if a run must be omitted: it has no side file, or the side file has another hash or names
+/// another model. Otherwise empty, and the findings of the run are added to the list.
 Result<std::optional<Finding>> foreign_run(const std::filesystem::path& directory,
                                            const std::string& name, const Origin& origin,
                                            std::vector<Finding>& findings) {
@@ -77,15 +77,14 @@ Result<std::optional<Finding>> foreign_run(const std::filesystem::path& director
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(side));
   AWMR_ASSIGN_OR_RETURN(const std::string csv, read_file(directory / name));
   if (!json.is_object() || json.value("csv_sha256", Json()) != sha256_hex(csv)) {
-    return without("is not the run that its side file was written with");
+    return without("does not belong to its side file (.csv.json)");
   }
   auto foreign = foreign_result(name, json, origin);
   if (!foreign) add_findings_of(json, findings);
   return foreign;
 }
 
-/// Findings in the form used by the page: those with the largest effect on the numbers first, each
-/// once.
+/// Findings for the page: each once, those with the largest effect on the numbers first.
 Json shown_findings(const std::vector<Finding>& findings) {
   std::vector<Finding> order;
   for (const Finding* finding : by_effect(findings)) {
@@ -98,7 +97,7 @@ Json shown_findings(const std::vector<Finding>& findings) {
   return findings_to_json(order);
 }
 
-/// Reads gains.json and the other results; omits those of another model.
+/// Reads gains.json and the other results. Results of another model are omitted.
 Status read_results(const std::filesystem::path& directory, Origin& origin, ReportData& data,
                     std::vector<Finding>& of_results) {
   for (const char* name : {"gains", "validation", "comparison", "pil", "suggest"}) {
@@ -130,15 +129,15 @@ Status read_own_samples(const std::filesystem::path& directory, ReportData& data
   const Json& comparison = data.json["comparison"];
   if (comparison.contains("csv_sha256") && comparison["csv_sha256"] != sha256_hex(bytes)) {
     data.left_out.push_back({"comparison.csv", 0, Severity::kWarning, "result-without-origin",
-                             "is not the file that comparison.json was written with, and is not "
-                             "shown. Compare again (awmr compare)"});
+                             "does not belong to comparison.json, and is not shown. Compare again "
+                             "(awmr compare)"});
     return {};
   }
   AWMR_ASSIGN_OR_RETURN(data.json["samples"], read_samples(path));
   return {};
 }
 
-/// Adds the findings of emit; its manifest is next to the results or in `firmware`.
+/// Adds the findings of `awmr emit`. Its file awmr_emit.json is next to the results or in `firmware`.
 Status add_emitted(const std::filesystem::path& directory, const Origin& origin,
                    std::vector<Finding>& findings) {
   for (const auto& folder : {directory, directory / "firmware"}) {
@@ -155,7 +154,7 @@ Status add_emitted(const std::filesystem::path& directory, const Origin& origin,
 
 Result<ReportData> read_report_data(const std::filesystem::path& directory) {
   ReportData data;
-  // Strict reading first: either this is a valid model, or the error has the fault's position.
+  // The strict reader comes first: its error has the position of the fault in the file.
   AWMR_RETURN_IF_ERROR(check_regular_file(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(data.model, read_model(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(data.json["model"], read_json_file(directory / "model.json"));

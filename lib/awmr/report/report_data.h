@@ -1,5 +1,4 @@
-/// Contents of a directory of results, read once for the page and the figures. Private to this
-/// folder.
+/// Reader of a directory of results, for the page and the figures. Private to report/.
 #pragma once
 
 #include <filesystem>
@@ -10,20 +9,22 @@
 
 namespace awmr {
 
+/// Content of a directory of results.
 struct ReportData {
   Model model;
-  /// In the form used by the page: the existing files under their names ("model", "gains",
-  /// "validation", "comparison", "pil", "suggest"), "samples" of comparison.csv, "runs" and
-  /// "scenarios" (run_data.h), "fits" (drawn_fit.h), "metric_words", "header", and "findings" of
-  /// all files, those with the largest effect on the numbers first.
+  /// The data of the page: the existing files under their names ("model", "gains", "validation",
+  /// "comparison", "pil", "suggest"), "samples" of comparison.csv, "runs" and "scenarios"
+  /// (run_data.h), "fits" (drawn_fit.h), "metric_words", "header" (true if awmr_params.h exists),
+  /// "yaw_rate_measured_degps", and "findings" of all files, those with the largest effect on the
+  /// numbers first.
   Json json;
   /// A warning for each result that was made from another model or gains than those in the
-  /// directory (`result-of-another-model`), or that does not name its inputs
-  /// (`result-without-origin`). `json` has none of these results.
+  /// directory (`result-of-another-model`), or whose side file is missing or belongs to another
+  /// file (`result-without-origin`). These results are not in `json`.
   std::vector<Finding> left_out = {};
 };
 
-/// Errors (input): no model.json, or an invalid file.
+/// Reads the directory. Errors (input): there is no model.json, or a file is invalid.
 Result<ReportData> read_report_data(const std::filesystem::path& directory);
 
 }  // namespace awmr

@@ -22,13 +22,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Total over all runs, so that a page is below 3 MB at about 100 bytes per row.
+/// Largest number of rows of all runs together: a row takes about 100 bytes of the page, which must be
+/// below 3 MB.
 constexpr std::size_t kMostRows = 20000;
 constexpr std::size_t kMostRowsOfRun = 1500;
 constexpr std::size_t kFewestRowsOfRun = 100;
-/// Maximum number of marks per row in a chart of the samples.
+/// Largest number of sample marks per mode and metric in a chart.
 constexpr std::size_t kMostSamples = 60;
-/// As in the metrics (simulate/metrics.h): below this speed there is no sideslip angle.
+/// Speed below which there is no sideslip angle, as for Metrics::sideslip_max_deg.
 constexpr double kMovingMps = 0.05;
 
 /// One signal of a run: its name in the page, and its values.
@@ -87,8 +88,8 @@ Json columns_of(const CsvTable& table, std::size_t most_rows) {
   return columns;
 }
 
-/// Names of a directory's files that match the whole pattern, sorted, each with its groups. Errors
-/// (input): the directory cannot be read; a match is not a regular file.
+/// Names of the files in a directory that match the pattern, sorted, each followed by the groups of the
+/// match. Errors (input): the directory cannot be read; a match is not a regular file.
 Result<std::vector<std::vector<std::string>>> matching_files(const fs::path& directory,
                                                              const std::regex& pattern) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> entries, list_directory(directory));
@@ -103,7 +104,7 @@ Result<std::vector<std::vector<std::string>>> matching_files(const fs::path& dir
   return files;
 }
 
-/// At most kMostSamples values, including the smallest and the largest.
+/// At most kMostSamples of the values, evenly spaced, including the smallest and the largest.
 Json at_even_ranks(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t count = std::min(values.size(), kMostSamples);
@@ -174,7 +175,8 @@ Result<Json> read_samples(const fs::path& path) {
     const std::vector<std::string> cells = take_text_record(rest);
     if (cells.size() != names.size()) {
       return input_error(ErrorCode::kBrokenFile, fmt::format("{}:{}:1", path.string(), line),
-                         fmt::format("expected {} cells, found {}", names.size(), cells.size()));
+                         fmt::format("expected {} cells, found {}; compare again (awmr compare)",
+                                     names.size(), cells.size()));
     }
     std::map<std::string, std::string> row;
     for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = cells[i];

@@ -19,11 +19,11 @@ constexpr ParameterId kLoopParameters[] = {ParameterId::kYawAlpha, ParameterId::
                                            ParameterId::kYawQuadratic, ParameterId::kInertiaNorm,
                                            ParameterId::kSteeringTimeConstant};
 
-/// A point of the unit ball, followed by the position of ln(yaw rate) between its limits, in [0,
-/// 1].
+/// Point of the search: coordinates in the unit ball, then the position of ln(yaw rate) between its
+/// limits, in [0, 1].
 using SetPoint = std::vector<double>;
 
-/// Projects a point on the ball and the range.
+/// Moves a point that is outside to the surface of the ball and into the range of the yaw rate.
 SetPoint inside(SetPoint point) {
   double square = 0.0;
   for (std::size_t i = 0; i + 1 < point.size(); ++i) square += point[i] * point[i];
@@ -44,8 +44,8 @@ SetPoint random_direction(std::size_t size, Random& random) {
   return direction;
 }
 
-/// Centre, axes and corners, each at kPlaces of the yaw rate, then random points of the ball and
-/// its surface.
+/// Centre, ends of the axes and corners, each at kPlaces yaw rates; then random points in the ball
+/// and on its surface.
 std::vector<SetPoint> first_points(std::size_t dimension, Random& random) {
   constexpr int kPlaces = 5;
   constexpr int kRandomPoints = 500;
@@ -85,8 +85,8 @@ struct ValuedPoint {
 };
 using PointFunction = std::function<double(const SetPoint&)>;
 
-/// Pattern search: steps along the axes and as many random directions; the step is halved if none
-/// decreases the function.
+/// Pattern search from `best`: steps along the axes and along as many random directions. The step is
+/// halved if none of them decreases the function.
 ValuedPoint search_by_pattern(ValuedPoint best, const PointFunction& value, Random& random) {
   constexpr double kFirstPatternStep = 0.25;
   constexpr double kLastPatternStep = 5e-4;
@@ -115,8 +115,8 @@ ValuedPoint search_by_pattern(ValuedPoint best, const PointFunction& value, Rand
   return best;
 }
 
-/// The smallest point in each orthant of the ball, because the function can have several local
-/// minima.
+/// The point with the smallest value in each orthant of the ball: starts of the pattern search,
+/// because the function can have several local minima.
 std::vector<ValuedPoint> best_by_orthant(std::vector<ValuedPoint> points) {
   std::map<unsigned, ValuedPoint> best;
   for (ValuedPoint& one : points) {
@@ -149,7 +149,7 @@ ValuedPoint least_over_set(std::size_t dimension, const PointFunction& value) {
   return least;
 }
 
-/// The loop's parameters that the vehicle has, with their values.
+/// The parameters of the heading loop that the model has, with their values in `plant`.
 std::vector<std::pair<ParameterId, double>> loop_parameters(const Model& model,
                                                             const Plant<double>& plant) {
   std::vector<std::pair<ParameterId, double>> values;
@@ -179,7 +179,7 @@ Result<ConfidenceSet> ConfidenceSet::make(const Model& model) {
   ConfidenceSet set;
   AWMR_ASSIGN_OR_RETURN(set.own_, model.plant());
   if (model.covariance.parameters.empty()) return set;
-  Model bare = model;  // a small copy, because it is copied for each plant
+  Model bare = model;  // without the record: the sampler copies the model for each plant
   bare.record = {};
   AWMR_ASSIGN_OR_RETURN(set.sampler_, PlantSampler::make(bare));
   set.parameters_ = static_cast<int>(model.covariance.parameters.size());

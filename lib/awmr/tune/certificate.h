@@ -16,18 +16,19 @@ namespace awmr {
 /// Computes for each mode the smallest damping ratio and the smallest delay margin of
 /// SampledHeadingLoop with hold, servo, latency (including a fraction of a sample) and motor lag,
 /// over
-///   - the plants of the 95 % ellipsoid of the model's covariance, |n| <= r with r^2 the 0.95
-///     quantile of the
-///     chi-squared of PlantSampler::rank() degrees of freedom, projected on the parameters of the
-///     loop (a3, b3, q3, I'z, T), with non-negative exponents and terms;
-///   - all yaw rates of examined_rates_radps();
+///   - the plants of the 95 % ellipsoid of the model's covariance, projected on the parameters of
+///     the loop (a3, b3, q3, I'z, T), with non-negative exponents and terms. In standard normal
+///     coordinates n the ellipsoid is |n| <= r, r^2 the 0.95 quantile of the chi-squared
+///     distribution with PlantSampler::rank() degrees of freedom;
+///   - all yaw rates in examined_rates_radps();
 ///   - the mass factors of `open`.
-/// Without a covariance: the model's own plant.
+/// Without a covariance, only the model's own plant is examined. The heading law uses the context's
+/// plant.
 ///
-/// The law uses the context's own plant. Each minimum is found by search: first the centre, the
-/// axes and the corners at five yaw rates and 500 random points; then a pattern search from the
-/// best point of each orthant of the ellipsoid. This is not a proof. In a test with nine vehicles,
-/// none of 20,000 random points (5,000 for the margin) is worse by more than kCertificateTolerance
+/// Each minimum is found by search: first the centre, the axes and the corners at five yaw rates
+/// and 500 random points; then a pattern search from the best point of each orthant of the
+/// ellipsoid. This is not a proof. In a test with nine vehicles, none of 20,000 random points
+/// (5,000 for the delay margin) is worse by more than kCertificateTolerance
 /// (tests/tune/certificate_test.cpp). Errors (input): as PlantSampler::make.
 Result<Certificate> certify(const Model& model, const ConstraintContext& context,
                             const UnmodelledVariation& open, const Gains<double>& gains);
@@ -44,8 +45,8 @@ class ConfidenceSet {
   std::size_t dimension() const { return directions_.size(); }
   int parameters() const { return parameters_; }
   int rank() const { return sampler_ ? sampler_->rank() : 0; }
-  /// The plant at a point of the unit ball; the centre is the model's own plant. Empty if an
-  /// exponent or a term is negative there.
+  /// The plant at a point of the unit ball, which is mapped to the ellipsoid; the centre is the
+  /// model's own plant. Empty if an exponent or a term of the plant is negative.
   std::optional<Plant<double>> plant_at(std::span<const double> point) const;
 
  private:
@@ -56,7 +57,7 @@ class ConfidenceSet {
   std::vector<std::vector<double>> directions_;
 };
 
-/// The loop of certify() for a plant, a yaw rate and a mode.
+/// The heading loop that certify() examines for a plant, a yaw rate and a mode.
 SampledHeadingLoop certified_loop(const Gains<double>& gains, const ConstraintContext& context,
                                   const Plant<double>& plant, double rate_radps, YawMode mode);
 

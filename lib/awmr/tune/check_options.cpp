@@ -155,7 +155,8 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
   }
   if (std::max(open.mass_factors.size(), open.wheel_forces.size()) > kMostOpenValues) {
     faults.push_back({ErrorCode::kTooLarge, "",
-                      fmt::format("open: more than {} values of a kind", kMostOpenValues)});
+                      fmt::format("open: mass_factors or wheel_forces has more than {} values",
+                                  kMostOpenValues)});
   }
   const auto fewest = static_cast<int>(open.combinations());
   for (const auto& [name, count] :
@@ -193,7 +194,10 @@ void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
                         fmt::format("goals: {} at most {} is not above 0", figure, most)});
     }
   }
-  if (figures.empty()) faults.push_back({ErrorCode::kMissing, "", "goals: one without a limit"});
+  if (figures.empty()) {
+    faults.push_back(
+        {ErrorCode::kMissing, "", "goals: a goal is without a limit; give at_most a metric"});
+  }
   if (!(goal.share >= kLeastShare && goal.share <= kMostShare)) {
     faults.push_back({ErrorCode::kOutOfRange, "",
                       fmt::format("goals: a share of {} is not in {} ... {}", goal.share,
@@ -220,7 +224,8 @@ void check_mode(const TuneOptions& options, const Vehicle& vehicle, std::vector<
   const std::span<const YawMode> modes = yaw_modes(vehicle);
   if (std::ranges::find(modes, *options.mode) == modes.end()) {
     faults.push_back({ErrorCode::kUnsupported, "",
-                      fmt::format("mode: a vehicle of drive \"{}\" has no mode {}",
+                      fmt::format("mode: a vehicle of drive \"{}\" has no mode {}; remove \"mode\" "
+                                  "or give another",
                                   name_in(kDriveNames, vehicle.drive), name_of(*options.mode))});
   }
   for (const TuningGoal& goal : options.goals) {
@@ -238,7 +243,8 @@ void check_goals(const TuneOptions& options, const Vehicle& vehicle, std::vector
   for (const TuningGoal& goal : options.goals) {
     if (goal.mode && std::ranges::find(modes, *goal.mode) == modes.end()) {
       faults.push_back({ErrorCode::kUnsupported, "",
-                        fmt::format("goals: a vehicle of drive \"{}\" has no mode {}",
+                        fmt::format("goals: a vehicle of drive \"{}\" has no mode {}; change the "
+                                    "goal's mode or remove it",
                                     name_in(kDriveNames, vehicle.drive), name_of(*goal.mode))});
     }
   }
@@ -251,8 +257,9 @@ void check_goals(const TuneOptions& options, const Vehicle& vehicle, std::vector
                       "goals are evaluated on fresh draws; judged_draws has to be above 0"});
   }
   if (options.goals.size() > kMostGoals) {
-    faults.push_back({ErrorCode::kTooLarge, "",
-                      fmt::format("goals: {} are more than {}", options.goals.size(), kMostGoals)});
+    faults.push_back(
+        {ErrorCode::kTooLarge, "",
+         fmt::format("goals: {} goals; at most {} are allowed", options.goals.size(), kMostGoals)});
   }
   for (const TuningGoal& goal : options.goals) check_goal(goal, faults);
 }
@@ -269,8 +276,8 @@ Status check_options(const TuneOptions& options, const Vehicle& vehicle) {
         {ErrorCode::kOutOfRange, "", fmt::format("margin: {} is not in (0, 1)", options.margin)});
   }
   if (options.global_evaluations < 1 || options.local_evaluations < 0) {
-    faults.push_back(
-        {ErrorCode::kOutOfRange, "", "evaluations: global at least 1, local at least 0"});
+    faults.push_back({ErrorCode::kOutOfRange, "",
+                      "global_evaluations must be at least 1, local_evaluations at least 0"});
   }
   check_robustness(options, faults);
   check_limits(options.limits, faults);

@@ -39,7 +39,7 @@ double examined_rate_radps(double share, const ConstraintContext& context) {
   return std::max(share * context.fastest_radps, kSlowest_radps);
 }
 
-/// Share of the moment from left and right wheel forces; the rest is from the servo.
+/// Share of the yaw moment that left and right wheel forces make; the steering makes the rest.
 double direct_share(YawMode mode) {
   switch (mode) {
     case YawMode::kDifferential:
@@ -60,13 +60,13 @@ double resistance_rate(const Plant<double>& plant, double rate_radps) {
          plant.inertia_norm;
 }
 
-/// A plant at a yaw rate.
+/// A plant and a yaw rate at which its heading loop is examined.
 struct ExaminedLoop {
   const Plant<double>* plant;
   double rate_radps;
 };
 
-/// By rate.
+/// The plant at each yaw rate of kRateShares.
 std::vector<ExaminedLoop> at_all_rates(const Plant<double>& plant,
                                        const ConstraintContext& context) {
   std::vector<ExaminedLoop> loops;
@@ -76,7 +76,7 @@ std::vector<ExaminedLoop> at_all_rates(const Plant<double>& plant,
   return loops;
 }
 
-/// The loops at the lowest and the highest rate, of the context's own plant and each draw.
+/// The context's own plant and each draw, at the lowest and the highest yaw rate.
 std::vector<ExaminedLoop> at_end_rates(const ConstraintContext& context) {
   const Interval rates = examined_rates_radps(context);
   std::vector<ExaminedLoop> loops;
@@ -87,7 +87,7 @@ std::vector<ExaminedLoop> at_end_rates(const ConstraintContext& context) {
   return loops;
 }
 
-/// Smallest value over the modes and the loops.
+/// Smallest damping ratio over the modes and the loops.
 double heading_damping(const Gains<double>& gains, const ConstraintContext& context,
                        std::span<const ExaminedLoop> loops, double latency_s,
                        double motor_time_constant_s) {
@@ -112,7 +112,7 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
                                                const ConstraintContext& context,
                                                const DrawnVehicle& vehicle);
 
-/// Largest tau_turn of steering and of differential at steady speed, m.
+/// Largest tau_turn of the modes steering and differential at steady speed, m.
 struct Moments {
   double steering;
   double differential;
@@ -121,7 +121,7 @@ Moments moments_m(const DrawnVehicle& vehicle, double speed_mps) {
   const Plant<double>& plant = vehicle.plant;
   const double tau_speed = plant.surge(speed_mps);
   const double wheels = driven_wheels(plant);
-  // Command of a wheel at constant speed, including compensation of its back-EMF.
+  // Command of a wheel at constant speed: its force, plus the compensation of its back-EMF.
   const double held = tau_speed / wheels + plant.back_emf_s_per_m * speed_mps;
   return {.steering = plant.front_axle_m * tau_speed *
                       std::tan(plant.steering_max_rad / (plant.rear_driven > 0.0 ? 2.0 : 1.0)),
@@ -129,7 +129,7 @@ Moments moments_m(const DrawnVehicle& vehicle, double speed_mps) {
                           std::min(vehicle.wheel_force.hi - held, held - vehicle.wheel_force.lo)};
 }
 
-/// -margin over the larger of value and limit; > 0: violated.
+/// -margin/max(|value|, |limit|); > 0: the constraint is violated.
 double residual(const ConstraintReport& c) {
   const double scale = std::max({std::abs(c.value), std::abs(c.limit), 1e-12});
   return -c.margin / scale;
@@ -169,16 +169,17 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
     worst.push_back(at_least(
         "late damping", heading_damping(gains, context, loops, context.latency_s, lag_s),
         context.limits.late_damping,
-        "smallest damping ratio of the loop with latency and motor lag as well >= required"));
+        "smallest damping ratio of the heading loop with latency and motor lag >= required"));
     const double doubled_s = 2.0 * context.latency_s + context.sample_time_s;
     worst.push_back(at_least("delay margin",
                              heading_damping(gains, context, ends, doubled_s, lag_s),
                              context.limits.delayed_damping,
-                             "the same at twice the latency plus one sample >= required"));
+                             "smallest damping ratio of the heading loop with motor lag and twice "
+                             "the latency plus one sample >= required"));
   }
   if (const auto& limit = context.limits.steering_rate_rms_degps; limit && context.steers()) {
     worst.push_back(at_most(kSteeringRate, steering_rate_rms_degps(gains, context), *limit,
-                            "RMS rate of the steering command from the readings' noise, deg/s"));
+                            "RMS rate of the steering command due to sensor noise, deg/s"));
   }
   return worst;
 }
@@ -204,7 +205,7 @@ Interval examined_rates_radps(const ConstraintContext& context) {
 
 namespace {
 
-/// E[f(z) g(z)], z standard normal, by the midpoint rule over +-6.
+/// E[f(z) g(z)] for a standard normal z, by the midpoint rule over -6 ... 6.
 template <class F, class G>
 double mean_of_product(const F& f, const G& g) {
   constexpr int kIntervals = 240;
@@ -218,8 +219,8 @@ double mean_of_product(const F& f, const G& g) {
   return mean;
 }
 
-/// Lower bound of E[w(z) w(z')] for an odd w and standard normals z, z' with the correlation rho:
-/// the terms up to k = 7 of Mehler's series, all of them >= 0,
+/// Lower bound of E[w(z) w(z')] for an odd function w and standard normals z, z' with the
+/// correlation rho: the terms up to k = 7 of Mehler's series, all of which are >= 0,
 ///   sum over odd k of rho^k E[w He_k(z)]^2/k!
 template <class W>
 double mean_of_correlated(const W& w, double rho) {
@@ -243,12 +244,12 @@ double mean_of_correlated(const W& w, double rho) {
   return mean;
 }
 
-/// Standard normal distribution. core/distributions.h needs Boost.Math, which the report's
-/// WebAssembly does not have.
+/// Standard normal distribution. Not that of core/distributions.h, because it needs Boost.Math, which
+/// the report's WebAssembly build does not have.
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 double normal_density(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * pi<double>()); }
 
-/// E[sat(x)], x normal with the mean m and the standard deviation s > 0.
+/// E[sat(x)] for a normal x with the mean m and the standard deviation s > 0.
 double mean_saturated(double m, double s) {
   const double above = (m + 1.0) / s;
   const double below = (m - 1.0) / s;
@@ -256,12 +257,13 @@ double mean_saturated(double m, double s) {
          s * (normal_density(above) - normal_density(below)) - 1.0;
 }
 
-/// Half the mean square change between two readings of the friction that the heading law feeds
-/// forward at rest:
-///   b = 1{|n| < rest} B,   B = g3(rest)/I'z sat(-lambda n_psi/rest)
-/// plus that of twice its product with -lambda k n_psi. The rate n and the heading n_psi are
-/// independent.
-///   E[b^2] - E[b b'] = P(|n| < rest) E[B^2] - P(|n| < rest, |n'| < rest) E[B B']
+/// Part of E[w^2] in steering_rate_rms_degps() due to the friction that the heading law feeds
+/// forward at rest, (rad/s^2)^2. With w0 = rest_speed, the fed-forward friction is
+///   b = B if |n| < w0, else 0,   B = g3(w0)/I'z sat(-lambda n_psi/w0)
+/// n and n_psi, the noise of yaw rate and heading, are independent; ' marks the next sample. The part
+/// is half the mean square change of b from one sample to the next,
+///   E[b^2] - E[b b'] = P(|n| < w0) E[B^2] - P(|n| < w0, |n'| < w0) E[B B'],
+/// plus the cross term of b with -lambda k n_psi.
 double resting_mean_square(const Resistance<double>& g3, const Gains<double>& gains,
                            const ConstraintContext& context) {
   const double slope = gains.heading.lambda * context.heading_noise_rad / g3.rest_speed;
@@ -319,7 +321,7 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider) {
   constexpr int kBisections = 20;
-  // At the largest width, the fed-forward friction adds a tenth to the corrective term.
+  // At the largest width, the fed-forward friction grows with S a tenth as fast as the correction.
   constexpr double kLeastFrictionShare = 0.1;
   double& width = gains.heading.friction_width_radps;
   width = feed_forward_rest_speed<double>();
@@ -364,10 +366,10 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
   const double zeta = context.limits.damping;
   return {
       at_most("T2 < T1 (paper)", reaching_s, context.margin * sliding_s,
-              "epsilon/(2 mu) <= margin/lambda, s: V = S^2/2 decays before the error slides",
+              "epsilon/(2 mu) <= margin/lambda, s: V = S^2/2 decays faster than the heading error",
               !strict),
       at_most("T2 < T1 (strict)", 2.0 * reaching_s, context.margin * sliding_s,
-              "epsilon/mu <= margin/lambda, s: S itself decays before the error slides", strict),
+              "epsilon/mu <= margin/lambda, s: S decays faster than the heading error", strict),
       at_least(
           "heading damping",
           heading_damping(gains, context, at_all_rates(plant, context), 0.0, 0.0),
@@ -390,8 +392,8 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
                   context.heading_noise_rad,
               context.limits.noise_share *
                   turning_authority_m(vehicle, context.speed_mps, context.mode),
-              fmt::format("tau_turn from {:g} deg of heading noise <= {:g} % of the weaker mode's "
-                          "authority, m",
+              fmt::format("tau_turn due to {:g} deg of heading noise <= {:g} % of the largest yaw "
+                          "moment of the weaker mode, m",
                           degrees(context.heading_noise_rad), 100.0 * context.limits.noise_share)),
   };
 }

@@ -25,12 +25,12 @@ constexpr double kLargestStep_deg = 30.0;
 constexpr double kSmallestStep_deg = 5.0;
 constexpr double kShortestHold_s = 5.0;
 constexpr double kLongestHold_s = 20.0;
-/// Ratio of the time that a heading is held to the time of the turn.
+/// Ratio of the time that a heading is commanded to the time of the turn.
 constexpr double kHoldOverTurn = 1.6;
-/// Settling time in addition to the turn, in multiples of the lags of servo and sensors.
+/// Settling time after the turn, as a multiple of the lag of servo or motors plus the latency.
 constexpr double kSettlingOverLag = 10.0;
 
-/// Rounded to two significant digits for readability.
+/// Rounds to two significant digits, so that the scenario is easy to read.
 double rounded(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
   return std::round(value / unit) * unit;
@@ -46,7 +46,7 @@ std::optional<double> measured_speed_mps(const Model& model) {
   return fastest;
 }
 
-/// u_d, m/s.
+/// u_d of the default scenarios, m/s (default_tuning_scenario()).
 double speed_for(const Model& model, const Plant<double>& plant) {
   const double wheels = driven_wheels(plant);
   const double thrust = wheels * (model.vehicle.wheel_force.hi - plant.wheel_dead_zone);
@@ -60,9 +60,11 @@ double speed_for(const Model& model, const Plant<double>& plant) {
   return rounded(std::max(speed, 1e-6));
 }
 
-/// Time of the weaker mode for a turn by an angle, s: at its steady yaw rate r, limited to the
-/// measured ones, after an acceleration of N/I'z, plus the settling of the loop.
+/// Time, s, that the weaker mode takes to turn by an angle:
 ///   angle/r + sqrt(angle I'z/N) + 10 (T + latency)
+/// N is the largest moment of the weaker mode, r its steady yaw rate, at most the highest measured
+/// one. The terms are the turn at r, the acceleration by N/I'z, and the settling of the loop; T is
+/// the larger of the time constants of servo and motors.
 double turning_time_s(const Model& model, const Plant<double>& plant, double speed_mps,
                       double angle_rad) {
   const double moment = turning_authority_m({plant, model.vehicle.wheel_force}, speed_mps);
@@ -79,7 +81,7 @@ double turning_time_s(const Model& model, const Plant<double>& plant, double spe
          kSettlingOverLag * lag_s;
 }
 
-/// A heading and its opposite.
+/// Manoeuvre of the default scenario: at a speed, a heading for hold_s, then its opposite.
 struct Manoeuvre {
   double speed_mps;
   double step_deg;

@@ -1,4 +1,4 @@
-// Schema of gains.json. A program that only uses the gains needs `heading` and `speed`.
+// JSON Schema of gains.json. To use the gains, a program needs only the keys `heading` and `speed`.
 #include "awmr/core/json.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/gains_json.h"
@@ -34,7 +34,7 @@ void describe_constraints(JsonObject& json) {
     constraint.string("name");
     constraint.boolean("required");
     for (const char* key : {"value", "limit", "margin"}) constraint.number(key);
-    // Files from before this key state the side in `meaning` only.
+    // Older files have no `sense`; only `meaning` shows the side of the limit.
     if (constraint.has("sense")) constraint.choice("sense", kSenseNames);
     constraint.string("meaning");
     constraint.reject_unknown_keys();
@@ -45,7 +45,7 @@ void describe_objective(JsonObject json) {
   json.number("value");
   JsonObject weights = json.object("weights");
   for (const ObjectiveTerm& term : kObjectiveTerms) {
-    // Files from before the term "settling" have no weight for it.
+    // Older files have no term "settling".
     if (term.weight != &ObjectiveWeights::settling || weights.has(term.name)) {
       weights.number(term.name, kNonNegative);
     }
@@ -109,7 +109,7 @@ void describe_robust(JsonObject json) {
     for (JsonObject& one : by_scenario->values()) describe_quantiles(one);
   }
   if (auto open = json.optional_object("open")) read_open(std::move(*open));
-  // Files from before pole placement have the nominal gains and their search.
+  // Older files have the nominal gains and the history of their search.
   if (auto nominal = json.optional_object("nominal")) {
     gains_from_json(*nominal);
     nominal->reject_unknown_keys();
@@ -156,7 +156,7 @@ void describe_goals(JsonObject& json) {
   }
 }
 
-/// Sobol's indices by mode and figure.
+/// Sobol indices, by mode and metric.
 void describe_sensitivity(JsonObject json) {
   json.number("samples", kPositive);
   for (JsonObject& figure : json.objects("figures")) {
@@ -188,7 +188,7 @@ void describe_worst_case(JsonObject json, const char* value) {
 
 /// Worst cases over the model's confidence set, by mode.
 void describe_certificate(JsonObject json) {
-  json.string("set");  // "95 %", or the model's own values
+  json.string("set");  // examined set of plants: kCertifiedSet or kUncertifiedSet
   json.number("damping_min", {.min = -1.0, .max = 1.0});
   json.nullable_number("delay_margin_s", kNonNegative);
   json.string("method");

@@ -27,7 +27,7 @@ constexpr const char* kFigures[] = {"settling_time_s", "overshoot_deg", "heading
 /// One value of every input.
 struct Sample {
   Model model;                                               ///< only its parameters are used
-  double noise_level = 1.0, latency = 1.0, motor_lag = 1.0;  ///< relative to the assumed value
+  double noise_level = 1.0, latency = 1.0, motor_lag = 1.0;  ///< factors on the assumed values
   std::size_t noise = 0;                                     ///< number of the noise realisation
 };
 
@@ -37,7 +37,7 @@ struct Input {
   std::function<void(const Sample& from, Sample& to)> take;
 };
 
-/// Groups of parameters that are uncorrelated with those of other groups.
+/// Groups of correlated parameters. Parameters of different groups are uncorrelated.
 std::vector<std::vector<ParameterId>> tied_sets(const Covariance& covariance) {
   const std::size_t n = covariance.parameters.size();
   std::vector<std::size_t> set_of(n);
@@ -80,7 +80,7 @@ std::vector<Input> inputs_of(const Model& model) {
   return inputs;
 }
 
-/// `count` samples, whose noise realisations have the numbers from `first` on.
+/// Draws `count` samples. Their noise realisations have the numbers first + 1, first + 2, ...
 Result<std::vector<Sample>> drawn_samples(const Model& model, std::uint64_t seed, std::size_t first,
                                           int count) {
   std::optional<PlantSampler> sampler;
@@ -94,7 +94,7 @@ Result<std::vector<Sample>> drawn_samples(const Model& model, std::uint64_t seed
     if (sampler) {
       AWMR_ASSIGN_OR_RETURN(sample.model, sampler->draw_model(seed, number));
     }
-    sample.model.record = {};  // saves memory: there is one model per sample
+    sample.model.record = {};  // not needed; saves memory, because each sample has a model
     Random random(seed ^ 0x736f626f6cULL, static_cast<std::uint64_t>(number));
     for (double* level : {&sample.noise_level, &sample.latency, &sample.motor_lag}) {
       *level = 2.0 * random.uniform();
@@ -162,7 +162,7 @@ Result<GlobalSensitivity> global_sensitivity(const Model& model, const Objective
                         drawn_samples(model, setting.seed, at(samples), samples));
   const auto controller = make_controller(setting.vehicles.front().plant, setting.vehicle, gains);
   const std::size_t n = at(samples);
-  // The samples AB_i by input, then A and B.
+  // The metrics of the samples AB_i by input, then of A and B (sobol.h).
   std::vector<std::vector<double>> figures((inputs.size() + 2) * n);
   parallel_for(figures.size(), 0, [&](std::size_t i) {
     const std::size_t input = i / n;
@@ -176,8 +176,8 @@ Result<GlobalSensitivity> global_sensitivity(const Model& model, const Objective
     return refusal(
         ErrorCode::kDiverges,
         fmt::format(
-            "a run of the tuned loop fails with {} of {} samples of the assumed values, so the "
-            "sensitivity is unknown; tune without sensitivity",
+            "runs of the tuned loop diverge for {} of {} samples of parameters, noise, latency and "
+            "motor lag, so the sensitivity is unknown; tune without sensitivity",
             broken_off, figures.size()));
   }
   const std::span<const YawMode> modes = setting.modes();

@@ -1,4 +1,5 @@
-/// Sensitivity of the tuned loop to its assumptions. Private to this folder.
+/// Sobol indices of the tuned loop's metrics: which assumption about plant, sensors and motors
+/// affects each metric. Private to tune/.
 #pragma once
 
 #include "awmr/core/result.h"
@@ -7,19 +8,19 @@
 
 namespace awmr {
 
-/// Computes the Sobol indices of the loop's metrics (settling, overshoot, error), by mode. Inputs:
+/// Computes the Sobol indices of settling time, overshoot and heading error, by mode. Inputs:
 ///   - each group of correlated parameters, drawn from the model's covariance;
-///   - the level of the sensor noise, the latency and the motor lag, each uniform from 0 to twice
+///   - the size of the sensor noise, the latency and the motor lag, each uniform from 0 to twice
 ///     the assumed value;
 ///   - the noise realisation.
-/// `setting`: with the model's own plant and noise-free scenarios. With several scenarios, a metric
-/// is the mean over them.
+/// `setting` has the model's own plant and noise-free scenarios. With several scenarios, a metric is
+/// the mean over them.
 /// Errors (input): as PlantSampler's; (refused): a run breaks off.
 Result<GlobalSensitivity> global_sensitivity(const Model& model, const ObjectiveSetting& setting,
                                              const LoopConditions& assumed,
                                              const Gains<double>& gains, int samples);
 
-/// Number of runs for `samples` samples of a model in one mode and scenario.
+/// Number of runs that global_sensitivity() needs per mode and scenario.
 double sensitivity_runs(const Model& model, int samples);
 
 }  // namespace awmr

@@ -32,8 +32,8 @@ constexpr RunFigure kFiguresByName[kRunFigures] = {
      [](const Metrics& m, const Scenario&) { return m.steering_rate_rms_degps; }},
 };
 
-/// Largest excess of each draw over the scenarios in one mode. Runs of one draw share its plant and
-/// are not independent. Outcomes are by draw, then mode, then scenario.
+/// Excess of each draw in one mode: the largest over the scenarios, because the runs of one draw
+/// share its plant and are not independent. Outcomes are by draw, then mode, then scenario.
 std::vector<double> excesses(const GoalInMode& one, std::span<const RunOutcome> outcomes,
                              std::size_t scenarios) {
   std::vector<double> all;
@@ -45,7 +45,7 @@ std::vector<double> excesses(const GoalInMode& one, std::span<const RunOutcome> 
   return all;
 }
 
-/// Replaces an excess that is not finite: larger than any limit, and representable in JSON.
+/// Replaces a metric that is not finite: larger than any limit, and representable in JSON.
 constexpr double kNoFigure = 1e100;
 
 }  // namespace

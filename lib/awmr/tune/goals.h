@@ -1,10 +1,10 @@
-/// Goals of tuning, as probabilities: "95 % of the runs settle within 2 s and overshoot by at most
-/// 1 deg". Private to tune/, but for TuningGoal itself (tune.h).
+/// Evaluation of tuning goals (TuningGoal), such as "95 % of the draws settle within 2 s and
+/// overshoot by at most 1 deg". Private to tune/.
 ///
-/// With x_i a metric of a run and l_i its limit, the run's excess is e = max_i x_i/l_i, infinite if
-/// the run breaks off. The excess of a draw is the largest over the scenarios. A goal with the
-/// share p is met in a mode if the p quantile of e over all draws is at most 1. The quantile of n
-/// draws is the ceil(p n)-th smallest, so with few draws it is the largest.
+/// The excess of a run is e = max_i x_i/l_i, with x_i its metrics and l_i their limits. It is
+/// infinite if the run breaks off. The excess of a draw is the largest over the scenarios. A goal
+/// with the share p is met in a mode if the p quantile of e over all draws is at most 1. The p
+/// quantile of n draws is the ceil(p n)-th smallest value, so with few draws it is the largest.
 #pragma once
 
 #include <span>
@@ -17,8 +17,9 @@
 
 namespace awmr {
 
+/// Returns the metrics of a run that goals and evaluation need.
 RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario);
-/// `scores` are by draw, then mode, then scenario.
+/// The same for many runs. `scores` are by draw, then mode, then scenario.
 std::vector<RunOutcome> outcomes_of(std::span<const ModeScore> scores,
                                     std::span<const Scenario> scenarios);
 
@@ -40,8 +41,8 @@ struct GoalInMode {
 /// By goal, then mode.
 std::vector<GoalInMode> by_mode(std::span<const TuningGoal> goals, std::span<const YawMode> modes);
 
-/// Quantile over the draws of the excess in the mode, >= 0. `outcomes` are by draw, then mode, then
-/// scenario.
+/// Returns the quantile of the excess in the mode over the draws, >= 0. `outcomes` are by draw, then
+/// mode, then scenario.
 double quantile_of_excess(const GoalInMode& one, std::span<const RunOutcome> outcomes,
                           std::size_t scenarios);
 

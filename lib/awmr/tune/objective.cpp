@@ -18,16 +18,16 @@
 namespace awmr {
 namespace {
 
-/// Runs fill registers by fours or eights, so the share of a thread is a multiple of four.
+/// The batch engine drives four or eight runs in one register, so a thread gets a multiple of four.
 constexpr std::size_t kFour = 4;
 
-/// Number of runs driven together, out of `count` in each scenario, so that every thread has work.
+/// Number of runs per batch, so that every thread has work. `count`: runs in each scenario.
 std::size_t runs_together(std::size_t count, std::size_t scenarios) {
   const std::size_t share = count * scenarios / thread_count(0) + 1;
   return std::min(kBatchRuns, (share + kFour - 1) / kFour * kFour);
 }
 
-/// Metrics of a run that failed, up to the failure.
+/// Metrics, up to the failure, of a run that failed.
 Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario,
                           const ObjectiveSetting& setting) {
   return drive_batch(std::span(&run, 1), scenario, setting.vehicle.sample_time_s,
@@ -41,7 +41,7 @@ std::uint64_t number_of(const ObjectiveSetting& setting, std::size_t vehicle) {
   return setting.numbers.empty() ? vehicle : setting.numbers[vehicle];
 }
 
-/// By gains, then vehicle, then mode.
+/// The runs of one scenario: by gains, then vehicle, then mode.
 std::vector<BatchRun> runs_of(const ObjectiveSetting& setting,
                               std::span<const Gains<double>> gains) {
   std::vector<BatchRun> runs;
@@ -59,7 +59,7 @@ std::vector<BatchRun> runs_of(const ObjectiveSetting& setting,
   return runs;
 }
 
-/// The mean, with the same bits for every order of the values.
+/// Mean of the values. The result has the same bits for every order of the values.
 double mean_in_any_order(std::vector<double> values) {
   std::ranges::sort(values);
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());

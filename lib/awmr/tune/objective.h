@@ -1,20 +1,21 @@
-/// Objective of the search. Private to tune/.
+/// Objective J that the search minimises. Private to tune/.
 ///
-/// For each run, with x a metric of it and x0 the same metric with the baseline gains on the same
-/// vehicle in the same mode and scenario:
+/// J of a run compares its metrics x_i with the metrics x0_i of the baseline gains on the same
+/// vehicle, in the same mode and scenario:
 ///
-///     ln J = sum_i w_i ln((x_i + f_i)/(x0_i + f_i)) / sum_i w_i
+///     ln J = sum_i w_i ln((x_i + f_i)/(x0_i + f_i)) / sum_i w_i,   w_i: weights
 ///
-/// over settling time, heading ITAE, overshoot, control variation, effort and speed ITAE. f_i is a
-/// floor in the unit of x_i, below which a difference does not matter: the baseline scores exactly
-/// 1, even where its overshoot is 0. Over several vehicles, ln J of a mode and scenario is (mean +
-/// CVaR)/2, CVaR the mean over the worst share of them. The objective is the geometric mean of J
-/// over modes and scenarios, plus for each soft goal and mode the excess of the quantile of its
-/// excess (goals.h) over 1.
+/// The metrics are settling time, heading ITAE, overshoot, control variation, effort and speed
+/// ITAE. f_i is a floor in the unit of x_i: differences below it do not matter, and an overshoot of
+/// 0 is possible. The baseline scores exactly 1.
 ///
-/// With a geometric mean the best gains do not depend on the baseline: halving a metric has the
-/// same weight for any baseline. In a sum of ratios, a metric that is large for the baseline hardly
-/// counts.
+/// For several vehicles, ln J of a mode and scenario is the average of the mean over all vehicles
+/// and the mean over the worst tail_share of them (CVaR). The objective is the geometric mean of J
+/// over modes and scenarios. Each soft goal adds max(0, q - 1) in each of its modes, q the quantile
+/// of its excess (goals.h).
+///
+/// Geometric means, because the best gains then do not depend on the baseline. In a sum of ratios, a
+/// metric that is large with the baseline would hardly count.
 #pragma once
 
 #include <array>
@@ -46,17 +47,17 @@ inline constexpr ObjectiveTerm kObjectiveTerms[] = {
     {"speed_itae", &ObjectiveWeights::speed_itae, "speed_itae_m_s", 1e-3},
 };
 
-/// Substitute for the settling time of a run that does not settle after every step, s. With T the
-/// scenario's duration, T_j that of step j and b = 0.5 deg, the narrowest settling band:
+/// Substitute for the settling time, s, of a run that does not settle after every step:
 ///   T max(1, ITAE/sum_j(b T_j^2/2))
-/// T alone would not depend on the gains, and the least active ones would be selected.
-/// Precondition: heading guidance.
+/// T is the scenario's duration, T_j the time that step j is held, b = 0.5 deg the narrowest
+/// settling band. Not T alone, because T does not depend on the gains and the search would select
+/// the least active ones. Precondition: heading guidance.
 double unsettled_s(const Scenario& scenario, double itae_degs2);
 
-/// x_i of one run, in the order of kObjectiveTerms.
+/// The metrics x_i of one run, in the order of kObjectiveTerms.
 std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score);
 
-/// J of one run; exactly 1 for the baseline against itself. Infinite or NaN if a metric is.
+/// J of one run; exactly 1 with the baseline gains. Infinite or NaN if a metric is.
 double objective_of(const ModeScore& score, const ModeScore& baseline,
                     const ObjectiveWeights& weights);
 
@@ -70,30 +71,32 @@ struct ObjectiveSetting {
   ObjectiveWeights weights;
   std::vector<Scenario> scenarios;  ///< with heading guidance; not empty
   double tail_share = 1.0;          ///< (0, 1]
-  std::uint64_t seed = 0;           ///< of the random numbers of the runs, which differ by vehicle
-  BatchArithmetic arithmetic = {};  ///< of the runs
+  std::uint64_t seed = 0;           ///< of the random numbers of the runs
+  BatchArithmetic arithmetic = {};  ///< instruction set and rounding of the runs
   std::vector<TuningGoal> goals = {};
-  std::vector<std::uint64_t> numbers = {};  ///< of the vehicles; empty: 0, 1, ...
-  std::optional<YawMode> mode = {};         ///< the only one; absent: all modes of the vehicle
+  /// Number of each vehicle, which with the seed selects its random numbers; empty: 0, 1, ...
+  std::vector<std::uint64_t> numbers = {};
+  std::optional<YawMode> mode = {};  ///< the only one; absent: all modes of the vehicle
 
   std::span<const YawMode> modes() const { return tuned_modes(vehicle, mode); }
 };
 
-/// Standard normals of the sensor noise of all runs, by scenario, then vehicle. Empty if they would
-/// exceed kMostNoiseBytes; the runs then draw them themselves.
+/// Standard normal random numbers of the sensor noise of all runs, by scenario, then vehicle. Empty
+/// if they would exceed kMostNoiseBytes; then each run draws its own.
 using RunNoise = std::vector<std::vector<DrawnNoise>>;
 inline constexpr double kMostNoiseBytes = 64e6;
 RunNoise draw_noise(const ObjectiveSetting& setting);
 
+/// Result of one set of gains.
 struct Evaluation {
   std::vector<ModeScore> scores;       ///< of the first vehicle, by mode, then scenario
   std::vector<double> mode_objective;  ///< geometric mean over scenarios, in the order of modes()
-  std::vector<double> mode_activity;   ///< ratio of control variation to the baseline's, all
-                                       ///< vehicles
-  std::vector<double> goal_quantile;   ///< of the excess, by goal, then mode (goals.h)
-  TradeOffPoint trade_off;             ///< over all runs
-  double objective = 0.0;  ///< geometric mean over the modes, plus soft goals; finite where `valid`
-  bool valid = false;      ///< finite, and no run breaks off
+  std::vector<double> mode_activity;   ///< by mode: sum of the control variation of all runs,
+                                       ///< divided by that of the baseline gains
+  std::vector<double> goal_quantile;   ///< quantile of the excess, by goal, then mode (goals.h)
+  TradeOffPoint trade_off;             ///< means over all runs
+  double objective = 0.0;  ///< geometric mean over the modes, plus soft goals; finite if `valid`
+  bool valid = false;      ///< the objective is finite, and no run breaks off
 };
 
 /// Evaluates gains. Not thread-safe; the runs of a call are distributed over the cores.
@@ -123,12 +126,13 @@ class Objective {
   mutable std::map<GainNumbers, Evaluation> known_;
 };
 
-/// All runs of each set of gains, by vehicle, then mode, then scenario. The number of a vehicle
-/// also selects its noise. `noise`: draw_noise() of the setting.
+/// Simulates all runs of each set of gains. Returns for each set its scores by vehicle, then mode,
+/// then scenario. `noise`: draw_noise() of the setting.
 std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting, const RunNoise& noise,
                                             std::span<const Gains<double>> gains);
 
-/// (mean + mean of the largest share)/2; at least one value counts as the largest.
+/// (mean of all values + mean of the tail)/2. The tail is the largest `tail_share` of the values, at
+/// least one.
 double mean_and_tail(std::vector<double> values, double tail_share);
 
 }  // namespace awmr

@@ -8,16 +8,16 @@
 namespace awmr {
 namespace {
 
-/// Ratios lambda/k are halved every second time, k every fourth time.
+/// Grid of the search: 13 ratios lambda/k, each sqrt(1/2) times the one before; for each ratio 54
+/// values of k downwards from 1/T_s, each 2^(-1/4) times the one before.
 constexpr int kRatios = 13;
 const double kRatioStep = std::sqrt(0.5);
 const double kRateStep = std::pow(0.5, 0.25);
-/// Slowest k as a fraction of the fastest, 1/T_s.
 constexpr int kRates = 54;
 constexpr int kBisections = 6;
-/// Distance from a limit, so that rounding does not violate it.
+/// Factor on a limit, so that rounding does not violate it.
 constexpr double kInside = 1.0 - 1e-9;
-/// Smallest mu where no resistance has to be dominated.
+/// Smallest mu (rad/s^2) and mu_s (m/s^2) if the resistance is 0.
 constexpr double kLeastMu = 1e-3;
 
 const ConstraintReport& named(const std::vector<ConstraintReport>& all, std::string_view name) {
@@ -29,7 +29,7 @@ double violation(const Gains<double>& gains, const ConstraintContext& context) {
   return *std::ranges::max_element(broken);
 }
 
-/// Smallest mu that meets the constraint `dominates`.
+/// Smallest mu or mu_s that meets the constraint "mu dominates" or "mu_s dominates".
 double least_mu(const ConstraintReport& dominates) {
   return std::max(dominates.limit / kInside, kLeastMu);
 }
@@ -64,8 +64,8 @@ class HeadingPoles {
   }
 
   bool is_met(const Gains<double>& gains) {
-    double broken = violation(gains, own_);  // the draws only if the model's own plant meets the
-                                             // constraints
+    // The draws are examined only if the model's own plant meets the constraints.
+    double broken = violation(gains, own_);
     if (broken <= 0.0 && !context_.draws.empty()) broken = violation(gains, context_);
     if (broken < least_broken_) {
       least_broken_ = broken;
@@ -74,8 +74,8 @@ class HeadingPoles {
     return broken <= 0.0;
   }
 
-  /// Largest feasible k of a ratio, searched downwards. Stops where lambda would not exceed the
-  /// largest found so far.
+  /// Searches the largest feasible k of a ratio lambda/k, from 1/T_s downwards. Stops if lambda would
+  /// not exceed the largest one found so far.
   void look_along(double ratio) {
     double k = 1.0 / context_.sample_time_s;
     const auto is_behind = [&](double rate) {

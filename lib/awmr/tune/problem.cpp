@@ -13,8 +13,8 @@
 namespace awmr {
 namespace {
 
-/// Added to the violation of a point that was not simulated or whose runs break off, to give its
-/// value in a search: above any relevant objective.
+/// A point that was not simulated, or whose runs break off, gets the value kRejected + violation. It
+/// is larger than any objective that matters.
 constexpr double kRejected = 1e3;
 /// Added to the violation of every limit if a run breaks off.
 constexpr double kInvalid = 1.0;
@@ -165,7 +165,7 @@ std::vector<Looked> Problem::look_at(std::span<const Point> points) {
   if (options_.progress) {
     const auto total = static_cast<std::size_t>(options_.global_evaluations) +
                        static_cast<std::size_t>(options_.local_evaluations);
-    // The starts do not count towards the budget.
+    // Evaluations of the starts are not in the budget, so the count can exceed it.
     options_.progress(std::min(static_cast<std::size_t>(evaluations), total), total);
   }
   return all;

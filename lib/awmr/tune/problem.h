@@ -1,4 +1,4 @@
-/// The search problem: points and their evaluations. Private to tune/.
+/// Search space of the gains, and the evaluation of its points. Private to tune/.
 #pragma once
 
 #include <array>
@@ -14,16 +14,16 @@
 
 namespace awmr {
 
-/// lambda, mu, epsilon, mu_s, epsilon_s, and the bandwidth of an observer.
+/// Number of searched values: lambda, mu, epsilon, mu_s, epsilon_s and the observer's bandwidth.
 inline constexpr unsigned kMostDimensions = 6;
-/// Their logarithms; the last is 0 where no observer is searched.
+/// Natural logarithms of these values; the last one is 0 if no observer is searched.
 using Point = std::array<double, kMostDimensions>;
 
 /// Fills in the absent bounds: from the smallest of these gains divided by kBoundFactor to the
 /// largest times kBoundFactor.
 void bound_around(std::span<const Gains<double>> gains, GainBounds& bounds);
 
-/// Bounds of the search.
+/// Box of the logarithms of the gains, and conversions between points and gains.
 class SearchSpace {
  public:
   /// Precondition: all bounds and the observer's limits are set.
@@ -33,7 +33,7 @@ class SearchSpace {
   /// The corners of the bounds.
   Point lower_corner() const;
   Point upper_corner() const;
-  /// Clamped to the bounds, against rounding.
+  /// Gains at the point, clamped to the bounds because exp() rounds.
   Gains<double> gains_at(const Point& point) const;
   Point point_of(const Gains<double>& gains) const;
 
@@ -48,13 +48,14 @@ struct Candidate {
   /// Largest residual of the constraints, the activity limit and the goals; <= 0 is feasible.
   double violation = 0.0;
   double objective = 0.0;  ///< meaningful if `simulated`
-  bool simulated = false;  ///< false: a constraint is violated, so nothing was run
-  bool valid = false;      ///< finite, and no run breaks off
+  bool simulated = false;  ///< false: a constraint is violated, so nothing was simulated
+  bool valid = false;      ///< the objective is finite, and no run breaks off
 
   bool feasible() const { return simulated && valid && violation <= 0.0; }
 };
 
-/// Order of candidates: feasible ones first, by objective; then the others, by violation.
+/// Whether `a` is better than `b`: feasible candidates come first, by objective; then the others, by
+/// violation.
 bool better(const Candidate& a, const Candidate& b);
 
 /// A point with its evaluation.
@@ -63,7 +64,7 @@ struct Looked {
   Candidate candidate{};
   std::vector<double> residuals{};  ///< in the order of Problem::names()
 
-  /// The problem as NLopt receives it.
+  /// Value that NLopt minimises: the objective, or a larger number if the point has no valid runs.
   double value() const;
 };
 
@@ -77,18 +78,19 @@ class Problem {
   const std::vector<std::string>& names() const { return names_; }
   const SearchSpace& space() const { return space_; }
   unsigned constraints() const { return static_cast<unsigned>(names_.size()); }
-  bool simulate_all = false;  ///< also points that violate a constraint: the local search models
-                              ///< them
-  /// By constraint: the residual up to which it counts as met. 0, except to find the benefit of a
-  /// wider limit.
+  /// Whether points that violate a constraint are simulated too. The local search needs their
+  /// objective.
+  bool simulate_all = false;
+  /// For each constraint, the residual up to which it counts as met. 0, except for the constraint
+  /// that active_constraints() relaxes.
   std::vector<double> tolerated;
-  Candidate nearest;
+  Candidate nearest;  ///< the best candidate so far, in the order of better()
   int evaluations = 0;
   int simulated = 0;
-  std::vector<TradeOffPoint> met;  ///< of all feasible points
+  std::vector<TradeOffPoint> met;  ///< trade-off of all feasible points
   std::vector<SearchStep> steps;   ///< the evaluations that improved on all earlier ones
 
-  /// Results in the order of the points, whose runs are simulated together.
+  /// Evaluates the points and simulates their runs together. Returns the results in their order.
   std::vector<Looked> look_at(std::span<const Point> points);
 
  private:
@@ -100,9 +102,10 @@ class Problem {
   const ConstraintContext& context_;
   const Objective& objective_;
   std::vector<std::string> names_;
-  std::optional<std::size_t> steering_rate_;  ///< its place among the names
-  std::size_t before_runs_ = 0;               ///< number of constraints that need no run
-  std::vector<std::size_t> hard_goals_;       ///< their places in Evaluation::goal_quantile
+  std::optional<std::size_t> steering_rate_;  ///< index of the steering-rate limit in names_
+  std::size_t before_runs_ = 0;               ///< number of constraints that need no simulation
+  std::vector<std::size_t> hard_goals_;       ///< indices in Evaluation::goal_quantile of the goals
+                                              ///< that are not soft
 };
 
 }  // namespace awmr

@@ -21,7 +21,7 @@ std::string in_words(const Gains<double>& g) {
       g.observer.is_on() ? fmt::format(", observer {:.4g} rad/s", g.observer.bandwidth_radps) : "");
 }
 
-/// Remedy if a constraint leaves no gains: the limit to relax, and its cause in the vehicle.
+/// Advice if no gains meet a constraint: the limit to relax, and the cause in the vehicle.
 std::string advice_on(std::string_view constraint) {
   struct Advice {
     std::string_view constraint, limit, cause;
@@ -50,7 +50,7 @@ std::string advice_on(std::string_view constraint) {
   return fmt::format("relax {} of tune.json; {}", known->limit, known->cause);
 }
 
-/// The goal that the nearest gains violate most, if any.
+/// Refusal that names the goal that the nearest gains violate most. Empty if they meet all goals.
 std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, const Evaluation& e,
                                                  const Objective& objective,
                                                  const std::vector<Scenario>& scenarios) {
@@ -67,14 +67,14 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
       ErrorCode::kNoGains,
       fmt::format(
           "no gains within the bounds reach the goal \"{}\": of {} evaluated, the nearest ({}) "
-          "need {:.3g} "
-          "times its limits. Make it soft, raise its limits, or give more evaluations{}",
+          "need {:.3g} times its limits. Make the goal soft, raise its limits, or increase "
+          "local_evaluations{}",
           goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
           e.goal_quantile[worst],
-          is_rate_limited
-              ? "; one default scenario limits the heading rate to the measured one and is slow: " +
-                    option_text("heading_rate_limit") + " none removes it"
-              : ""));
+          is_rate_limited ? "; one default scenario is slow, because it limits the heading rate to "
+                            "the measured one: " +
+                                option_text("heading_rate_limit") + " none removes that scenario"
+                          : ""));
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
     return refusal(
         ErrorCode::kDiverges,
         fmt::format(
-            "runs diverge with all gains tried, also with the nearest of {} ({}); give slower "
+            "runs diverge with all {} gains that were tried; the nearest are {}. Give slower "
             "scenarios or narrower bounds",
             found.evaluations, gains));
   }
@@ -115,8 +115,7 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
   return refusal(
       ErrorCode::kNoGains,
       fmt::format("no gains within the bounds meet every limit: the nearest of {} ({}) violate "
-                  "'{}' by {:.0f} "
-                  "%; {}, or give more evaluations",
+                  "'{}' by {:.0f} %; {}, or increase local_evaluations",
                   found.evaluations, gains, found.broken_most, 100.0 * found.broken_by,
                   is_activity ? "raise activity_max of tune.json" : advice_on(found.broken_most)));
 }
@@ -130,8 +129,8 @@ tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs
           : fmt::format("'{}' is at its limit: {}", costliest->name, advice_on(costliest->name));
   return refusal(
       ErrorCode::kNoGains,
-      fmt::format("no run settles with gains within the limits: none of {} does with the "
-                  "best ({}); {}{}",
+      fmt::format("no run settles with gains within the limits: none of {} runs settles with the "
+                  "best gains ({}); {}{}",
                   runs, in_words(gains), advice,
                   is_held ? fmt::format("; an observer ({}) compensates the friction that holds "
                                         "the vehicle off its heading",

@@ -1,5 +1,5 @@
-/// Errors of a search without a result: the constraint that no gains meet, and the limit to relax.
-/// Private to tune/.
+/// Errors of a search without a result. They name the constraint that no gains meet and the limit to
+/// relax. Private to tune/.
 #pragma once
 
 #include <vector>
@@ -11,17 +11,18 @@
 
 namespace awmr {
 
-/// Error if no gains meet the constraints that need no run: names the one that the nearest gains
-/// violate most.
+/// Error if no gains meet the constraints that need no simulation: names the constraint that the
+/// gains with the smallest violation, `nearest`, violate most.
 tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintContext& context);
 
-/// Error if no gains meet the limits that need runs: names the goal, activity limit or constraint
-/// that the nearest gains violate most.
+/// Error if no gains meet the limits that need simulated runs: names the goal, activity limit or
+/// constraint that the gains with the smallest violation violate most.
 tl::unexpected<Error> not_found(const SearchResult& found, const Objective& objective,
                                 const std::vector<Scenario>& scenarios);
 
-/// Error if gains meet every limit but no run settles: names the active constraint with the largest
-/// cost, and --observer if friction at rest holds the vehicle off its heading.
+/// Error if gains meet every limit but none of the `runs` runs settles: names the active constraint
+/// with the largest cost. `is_held`: friction at rest holds the vehicle off its heading; the message
+/// then suggests --observer.
 tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,
                                     const std::vector<ActiveConstraint>& active, bool is_held);
 

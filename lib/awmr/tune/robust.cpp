@@ -17,7 +17,8 @@
 namespace awmr {
 namespace {
 
-/// Median, 95 % quantile (smallest value that 95 % do not exceed) and mean of the tail.
+/// Median, 95 % quantile (the smallest value that 95 % of the values do not exceed) and mean of the
+/// tail, the largest `tail_share` of the values.
 EvaluatedFigure figure_of(const std::string& name, std::vector<double> values, double tail_share) {
   std::sort(values.begin(), values.end());
   const auto n = static_cast<double>(values.size());
@@ -47,7 +48,7 @@ EvaluatedGains evaluate(const EvaluatedRuns& runs, YawMode mode, double tail_sha
   return result;
 }
 
-/// The runs in one of `count` scenarios.
+/// Selects the runs in the scenario with the index `scenario`, of `count` scenarios.
 EvaluatedRuns in_scenario(const EvaluatedRuns& runs, std::size_t scenario, std::size_t count) {
   EvaluatedRuns of_one{runs.gains, {}};
   for (std::size_t i = scenario; i < runs.outcomes.size(); i += count) {
@@ -56,8 +57,8 @@ EvaluatedRuns in_scenario(const EvaluatedRuns& runs, std::size_t scenario, std::
   return of_one;
 }
 
-/// Applies the unmodelled variation of draw `number`, from 1. Successive draws use successive
-/// combinations: the mass factor changes with every draw, the force range after all mass factors.
+/// Applies the unmodelled variation of draw `number`, from 1, to the vehicle. The mass factor changes
+/// with every draw, the wheel-force range after all mass factors were used.
 void open_up(const UnmodelledVariation& open, int number, DrawnVehicle& vehicle) {
   const std::size_t turn = at(number - 1) % open.combinations();
   const std::size_t masses = std::max<std::size_t>(1, open.mass_factors.size());
@@ -77,16 +78,17 @@ std::size_t UnmodelledVariation::combinations() const {
 
 namespace {
 
-/// Sampler of the model's covariance, without the mass that the grip limit demands. Every
-/// constraint has to hold for all draws, and that mass, some three times the identified one, would
-/// make all gains slower because of inconsistent trials. A user who wants it gives mass_factors.
+/// Sampler of the model's covariance. It ignores the mass that the grip limit requires
+/// (mass_norm_by_grip), because every constraint holds for all draws and that mass would make all
+/// gains slower: for the paper's vehicle it is three times the identified mass. `mass_factors` adds
+/// it on request.
 Result<PlantSampler> sampler_of(Model model) {
   model.mass_norm_by_grip.reset();
   return PlantSampler::make(model);
 }
 
-/// The nominal vehicle, then the draws with these numbers, each with its unmodelled variation.
-/// Without `plants` the draws are nominal.
+/// The nominal vehicle, then the draws with these numbers and plants, each with its unmodelled
+/// variation. If `plants` is empty, the draws have the nominal plant.
 Result<std::vector<DrawnVehicle>> vehicles_with(const Model& model, std::span<const int> numbers,
                                                 const std::vector<Plant<double>>& plants,
                                                 const UnmodelledVariation& open) {

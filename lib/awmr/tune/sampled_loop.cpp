@@ -40,7 +40,7 @@ Matrix5 held_over(const SampledHeadingLoop& loop, double time_s) {
   continuous(1, lag ? 3 : 4) = loop.input_gain * loop.direct_share;
   continuous(2, 2) = -1.0 / loop.servo_time_constant_s;
   continuous(2, 4) = 1.0 / loop.servo_time_constant_s;
-  // Without a lag nothing uses w_motor, which only has to decay.
+  // Without a motor lag w_motor has no effect; any decay time will do.
   const double motor_s = lag ? loop.motor_time_constant_s : loop.sample_time_s;
   continuous(3, 3) = -1.0 / motor_s;
   continuous(3, 4) = 1.0 / motor_s;
@@ -49,8 +49,8 @@ Matrix5 held_over(const SampledHeadingLoop& loop, double time_s) {
 
 /// A delay as whole samples and a fraction of a sample.
 struct SplitDelay {
-  int samples;  ///< >= 0
-  double part;  ///< [0, 1)
+  int samples;  ///< whole samples, >= 0
+  double part;  ///< the rest as a fraction of a sample, [0, 1)
 };
 SplitDelay split_delay(double delay_s, double sample_time_s) {
   constexpr double kRounding = 1e-9;
@@ -60,8 +60,8 @@ SplitDelay split_delay(double delay_s, double sample_time_s) {
   return {static_cast<int>(whole), part > kRounding ? part : 0.0};
 }
 
-/// The plant from one sample to the next. During the first part of the sample, the previous command
-/// still acts:
+/// The plant from one sample to the next, for a delay of m whole samples and a fraction. During that
+/// fraction of the sample, the previous command still acts:
 ///   x_(j+1) = Phi x_j + Gamma0 w_(j-m) + Gamma1 w_(j-m-1)
 struct HeldPlant {
   Eigen::Matrix4d phi;
@@ -86,8 +86,8 @@ double damping_ratio(const SampledHeadingLoop& loop) {
   const HeldPlant plant = hold(loop, delay.part);
   const bool is_split = delay.part > 0.0;
 
-  // States: the plant's, y of an observer, then the delayed commands. The w of this sample enters
-  // the last delayed command, or the plant if there is none.
+  // States: those of the plant, y of an observer, then the delayed commands, oldest first. The new
+  // command w is stored as the last delayed command, or acts on the plant if there is no delay.
   const double k = loop.reaching_rate;
   const double l = loop.observer_radps;
   const Eigen::Index states = l > 0.0 ? 5 : 4;
@@ -103,7 +103,7 @@ double damping_ratio(const SampledHeadingLoop& loop) {
     closed(4, 1) = loop.sample_time_s * l * (loop.lambda + k);
     closed(4, 4) = 1.0;
   }
-  // The command `i` samples before the newest acts by `gamma`.
+  // Lets the command that is `i` samples old act on the plant through `gamma`.
   const auto enter = [&](Eigen::Index i, const Eigen::Vector4d& gamma) {
     if (i == 0) {
       closed.topLeftCorner(4, states) += gamma * law;
@@ -135,7 +135,7 @@ class CompensatedLoop {
     const double t_s = loop_.sample_time_s;
     const std::complex<double> z = std::polar(1.0, omega_radps * t_s);
     const Eigen::Vector4cd by = plant_.gamma0 + plant_.gamma1 * std::conj(z);  // |z| = 1
-    // (z I - Phi) x = by from the last row up: neither actuator acts on the other.
+    // Solves (z I - Phi) x = by from the last row up: servo and motor do not act on each other.
     const Eigen::Matrix4d& phi = plant_.phi;
     const std::complex<double> motor = by(3) / (z - phi(3, 3));
     const std::complex<double> servo = by(2) / (z - phi(2, 2));
@@ -158,7 +158,7 @@ class CompensatedLoop {
 };
 
 bool is_same_delay(double a_s, double b_s, const SampledHeadingLoop& loop) {
-  constexpr double kConverged = 1e-7;  // of a sample time
+  constexpr double kConverged = 1e-7;  // largest difference, as a fraction of the sample time
   return std::abs(a_s - b_s) < kConverged * loop.sample_time_s;
 }
 
@@ -167,11 +167,11 @@ double excess_at(const CompensatedLoop& open, double omega_radps) {
   return std::norm(open(omega_radps)) - 1.0;
 }
 
-/// Ranges of w, rad/s, at whose ends |P| lies on both sides of 1.
+/// Ranges of the frequency w, rad/s, in each of which |P| crosses 1.
 std::vector<Interval> crossings_of(const SampledHeadingLoop& loop, const CompensatedLoop& open) {
   constexpr int kFrequencies = 100;
   const double k = loop.reaching_rate;
-  // The heading is an integral of the command, so |P| > 1 at low frequencies.
+  // The plant integrates its command to the heading, so |P| > 1 at low frequencies.
   const double lowest =
       1e-4 * loop.lambda * k / (loop.lambda + k + loop.resistance_rate + loop.fed_forward_rate);
   const double nyquist = pi<double>() / loop.sample_time_s;
@@ -188,8 +188,8 @@ std::vector<Interval> crossings_of(const SampledHeadingLoop& loop, const Compens
   return ranges;
 }
 
-/// Smallest delay, s, above `least_s` at which the loop has a pole on the unit circle with w in one
-/// of the ranges. Empty if |P| does not cross 1 in a range.
+/// Smallest delay, s, above `least_s` at which the loop has a pole e^(j w T_s) with w in one of the
+/// ranges. Empty if |P| does not cross 1 in one of the ranges.
 std::optional<double> next_crossing_s(const CompensatedLoop& open,
                                       const std::vector<Interval>& ranges, double least_s) {
   constexpr std::uintmax_t kEvaluationsMax = 60;

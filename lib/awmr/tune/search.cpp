@@ -16,20 +16,20 @@
 namespace awmr {
 namespace {
 
-/// ISRES individuals per generation. NLopt's default of 20 (n + 1) would spend the budget on two
-/// generations.
+/// ISRES individuals per generation. Not NLopt's default of 20 (n + 1) for n gains, because the
+/// default budget would end in the first generation.
 constexpr unsigned kPopulation = 40;
 /// First step and smallest step of the local search, in ln(gain): 20 % and 0.1 %.
 constexpr double kFirstStep = 0.2;
 constexpr double kLastStep = 1e-3;
 /// Smallest improvement of a local search after which another one is started.
 constexpr double kWorthwhile = 1e-4;
-/// Starts of the feasibility search in addition to the baseline and the middle of the bounds, and
-/// steps of each.
+/// feasible_start(): number of random starts after the baseline and the middle of the bounds, and
+/// evaluations from each start.
 constexpr int kRandomStarts = 30;
 constexpr int kStartEvaluations = 300;
 
-/// Evaluations on all draws, if the start is feasible there.
+/// Evaluations of the local search on all draws if its start is feasible on all draws.
 constexpr int kFinishEvaluations = 12;
 
 using Optimizer = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
@@ -70,7 +70,7 @@ class OneByOne : public NloptCallbacks {
 };
 
 /// Returns the cached values of known points, collects the points of the next generation, and stops
-/// there. The points of a generation do not depend on each other's values.
+/// the search. NLopt selects the points of a generation without the values of that generation.
 class OneGeneration : public NloptCallbacks {
  public:
   OneGeneration(const std::vector<Looked>& known, nlopt_opt search)
@@ -174,7 +174,7 @@ double feasibility_callback(unsigned dimension, const double* x, double*, void* 
   return static_cast<Feasibility*>(data)->look_at(point_at(dimension, x));
 }
 
-/// The baseline, the middle of the bounds, then random ones.
+/// Start `index` of feasible_start(): 0 the baseline, 1 the middle of the bounds, then random points.
 Point start_point(int index, const SearchSpace& space, std::uint64_t seed,
                   const Gains<double>& baseline) {
   if (index == 0) return space.point_of(baseline);
@@ -188,7 +188,7 @@ Point start_point(int index, const SearchSpace& space, std::uint64_t seed,
   return x;
 }
 
-/// At most kMostHistorySteps of the steps.
+/// At most kMostHistorySteps of the steps, evenly spaced, with the first and the last.
 std::vector<SearchStep> at_even_ranks(const std::vector<SearchStep>& steps) {
   if (steps.size() <= kMostHistorySteps) return steps;
   std::vector<SearchStep> kept;
@@ -244,7 +244,7 @@ Candidate feasible_start(const TuneOptions& options, const ConstraintContext& co
 
 namespace {
 
-/// The constraint that the nearest gains violate most.
+/// Writes the constraint that the nearest gains violate most to `result`.
 void note_broken(Problem& problem, SearchResult& result) {
   const Point nearest[] = {problem.space().point_of(problem.nearest.gains)};
   const Looked looked = problem.look_at(nearest).front();
@@ -253,7 +253,7 @@ void note_broken(Problem& problem, SearchResult& result) {
   result.broken_by = *most;
 }
 
-/// Continues on all draws, from gains that were found on some of them.
+/// Local search on all draws, from the gains `from` that were found on some of the draws.
 Result<std::string> finish(Problem& problem, const Gains<double>& from,
                            std::span<const Gains<double>> starts, int most_evaluations) {
   const auto look_at = [&problem](const Gains<double>& gains) {
@@ -261,8 +261,7 @@ Result<std::string> finish(Problem& problem, const Gains<double>& from,
     problem.look_at(std::span(&point, 1));
   };
   look_at(from);
-  // Gains that are feasible on some draws can violate the limits on all draws more than a start
-  // does.
+  // If `from` violates a limit on all draws, a start can be nearer to the limits.
   if (!problem.nearest.feasible()) std::ranges::for_each(starts, look_at);
   problem.simulate_all = true;
   const int budget = problem.nearest.feasible() ? std::min(kFinishEvaluations, most_evaluations)
@@ -288,7 +287,7 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
     const Point point[] = {problem.space().point_of(start)};
     problem.look_at(point);
   }
-  // If the search from the nearest point finds no feasible gains, another start may.
+  // The starts are tried only if the search from the nearest point finds no feasible gains.
   std::vector<Gains<double>> from{problem.nearest.gains};
   from.insert(from.end(), starts.begin(), starts.end());
   const int budget = problem.evaluations + options.local_evaluations;

@@ -9,14 +9,14 @@
 namespace awmr {
 namespace {
 
-/// Bisection steps on either side of an interval.
+/// Bisection steps for each end of an interval.
 constexpr int kHalvings = 6;
 /// A constraint is active if its residual is above this.
 constexpr double kActive = -0.01;
-/// Evaluations of the search for the benefit of a wider limit.
+/// Evaluations of the local search with a relaxed limit.
 constexpr int kPriceEvaluations = 30;
 
-/// Indices of a mu and its epsilon in a Point.
+/// Indices in a Point of mu and epsilon, or of mu_s and epsilon_s.
 using Pair = std::array<unsigned, 2>;
 constexpr Pair kHeading{1, 2};
 constexpr Pair kSpeed{3, 4};
@@ -26,7 +26,7 @@ Point scaled(Point point, const Pair& pair, double by_ln) {
   return point;
 }
 
-/// Range in which the logarithms of a pair can be moved together within the bounds.
+/// Range by which both logarithms of a pair can be shifted together within the bounds.
 Interval room(const Point& from, const Pair& pair, const SearchSpace& space) {
   const Point lower = space.lower_corner();
   const Point upper = space.upper_corner();
@@ -34,8 +34,9 @@ Interval room(const Point& from, const Pair& pair, const SearchSpace& space) {
           std::min(upper[pair[0]] - from[pair[0]], upper[pair[1]] - from[pair[1]])};
 }
 
-/// Interval around 0 by which the logarithms of a pair can be moved together while the objective is
-/// at most `most`. The objective increases towards both ends.
+/// Interval around 0 by which both logarithms of a pair can be shifted together while the gains stay
+/// feasible with an objective of at most `most`. Found by bisection, because the objective increases
+/// towards both ends.
 Interval stretch(Problem& problem, const Point& from, const Pair& pair, double most) {
   const auto is_good = [&](double by_ln) {
     const Point point = scaled(from, pair, by_ln);
@@ -65,7 +66,7 @@ SettledGains settle(const TuneOptions& options, const ConstraintContext& context
   SettledGains settled;
   Point point = problem.space().point_of(best.gains);
   const double objective = problem.look_at(std::span(&point, 1)).front().candidate.objective;
-  // Half of kIndifferent for each of the two.
+  // mu may use half of kIndifferent, mu_s the rest.
   const Interval heading =
       stretch(problem, point, kHeading, (1.0 + 0.5 * kIndifferent) * objective);
   settled.mu = {best.gains.heading.mu * std::exp(heading.lo),
@@ -88,7 +89,8 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
   TuneOptions quiet = options;
   quiet.progress = {};
   const Point point = SearchSpace(options).point_of(best.gains);
-  // Smallest objective of a local search with one constraint relaxed, or none.
+  // Smallest objective of a local search with constraint `wider` relaxed, or with none if there is no
+  // such constraint.
   const auto searched = [&](std::size_t wider) -> Result<double> {
     Problem problem(quiet, context, objective);
     if (wider < problem.tolerated.size()) problem.tolerated[wider] = kWider;
@@ -104,8 +106,7 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
     if (residuals[i] > kActive) active.push_back({.name = problem.names()[i]});
   }
   if (active.empty()) return active;
-  // The difference to a search without a relaxed limit: an unconverged search improves also without
-  // it.
+  // Compared with a search without a relaxed limit, because that search can improve, too.
   AWMR_ASSIGN_OR_RETURN(const double without, searched(residuals.size()));
   for (ActiveConstraint& one : active) {
     const auto place = std::ranges::find(problem.names(), one.name) - problem.names().begin();

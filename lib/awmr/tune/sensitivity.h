@@ -1,4 +1,4 @@
-/// Active constraints, and ranges of equally good gains. Private to tune/.
+/// Active constraints of the tuned gains, and ranges of equally good gains. Private to tune/.
 #pragma once
 
 #include <vector>
@@ -13,20 +13,22 @@ namespace awmr {
 /// Gains with the ranges of mu and mu_s in which the objective is nearly constant.
 struct SettledGains {
   Gains<double> gains{};
-  /// mu, rad/s^2, with mu/epsilon constant and the objective within kIndifferent of the best.
+  /// Range of mu, rad/s^2, with mu/epsilon constant, in which the objective is within kIndifferent
+  /// of the best.
   Interval mu;
-  Interval speed_mu;  ///< mu_s, m/s^2, with epsilon_s in the same way
+  Interval speed_mu;  ///< the same range of mu_s, m/s^2, with mu_s/epsilon_s constant
 };
 
-/// Selects the smallest mu, then the smallest mu_s, that meets every constraint and scores as
-/// `best` within kIndifferent on the searched draws. With mu/epsilon constant the objective hardly
-/// depends on mu, because only that ratio acts inside the boundary layer; without this rule the
-/// seed would decide. Returns `best` if the selected gains violate a constraint on all draws.
+/// Selects the smallest mu, then the smallest mu_s, that meets every constraint and has an objective
+/// within kIndifferent of that of `best` on the draws of the search; mu/epsilon and mu_s/epsilon_s
+/// stay constant. Only these ratios act inside the boundary layers, so without this rule the seed
+/// would decide on mu. Returns `best` if the selected gains violate a constraint on all draws.
 SettledGains settle(const TuneOptions& options, const ConstraintContext& context,
                     const Objective& searched, const Objective& all, const Candidate& best);
 
-/// The constraints that are active at `best` (residual within 1 %), each with the improvement of
-/// the objective in a local search that relaxes it by a tenth. Errors: as search().
+/// Returns the constraints that are active at `best` (residual within 1 % of the limit), each with
+/// the improvement of the objective in a local search that relaxes it by kWider. Errors: as
+/// search().
 Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& options,
                                                          const ConstraintContext& context,
                                                          const Objective& objective,

@@ -15,7 +15,7 @@ struct FirstAndTotal {
   double first = 0.0, total = 0.0;
 };
 
-/// Indices over the samples with these numbers, which can repeat (bootstrap).
+/// Indices of one input, from the samples with these indices, which can repeat (bootstrap).
 FirstAndTotal indices_over(const std::vector<std::size_t>& places, const std::vector<double>& of_a,
                            const std::vector<double>& of_b, const std::vector<double>& of_mixed) {
   double mean = 0.0, least = of_a[places.front()], most = least;
@@ -24,7 +24,7 @@ FirstAndTotal indices_over(const std::vector<std::size_t>& places, const std::ve
     least = std::min({least, of_a[j], of_b[j]});
     most = std::max({most, of_a[j], of_b[j]});
   }
-  // Rounding of the mean would give a constant output a nonzero variance.
+  // A constant output: rounding of the mean would give it a variance above 0.
   if (!(most > least)) return {};
   mean /= 2.0 * static_cast<double>(places.size());
   double squares = 0.0, without_first = 0.0, of_total = 0.0;

@@ -17,9 +17,9 @@
 
 namespace awmr {
 
-/// One index per input. `of_a`, `of_b`: f at the samples, 2 or more; `of_mixed`: by input, then
-/// sample. Intervals: 2.5 and 97.5 % percentiles of bootstrap resamples of j. The indices of a
-/// constant output are 0.
+/// Returns the indices of each input. `of_a`, `of_b`: f at the samples A and B, two or more each;
+/// `of_mixed`: f at AB_i, by input, then sample. Intervals: 2.5 and 97.5 % percentiles over
+/// bootstrap resamples of the samples. The indices of a constant output are 0.
 std::vector<SobolIndex> sobol_indices(const std::vector<double>& of_a,
                                       const std::vector<double>& of_b,
                                       const std::vector<std::vector<double>>& of_mixed,

@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// LQI weights that scale with the vehicle (Bryson's rule), see TradeOff::named.
+/// Weights of the LQI law by Bryson's rule, scaled to the vehicle (TradeOff::named).
 LqiWeights<double> lqi_weights(const ConstraintContext& context) {
   const double error_rad = context.step_rad / 6.0;
   return {.heading_rad = error_rad,

@@ -9,10 +9,11 @@
 
 namespace awmr {
 
-/// Pareto-optimal points, by settling time.
+/// Returns the Pareto-optimal points, sorted by settling time.
 std::vector<TradeOffPoint> front_of(std::vector<TradeOffPoint> points);
 
-/// The Pareto front of the points that a search evaluated, and the named gains on its draws.
+/// Returns the Pareto front of `met`, the points of the feasible gains of a search, and the points
+/// of the named gains on the same runs.
 TradeOff trade_off_of(const Objective& searched, const ConstraintContext& context,
                       std::vector<TradeOffPoint> met, const Gains<double>& tuned,
                       const Gains<double>& baseline);

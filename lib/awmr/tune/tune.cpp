@@ -34,14 +34,14 @@
 namespace awmr {
 namespace {
 
-/// Largest number of RK4 steps of a search, which take some hours.
+/// Largest number of RK4 steps of a search. They take some hours.
 constexpr double kMostSearchSteps = 1e11;
 
-/// Limits the total work of all evaluations.
+/// Error (input) if all evaluations together take more than kMostSearchSteps.
 Status check_work(const TuneOptions& options, const std::vector<Scenario>& scenarios,
                   const Plant<double>& plant, const Model& model) {
   const double sample_time_s = model.vehicle.sample_time_s;
-  double steps = 0.0;  // of one evaluation
+  double steps = 0.0;  // RK4 steps of one evaluation
   for (const Scenario& scenario : scenarios) {
     AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, sample_time_s));
     steps += static_cast<double>(tuned_modes(model.vehicle, options.mode).size()) *
@@ -57,11 +57,12 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
   if (evaluations * steps <= kMostSearchSteps) return {};
   return input_error(
       ErrorCode::kTooLarge, "",
-      fmt::format("evaluations: {:g} of {:.3g} RK4 steps each ({} scenarios in every mode) "
-                  "exceed the limit of {:g} steps; give at most {:.0f} evaluations, global and "
-                  "local together, or shorter scenarios",
-                  evaluations, steps, scenarios.size(), kMostSearchSteps,
-                  std::floor(kMostSearchSteps / steps)));
+      fmt::format(
+          "{:g} evaluations of {:.3g} RK4 steps each ({} scenarios in every mode) exceed "
+          "the limit of {:g} steps; reduce global_evaluations and local_evaluations to {:.0f} "
+          "together, or shorten the scenarios",
+          evaluations, steps, scenarios.size(), kMostSearchSteps,
+          std::floor(kMostSearchSteps / steps)));
 }
 
 /// The largest change of the commanded heading, rad.
@@ -75,7 +76,8 @@ double largest_step_rad(const Scenario& scenario) {
   return largest;
 }
 
-/// Highest yaw rate in runs of the scenario, rad/s: the step within 1 s, or the heading-rate limit.
+/// Expected highest yaw rate in runs of the scenario, rad/s: the largest step within 1 s, or the
+/// heading-rate limit if that is lower.
 double reached_radps(const Scenario& scenario) {
   const double in_a_second = largest_step_rad(scenario) / 1.0;
   return scenario.shaping ? std::min(in_a_second, scenario.shaping->rate_max_radps) : in_a_second;
@@ -105,7 +107,7 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
   return context;
 }
 
-/// Sets the default limit of the steering rate.
+/// Sets the limit of the steering rate to its default, if it is absent (TuningLimits).
 void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context) {
   if (context.limits.steering_rate_rms_degps || !context.steers()) return;
   constexpr double kShareOfServo = 0.9;
@@ -114,7 +116,7 @@ void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context) {
       std::min(vehicle.steering_max_rate_degps, 2.0 * degrees(context.plant.steering_max_rad) /
                                                     context.plant.steering_time_constant_s);
   const Gains<double> none{{0.0, 0.0, 1.0}, {0.0, 1.0}};
-  // Excludes Coulomb friction, whose noise with_friction_width() limits.
+  // Without Coulomb friction: with_friction_width() limits the noise that it adds.
   ConstraintContext without_friction = context;
   without_friction.plant.yaw.coulomb = 0.0;
   context.limits.steering_rate_rms_degps =
@@ -158,12 +160,12 @@ Status check_baseline(const Objective& objective, const Baseline& baseline) {
                      "give another baseline, or slower scenarios");
 }
 
-/// Factors on the poles of further starts: slower ones suit a vehicle with large noise.
+/// Factors of slowed(), for starts with slower poles. They suit a vehicle with large noise.
 constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 
-/// Starts of the search that meet the constraints, from: pole placement with wide layers, the same
-/// slowed down, pole placement, and the baseline. If none does, the feasible gains nearest to the
-/// first. Errors (refused): there are none.
+/// Starts of the search: all gains of `poles`, the first of them slowed down, and a given baseline.
+/// Each is replaced by gains that meet the constraints (feasible_start()), or left out if there are
+/// none. Errors (refused): the search from the first of `poles` finds no such gains.
 Result<std::vector<Gains<double>>> starts_of(const TuneOptions& options,
                                              const ConstraintContext& context,
                                              std::span<const Gains<double>> poles) {
@@ -180,7 +182,7 @@ Result<std::vector<Gains<double>>> starts_of(const TuneOptions& options,
   return starts;
 }
 
-/// Searches on one setting, and evaluates the result on `held_out` too.
+/// Searches the gains on one setting, and evaluates them also in the scenario `held_out`.
 Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
                             const ConstraintContext& context, TuneOptions options,
                             const Scenario& held_out) {
@@ -238,7 +240,8 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
                 .robust = {}};
 }
 
-/// Limits the latency: the work of a constraint grows with the cube of the latency in samples.
+/// Error (input) if the latency exceeds kMostLatencySamples: the work for a constraint grows with
+/// the cube of the latency in samples.
 Status check_latency(const ConstraintContext& context, const std::string& model_file) {
   const double samples = context.latency_s / context.sample_time_s;
   if (samples < kMostLatencySamples + 1e-9) return {};
@@ -253,7 +256,7 @@ Status check_latency(const ConstraintContext& context, const std::string& model_
 /// XORed with the seed, so that the evaluation uses other draws than the search.
 constexpr std::uint64_t kEvaluationSeeds = 0x6a75646765ULL;
 
-/// Numbers of the new draws, from 1: of the part, or all.
+/// Numbers of the new draws, from 1: those of the part `options.shard`, or all.
 std::vector<int> evaluation_draws_of(const TuneOptions& options) {
   const Shard shard = options.shard.value_or(Shard{});
   std::vector<int> draws(at(shard.share_of(options.evaluation_draws)));
@@ -302,7 +305,8 @@ Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const T
   return {};
 }
 
-/// `setting` and `context` are those of the nominal search.
+/// Tunes robust gains: adds draws, noise, latency and motor lag to the `setting` and `context` of the
+/// nominal search.
 Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                              ConstraintContext context, const TuneOptions& options,
                              const Scenario& held_out) {

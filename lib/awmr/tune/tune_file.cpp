@@ -58,7 +58,7 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
   if (const auto margin =
           json.optional_number("margin", {.min = 0.0, .max = 1.0, .min_excluded = true})) {
     if (*margin >= 1.0) {
-      json.fault(ErrorCode::kOutOfRange, "margin", "1 leaves none; give a number in (0, 1)");
+      json.fault(ErrorCode::kOutOfRange, "margin", "must be below 1; give a number in (0, 1)");
     }
     options.margin = *margin;
   }
@@ -104,7 +104,8 @@ void read_baseline(JsonObject& json, const std::filesystem::path& directory, Tun
   const std::optional<std::string> name = json.optional_string("baseline");
   if (!name) return;
   if (name->empty())
-    return json.fault(ErrorCode::kBadName, "baseline", "is empty: give a gains.json");
+    return json.fault(ErrorCode::kBadName, "baseline",
+                      "is empty; give \"pole-placement\", \"paper\" or the path of a gains.json");
   const bool is_file = *name != kPaperSource && *name != kPolePlacement;
   Result<std::optional<Baseline>> baseline =
       baseline_named(is_file ? directory / *name : std::filesystem::path(*name));
@@ -138,7 +139,7 @@ void read_goals(JsonObject& json, TuneOptions& options) {
   }
   if (options.goals.size() > kMostGoals) {
     json.fault(ErrorCode::kTooLarge, "goals",
-               fmt::format("{} are more than {}", options.goals.size(), kMostGoals));
+               fmt::format("{} goals; at most {} are allowed", options.goals.size(), kMostGoals));
   }
   if (!options.goals.empty() && options.nominal) {
     json.fault(ErrorCode::kConflict, "goals",
@@ -146,7 +147,7 @@ void read_goals(JsonObject& json, TuneOptions& options) {
   }
 }
 
-/// Paths relative to the config file. Faults of a scenario are added to those of the config.
+/// Reads the scenarios, whose paths are relative to `directory`. Their faults are added to `faults`.
 void read_scenarios(JsonObject& json, const std::filesystem::path& directory, TuneConfig& config,
                     std::vector<Fault>& faults) {
   if (!json.has("scenarios")) return;
@@ -164,7 +165,7 @@ void read_scenarios(JsonObject& json, const std::filesystem::path& directory, Tu
   }
   if (names.empty()) {
     json.fault(ErrorCode::kMissing, "scenarios",
-               "an empty list; leave the key out for the default scenario");
+               "an empty list; leave the key out for the default scenarios");
   }
 }
 
@@ -264,7 +265,7 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
   }
   if (options.open.any()) json["open"] = open_json(options.open);
   if (options.activity_max) json["activity_max"] = *options.activity_max;
-  // Last, as in a merge of parts.
+  // The last key, as merge_tune_shards() adds it: the files must be equal byte for byte.
   if (!robust.evaluated_by_scenario.empty()) {
     json["by_scenario"] = by_scenario_json(robust.evaluated_by_scenario);
   }
@@ -309,11 +310,12 @@ Json objective_json(const Tuning& tuning, const TuneOptions& options) {
   json["formula"] =
       "exp of the mean over modes and scenarios of sum_i w_i ln((x_i + f_i)/(x0_i + f_i)) / sum_i "
       "w_i; x0: the baseline's metric in the same mode and scenario; f: a floor below which "
-      "differences are irrelevant";
+      "differences do not matter";
   if (std::ranges::any_of(options.goals, &TuningGoal::is_soft)) {
-    json["formula"] = json["formula"].get<std::string>() +
-                      "; and for each soft goal and mode what the quantile of the draws' largest "
-                      "share of a limit is beyond 1";
+    json["formula"] =
+        json["formula"].get<std::string>() +
+        "; plus max(0, q - 1) for each soft goal and mode, q: the goal's quantile over "
+        "the draws of the largest ratio of a metric to its limit";
   }
   json["terms"] = Json::array();
   for (const ObjectiveTerm& term : kObjectiveTerms) {
@@ -325,7 +327,8 @@ Json objective_json(const Tuning& tuning, const TuneOptions& options) {
 
 constexpr std::string_view kTuneSchema = "awmr.tune/1";
 
-/// Scenarios are read from `directory`; their faults are added to those of the file.
+/// Reads tune.json. Paths in it are relative to `directory`. Faults of the files that it names are
+/// added to `faults`.
 TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& directory,
                             std::vector<Fault>& faults) {
   TuneConfig config;

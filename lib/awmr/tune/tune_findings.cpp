@@ -19,12 +19,13 @@ void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
   const bool is_missed = evaluated.verdict == GoalVerdict::kMissed;
   findings.push_back(
       {"", 0, Severity::kWarning, is_missed ? "goal-missed" : "goal-open",
-       fmt::format("{} of {} fresh draws in {} meet the goal ({:.1f} to {:.1f} %), {:g} % are "
-                   "required: {}",
+       fmt::format("{} of {} fresh draws in {} meet the goal (95 %: {:.1f} to {:.1f} %); {:g} % "
+                   "are required: {}",
                    evaluated.held, evaluated.runs, name_of(evaluated.mode),
                    100.0 * evaluated.ci95.lo, 100.0 * evaluated.ci95.hi,
                    100.0 * evaluated.goal.share,
-                   is_missed ? "tune on more draws (--draws), raise the limits or accept less"
+                   is_missed ? "tune on more draws (--draws), raise the goal's limits or lower its "
+                               "share"
                              : "increase judged_draws")});
 }
 
@@ -34,15 +35,14 @@ void note_unsettled(const std::string& scenario, YawMode mode, double completed_
   if (completed_share >= kMinShare) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "unsettled",
-       fmt::format("{}{}: only {:.0f} % of the runs with the tuned gains settle after every step; "
-                   "the metrics of the others are of unsettled runs. Give more time or a higher "
-                   "heading-rate limit, or add an observer (--observer) against constant "
-                   "disturbances",
+       fmt::format("{}{}: only {:.0f} % of the runs with the tuned gains settle after every step. "
+                   "Give the headings more time or a higher heading-rate limit, or add an observer "
+                   "(--observer) against constant disturbances",
                    scenario.empty() ? "" : scenario + ", ", name_of(mode),
                    100.0 * completed_share)});
 }
 
-/// A note if the total index of some input of a metric has a 95 % interval wider than kWide.
+/// Adds a note if the 95 % interval of a total Sobol index is wider than kWide.
 void note_sensitivity(const Tuning& tuning, std::vector<Finding>& findings) {
   if (!tuning.robust || !tuning.robust->sensitivity) return;
   constexpr double kWide = 0.5;  // an index with a 95 % interval of 0.2 to 0.7 is uninformative
@@ -56,12 +56,12 @@ void note_sensitivity(const Tuning& tuning, std::vector<Finding>& findings) {
   if (open == 0) return;
   findings.push_back(
       {"", 0, Severity::kNote, "sensitivity-open",
-       fmt::format("{} samples do not show which input affects {} of {} metrics most; increase "
-                   "--sensitivity",
+       fmt::format("{} samples are too few to show which input affects {} of {} metrics most; "
+                   "increase --sensitivity",
                    tuning.robust->sensitivity->samples, open, figures.size())});
 }
 
-/// A warning if some parameters of the confidence set make the loop unstable.
+/// Adds a warning if some parameters of the confidence set make the heading loop unstable.
 void note_certificate(const ModeCertificate& certificate, std::vector<Finding>& findings) {
   if (certificate.damping.value > 0.0) return;
   std::string where;
@@ -77,7 +77,7 @@ void note_certificate(const ModeCertificate& certificate, std::vector<Finding>& 
                    degrees(certificate.damping.yaw_rate_radps))});
 }
 
-/// A warning if an observer is tuned on runs without disturbance.
+/// Adds a warning if an observer is tuned on runs without disturbance.
 void note_observer(const TuneOptions& options, std::vector<Finding>& findings) {
   const bool is_pushed = std::ranges::any_of(
       options.scenarios, [](const Scenario& scenario) { return scenario.disturbance.any(); });
@@ -88,7 +88,8 @@ void note_observer(const TuneOptions& options, std::vector<Finding>& findings) {
        "with a disturbance, or no scenarios to use the default ones"});
 }
 
-/// Infeasible requests in the scenarios and in the conditions of the draws.
+/// Adds findings about requests that no vehicle can follow, in the scenarios and in the sensor and
+/// motor conditions of the draws (unattainable_requests()).
 void note_scenarios(const Model& model, const TuneOptions& options, const Tuning& tuning,
                     std::vector<Finding>& findings) {
   std::vector<Scenario> scenarios = options.scenarios;
@@ -101,7 +102,7 @@ void note_scenarios(const Model& model, const TuneOptions& options, const Tuning
   }
 }
 
-/// Findings from the tuned runs, for nominal gains or without new draws.
+/// Findings from the runs of the nominal vehicle, for nominal gains or without fresh draws.
 std::vector<Finding> nominal_findings(const Tuning& tuning) {
   std::vector<Finding> findings;
   for (const ModeScore& score : tuning.scores) {

@@ -1,4 +1,4 @@
-/// Findings of a tuning: limits of the gains, and warnings.
+/// Findings (notes and warnings) of a tuning, for the output of `awmr tune`.
 #pragma once
 
 #include <vector>
@@ -15,9 +15,10 @@ std::vector<Finding> evaluation_findings(const std::vector<EvaluatedGains>& eval
                                          const std::vector<EvaluatedGains>& evaluated_by_scenario,
                                          const std::vector<EvaluatedGoal>& goals);
 
-/// All findings of a tuning: those of the fresh draws (of nominal gains, or without draws: of the
-/// tuned scenarios), then those that do not depend on them. A part (options.shard) has the latter
-/// only; merge_tune_shards() adds the others. Precondition: tuned by tune() with `options`.
+/// All findings of a tuning: first those of the fresh draws, then those that do not depend on the
+/// draws. For nominal gains, or without fresh draws, the runs of the nominal vehicle replace the
+/// fresh draws. A part (options.shard) has the second kind only; merge_tune_shards() adds the first.
+/// Precondition: `tuning` is the result of tune() with `options`.
 std::vector<Finding> tune_findings(const Model& model, const TuneOptions& options,
                                    const Tuning& tuning);
 

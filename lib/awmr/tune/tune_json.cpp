@@ -15,7 +15,7 @@ namespace {
 
 constexpr NumberRule kGoalLimit{.min = 0.0, .max = 1e9, .min_excluded = true};
 
-/// By mode, then gains.
+/// Adds the quantiles of one set of gains in one mode: by mode, then gains.
 void put_quantiles(const EvaluatedGains& evaluated, Json& json) {
   Json& entry = json[std::string(name_of(evaluated.mode))][evaluated.gains];
   entry["completed_share"] = evaluated.completed_share;
@@ -59,7 +59,8 @@ TuningGoal read_goal(JsonObject json) {
   }
   limits.reject_unknown_keys();
   if (goal.at_most.empty()) {
-    json.fault(ErrorCode::kMissing, "at_most", "contains no metric");
+    json.fault(ErrorCode::kMissing, "at_most",
+               "contains no metric; give at least one with its limit");
   }
   goal.share =
       json.optional_number("share", {.min = kLeastShare, .max = kMostShare}).value_or(goal.share);
@@ -97,7 +98,7 @@ UnmodelledVariation read_open(JsonObject json) {
                                    std::pair("wheel_forces", open.wheel_forces.size())}) {
     if (count <= kMostOpenValues) continue;
     json.fault(ErrorCode::kTooLarge, key,
-               fmt::format("{} are more than {}", count, kMostOpenValues));
+               fmt::format("{} values; at most {} are allowed", count, kMostOpenValues));
   }
   json.reject_unknown_keys();
   return open;
@@ -145,8 +146,9 @@ Json certificate_json(const Certificate& certificate) {
       {"delay_margin_s", number_or_null(margin_s)},
       {"method",
        "heading loop inside the boundary layer, discretised exactly with hold, servo, latency and "
-       "motor lag; least value over the ellipsoid of the parameters and the yaw rates by centre, "
-       "axes, corners and 500 random points and a pattern search from the least of each orthant"},
+       "motor lag; smallest value over the ellipsoid of the parameters and the yaw rates, searched "
+       "at the centre, axes, corners and 500 random points, then by a pattern search from the best "
+       "point of each orthant"},
       {"parameters", certificate.parameters},
       {"degrees_of_freedom", certificate.degrees_of_freedom},
       {"yaw_rate_degps",

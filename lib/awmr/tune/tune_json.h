@@ -1,4 +1,5 @@
-/// Parts common to gains.json and the shards of an evaluation (tune_shard.h). Private to tune/.
+/// Conversions to and from JSON that tune.json, gains.json and the shards of an evaluation
+/// (tune_shard.h) share. Private to tune/.
 #pragma once
 
 #include <vector>
@@ -19,13 +20,13 @@ inline constexpr LimitKey kLimitKeys[] = {{"damping", &TuningLimits::damping},
                                           {"delayed_damping", &TuningLimits::delayed_damping},
                                           {"noise_share", &TuningLimits::noise_share}};
 
-/// Limits as tune.json and gains.json have them; missing ones get their default.
+/// Reads the limits of tune.json or gains.json; missing ones get their default.
 TuningLimits read_limits(JsonObject json);
 
-/// `/examined` of gains.json.
+/// Reads `/examined` of gains.json.
 ExaminedRange read_examined(JsonObject json);
 
-/// A goal as tune.json has it, in both directions.
+/// Reads and writes a goal, as in tune.json.
 TuningGoal read_goal(JsonObject json);
 Json goal_json(const TuningGoal& goal);
 
@@ -33,15 +34,15 @@ Json goal_json(const TuningGoal& goal);
 UnmodelledVariation read_open(JsonObject json);
 Json open_json(const UnmodelledVariation& open);
 
-/// `/robust/quantiles`: by mode, then gains.
+/// `/robust/quantiles` of gains.json: by mode, then gains.
 Json quantiles_json(const std::vector<EvaluatedGains>& evaluated);
-/// `/robust/by_scenario`: the quantiles of each.
+/// `/robust/by_scenario` of gains.json: the quantiles by scenario, then mode, then gains.
 Json by_scenario_json(const std::vector<EvaluatedGains>& evaluated);
-/// `/certificate`
+/// `/certificate` of gains.json.
 Json certificate_json(const Certificate& certificate);
-/// `/trade_off`
+/// `/trade_off` of gains.json.
 Json trade_off_json(const TradeOff& trade_off);
-/// `/goals`
+/// `/goals` of gains.json.
 Json goals_json(const std::vector<EvaluatedGoal>& goals);
 
 }  // namespace awmr

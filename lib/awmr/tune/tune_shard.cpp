@@ -21,7 +21,7 @@ namespace {
 /// Maximum of evaluation_draws, as in tune.json.
 constexpr long kMaxEvaluationDraws = 100'000;
 
-/// The keys of shard.json that a tuning adds; the runs are in the table.
+/// Keys of shard.json that only a tuning has. The runs themselves are in judged.csv.
 struct Payload {
   int evaluation_draws = 0;
   std::vector<std::string> gains;
@@ -67,7 +67,8 @@ std::string place_of_row(const std::string& gains, int draw, YawMode mode, std::
   return fmt::format("{},{},{},{},", gains, draw, name_of(mode), scenario + 1);
 }
 
-/// Empty if the cells are not a row that begins with `place`.
+/// Reads the outcome of a run from a line of judged.csv. Empty if the line is no valid row that
+/// begins with `place`.
 std::optional<RunOutcome> outcome_in(std::string_view line, std::string_view place, YawMode mode) {
   if (!line.starts_with(place)) return std::nullopt;
   std::string_view rest = line.substr(place.size());
@@ -113,9 +114,10 @@ Result<std::vector<RunOutcome>> evaluated_runs_from_text(const Payload& payload,
           const std::string place = place_of_row(gains, shard.item(i) + 1, mode, scenario);
           const auto outcome = outcome_in(take_line(rest), place, mode);
           if (!outcome) {
-            return input_error(ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line),
-                               fmt::format("is not the run {} of the part; run the part again",
-                                           std::string_view(place).substr(0, place.size() - 1)));
+            return input_error(
+                ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line),
+                fmt::format("this row must be run {} of the part; run the part again",
+                            std::string_view(place).substr(0, place.size() - 1)));
           }
           runs.push_back(*outcome);
         }
@@ -124,7 +126,7 @@ Result<std::vector<RunOutcome>> evaluated_runs_from_text(const Payload& payload,
   }
   if (!rest.empty()) {
     return input_error(ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line + 1),
-                       "is not a run of this part");
+                       "this row is not a run of this part; run the part again");
   }
   return runs;
 }
@@ -136,7 +138,7 @@ Status check_judged(std::string_view text, const std::string& file, const std::s
   return {};
 }
 
-/// The runs of all parts, by gains, then draw.
+/// Reads the runs of all parts and orders them by gains, then draw.
 Result<std::vector<EvaluatedRuns>> read_all_runs(const std::vector<Part>& parts,
                                                  const Payload& payload) {
   const ShardFile& table = tune_shards().files.front();
@@ -159,7 +161,7 @@ Result<std::vector<EvaluatedRuns>> read_all_runs(const std::vector<Part>& parts,
   return by_gains;
 }
 
-/// gains.json, identical in all parts.
+/// Reads gains.json, which is identical in all parts.
 Result<Json> read_gains_json(const std::vector<Part>& parts) {
   const ShardFile& file = tune_shards().files.back();
   for (const Part& part : parts) AWMR_RETURN_IF_ERROR(read_part_file(part, file));
@@ -167,7 +169,7 @@ Result<Json> read_gains_json(const std::vector<Part>& parts) {
   AWMR_ASSIGN_OR_RETURN(Json json, read_json_file(path));
   if (!json.is_object() || !json.contains("robust") || !json["robust"].is_object()) {
     return input_error(ErrorCode::kStaleResult, path.string(),
-                       "contains no robust gains; run the part again");
+                       "has no `robust` object, so its gains are nominal; run the part again");
   }
   return json;
 }

@@ -14,11 +14,12 @@
 
 namespace awmr {
 
-/// Parts of a tuning: judged.csv has a row for each run by gains, draw, mode and scenario;
-/// gains.json has the gains without their evaluation on new draws.
+/// Files of one part (shard) of a tuning: judged.csv has a row for each run of its draws, by gains,
+/// draw, mode and scenario; gains.json has the gains without their evaluation on new draws.
 const ShardKind& tune_shards();
 
-/// The files of the part `options.shard`. Precondition: robust gains, tuned with these options.
+/// Text of the files of the part `options.shard`. Precondition: `tuning` is the result of a robust
+/// search with these options.
 PartText tune_part(const Tuning& tuning, const TuneOptions& options, const Provenance& provenance,
                    const std::vector<Finding>& findings = {});
 
@@ -27,11 +28,11 @@ struct MergedTuning {
   std::string gains_text;                                        ///< the bytes of gains.json
   std::vector<EvaluatedGains> evaluated, evaluated_by_scenario;  ///< as in RobustTuning
   std::vector<EvaluatedGoal> goals;
-  std::vector<Finding> findings;  ///< of the evaluation draws, then of the first part
+  std::vector<Finding> findings;  ///< those of the evaluation draws, then those of the first part
 };
 
 /// Combines the parts in these directories, in any order. Errors (input): as read_parts(); a file
-/// that differs from the one that shard.json names; a row of another part, or a missing row.
+/// whose checksum differs from the one in shard.json; a row of another part, or a missing row.
 Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>& directories);
 
 }  // namespace awmr

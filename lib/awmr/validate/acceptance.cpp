@@ -21,7 +21,8 @@ namespace {
 
 constexpr double kLevel = 0.95;
 constexpr double kShortest_s = 2.0;
-/// Random stream of the noise added to a draw's readings, separate from the simulator's streams.
+/// First random stream of the noise that is added to the readings of a draw. It differs from the
+/// streams of the simulator.
 constexpr std::uint64_t kReadingsStream = std::uint64_t{1} << 40;
 
 Status check_options(const AcceptanceOptions& options) {
@@ -45,7 +46,7 @@ State<double> moved_by(State<double> state, const State<double>& error, Random& 
 }
 
 /// Draws each latency or lag that the vehicle file does not give, uniformly between 0 and twice its
-/// usual value.
+/// default.
 LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
   const auto draw = [&](const std::optional<double>& given, double& value) {
     const double share = 2.0 * random.uniform();
@@ -58,19 +59,19 @@ LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
   return c;
 }
 
-/// The logged drive, and what its prediction starts from.
+/// The logged drive, with the conditions and the initial state for its prediction.
 struct LoggedDrive {
-  double from_s = 0.0;      ///< time of its first row, on the log's clock
+  double from_s = 0.0;      ///< time of the first row of the drive, on the log's clock
   double duration_s = 0.0;  ///< up to the end of the log or of the scenario
   LoopConditions conditions;
   std::vector<DriveChannel> channels;
   DriveStart start;
-  Scenario scenario;  ///< under the log's conditions, from its start
+  Scenario scenario;  ///< with these conditions and this initial state
 };
 
-/// The compared part of a predicted drive.
+/// The window means of a predicted drive.
 struct PredictedDrive {
-  double end_s = 0.0;                ///< of the run; later windows are invalid
+  double end_s = 0.0;                ///< end of the run; later windows are invalid
   std::vector<WindowMeans> windows;  ///< by channel
 };
 
@@ -83,7 +84,7 @@ PredictedDrive predicted_drive(const Run& run, const std::vector<DriveChannel>& 
   return drive;
 }
 
-/// Simulates the predicted drives.
+/// Simulates options.draws predicted drives.
 Result<std::vector<PredictedDrive>> predicted_drives(const Model& model,
                                                      const Controller<double>& controller,
                                                      const Scenario& as_given,
@@ -131,7 +132,7 @@ PredictedBand prediction_of(const DriveChannel& channel, const std::vector<Windo
     for (const WindowMeans& draw : draws) squares += std::pow(draw.mean[w] - series.mean[w], 2);
     series.spread[w] = std::sqrt(squares / (n - 1.0));
   }
-  // If all draws agree except for rounding, like a command at its limit, the distance stays finite.
+  // A lower bound keeps the distance finite if all draws are equal, like a command at its limit.
   const double most = *std::max_element(series.spread.begin(), series.spread.end());
   double size = channel.noise;
   for (const double mean : series.mean) size = std::max(size, std::abs(mean));
@@ -140,7 +141,7 @@ PredictedBand prediction_of(const DriveChannel& channel, const std::vector<Windo
   return series;
 }
 
-/// Distances of a series from the prediction, by window; 0 without a measurement.
+/// Distance of each window from the prediction; 0 for a window without a measurement.
 std::vector<double> distances(const WindowMeans& windows, const PredictedBand& predicted) {
   std::vector<double> all(windows.mean.size());
   for (std::size_t w = 0; w < all.size(); ++w) {
@@ -160,13 +161,13 @@ int samples_in(const WindowMeans& windows) {
   return std::accumulate(windows.rows.begin(), windows.rows.end(), 0);
 }
 
-/// A channel of the drive and of all predicted drives, with the scatter of the predictions.
+/// A channel of the drive, with its distances in the predicted drives.
 struct Compared {
   DriveChannel channel;
   WindowMeans measured;
   PredictedBand predicted;
-  std::vector<double> largest;  ///< by draw
-  double usual = 0.0;           ///< not exceeded by 95 % of the draws in this channel
+  std::vector<double> largest;  ///< by draw: its largest distance in this channel
+  double usual = 0.0;           ///< distance that 95 % of the draws do not exceed in this channel
 };
 
 Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> draws,
@@ -186,7 +187,7 @@ Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> d
   return one;
 }
 
-/// By draw: the largest ratio of distance to usual distance over all channels.
+/// For each draw, the largest ratio of its distance to the usual distance over all channels.
 std::vector<double> factors_of_draws(const std::vector<Compared>& channels, std::size_t draws) {
   std::vector<double> factors(draws);
   for (const Compared& one : channels) {
@@ -236,8 +237,8 @@ std::vector<Compared> compare(const std::vector<DriveChannel>& channels,
   return all;
 }
 
-/// Evaluates the channels with their allowed distances, and the rank of the drive among the
-/// predicted ones.
+/// Compares the channels with their allowed distances, and computes the p-value from the rank of the
+/// drive among the predicted drives.
 void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
   const std::vector<double> factors = factors_of_draws(channels, at(result.draws));
   const double allowed = quantile_of(factors, kLevel);
@@ -246,7 +247,7 @@ void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
     result.channels.push_back(evaluate(one, allowed));
     reached = std::max(reached, result.channels.back().distance / one.usual);
   }
-  // The drive itself counts: under the null hypothesis, all n + 1 ranks are equally likely.
+  // The drive itself is counted too: if the model is right, all n + 1 ranks are equally likely.
   const auto as_far = std::count_if(factors.begin(), factors.end(),
                                     [&](double factor) { return factor >= reached; });
   result.p_value = static_cast<double>(as_far + 1) / static_cast<double>(factors.size() + 1);
@@ -305,8 +306,8 @@ Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
     result.duration_s = std::min(result.duration_s, one.end_s);
   if (result.duration_s < kShortest_s) {
     return input_error(ErrorCode::kTooFewData, log.file,
-                       fmt::format("only {:.3g} s of it overlap scenario '{}'; at least {:g} s are "
-                                   "needed",
+                       fmt::format("only {:.3g} s of the log overlap scenario '{}'; give a log of "
+                                   "at least {:g} s of the scenario",
                                    result.duration_s, drive.scenario.name, kShortest_s));
   }
   const std::vector<Compared> channels = compare(drive.channels, predicted, result.duration_s);
@@ -336,7 +337,7 @@ std::string acceptance_table(const Acceptance& acceptance) {
                         fmt::format("{:.3g}{}", one.noise, one.noise_from_log ? "*" : ""),
                         one.distance, one.allowed, since);
   }
-  text += "  * estimated from the log\n";
+  text += "  * noise estimated from the log\n";
   if (acceptance.inside) return text;
   text += acceptance.hypotheses.empty() ? "  no single model change explains the difference\n"
                                         : "  most likely single causes:\n";

@@ -1,4 +1,4 @@
-/// Fits a circle to points.
+/// Least-squares fit of a circle to points in the plane.
 #pragma once
 
 #include <optional>
@@ -19,9 +19,10 @@ struct Circle {
   double deviation_m = 0.0;
 };
 
-/// Least squares on  x^2 + y^2 = 2 cx x + 2 cy y + (R^2 - cx^2 - cy^2)  (Kasa's algebraic fit:
-/// exact for exact circles, linear, biased to small radii only for short noisy arcs). Nothing for
-/// fewer than three points or points on a line.
+/// Kasa's algebraic fit, linear least squares with the centre (cx, cy) and the radius R:
+///   x^2 + y^2 = 2 cx x + 2 cy y + (R^2 - cx^2 - cy^2)
+/// The fit is exact for points on a circle; for short noisy arcs the radius is too small. Empty for
+/// fewer than three points, or points on a line.
 std::optional<Circle> fit_circle(std::span<const Point> points);
 
 }  // namespace awmr

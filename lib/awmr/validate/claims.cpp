@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Steady yaw rate at the largest moment of a mode while tau_speed holds the speed: r =
-/// (moment/a3)^(1/b3).
+/// Steady yaw rate, rad/s, at the largest moment of a mode while tau_speed holds the speed:
+///   r = (moment/a3)^(1/b3)
 double largest_yaw_rate_radps(const Plant<double>& plant, const AllocationLimits<double>& limits,
                               YawMode mode, double speed_mps) {
   constexpr double kMoreThanAnyMoment_m = 1e3;
@@ -74,7 +74,7 @@ double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, Ya
 int reversals(std::span<const double> signal, double band) {
   if (signal.empty()) return 0;
   int count = 0;
-  int direction = 0;  // 0 until the signal has first moved by more than the band
+  int direction = 0;  // 1 rising, -1 falling; 0 until the signal has moved by more than the band
   double low = signal[0];
   double high = signal[0];
   for (const double value : signal) {

@@ -1,8 +1,8 @@
-/// Checks of the paper's claims by simulating this model.
+/// Checks of the paper's claims C1 to C14 by simulation of a model. Private to validate/.
 ///
-/// The paper's terms ("fast", "slight", "no overshoot") have no numbers. The criterion for a
-/// reproduced claim is given with each check and in the output. A claim that fails is reported as
-/// not reproduced, with the figure. Private to this folder.
+/// The paper's terms ("fast", "slight", "no overshoot") have no numbers. Each check therefore has a
+/// criterion for "reproduced", which is part of the output (Claim::tolerance). A claim that fails is
+/// reported as not reproduced, with the simulated numbers (Claim::figure).
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace awmr {
 inline constexpr double kFullThrust =
     2.0;  ///< the paper's largest tau_speed             [paper 3.5]
 
-/// One mode's run of a claim's scenario.
+/// Run of a claim's scenario in one mode.
 struct ModeRun {
   YawMode mode{};
   Run run;
@@ -33,8 +33,8 @@ struct ModeRun {
 };
 using ModeRuns = std::array<ModeRun, std::size(kYawModes)>;
 
-/// simulate(); a run that the simulator refuses becomes one row that ends as kFailed, so that its
-/// claims are not reproduced.
+/// simulate(). If it returns an error, the result is a run of one row that ends as kFailed, so that
+/// the claim is not reproduced.
 Run run_or_failed(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                   YawMode mode);
 /// Common inputs of the claims' simulations.
@@ -42,15 +42,15 @@ struct ClaimSetting {
   const Model& model;
   const Plant<double>& plant;  ///< of the model
   const Gains<double>& gains;
-  BatchArithmetic arithmetic;   ///< for the runs
-  ControlOptions control = {};  ///< for every scenario
+  BatchArithmetic arithmetic;   ///< of the runs
+  ControlOptions control = {};  ///< used in every scenario
 
-  /// The scenario in all three modes. Precondition: the model has every parameter, and an interval
-  /// for each of the scenario's corner.
+  /// Simulates the scenario in all three modes. Precondition: the model has every parameter, and an
+  /// interval for each parameter of the scenario's corner.
   ModeRuns run(const Scenario& scenario) const;
 };
-/// run() of each setting, as one batch. Precondition: the settings have the same control, arithmetic
-/// and sample time.
+/// ClaimSetting::run() for each setting, in one batch. Precondition: the settings have the same
+/// control, arithmetic and sample time.
 std::vector<ModeRuns> run_all(std::span<const ClaimSetting> settings, Scenario scenario);
 
 template <class Condition>
@@ -58,7 +58,7 @@ bool all_modes(const ModeRuns& runs, Condition condition) {
   return std::all_of(runs.begin(), runs.end(), condition);
 }
 
-/// By mode: true if the condition of a claim holds.
+/// Evaluates the condition of a claim in each mode.
 template <class Condition>
 std::vector<ClaimInMode> verdicts_by_mode(const ModeRuns& runs, Condition condition) {
   std::vector<ClaimInMode> verdicts;
@@ -77,19 +77,20 @@ Claim check_time_constants(const std::optional<Gains<double>>& gains);
 /// C3 to C7 from one set of runs, and C13.                            [paper 4.3, section 6]
 std::vector<Claim> check_heading_claims(const ClaimSetting& setting);
 
-/// C8 to C12: waypoints, line, obstacles, timed path, best modes, in each setting, as run_all().
-///                                                                       [paper 5, section 7]
+/// C8 to C12: waypoints, line, obstacles, timed path, best modes. Returns the claims of each setting;
+/// precondition as run_all().                                            [paper 5, section 7]
 std::vector<std::vector<Claim>> check_guidance_claims(std::span<const ClaimSetting> settings);
 
-/// Longest settling time that counts as fast, see C3: the time for the step at the mode's largest
-/// steady yaw rate, plus 4 (T1 + 2 T2) of the paper's gains. e^-4 = 1.8 % is within the 2 % band; S
-/// decays with 2 T2, then e with T1.
+/// Longest settling time that counts as fast in C3, s: the time for the step at the mode's largest
+/// steady yaw rate, plus 4 (T1 + 2 T2) with the paper's gains. S decays with 2 T2, then the heading
+/// error with T1; after four time constants e^-4 = 1.8 % is left, within the 2 % settling band.
 double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, YawMode mode,
                           double step_rad, double speed_mps);
-/// Number of reversals of a signal by more than `band` from its last extreme.
+/// Number of times that a signal reverses, that is, returns by more than `band` from its last
+/// extreme.
 int reversals(std::span<const double> signal, double band);
 
-/// All claims in the paper's order; without gains, only those that need none.
+/// Checks all claims, in the paper's order; without gains, only those that need no gains.
 std::vector<Claim> check_claims(const Model& model, const std::optional<Gains<double>>& gains,
                                 const BatchArithmetic& arithmetic);
 /// check_claims() for each model, with the same control and sample time. Precondition: each model has

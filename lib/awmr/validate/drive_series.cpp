@@ -14,9 +14,10 @@
 namespace awmr {
 namespace {
 
-/// Estimates white noise from second differences, which a smooth motion hardly affects:
-///   Var(x_(k+1) - 2 x_k + x_(k-1)) = 6 sigma^2.
-/// Lower bound for a sensor with quantisation step q: q/sqrt(12).
+/// Standard deviation sigma of white noise, from second differences, which smooth motion hardly
+/// changes:
+///   Var(x_(k+1) - 2 x_k + x_(k-1)) = 6 sigma^2
+/// The result is at least q/sqrt(12), q the quantisation step `quantum`.
 double white_noise(const std::vector<double>& values, double quantum) {
   const double least = quantum / std::sqrt(12.0);
   if (values.size() < 10) return least;
@@ -28,7 +29,7 @@ double white_noise(const std::vector<double>& values, double quantum) {
   return std::max(least, spread / std::sqrt(6.0));
 }
 
-/// A sensor of the controller: its errors in the scenario, and its reading.
+/// A sensor of the controller: member pointers to its errors in the scenario and to its reading.
 struct ControllersSensor {
   Channel Sensors::*errors;
   double Measurement<double>::*reading;
@@ -50,7 +51,8 @@ std::size_t window_of(double t_s) {
   return static_cast<std::size_t>(std::floor(t_s / kWindow_s + 1e-9));
 }
 
-/// Value in the run's row that is nearest in time; after the end, that of the last row.
+/// Value of the channel in the row of the run that is nearest in time; after the end of the run, in
+/// the last row.
 double at_time(const DriveChannel& channel, const Run& run, double sample_time_s, double t_s) {
   const auto row = static_cast<std::size_t>(t_s / sample_time_s + 0.5);
   return channel.of_run(run.rows[std::min(row, run.rows.size() - 1)]);
@@ -73,7 +75,7 @@ WindowMeans means(const DriveChannel& channel, double duration_s, const Value& v
   return windows;
 }
 
-/// Reads the rows of the log in which a channel was measured.
+/// Adds time and value of the rows with `counts(row)` to the channel, from row `first` on.
 template <class Counts, class Value>
 void take_rows(const DrivingLog& log, std::size_t first, double duration_s, const Counts& counts,
                const Value& value, DriveChannel& channel) {
@@ -114,8 +116,8 @@ DriveChannel measured_channel(const DrivingLog& log, LogChannel which, std::size
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s) {
   if (from_s && *from_s < log.t_s.front()) {
     return input_error(ErrorCode::kTooFewData, log.file,
-                       fmt::format("begins at {:g} s, after the {:g} s at which the "
-                                   "scenario is to begin",
+                       fmt::format("the log begins at {:g} s, but --from is {:g} s; give a later "
+                                   "time",
                                    log.t_s.front(), *from_s));
   }
   for (std::size_t row = 0; row < log.rows(); ++row) {
@@ -125,8 +127,9 @@ Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<doub
   }
   return input_error(
       ErrorCode::kTooFewData, log.file,
-      from_s ? fmt::format("ends before {:g} s, where the scenario is to begin", *from_s)
-             : "commands nothing: every force and steering command is 0");
+      from_s ? fmt::format("the log ends before {:g} s (--from); give an earlier time", *from_s)
+             : "the log commands nothing (every force and steering command is 0); give a log of "
+               "the drive");
 }
 
 double noise_in(const DrivingLog& log, LogChannel which, std::size_t first) {
@@ -214,7 +217,7 @@ WindowMeans means_of(const DriveChannel& channel, const Run& run, double sample_
   });
   if (random == nullptr || channel.noise_in_run) return windows;
   for (std::size_t w = 0; w < windows.mean.size(); ++w) {
-    // The mean of n readings with independent noise sigma has sigma/sqrt(n).
+    // The mean of n readings with independent noise sigma has the noise sigma/sqrt(n).
     const double noise = channel.noise * random->normal();
     if (windows.rows[w] > 0) windows.mean[w] += noise / std::sqrt(windows.rows[w]);
   }

@@ -14,17 +14,17 @@
 namespace awmr {
 namespace {
 
-/// Model and scenario as changed by a fault hypothesis.
+/// Model and scenario, changed by a fault hypothesis.
 struct PerturbedModel {
   Model model;
   Scenario scenario;
 };
 
-/// A possible change.
+/// A fault hypothesis: a change of the model or scenario by one value.
 struct Change {
   std::string what;
   std::string unit;
-  Interval range;  ///< of the value; for a factor, above 0 and searched in its logarithm
+  Interval range;  ///< searched range of the value; a factor is searched in its logarithm
   double none;     ///< value without effect
   std::function<void(PerturbedModel&, double value)> apply;
   bool is_factor() const { return unit == "times"; }
@@ -119,7 +119,7 @@ Scenario without_noise(Scenario scenario) {
   return scenario;
 }
 
-/// Search for the value of one change; contains everything that stays the same.
+/// Search for the value of a change that explains the drive best.
 struct Search {
   const Model& model;
   const Controller<double>& controller;
@@ -128,7 +128,7 @@ struct Search {
   double duration_s;
   const std::vector<EvidenceChannel>& evidence;
 
-  /// Mean squared distance of the drive from the changed vehicle's run, summed over channels.
+  /// Mean squared distance of the drive from the run of the changed vehicle, summed over channels.
   double distance(const Change& change, double value) const {
     constexpr double kNever = std::numeric_limits<double>::max();
     PerturbedModel changed{model, scenario};
@@ -152,8 +152,8 @@ struct Search {
     return std::isfinite(sum) ? sum : kNever;
   }
 
-  /// The best value: first on a grid, because there can be several minima, then between its
-  /// neighbours.
+  /// Searches the best value: first on a grid, because there can be several minima, then between the
+  /// neighbours of the best grid point.
   FaultHypothesis best(const Change& change, double unchanged) const {
     const auto to = [&](double value) { return change.is_factor() ? std::log(value) : value; };
     const auto from = [&](double z) { return change.is_factor() ? std::exp(z) : z; };

@@ -1,4 +1,5 @@
-/// Finds single changes of the model that explain a drive. Private to this folder.
+/// Search for single faults (changes of the vehicle, its sensors or forces) that explain a drive.
+/// Private to validate/.
 #pragma once
 
 #include <vector>
@@ -9,7 +10,7 @@
 
 namespace awmr {
 
-/// Mean and standard deviation of the predictions of a channel, by window.
+/// Mean and standard deviation of a channel over the predicted drives, by window.
 struct PredictedBand {
   std::vector<double> mean;
   std::vector<double> spread;
@@ -22,10 +23,10 @@ struct EvidenceChannel {
   const PredictedBand* predicted;
 };
 
-/// Fault hypotheses: each parameter, the motors, the sensors' biases and latencies, constant
-/// external forces. For each, finds the value that alone minimises the distance of the run from the
-/// drive. Returns those that explain at least 30 %, the best first, at most four. Only the vehicle
-/// changes; the controller stays the same.
+/// Tries each fault hypothesis: each parameter, the motors, the biases and latencies of the sensors,
+/// constant external forces. For each, the value is searched that minimises the squared distance of
+/// the simulated run from the drive. Returns the hypotheses that remove at least 30 % of it, best
+/// first, at most four. The controller stays the same.
 std::vector<FaultHypothesis> fault_hypotheses(const Model& model,
                                               const Controller<double>& controller,
                                               const Scenario& scenario,

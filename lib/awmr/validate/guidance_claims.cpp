@@ -1,4 +1,4 @@
-// C8 to C12: waypoints, lines, obstacles, timed paths, and the best mode for each purpose.
+// Checks of the claims C8 to C12: waypoints, line, obstacles, timed path, best modes.
 
 #include <fmt/format.h>
 
@@ -14,13 +14,15 @@
 namespace awmr {
 namespace {
 
-/// "d tends to 0": over the last quarter of the line, within a hundredth of the lane's half width.
+/// Criterion for "d tends to 0": largest distance from the line in the last quarter of the run, as a
+/// fraction of the lane's half width.
 constexpr double kOnTheLineShare = 0.01;
-/// "Alike": maximum relative difference of finishing times from the quickest mode's.
+/// Criterion for "alike": largest relative difference of the finishing times from the shortest one.
 constexpr double kAlikeShare = 0.10;
-/// "Well followed": a twentieth of the path's width of 20 m, about the resolution of a figure.
+/// Criterion for "followed": a twentieth of the path's width of 20 m, which is about the resolution
+/// of a printed figure.
 constexpr double kPathTolerance_m = 1.0;
-/// A figure counts as equal to the best one if the relative difference is below this.
+/// A value counts as equal to the best one if it is at most this fraction larger.
 constexpr double kAsGoodShare = 0.01;
 
 double largest_steering_deg(const ModeRun& run) {
@@ -60,7 +62,7 @@ Claim waypoints_reached(const ModeRuns& runs) {
   Claim claim{.id = "C8",
               .statement = "line of sight over E, F, G, H: all reached, |d_r| at most 20 deg",
               .reproduced = reached && all_within,
-              .figure = fmt::format("all reached after {}; largest |d_r| {}; way {}",
+              .figure = fmt::format("all reached after {}; largest |d_r| {}; path length {}",
                                     by_mode(runs, "s", finish_s), by_mode(runs, "deg", steering),
                                     by_mode(runs, "m", path_m)),
               .tolerance = "each within 1 m (the paper prints no radius); d_r at most 20 deg",
@@ -69,10 +71,10 @@ Claim waypoints_reached(const ModeRuns& runs) {
                   runs, [&](const ModeRun& run) { return completed(run) && within(run); })};
   claim.why = !reached ? "not all reached in 180 s: " + modes_without(runs, completed) +
                              " turns too wide for the acceptance radius"
-              : !all_within ? "the vehicle's stop of the front wheels lies beyond 20 deg"
+              : !all_within ? "the front wheels of this vehicle turn further than 20 deg"
                             : "each turn fits between the points, and the allocation clips d_r at "
-                              "its stop; the paper finds the longest way in combined mode, here "
-                              "it is the mode that turns widest";
+                              "its stop; the longest path is in the mode with the widest turns, in "
+                              "the paper in combined mode";
   return claim;
 }
 
@@ -103,8 +105,8 @@ Claim line_followed(const ModeRuns& runs) {
           .tolerance = fmt::format("{} m, a hundredth of the lane's half width, and the end of the "
                                    "line passed",
                                    accepted_m),
-          .why = all_on_it ? "with beta taken off, d_dot = -U sin(Delta sat(d/R)) [paper (113)] "
-                             "once the heading follows"
+          .why = all_on_it ? "with beta subtracted, d_dot = -U sin(Delta sat(d/R)) [paper (113)] "
+                             "as soon as the heading follows"
                            : "the heading does not follow its reference closely enough in " +
                                  modes_without(runs, on_it),
           .modes = verdicts_by_mode(runs, on_it)};
@@ -136,13 +138,14 @@ Claim obstacles_avoided(const ModeRuns& line, const ModeRuns& points) {
           .tolerance = fmt::format("clearance above 0 and the path completed in every mode; "
                                    "finishing times within {:.0f} % of each other",
                                    100.0 * kAlikeShare),
-          .why = !avoided ? "a mode does not complete its path, see the figure"
-                 : !same  ? "the modes keep clear, but not equally fast: one turns wider"
-                          : "MMD is chosen for the widest turn, so every mode has room; the "
-                            "paper's own rule is lost with its figure, this is the project's"};
+          .why = !avoided ? "at least one mode does not complete its path"
+                 : !same  ? "all modes avoid the obstacles, but one turns wider and takes longer"
+                          : "the minimum manoeuvring distance is chosen for the widest turn, so "
+                            "every mode has room; the paper's rule is lost with its figure, this "
+                            "is the project's"};
 }
 
-/// Largest distance from the path's point at the same time.
+/// Largest distance of the vehicle from the point of the path at the same time, m.
 double off_path_m(const ModeRun& run) {
   double largest = 0.0;
   for (const RunRow& row : run.run.rows) {
@@ -161,7 +164,7 @@ double least_radius_m(const Lissajous<double>& path, double duration_s) {
   return least;
 }
 
-/// off_path_m() by mode. The runs are long: only one kind is kept at a time.
+/// off_path_m() by mode. Only these numbers are kept, because the runs need much memory.
 using OffPath = std::map<YawMode, double>;
 OffPath off_path_by_mode(const ModeRuns& runs) {
   OffPath off;
@@ -184,8 +187,8 @@ Claim timed_path_followed(const ModeRuns& open, const OffPath& closed_off_m) {
   return {.id = "C11",
           .statement = "the Lissajous path x = 10 cos 0.01t, y = 10 sin 0.03t is followed",
           .reproduced = all,
-          .figure = fmt::format("largest distance from the path's point, heading alone (the "
-                                "paper's form): {}; with the position fed back: {}",
+          .figure = fmt::format("largest distance from the point of the path, heading alone (the "
+                                "paper's form): {}; with position feedback: {}",
                                 by_mode(open, "m", off), by_mode(open, "m", closed_off)),
           .tolerance = fmt::format("{} m in every mode with the paper's form, a twentieth of the "
                                    "path's width",
@@ -198,7 +201,7 @@ Claim timed_path_followed(const ModeRuns& open, const OffPath& closed_off_m) {
           .modes = verdicts_by_mode(open, followed)};
 }
 
-/// Largest drop of the speed below u_d after u_d was first reached.
+/// Largest drop of the speed below u_d after u_d was first reached, m/s.
 std::optional<double> drop_mps(const ModeRun& run) { return run.metrics.speed_drop_mps; }
 
 /// True if `mode` has the smallest value or is within kAsGoodShare of it.

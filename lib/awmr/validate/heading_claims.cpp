@@ -1,4 +1,4 @@
-// C3, C6, C7 and C13: the closed heading loop.
+// Checks of the claims C3, C6, C7 and C13 about the closed heading loop.
 
 #include <fmt/format.h>
 
@@ -15,12 +15,12 @@ namespace {
 
 const std::vector<double> kDriven_deg{30.0, 45.0};  ///< headings of the experiment     [paper 6]
 
-/// "Without overshoot": not visible in a figure of the paper; also the smallest settling band of
-/// metrics.h.
+/// Criterion for "without overshoot": an overshoot that is not visible in a printed figure. It is also
+/// the smallest settling band of metrics.h.
 constexpr double kNoOvershoot_deg = 0.5;
-/// A command chatters if it reverses by more than 1 % of its range more than once per second, on
-/// average over the run. A discontinuous law reverses at up to every second sample: 50 times per
-/// second.
+/// Criterion for "chattering": a command reverses by more than 1 % of its range more than once per
+/// second, on average over the run. A discontinuous law reverses up to every second sample: 50 times
+/// per second at a sample time of 0.01 s.
 constexpr double kReversalBand = 0.01;
 constexpr double kReversalsPerSecond = 1.0;
 constexpr double kDrivenTauSpeed = 1.4;     ///< 35 % of four motors' thrust       [paper 6]
@@ -30,7 +30,7 @@ std::optional<double> settling_s(const ModeRun& run) { return run.metrics.settli
 
 std::string why_heading_converges_or_not(const HeadingSetting& setting, const ModeRuns& runs,
                                          bool reproduced, bool none_over) {
-  std::string why = reproduced ? "every mode follows the sliding surface once its limits release it"
+  std::string why = reproduced   ? "every mode follows the sliding surface if it is not saturated"
                     : !none_over ? "a limited actuator or the servo's lag carries the heading past "
                                    "its command in the modes named in the figure"
                                  : "the law, as limited by the actuators, takes longer than "
@@ -67,8 +67,9 @@ Claim heading_converges(const HeadingSetting& setting, const ModeRuns& runs) {
           .figure = fmt::format("settled after {}; overshoot {}", by_mode(runs, "s", settling_s),
                                 by_mode(runs, "deg", overshoot)),
           .tolerance = fmt::format(
-              "settled (2 %, at least 0.5 deg) within 60 deg at the mode's largest steady yaw "
-              "rate plus 4 (T1 + 2 T2) of the paper: {}; overshoot at most {} deg",
+              "settled (to 2 %, at least 0.5 deg) in the time for 60 deg at the mode's largest "
+              "steady yaw rate plus 4 (T1 + 2 T2) of the paper's gains: {}; overshoot at most {} "
+              "deg",
               by_mode(runs, "s",
                       [&](const ModeRun& run) -> std::optional<double> {
                         return setting.allowed_s(run.mode);
@@ -84,8 +85,8 @@ bool same_heading_gains(const HeadingGains<double>& a, const HeadingGains<double
          1e-9;
 }
 
-/// The sideslip in differential mode depends on its yaw rate, so results for other gains are shown
-/// next to those for the paper's gains.
+/// C6. The sideslip in differential mode depends on the yaw rate, which depends on the gains.
+/// Therefore the result with the paper's gains is shown in addition to that with other gains.
 Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
   const auto sideslip = [](const ModeRun& run) -> std::optional<double> {
     return run.metrics.sideslip_max_deg;
@@ -103,11 +104,11 @@ Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
       .reproduced = smallest,
       .figure = fmt::format("largest {}; largest yaw rate {}", by_mode(runs, "deg", sideslip),
                             by_mode(runs, "deg/s", yaw_rate)),
-      .tolerance = "strictly below both others, over the whole run above 0.05 m/s",
+      .tolerance = "strictly below that of both other modes, in the rows of the run above 0.05 m/s",
       .why = smallest
-                 ? "without steered wheels only the turn itself, m' r u, makes sway"
-                 : "sway follows (tau_steering/l_f - m' r u)/a_s: differential has no steering "
-                   "force, but turns fast enough for m' r u alone to make more sway"};
+                 ? "without steering, only the term m' r u of the turn causes lateral speed"
+                 : "the lateral speed follows (tau_steering/l_f - m' r u)/a_s: differential has no "
+                   "steering force, but turns so fast that m' r u alone causes more lateral speed"};
   if (setting.gains.observer.is_on() ||
       !same_heading_gains(setting.gains.heading, kPaperGains.heading)) {
     const HeadingSetting paper{
@@ -118,7 +119,7 @@ Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
   return claim;
 }
 
-/// Largest number of reversals per second of the commanded F'L, F'R and d_r.
+/// Number of reversals per second of the command that reverses most: F'L, F'R or d_r.
 double reversals_per_second(const Model& model, const ModeRun& run) {
   std::vector<double> left, right, steering;
   for (const RunRow& row : run.run.rows) {
@@ -143,20 +144,20 @@ Claim no_chattering(const Model& model, const ModeRuns& runs) {
   return {.id = "C7",
           .statement = "no chattering",
           .reproduced = quiet,
-          .figure = "most restless of F'L, F'R, d_r: " + by_mode(runs, "reversals/s", rate),
+          .figure = "most reversals of F'L, F'R, d_r: " + by_mode(runs, "reversals/s", rate),
           .tolerance = fmt::format("no command reverses by more than {:.0f} % of its range more "
-                                   "often than {} time(s) a second; chattering would do so up to "
+                                   "than {} time(s) per second; with chattering it does so up to "
                                    "{:.0f} times",
                                    100.0 * kReversalBand, kReversalsPerSecond,
                                    0.5 / model.vehicle.sample_time_s),
-          .why = quiet ? "inside the boundary layer the law is continuous: it moves with the steps "
-                         "and then rests"
+          .why = quiet ? "inside the boundary layer the law is continuous: the commands follow the "
+                         "heading steps and then stay constant"
                        : "the loop is too stiff for the sample time or the servo: the commands "
                          "reverse without a step",
           .modes = verdicts_by_mode(runs, rests)};
 }
 
-/// The experiment's headings under its constant thrust.
+/// Scenario of C13: headings and constant thrust of the paper's experiment.
 Scenario driven_headings(const HeadingSetting& setting) {
   Scenario driven = heading_steps(kDriven_deg, {.hold_s = setting.hold_s(), .name = "C13"});
   driven.speed_mps = 0.0;

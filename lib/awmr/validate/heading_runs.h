@@ -1,4 +1,4 @@
-/// Runs for the heading and speed claims. Private to this folder.
+/// Simulated runs for the heading and speed claims, and text of their results. Private to validate/.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,12 +17,12 @@ namespace awmr {
 
 inline constexpr double kSpeed_mps = 1.0;                      ///< u_d               [paper 4.3]
 inline const std::vector<double> kSimulated_deg{30.0, -30.0};  ///< headings      [paper 4.3]
-inline constexpr double kLargestStep_deg = 60.0;               ///< of any sequence here
+inline constexpr double kLargestStep_deg = 60.0;               ///< largest step of the claims' runs
 
-/// Rounds figures to 1e-4: smaller values are rounding errors.
+/// Rounds a result to 1e-4, because smaller differences are rounding errors.
 inline double to_figure(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
 
-/// "differential 0.1, steering 0.2, combined 0.3 UNIT"
+/// Text of a value by mode: "differential 0.1, steering 0.2, combined 0.3 UNIT".
 template <class Value>
 std::string by_mode(const ModeRuns& runs, const std::string& unit, Value value) {
   std::string text;
@@ -39,12 +39,13 @@ inline const ModeRun& in_mode(const ModeRuns& runs, YawMode mode) {
                        [mode](const ModeRun& run) { return run.mode == mode; });
 }
 
-/// Setting of the heading claims' runs.
+/// Inputs of the runs for the heading claims.
 struct HeadingSetting : ClaimSetting {
   double allowed_s(YawMode mode) const {
     return allowed_settling_s(plant, model.vehicle, mode, radians(kLargestStep_deg), kSpeed_mps);
   }
-  /// Long enough for every mode to settle within its limit, at most two minutes.
+  /// Time that each heading is commanded, s: 1.5 times the longest allowed settling time of a mode,
+  /// from 10 s to 120 s.
   double hold_s() const {
     double longest_s = 10.0;
     for (const YawMode mode : kYawModes) longest_s = std::max(longest_s, 1.5 * allowed_s(mode));
@@ -57,9 +58,9 @@ struct HeadingSetting : ClaimSetting {
   }
 };
 
-/// C4, from the runs with 30 then -30 deg.
+/// C4. `runs`: headings of 30, then -30 deg.
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs);
-/// C5, from the same runs and, for the figure, runs with other force limits.
+/// C5, from the same runs. Runs with other force limits are added to Claim::figure only.
 Claim check_speed_held(const HeadingSetting& setting, const ModeRuns& runs);
 
 }  // namespace awmr

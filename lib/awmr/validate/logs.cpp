@@ -22,8 +22,8 @@ std::optional<std::size_t> first_turning_row(const DrivingLog& log) {
   return std::nullopt;
 }
 
-/// The log's commands and speed: a straight model predicts no other channel. Errors (input): the
-/// log turns; it has no speed.
+/// The log with its commands and speed only, because a model of straight motion predicts no other
+/// channel. Errors (input): the log turns, or has no speed.
 Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   if (const auto row = first_turning_row(log)) {
     Error error = model.plant().error();
@@ -36,8 +36,8 @@ Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   }
   if (!log[LogChannel::kSpeed]) {
     return input_error(ErrorCode::kMissing, log.file,
-                       "there is no speed_mps, the only channel that a model of straight motion "
-                       "predicts; map the column");
+                       "has no speed_mps, the only channel that a model of straight motion "
+                       "predicts; map its column with --column");
   }
   DrivingLog part = log;
   for (const LogChannel channel : kChannels) {
@@ -46,7 +46,7 @@ Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   return part;
 }
 
-/// Maximum number of a channel's readings evaluated, and drawn.
+/// Largest number of readings of a channel in its series, and in the chart.
 constexpr std::size_t kMostInSeries = 100000;
 constexpr std::size_t kMostDrawn = 1000;
 
@@ -61,7 +61,7 @@ PredictedSeries drawn(const PredictedSeries& all) {
   return some;
 }
 
-/// Errors (input): a replay gave non-finite numbers.
+/// Error (input) if the replay gave numbers that are not finite.
 Status check_finite(const LogValidation& validation) {
   for (const ChannelValidation& channel : validation.channels) {
     if (std::isfinite(channel.one_step.nrmse) && std::isfinite(channel.long_horizon.nrmse))
@@ -111,8 +111,8 @@ Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, do
   AWMR_RETURN_IF_ERROR(check_finite(validation));
   if (!validation.channels.empty()) return validation;
   return input_error(ErrorCode::kTooFewData, log.file,
-                     fmt::format("no channel has readings to be predicted within a "
-                                 "horizon of {:g} s: give a longer one",
+                     fmt::format("no channel has readings that can be predicted within a horizon "
+                                 "of {:g} s; give a longer --horizon",
                                  horizon_s));
 }
 

@@ -1,4 +1,5 @@
-/// Validates the model on driving logs, preferably logs that were not fitted.
+/// Validation of a model on driving logs: prediction errors of each channel. The logs should not be
+/// those that the model was fitted to.
 #pragma once
 
 #include <string>
@@ -10,15 +11,17 @@
 
 namespace awmr {
 
+/// Prediction errors of one channel of a log.
 struct ChannelValidation {
   std::string channel;  ///< "yaw_rate_radps"
   std::string unit;
   int samples = 0;
-  PredictionError one_step;      ///< from one measured row to the next
-  PredictionError long_horizon;  ///< from the commands alone over windows of `horizon_s`
-  PredictedSeries series = {};   ///< long horizon, reduced to the readings for a chart
+  PredictionError one_step;      ///< of the prediction from each measured row to the next
+  PredictionError long_horizon;  ///< of the prediction from the commands over windows of horizon_s
+  PredictedSeries series = {};   ///< that prediction, reduced to the points that a chart needs
 };
 
+/// Result of validate_log().
 struct LogValidation {
   std::string file;
   double horizon_s = 0.0;
@@ -26,16 +29,16 @@ struct LogValidation {
   bool passed = false;  ///< the long-horizon NRMSE of every channel is within the tolerance
 };
 
-/// A channel that does not vary (a log at rest) has no NRMSE and is left out. `motor_lag_s`: the time
-/// constant of the motors.
+/// Predicts the channels of the log from its commands. A channel that does not vary (vehicle at rest)
+/// has no NRMSE and is left out. `motor_lag_s`: time constant of the motors.
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
                            double tolerance, double motor_lag_s = 0.0);
 
-/// As above, for a model that can be incomplete. If it has only straight motion (simulated_motion()
-/// of model/model.h), the log must drive straight, and its speed is predicted.
-/// Errors (input): the replay diverges; g1 or m' is missing; the log turns or has no speed_mps, and
-/// the model has only straight motion. The message says where the log turns and which parameters
-/// are missing.
+/// The same for a model that can be incomplete. A model of straight motion only
+/// (Model::simulated_motion()) predicts the speed of a log that drives straight.
+/// Errors (input): the replay diverges; g1 or m' is missing; the model has straight motion only, and
+/// the log turns or has no speed_mps. The message names the row at which the log turns and the
+/// missing parameters.
 Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, double horizon_s,
                                    double tolerance);
 

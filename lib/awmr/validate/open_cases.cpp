@@ -17,7 +17,7 @@
 namespace awmr {
 namespace {
 
-/// Factor by which m' must increase for the tyres to carry the full thrust.
+/// Factor on m' with which tyres of friction 0.8 carry the full thrust (open_cases.h).
 double mass_factor(const Model& model) {
   const double least_mass_norm = kFullThrust / (kTyreFriction * kGravity_mps2);
   return least_mass_norm / *model[ParameterId::kMassNorm].value;
@@ -38,8 +38,8 @@ ControlOptions control_in(const ClaimCase& open) {
   return control;
 }
 
-/// Indices of cases with the same allocation and split, whose runs are one batch. Two cases have six
-/// runs, whose rows of C11 take 120 MB.
+/// Divides the indices of the cases into batches with the same allocation and split. A batch has at
+/// most two cases, because the rows of their six runs of C11 take 120 MB.
 std::vector<std::vector<std::size_t>> batches_of(const std::vector<ClaimCase>& cases) {
   constexpr std::size_t kCasesMax = 2;
   std::map<std::pair<AllocationForm, CombinedSplit>, std::vector<std::size_t>> open;
@@ -60,11 +60,12 @@ ClaimCase with_result(ClaimCase open, bool reproduced) {
   return open;
 }
 
-/// Key of a case: all settings except one, as numbers.
+/// Settings of a case as numbers, to find the cases that differ in one setting only.
 using Key = std::tuple<int, double, double, double, int>;
+/// A setting that the paper leaves open.
 struct Setting {
   std::string_view name;
-  std::function<void(ClaimCase&)> forget;  ///< sets it to the same value in every case
+  std::function<void(ClaimCase&)> forget;  ///< gives the setting the same value in every case
 };
 
 Key key_of(const ClaimCase& open) {
@@ -72,10 +73,10 @@ Key key_of(const ClaimCase& open) {
           open.mass_factor, static_cast<int>(open.split)};
 }
 
-/// Number of combinations of the other settings in which this setting decides the verdict, and
-/// their total.
+/// Number of combinations of the other settings in which the verdict depends on this setting, and
+/// number of all these combinations.
 std::pair<int, int> places_decided(const std::vector<ClaimCase>& cases, const Setting& setting) {
-  std::map<Key, std::pair<bool, bool>> places;  // reproduced in a case, not in another
+  std::map<Key, std::pair<bool, bool>> places;  // reproduced in a case; not reproduced in a case
   for (const ClaimCase& open : cases) {
     ClaimCase others = open;
     setting.forget(others);

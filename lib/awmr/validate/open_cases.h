@@ -1,12 +1,12 @@
-/// Settings that the paper leaves open, and their effect on its claims. Private to this folder.
+/// Effect on the paper's claims of the settings that the paper leaves open. Private to validate/.
 ///
-/// The paper prints neither the limits of F' nor a method to share the moment of the combined mode.
-/// Its allocation is for small angles, and its m' requires more tyre force than friction permits.
-/// The cases are all combinations of
+/// The paper prints neither the limits of F' nor how the combined mode shares the moment. Its
+/// allocation is for small angles, and its m' requires more tyre force than friction permits. The
+/// cases are all combinations of
 ///
 ///     allocation   exact, paper (control/allocation.h)
 ///     F'           [-1, 1], [0, 1] (the paper's own normalisation), [0, 0.5]
-///     m', I'z      times 1, and times the factor with which tau_speed = 2 needs a friction of 0.8:
+///     m', I'z      as in the model, and multiplied so that tau_speed = 2 needs a friction of 0.8:
 ///                  2 F_max <= 0.8 m g with F_max = m/m'  =>  m' >= 2/(0.8 g)
 ///     split        redistribute, fixed half
 #pragma once
@@ -19,18 +19,18 @@
 
 namespace awmr {
 
-/// All combinations; only the mass factor 1 if the model's own m' is within the friction.
+/// All combinations. If the model's own m' is within the friction, 1 is the only mass factor.
 std::vector<ClaimCase> open_cases(const Model& model);
 
-/// Evaluates the claims in all cases and determines which settings decide them. The claims must be
+/// Adds to each claim its verdict in all cases, and the settings that decide it. `claims` must be
 /// those of check_claims() with the same gains. The result does not depend on the number of cores.
 void add_open_cases(const Model& model, const std::optional<Gains<double>>& gains,
                     const BatchArithmetic& arithmetic, std::vector<Claim>& claims,
                     const Progress& progress = {});
 
-/// Settings that decide the verdict, the most decisive first: "wheel_force (8 of 12)" means that
-/// changing only this setting changes the verdict in 8 of 12 combinations. Empty if no setting
-/// changes it.
+/// Settings that decide the verdict, the most decisive first. "wheel_force (8 of 12)": in 8 of the 12
+/// combinations of the other settings, the verdict depends on wheel_force. Empty if the verdict is
+/// the same in all cases.
 std::string decisive_settings(const std::vector<ClaimCase>& cases);
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-// C1, C2 and C14: claims that need no feedback.
+// Checks of the claims C1, C2 and C14, which need no feedback.
 
 #include <fmt/format.h>
 
@@ -17,13 +17,13 @@ namespace {
 
 constexpr double kCircleTurn_m = 0.4;  ///< the paper's constant tau_turn [paper 3.5.2]
 
-/// Tolerance for the steady speed solved from g1(u) = tau_speed: the run outlasts the transient,
-/// and the integrator's error is far below this.
+/// Relative tolerance of the final speed, compared with the solution of g1(u) = tau_speed. The run is
+/// longer than the transient, and the error of the integrator is far below this.
 constexpr double kSteadyTolerance = 1e-3;
-/// Tolerance for a measured speed: Table 2 is inconsistent by 5 % (10 m/9.26 s is 1.080 m/s,
-/// printed 1.03), so a stricter limit is not meaningful.
+/// Relative tolerance for a measured speed. It is 5 %, because Table 2 contains an error of 5 %
+/// (10 m/9.26 s is 1.080 m/s, printed 1.03).
 constexpr double kMeasuredTolerance = 0.05;
-/// Largest distance of the last turn from its circle, divided by the radius.
+/// Largest distance of the last full turn from the circle fitted to it, divided by the radius.
 constexpr double kCircleTolerance = 0.01;
 
 Run run_open_loop(const Model& model, YawMode mode, OpenLoop forces, double duration_s,
@@ -48,13 +48,15 @@ const TrialPoint* fastest_trial(const Model& model) {
   return fastest;
 }
 
+/// Result of C2 in one mode.
 struct Turn {
   YawMode mode{};
-  std::optional<Circle> circle;  ///< over the last full turn; absent without one in time
+  std::optional<Circle> circle;  ///< fitted to the last full turn; absent without two full turns
   double speed_mps = 0.0;        ///< at the end of the run
 };
 
-/// Points of the run's last full turn. Empty if it made fewer than two: the first is transient.
+/// Points of the last full turn of the run. Empty if the run has fewer than two full turns, because
+/// the first is a transient.
 std::vector<Point> last_turn(const Run& run) {
   const double end_rad = run.rows.back().state.psi_rad;
   if (std::abs(end_rad) < 4.0 * std::numbers::pi) return {};
@@ -70,7 +72,7 @@ std::vector<Point> last_turn(const Run& run) {
 
 Turn turn_of(const Model& model, YawMode mode, const ControlOptions& control) {
   Turn turn{.mode = mode, .circle = {}};
-  // A slow vehicle takes longer for two turns.
+  // A slow vehicle needs a longer run for two full turns.
   for (const double duration_s : {60.0, 240.0, 960.0}) {
     const Run run = run_open_loop(model, mode, {kFullThrust, kCircleTurn_m}, duration_s, control);
     const State<double>& end = run.rows.back().state;
@@ -83,12 +85,12 @@ Turn turn_of(const Model& model, YawMode mode, const ControlOptions& control) {
 
 std::string figure_of(const Turn& turn) {
   if (!turn.circle) return fmt::format("{}: no two turns in 960 s", name_of(turn.mode));
-  return fmt::format("{}: diameter {:.2f} m, off the circle by {:.3f} % of the radius, {:.2f} m/s",
+  return fmt::format("{}: diameter {:.2f} m, deviation {:.3f} % of the radius, {:.2f} m/s",
                      name_of(turn.mode), 2.0 * turn.circle->radius_m,
                      100.0 * turn.circle->deviation_m / turn.circle->radius_m, turn.speed_mps);
 }
 
-/// Reason for different diameters: the part of tau_turn that each mode makes.
+/// Text of the part of tau_turn that each mode delivers, which explains the different diameters.
 std::string delivered_moments(const Model& model, const Plant<double>& plant) {
   const AllocationLimits<double> limits = make_controller(plant, model.vehicle, kPaperGains).limits;
   std::string text;
@@ -135,7 +137,7 @@ Claim check_straight_run(const Model& model, const Plant<double>& plant,
   if (!at_full_thrust) {
     claim.reproduced = settles;
     claim.why =
-        fmt::format("{}; the model carries no trial at tau_speed 2, so u_max is the model's own",
+        fmt::format("{}; the model has no trial at tau_speed 2, so u_max is predicted by the model",
                     settles ? std::string("the speed settles where thrust and resistance balance")
                             : why_not_settled(model));
     return claim;
@@ -145,7 +147,7 @@ Claim check_straight_run(const Model& model, const Plant<double>& plant,
   claim.figure +=
       fmt::format(", measured u_max {:.4g} m/s ({:+.1f} %)", fastest->measured, 100.0 * difference);
   claim.tolerance +=
-      fmt::format(" and {:.0f} % of the measured one, by which Table 2 disagrees with itself",
+      fmt::format(" and {:.0f} % of the measured one, because Table 2 has an error of that size",
                   100.0 * kMeasuredTolerance);
   claim.why = !settles ? why_not_settled(model)
               : claim.reproduced
@@ -186,8 +188,8 @@ Claim check_time_constants(const std::optional<Gains<double>>& gains) {
       .statement = "lambda 3, mu 50, eps 12 give T1 = 0.33 s and T2 = 0.12 s",
       .figure = fmt::format("T1 = 1/lambda = {:.4f} s, T2 = eps/(2 mu) = {:.4f} s", t1_s, t2_s),
       .tolerance = "0.005 s, half of the last printed digit",
-      .why = fmt::format("arithmetic; S itself decays with 2 T2 = {:.2f} s, which is {} T1 "
-                         "too",
+      .why = fmt::format("computed from the gains; S itself decays with 2 T2 = {:.2f} s, which is "
+                         "also {} T1",
                          2.0 * t2_s, 2.0 * t2_s < t1_s ? "below" : "not below")};
   claim.reproduced = std::abs(t1_s - 0.33) <= 0.005 && std::abs(t2_s - 0.12) <= 0.005;
   if (gains) {

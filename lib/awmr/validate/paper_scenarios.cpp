@@ -6,8 +6,8 @@ namespace awmr {
 namespace {
 
 constexpr double kPathSpeed_mps = 1.0;  ///< [paper 5.1]
-/// Chosen here: the paper gives no acceptance radius, lane or Delta, and its figure of the
-/// obstacles is lost.
+/// Acceptance radius and Delta of line of sight. They are chosen here, because the paper gives no
+/// acceptance radius, lane width or Delta.
 constexpr double kAcceptance_m = 1.0;
 constexpr double kDelta_deg = 60.0;
 
@@ -21,7 +21,9 @@ State<double> pose(double x_m, double y_m, double psi_deg) {
 
 LineOfSight<double> lane(double width_m) { return {radians(kDelta_deg), width_m, true}; }
 
-/// MMD: the steering mode's turning radius, 5 m at any speed, plus distance for the turn to begin.
+/// Obstacle avoidance, chosen here because the paper's figure is lost. The minimum manoeuvring
+/// distance is the turning radius of the steering mode, 5 m at any speed, plus 1 m and the distance
+/// of 1 s at the present speed.
 Avoidance<double> avoidance() {
   return {.mmd_base_m = 6.0,
           .mmd_per_speed_s = 1.0,

@@ -1,5 +1,5 @@
-/// The paper's guided runs as scenarios. A test checks that they equal configs/paper/scenarios/c8
-/// to c12. Private to this folder.
+/// Scenarios of the paper's runs with guidance (C8 to C12). A test checks that they equal the files
+/// configs/paper/scenarios/c8* to c12*. Private to validate/.
 #pragma once
 
 #include "awmr/simulate/scenario.h"

@@ -1,4 +1,4 @@
-// C4 and C5: the speed loop, with constant heading and heading steps.
+// Checks of the claims C4 and C5 about the speed loop, with constant heading and heading steps.
 
 #include <fmt/format.h>
 
@@ -10,9 +10,11 @@
 namespace awmr {
 namespace {
 
-/// "Without overshoot", "without steady error", "constant": not visible in a figure of the paper.
-constexpr double kNoSpeedError = 0.01;  ///< of u_d
-constexpr double kSlightDrop = 0.20;    ///< of u_d: more is not "slight"
+/// Criterion for "without overshoot", "without steady error" and "constant": a fraction of u_d that is
+/// not visible in a printed figure.
+constexpr double kNoSpeedError = 0.01;
+/// Criterion for a "slight" drop: largest fraction of u_d.
+constexpr double kSlightDrop = 0.20;
 
 /// The range of the speed u between `from_s` and `to_s`.
 Interval speed_range(const ModeRun& run, double from_s, double to_s) {
@@ -27,8 +29,8 @@ Interval speed_range(const ModeRun& run, double from_s, double to_s) {
 
 }  // namespace
 
-/// Convergence is evaluated from rest up to the second heading, when the speed has long settled.
-/// The effect of the step on the speed is C5; it is also reported here.
+/// Convergence is evaluated from rest up to the second heading, when the speed has settled. The effect
+/// of the heading step on the speed is evaluated in C5; the excess is also reported here.
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs) {
   const double step_s = setting.hold_s();
   const auto excess = [](Interval range) { return std::max(0.0, range.hi - kSpeed_mps); };
@@ -58,28 +60,26 @@ Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs)
                                "excess after a heading step is for information",
                                kAccepted_mps),
       .why = none_over && no_error
-                 ? "the law is of first order in u and knows the resistance exactly here; the "
+                 ? "the speed loop is of first order, and its law has the exact resistance; the "
                    "excess at a step comes from the servo's lag: forces are allocated for the "
-                   "commanded angle but act at the actual one"
-             : !no_error ? "the error that remains is what the force limits or a turn that is "
-                           "still going on leave"
+                   "commanded steering angle but act at the actual one"
+             : !no_error ? "force limits, or a turn that has not ended, leave a steady error"
                          : "while the front wheels move, their lag and the force limits make "
-                           "the thrust differ from the one commanded",
+                           "the thrust differ from the command",
       .modes = verdicts_by_mode(
           runs, [&](const ModeRun& run) { return !is_over(run) && is_right(run); })};
 }
 
 namespace {
 
-/// Commanded speed minus the smallest speed from the second heading on, >= 0. The metric of
-/// compare/ starts when u is first within 2 %, so from rest it is at least the difference at that
-/// time.
+/// Commanded speed minus the smallest speed after the second heading step, m/s, >= 0. Not
+/// Metrics::speed_drop_mps, because that includes the time from rest to the step.
 double speed_drop(const ModeRun& run, double step_s) {
   return std::max(0.0, kSpeed_mps - speed_range(run, step_s, run.run.rows.back().t_s).lo);
 }
 
-/// Results for other force limits than the vehicle's: the paper prints none, and the claim depends
-/// on them.
+/// Text of the speed drop with other force limits than the vehicle's. The paper prints no limits, and
+/// the claim depends on them.
 std::string speed_drop_elsewhere(const HeadingSetting& setting) {
   std::string text;
   for (const Interval limits : {Interval{-1.0, 1.0}, Interval{0.0, 0.5}}) {
@@ -87,7 +87,7 @@ std::string speed_drop_elsewhere(const HeadingSetting& setting) {
     if (std::abs(limits.lo - own.lo) + std::abs(limits.hi - own.hi) < 1e-12) continue;
     Model other = setting.model;
     other.vehicle.wheel_force = limits;
-    // Same duration as with the vehicle's own limits, so that the figures are comparable.
+    // The same duration as with the vehicle's own limits, so that the drops can be compared.
     const ModeRuns runs =
         ClaimSetting{other, setting.plant, setting.gains, setting.arithmetic, setting.control}.run(
             heading_steps(kSimulated_deg,
@@ -100,7 +100,7 @@ std::string speed_drop_elsewhere(const HeadingSetting& setting) {
   return text;
 }
 
-/// True if the left or right force was at a limit anywhere from the second heading on.
+/// True if the left or right force reaches a limit after the second heading step.
 bool side_saturates(const ModeRun& run, Interval limits, double step_s) {
   const auto at_limit = [&](double force) { return !(force > limits.lo) || !(force < limits.hi); };
   return std::any_of(run.run.rows.begin(), run.run.rows.end(), [&](const RunRow& row) {
@@ -111,14 +111,14 @@ bool side_saturates(const ModeRun& run, Interval limits, double step_s) {
 std::string why_speed_is_held_or_not(bool holds, bool saturates, bool others_drop) {
   std::string why = holds       ? "differential: the force limits leave room for turn and thrust "
                                   "together"
-                    : saturates ? "differential: a side saturates in the turn, so the thrust is "
-                                  "not what was commanded"
+                    : saturates ? "differential: a side saturates in the turn, so "
+                                  "the thrust is below the command"
                                 : "differential: the speed loop is too slow for the turn";
   why += others_drop
              ? "; steering and combined: in the turn the thrust falls short of the command"
              : "; steering and combined do not both drop by a visible and slight amount: the exact "
-               "allocation keeps tau_speed and the speed law compensates m' r v, which leaves only "
-               "the servo's lag and the limits to cause a drop";
+               "allocation keeps tau_speed and the speed law compensates m' r v, so only the "
+               "servo's lag and the limits can cause a drop";
   return why;
 }
 

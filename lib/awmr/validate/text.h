@@ -1,4 +1,4 @@
-/// Text for a terminal. Private to this folder.
+/// Line wrapping of text for a terminal. Private to validate/.
 #pragma once
 
 #include <cstddef>

@@ -16,7 +16,7 @@ namespace {
 /// Minimum number of windows with each kind of turn.
 constexpr std::size_t kFewestTurns = 3;
 
-/// Half of the 95 % interval, in standard errors.
+/// Half width of the 95 % interval in standard errors, by Student's t.
 double t_quantile(double degrees_of_freedom) {
   return students_t_quantile(0.975, degrees_of_freedom);
 }
@@ -35,7 +35,7 @@ Finding finding(const DrivingLog& log, Severity severity, const char* code, std:
   return {log.file, 0, severity, code, std::move(message)};
 }
 
-/// The finding that the windows are too few or lack a kind of turn; none: they suffice.
+/// Finding if there are too few windows, or too few with a kind of turn; empty if there are enough.
 std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
                                      const DrivingLog& log, const Vehicle& vehicle,
                                      const Plant<double>& plant) {
@@ -53,14 +53,14 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
   return finding(
       log, Severity::kError, "tyres-need-turns",
       fmt::format(
-          "tyres are fitted to at least {} windows of {:g} s, {} of them with each kind of turn; "
-          "these logs have {}, {} with turns by left and right wheel forces{}; a turn by both at "
-          "once counts for neither. Record a drive that turns {}",
+          "the tyres need at least {} windows of {:g} s, {} of them with each kind of turn; "
+          "these logs have {}, {} with turns by left and right wheel forces{} (a turn by forces "
+          "and steering together is of neither kind). Record a drive that turns {}",
           kFewestTyreWindows, kWindow_s, kFewestTurns, windows.size(), by_sides,
-          steers ? fmt::format(" and {} with steered ones", by_steering) : "",
-          steers ? "by the forces with straight wheels, then by steering with equal forces, "
-                   "and coasts while it steers"
-                 : "by the forces at several speeds"));
+          steers ? fmt::format(" and {} with steered turns", by_steering) : "",
+          steers ? "by wheel forces with straight wheels, then by steering with equal forces, "
+                   "then by steering while it coasts"
+                 : "by wheel forces at several speeds"));
 }
 
 /// Squared errors of both plants on windows that the tyres were not fitted to.
@@ -96,7 +96,7 @@ std::optional<HeldOutSums> held_out(const Windows& windows, const Plants& plants
   return sums;
 }
 
-/// The plant that the interval of the mean of D_w prefers; none: it holds 0.
+/// The better plant, by the interval of the mean of D_w (tyre_fit.h); empty if it contains 0.
 std::optional<PlantKind> better_plant(const HeldOutSums& sums) {
   std::vector<double> differences;
   for (const auto& [by_model, on_tyres] : sums.by_window) {
@@ -142,18 +142,19 @@ std::string comparison_text(const TyreFit& tyres) {
                      kWindow_s, verdict, text);
 }
 
-/// The intervals' numbers, or a finding that says that the parameter is held.
+/// Estimate of a parameter. If the logs do not determine it: empty, with a finding.
 std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, std::size_t windows,
                                          const DrivingLog& log, std::vector<Finding>& findings) {
   if (shown.is_free[at(p)]) return estimate_of(shown.fit.at[p], *shown.errors[at(p)], windows);
   const char* name = p == kFriction ? "friction" : "cornering stiffness";
   const char* trial = p == kFriction
-                          ? "turn so that the tyres slide: tighter, faster, with more force"
-                          : "steer gently at speed, and while coasting";
+                          ? "tighter and faster turns with more force, in which the tyres slide"
+                          : "gentle steering at speed, and steering while coasting";
   findings.push_back(
       finding(log, Severity::kWarning, "tyres-not-shown",
-              fmt::format("the logs do not show the tyres' {}, which is held at {:g}: {}", name,
-                          std::exp(default_tyres()[p]), trial)));
+              fmt::format("the logs do not determine the {} of the tyres, which keeps its default "
+                          "{:g}. Record {}",
+                          name, std::exp(default_tyres()[p]), trial)));
   return std::nullopt;
 }
 
@@ -164,7 +165,7 @@ bool lose_commands(const std::vector<DrivingLog>& logs, double sample_time_s) {
       logs, [&](const DrivingLog& log) { return log.median_step_s() > kLonger * sample_time_s; });
 }
 
-/// The logs with every other command, held over two rows.
+/// The logs with every other command only, each held over two rows.
 std::vector<DrivingLog> with_half_of_the_commands(std::vector<DrivingLog> logs) {
   for (DrivingLog& log : logs) {
     const auto hold = [&](std::vector<double>& command) {
@@ -177,8 +178,9 @@ std::vector<DrivingLog> with_half_of_the_commands(std::vector<DrivingLog> logs) 
   return logs;
 }
 
-/// Adds the error by commands between rows to the standard errors: half of what losing as many again changes, so
-/// that a 95 % interval reaches that far. False: that fit does not converge.
+/// Adds the error due to commands between the rows to the standard errors. The error is half the change
+/// of the fit if every other logged command is dropped, so that a 95 % interval includes this change.
+/// Returns false if that fit does not converge.
 bool add_error_of_lost_commands(const std::vector<DrivingLog>& logs, const Plant<double>& plant,
                                 double motor_lag_s, const Plants& plants, ShownFit& shown) {
   const std::vector<DrivingLog> halved = with_half_of_the_commands(logs);
@@ -197,8 +199,8 @@ Status check_vehicle(const Model& model) {
   if (model.vehicle.driven_wheels() == 4) return {};
   return input_error(
       ErrorCode::kUnsupported, option_text("tyres"),
-      fmt::format("the four-wheel plant drives all wheels, a vehicle of drive \"{}\" does "
-                  "not",
+      fmt::format("the four-wheel plant has four driven wheels, a vehicle of drive \"{}\" has not; "
+                  "leave the option out",
                   name_in(kDriveNames, model.vehicle.drive)));
 }
 
@@ -230,12 +232,13 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   auto shown = fit_what_is_shown(windows, plants);
   if (!shown)
     return refuse("tyres-not-converged",
-                  "even the shortest integration step cannot replay these logs on tyres");
+                  "the logs cannot be replayed on the four-wheel plant, even with the shortest "
+                  "integration step; check the columns and the model");
   if (!shown->is_free[kFriction] && !shown->is_free[kCornering]) {
     return refuse(
         "tyres-not-shown",
-        "the logs show neither the friction nor the cornering stiffness of the tyres: record "
-        "tighter and faster turns of both kinds");
+        "the logs determine neither the friction nor the cornering stiffness of the tyres; record "
+        "tighter and faster turns by wheel forces and by steering");
   }
   if (!shown->fit.converged) {
     return refuse("tyres-not-converged",
@@ -244,12 +247,14 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   if (lose_commands(logs, model.vehicle.sample_time_s) &&
       !add_error_of_lost_commands(logs, plant, motor_lag_s, plants, *shown)) {
     return refuse("tyres-not-converged",
-                  "the tyres cannot be fitted with half of the logged commands, so that the error "
-                  "from commands between rows is unknown: log every command of the controller");
+                  "the fit with half of the logged commands does not converge, so the error due to "
+                  "commands between the rows is unknown; log every command of the controller");
   }
   const auto sums = held_out(windows, plants, *shown);
   if (!sums)
-    return refuse("tyres-not-converged", "the tyres cannot be fitted to every other window");
+    return refuse("tyres-not-converged",
+                  "the fit to every other window, for the comparison of the plants, does not "
+                  "converge; record a longer drive");
   TyreFit tyres{
       .tyres = tyres_at(shown->fit.at),
       .friction = estimate_or_held(*shown, kFriction, windows.size(), first, findings),
@@ -260,8 +265,8 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   if (model[ParameterId::kInertiaNorm].source == Source::kFitted) {
     findings.push_back(finding(
         first, Severity::kWarning, "inertia-of-logs",
-        "I'z of the model was fitted to logs on the 3-DOF plant, where it may hold moments of the "
-        "tyres: a model from tables, whose I'z is m' Iz/m, suits the four-wheel plant better"));
+        "I'z of the model was fitted to logs on the 3-DOF plant and can include moments of the "
+        "tyres. For the four-wheel plant use a model identified from tables (I'z = m' Iz/m)"));
   }
   findings.push_back(finding(first, Severity::kNote, "plants-compared", comparison_text(tyres)));
   return std::optional(std::move(tyres));

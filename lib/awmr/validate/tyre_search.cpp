@@ -15,7 +15,7 @@
 namespace awmr::tyre_fit {
 namespace {
 
-/// A parameter with a larger standard error of its logarithm is not shown.
+/// The windows do not determine a parameter if the standard error of its logarithm is larger.
 constexpr double kLargestLogError = 0.5;
 
 Interval range_of(Eigen::Index parameter) {
@@ -30,7 +30,8 @@ Eigen::VectorXd weighted(const ReplayedWindow& window, const Weights& weights,
   return errors;
 }
 
-/// Forward differences over a thousandth: the steps of the replay change with the tyres, by halves.
+/// Step of the forward differences, in the logarithm of a parameter. It is large, because the
+/// integration steps of the replay are halved or doubled as the tyres change.
 constexpr double kStepOfDerivative = 1e-3;
 
 class TyreCost : public ceres::CostFunction {
@@ -79,8 +80,8 @@ ceres::Problem problem_of(const Windows& windows, const Plants& plants, const We
   return problem;
 }
 
-/// The best points of a coarse grid, by every third window, best first. Vehicles that slide spin one way or
-/// the other by little, so that the cost may have several minima.
+/// The three best points of a coarse grid, evaluated on every third window, best first. Several starts are
+/// needed, because a sliding vehicle can spin to either side, so the cost can have several minima.
 std::vector<LogTyres> starts_of(const Windows& windows, const Plants& plants) {
   constexpr std::array kFrictions{0.25, 0.5, 0.75, 1.1};
   constexpr std::array kStiffnesses{3.0, 6.0, 12.0, 24.0};
@@ -102,7 +103,7 @@ std::vector<LogTyres> starts_of(const Windows& windows, const Plants& plants) {
   return starts;
 }
 
-/// Information J'J and score J'e of a window at the fit, of the free parameters.
+/// Information J'J and score J'e of a window at the fit; 0 for parameters that are held.
 struct WindowInformation {
   Eigen::Matrix2d information;
   Eigen::Vector2d score;
@@ -123,8 +124,8 @@ std::optional<WindowInformation> information_of(const ReplayedWindow& window, co
   return WindowInformation{by.transpose() * by, by.transpose() * errors};
 }
 
-/// Standard errors of the logarithms, by the jackknife over windows; none for what is held, and
-/// where a single window decides.
+/// Standard errors of the logarithms, by the jackknife over windows. Empty for parameters that are held;
+/// empty for both if one window alone determines a parameter.
 std::array<std::optional<double>, 2> log_errors(const Windows& windows, const Plants& plants,
                                                 const IsFree& is_free, const Fit& fit) {
   std::vector<WindowInformation> each;
@@ -161,8 +162,8 @@ bool is_inside(Eigen::Index parameter, double log_value) {
   return log_value > range.lo + kNear && log_value < range.hi - kNear;
 }
 
-/// The free parameter with the largest error among those that the windows do not identify; none if
-/// all are identified.
+/// The free parameter with the largest error among those that the windows do not determine. Empty if
+/// they determine all.
 std::optional<Eigen::Index> least_shown(const ShownFit& shown) {
   std::optional<Eigen::Index> worst;
   double largest = 0.0;
@@ -177,7 +178,7 @@ std::optional<Eigen::Index> least_shown(const ShownFit& shown) {
   return worst;
 }
 
-/// The best of the fits from these starts; none: the windows can be replayed from none of them.
+/// The best of the fits from these starts. Empty if the windows cannot be replayed from any of them.
 std::optional<Fit> best_fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                             const std::vector<LogTyres>& starts) {
   std::optional<Fit> best;
@@ -197,7 +198,7 @@ LogTyres default_tyres() {
 std::optional<Fit> fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                        const LogTyres& from) {
   constexpr int kMostRounds = 8;
-  constexpr double kSameCost = 1e-5;  // of a cost, per error
+  constexpr double kSameCost = 1e-5;  // largest change of the cost per error, if converged
   const auto first = sums_on_tyres(windows, plants, from);
   if (!first) return std::nullopt;
   Fit best{.at = from, .weights = first->weights(), .cost = first->cost()};

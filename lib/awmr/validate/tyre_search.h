@@ -1,4 +1,5 @@
-/// The search for the tyres with the smallest errors (tyre_fit.h). Private to this folder.
+/// Least-squares search for the tyre parameters with the smallest cost (tyre_fit.h). Private to
+/// validate/.
 #pragma once
 
 #include <array>
@@ -9,8 +10,10 @@
 
 namespace awmr::tyre_fit {
 
-using IsFree = std::array<bool, 2>;  ///< by kFriction, kCornering
+/// Whether a parameter is fitted (else held), by kFriction and kCornering.
+using IsFree = std::array<bool, 2>;
 
+/// Result of a search.
 struct Fit {
   LogTyres at;
   Weights weights{};
@@ -19,21 +22,22 @@ struct Fit {
   std::string stop_reason = {};
 };
 
-/// The tyres with the least cost, searched from `from`; what is not free stays there. None: the windows
-/// cannot be replayed there.
+/// Searches the tyres with the smallest cost from the start `from`. Parameters that are not free stay at
+/// their start. Empty if the windows cannot be replayed with the start.
 std::optional<Fit> fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                        const LogTyres& from);
 
-/// Fits the parameters that the windows identify; the others are held at their defaults.
+/// Fit of the parameters that the windows determine; the others are held at their defaults.
 struct ShownFit {
   Fit fit;
-  IsFree is_free{true, true};
-  std::array<std::optional<double>, 2> errors;
+  IsFree is_free{true, true};                   ///< true: the windows determine the parameter
+  std::array<std::optional<double>, 2> errors;  ///< standard errors of the logarithms
 };
 
 LogTyres default_tyres();
 
-/// None: the windows cannot be replayed from any start.
+/// Fits both parameters from several starts, then holds those that the windows do not determine. Empty
+/// if the windows cannot be replayed from any start.
 std::optional<ShownFit> fit_what_is_shown(const Windows& windows, const Plants& plants);
 
 }  // namespace awmr::tyre_fit

@@ -9,7 +9,7 @@ namespace awmr::tyre_fit {
 namespace {
 
 std::vector<double> steering_angles(const DrivingLog& log, const Plant<double>& plant) {
-  constexpr double kLongestStep = 0.25;  // of the servo's time constant
+  constexpr double kLongestStep = 0.25;  // longest step, as a fraction of the servo's time constant
   std::vector<double> angles;
   if (!log.steering_command_rad) return angles;
   const std::vector<double>& commands = *log.steering_command_rad;
@@ -31,7 +31,8 @@ std::vector<double> steering_angles(const DrivingLog& log, const Plant<double>& 
   return angles;
 }
 
-/// True for rows whose errors count: not those in which the unmeasured part of the initial state decays.
+/// True for rows whose errors count: all but the first second, in which errors of the unmeasured part of
+/// the initial state decay.
 bool counts(const LogWindow& rows, std::size_t row) {
   constexpr double kBegin_s = 1.0;
   return rows.log->t_s[row] - rows.log->t_s[rows.begin] >= kBegin_s;
@@ -51,7 +52,8 @@ struct ErrorsByRow {
   Eigen::Index count = 0;
 };
 
-/// A heading or a position is known but for where the window began: errors of these are about their mean.
+/// Subtracts the mean from the errors of heading and position, because their initial values in the window
+/// are not exactly known.
 Eigen::VectorXd about_their_mean(const ReplayedWindow& window, Eigen::VectorXd errors) {
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
     double sum = 0.0;

@@ -1,5 +1,5 @@
-/// Windows of driving logs, replayed on the 3-DOF plant and on four wheels with tyres, and the errors of
-/// both. Private to this folder.
+/// Windows of driving logs, their replay on the 3-DOF plant and on four wheels with tyres, and the
+/// errors of both. Private to validate/.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ namespace awmr::tyre_fit {
 
 inline constexpr double kWindow_s = 5.0;
 
-/// log mu and log c_a.
+/// Logarithms of the friction mu and of the cornering stiffness c_a (1/rad).
 using LogTyres = Eigen::Vector2d;
 inline constexpr Eigen::Index kFriction = 0;
 inline constexpr Eigen::Index kCornering = 1;
@@ -25,36 +25,38 @@ Tyres<double> tyres_at(const LogTyres& at);
 struct ReplayedLog {
   LogSignals signals;
   std::optional<LaggedForces> lagged;
-  /// The servo's angle at each row, rad, from its commands; empty where the angle itself was logged.
+  /// Steering angle at each row, rad, simulated from the commands to the servo. Empty if the log has no
+  /// steering command.
   std::vector<double> angles_rad;
 
   ReplayedLog(const DrivingLog& log, const Plant<double>& plant, double motor_lag_s);
   const LaggedForces* motors() const { return lagged ? &*lagged : nullptr; }
-  /// The measured state as the rows begin, with the servo as its commands have left it.
+  /// Measured state at the first of the rows, with the simulated steering angle.
   State<double> state_before(const LogWindow& rows) const;
 };
 
-/// In the order of the logs, which have to outlive them.
+/// Prepares the logs, in their order. The logs must outlive the result.
 std::vector<ReplayedLog> replayed_logs(const std::vector<DrivingLog>& logs,
                                        const Plant<double>& plant, double motor_lag_s);
 
+/// A window of a log, with its initial state for the replay.
 struct ReplayedWindow {
   const ReplayedLog* log = nullptr;
   LogWindow rows;
   State<double> initial{};
-  std::vector<LogChannel> channels = {};  ///< of the errors, in their order
+  std::vector<LogChannel> channels = {};  ///< channel of each error, in the order of the errors
 };
 
 using Windows = std::vector<const ReplayedWindow*>;
 
-/// The windows of the logs that have errors.
+/// Divides the logs into windows of kWindow_s. Windows without a measurement are left out.
 std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
                                        const std::vector<ReplayedLog>& replayed);
 
-/// All windows, or 60 over the whole of the logs: more make the fit long and little better.
+/// All windows, or 60 of them, evenly chosen, because more make the fit slow and hardly better.
 Windows evenly_chosen(const std::vector<ReplayedWindow>& all);
 
-/// Whether a window has a differential turn, or a steered one.
+/// Whether the wheel forces or the steering turn the vehicle in a window. A turn by both is neither.
 struct Turns {
   bool by_sides = false;
   bool by_steering = false;
@@ -62,7 +64,7 @@ struct Turns {
 
 Turns turns_in(const LogWindow& rows, const Plant<double>& plant);
 
-/// The vehicle on both plants, each with the steps that it needs.
+/// The vehicle on both plants, each with the integration step that it needs.
 struct Plants {
   explicit Plants(const Plant<double>& plant)
       : model_step_s(replay_step_s(plant)),
@@ -70,7 +72,7 @@ struct Plants {
         four_wheel_step_s(replay_step_s(on_tyres(plant))),
         body(resolved_at_rest_on_tyres(on_tyres(plant), four_wheel_step_s)) {}
 
-  /// Without the resistances that tyres replace, and their short steps.
+  /// The plant without g2 and g3, which tyres replace and which would need short steps.
   static Plant<double> on_tyres(Plant<double> plant) {
     plant.sway_alpha = 0.0;
     plant.yaw = {.alpha = 1e-9, .beta = 1.0};
@@ -82,16 +84,16 @@ struct Plants {
   Plant<double> body;
 };
 
-/// The errors of the 3-DOF model; infinite where it diverges.
+/// Errors (predicted minus measured) of the 3-DOF model; not finite if it diverges.
 Eigen::VectorXd errors_of_model(const ReplayedWindow& window, const Plants& plants);
-/// The errors on tyres. None: no step is short enough for them.
+/// Errors on four wheels with these tyres. Empty if no integration step is short enough.
 std::optional<Eigen::VectorXd> errors_on_tyres(const ReplayedWindow& window, const Plants& plants,
                                                const LogTyres& tyres);
 
 /// 1/(root mean square error) by channel; 0 for a channel without errors.
 using Weights = std::array<double, kChannelCount>;
 
-/// Number and sum of squares of the errors by channel.
+/// Number and sum of squares of the errors, by channel.
 struct ErrorSums {
   std::array<double, kChannelCount> squares{};
   std::array<double, kChannelCount> count{};

@@ -20,7 +20,7 @@ std::string unit_of(TrialKind kind) {
   return "s";
 }
 
-/// A fault for each trial whose numbers cannot be compared with a model.
+/// A fault for each trial whose input or measurement is not above 0.
 std::vector<Fault> trial_faults(const Model& model) {
   std::vector<Fault> faults;
   for (std::size_t i = 0; i < model.record.trials.size(); ++i) {
@@ -50,7 +50,8 @@ TrialResidual residual_of(const Plant<double>& plant, const TrialPoint& trial) {
   return residual;
 }
 
-/// Absent if there is no trial of the kind or one of them has no prediction.
+/// RMS of the relative errors of a kind of trial. Absent if there is no trial of the kind, or one of them
+/// has no prediction.
 std::optional<double> rms_relative_error(const std::vector<TrialResidual>& trials, TrialKind kind) {
   double sum = 0.0;
   int count = 0;
@@ -94,14 +95,15 @@ void set_verdict(Validation& validation, double tolerance) {
   if (stops == 1) validation.verdict += "; a single stop time determines m' but cannot check it";
   if (unpredicted > 0) {
     validation.verdict += fmt::format(
-        "; {} row(s) have no finite prediction: b near 0 gives no steady speed, b1 >= 1 no stop",
+        "; {} row(s) have no finite prediction: with b near 0 there is no steady speed, with "
+        "b1 >= 1 no stop",
         unpredicted);
   }
 }
 
-/// Adds the claims that vehicle and model permit. All but C1 and C14 compare the three modes.
-/// Without gains, C2 needs a model with turning motion, C1 one with straight motion.
-/// Errors (input): with gains, the model lacks a parameter; those of batch_arithmetic().
+/// Checks the claims that are possible with vehicle and model. All but C1 and C14 compare the three
+/// modes, so they need four driven wheels with steering and a whole model. C1 needs a model of straight
+/// motion. Errors (input): with gains, the model lacks a parameter; as batch_arithmetic().
 Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
                   const ValidateOptions& options, Validation& validation) {
   const auto whole = model.plant();
@@ -120,18 +122,19 @@ Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
   validation.claims.push_back(check_time_constants(gains));
   if (!model.vehicle.has_steering()) {
     validation.verdict +=
-        "; claims that compare modes are left out, as this vehicle has one (C2 to C13)";
+        "; C2 to C13 are left out, because they compare modes and this vehicle has one";
   } else if (!all_modes) {
     validation.verdict +=
-        "; claims that compare the modes of four driven wheels are left out (C2 to C13)";
+        "; C2 to C13 are left out, because they compare the modes of four driven wheels";
   } else {
-    validation.verdict += fmt::format("; claims that need what the model lacks are left out ({})",
-                                      straight ? "C2" : "C1, C2");
+    validation.verdict +=
+        fmt::format("; claims for which the model lacks parameters are left out ({})",
+                    straight ? "C2" : "C1, C2");
   }
   return {};
 }
 
-/// Adds the result for logs or drives to the verdict, as a sentence.
+/// Adds the result for logs or drives to `passed` and, as a sentence, to the verdict.
 void take_into_verdict(Validation& validation, bool passed, const std::string& sentence) {
   const bool first = validation.trials.empty() && validation.logs.empty();
   validation.passed = first ? passed : validation.passed && passed;

@@ -1,4 +1,4 @@
-/// Validates the model on its trials, and the paper's claims on the model.
+/// Validation of a model: on its own trials, on logs and drives, and on the paper's claims.
 #pragma once
 
 #include <optional>
@@ -17,23 +17,23 @@
 
 namespace awmr {
 
-/// Residual of one trial row.
+/// Measured and predicted value of one trial row.
 struct TrialResidual {
   TrialKind kind = TrialKind::kSurge;
   std::string file;
   int line = 0;
   std::string unit;
   double measured = 0.0;
-  /// Absent if the model gives no prediction, see predicted_measurement().
+  /// Absent if the model gives no prediction (predicted_measurement()).
   std::optional<double> predicted;
   std::optional<double> relative_error;  ///< (predicted - measured)/measured
 };
 
-/// A combination of settings that the paper leaves open, and the result of a claim there.
+/// A combination of settings that the paper leaves open, and the verdict on a claim with them.
 struct ClaimCase {
   AllocationForm allocation = AllocationForm::kExact;
   Interval wheel_force;      ///< F' of one wheel
-  double mass_factor = 1.0;  ///< of m' and I'z, > 0
+  double mass_factor = 1.0;  ///< factor on m' and I'z, > 0
   CombinedSplit split = CombinedSplit::kRedistribute;
   bool reproduced = false;
 };
@@ -45,41 +45,44 @@ struct ClaimInMode {
   std::vector<ClaimCase> cases = {};
 };
 
+/// A claim of the paper, with the verdict from simulation.
 struct Claim {
   std::string id;         ///< "C1"
   std::string statement;  ///< statement of the paper
   bool reproduced = false;
-  std::string figure;     ///< the numbers found
-  std::string tolerance;  ///< criterion for "reproduced"
-  std::string why;
-  std::vector<ClaimInMode> modes = {};  ///< for a claim that is the same for every mode
-  /// By combination of open settings, if requested (ValidateOptions::open_cases).
+  std::string figure;                   ///< simulated numbers
+  std::string tolerance;                ///< criterion for "reproduced"
+  std::string why;                      ///< reason for the verdict
+  std::vector<ClaimInMode> modes = {};  ///< verdict by mode; empty if the claim compares modes
+  /// Verdict by combination of open settings, if requested (ValidateOptions::open_cases).
   std::vector<ClaimCase> cases = {};
-  std::string decided_by = {};  ///< description of the settings that decide the verdict
+  std::string decided_by = {};  ///< settings that decide the verdict (decisive_settings())
 };
 
+/// Result of validate(), add_logs() and add_drives().
 struct Validation {
   std::vector<TrialResidual> trials;
-  /// Root mean square of the relative errors of a kind; absent if the model has no such trial.
+  /// Root mean square of the relative errors of a kind of trial; absent if the model has no such
+  /// trial, or no prediction for one of them.
   std::optional<double> surge_rms_relative_error;
   std::optional<double> turning_rms_relative_error;
   std::optional<double> coastdown_rms_relative_error;
   std::vector<LogValidation> logs;
-  std::optional<TyreFit> tyres;    ///< of the four-wheel plant, fitted to the logs if requested
-  std::vector<Acceptance> drives;  ///< from logs of a scenario under the controller
+  std::optional<TyreFit> tyres;    ///< tyres fitted to the logs, if requested
+  std::vector<Acceptance> drives;  ///< results for drives of a scenario under the controller
   std::vector<Claim> claims;
-  /// Every kind of trial and every log is predicted within its tolerance, every drive of a scenario
-  /// is as predicted, and there is at least one of them.
+  /// True if every kind of trial and every log is predicted within its tolerance, and every drive of
+  /// a scenario is within the prediction. False if there is none of them.
   bool passed = false;
   std::string verdict;  ///< one sentence
 };
 
 struct ValidateOptions {
   double tolerance = 0.15;  ///< largest accepted RMS relative error of a trial kind, > 0
-  /// Also evaluates every claim over the settings that the paper leaves open (see open_cases.h);
+  /// Also evaluates every claim over the settings that the paper leaves open (open_cases.h), which
   /// takes some seconds.
   bool open_cases = false;
-  Progress progress = {};  ///< over those cases, called on validate()'s thread
+  Progress progress = {};  ///< counts these cases; called on the thread of validate()
 };
 
 /// Measurement of a trial as predicted by the model:
@@ -87,22 +90,22 @@ struct ValidateOptions {
 ///   turning    the steady yaw rate r, rad/s, at tau_turn
 ///   coastdown  the time t_a, s, from motors off to rest
 /// steady_rate() and stop_time_s() of model/steady.h have the equations.
-/// Absent if the law gives none: a finite steady speed with b near 0, a stop time with b1 >= 1.
-/// Also absent for other kinds of trial.
+/// Absent if the law gives no finite value: no steady speed with b near 0, no stop time with
+/// b1 >= 1. Also absent for other kinds of trial.
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial);
 
-/// The claims never affect `passed`: a claim that is not reproduced is a finding about the paper.
-/// Without gains, only claims that need no gains and are possible with the model's parameters are
-/// run; the verdict names the others.
+/// Predicts the model's trials and checks the paper's claims. Claims do not affect `passed`, because a
+/// claim that is not reproduced is a result about the paper. Without gains, only the claims that need
+/// no gains and for which the model has the parameters are checked; the verdict names the others.
 /// Errors (input): the model lacks a parameter that its trials measure, or with gains any
 /// parameter; a trial is of an unknown kind or not positive; the tolerance is not positive.
 Result<Validation> validate(const Model& model, const std::optional<Gains<double>>& gains,
                             const ValidateOptions& options);
 
-/// Adds the logs' results and includes them in the verdict.
+/// Adds the results for logs and includes them in the verdict.
 void add_logs(Validation& validation, std::vector<LogValidation> logs, double tolerance);
 
-/// Adds the drives of a scenario and includes them in the verdict.
+/// Adds the results for drives of a scenario and includes them in the verdict.
 void add_drives(Validation& validation, std::vector<Acceptance> drives);
 
 /// Text of validation.json.
@@ -110,13 +113,13 @@ std::string validation_text(const Validation& validation, const Provenance& prov
 
 /// Prediction errors of each log by channel, as text for a terminal; empty without logs.
 std::string logs_table(const Validation& validation);
-/// Residuals and claims as a table for a terminal.
+/// Table for a terminal: measured and predicted values of the trials, errors of the logs, verdict, and
+/// claims.
 std::string validation_table(const Validation& validation);
 
-/// Every claim with verdict, figure, tolerance and reason, for a terminal.
+/// Every claim with verdict, simulated numbers, criterion and reason, for a terminal.
 std::string claims_table(const std::vector<Claim>& claims);
-/// As claims_table(), as a Markdown table for the documentation. made_by: the command that created
-/// it.
+/// The same as a Markdown table for the documentation. `made_by`: the command that made it.
 std::string claims_markdown(const std::vector<Claim>& claims, std::string_view made_by);
 
 /// The JSON Schema of validation.json.

@@ -23,7 +23,7 @@ Json error_json(const PredictionError& error) {
   return {{"nrmse", error.nrmse}, {"r2", error.r2}, {"rmse", error.rmse}};
 }
 
-/// The times of a long log need more than five digits.
+/// Values are rounded for a chart, times are not: those of a long log need more digits.
 Json series_json(const PredictedSeries& series) {
   const auto numbers = [](const std::vector<double>& values) {
     Json list = Json::array();
@@ -112,7 +112,7 @@ Json case_json(const ClaimCase& open) {
           {"verdict", verdict_of(open.reproduced)}};
 }
 
-/// The cases of the claim, then those of each mode.
+/// The cases of the claim, then the cases of each mode.
 Json cases_json(const Claim& claim) {
   Json json = Json::array();
   for (const ClaimCase& open : claim.cases) json.push_back(case_json(open));

@@ -1,4 +1,4 @@
-// Reads validation.json as written by validation_text(), whole: for its schema and for its tyres.
+// Reader of validation.json: makes its JSON Schema, and reads `/tyres`.
 #include <limits>
 #include <string>
 
@@ -144,7 +144,7 @@ void describe_claims(JsonObject& json) {
   }
 }
 
-/// Reads the whole file, and what other commands use of it.
+/// Reads the whole file. Returns its tyres, the only part that other commands use.
 std::optional<TyreFit> validation_from_json(JsonObject& json) {
   json.schema(kValidationSchema);
   read_provenance(json);
@@ -177,7 +177,7 @@ Result<TyreFit> read_tyres(const std::filesystem::path& path) {
   std::optional<TyreFit> tyres = validation_from_json(root);
   if (faults.empty() && !tyres) {
     faults.push_back({ErrorCode::kMissing, path.string() + ":/tyres",
-                      "there are no tyres: fit them by awmr validate --log FILE --tyres"});
+                      "has no tyres; fit them with awmr validate --log FILE --tyres"});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return *std::move(tyres);

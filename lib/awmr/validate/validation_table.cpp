@@ -42,13 +42,13 @@ namespace {
 
 std::string parameter_text(const char* name, double value, const std::optional<Estimate>& shown) {
   if (!shown)
-    return fmt::format("  {:<28} {:>9.4g}  not shown by the logs, the default\n", name, value);
+    return fmt::format("  {:<28} {:>9.4g}  default (not determined by the logs)\n", name, value);
   return fmt::format("  {:<28} {:>9.4g}  {:.4g} to {:.4g}\n", name, value, shown->ci95->lo,
                      shown->ci95->hi);
 }
 
 std::string tyres_text(const TyreFit& fit) {
-  std::string text = "four wheels on tyres, fitted to the logs\n";
+  std::string text = "tyres of the four-wheel plant, fitted to the logs\n";
   text += parameter_text("friction", fit.tyres.friction, fit.friction);
   text += parameter_text("cornering stiffness, 1/rad", fit.tyres.cornering_per_rad,
                          fit.cornering_per_rad);

@@ -1,10 +1,10 @@
-// Charts: converts a short description to a specification for Vega, which draws it as SVG. Colours
+// Charts: converts a short description to a specification for Vega, which draws SVG. Colours
 // are the page's variables, so that a chart follows light, dark and print style automatically.
 
 const allCharts = [];
 
-/// Margins around every plot, pixels: the same for all, so that the axes of charts below each other
-/// align.
+/// Margins around every plot, pixels. They are the same for all charts, so that the axes of charts
+/// below each other align.
 const margin = {left: 62, right: 14, top: 8, bottom: 40};
 
 const font = "system-ui, sans-serif";
@@ -15,13 +15,13 @@ const style = {
   legend: {labelColor: "var(--ink)", labelFont: font, labelFontSize: 11, labelLimit: 260},
 };
 
-/// Vega's shapes of points. The first two are drawn by the legend, too.
+/// Shapes of points, as Vega needs them. The legend draws the first two, too.
 const shapePaths = {
   cross: "M11.5 0h3v3.5H18v3h-3.5V10h-3V6.5H8v-3h3.5z", diamond: "M13 0l5 5-5 5-5-5z",
   square: "M9 1h8v8h-8z", "triangle-up": "M13 0l5 9h-10z",
 };
 
-/// Marks of each kind of series.
+/// Vega marks of each kind of series.
 const markOfKind = {
   band: (s, at, colour) => ({type: "area",
     update: {...at, y2: {scale: "y", field: "2"}, fill: colour, fillOpacity: {value: 0.18}}}),
@@ -34,14 +34,14 @@ const markOfKind = {
     strokeDash: {value: s.dash || []}, strokeJoin: {value: "round"},
     interpolate: {value: s.step ? "step-after" : "linear"},
       defined: {signal: "isValid(datum[1])"}}}),
-  // Everything beyond +-limit.
+  // Shades all values above limit and below -limit.
   shade: (s, at, colour) =>
     ({type: "rect", aria: false, update: {x: {value: 0}, x2: {signal: "width"},
     y: {signal: "scale('y', min(datum[1], domain_y[1]))"},
     y2: {signal: "scale('y', max(datum[0], domain_y[0]))"}, fill: colour}}),
 };
 
-/// The mark of one series, visible unless the signal `hidden` contains its index.
+/// Vega mark of one series. It is visible unless the signal `hidden` contains the index of the series.
 function markOf(series, index) {
   const at = {x: {scale: "x", field: "0"}, y: {scale: "y", field: "1"}};
   const {update, ...mark} = {aria: true, ...markOfKind[series.kind](series, at,
@@ -52,13 +52,13 @@ function markOf(series, index) {
 }
 const valuesOf = (s) => (s.kind === "shade" ? [[s.limit, 1e12], [-1e12, -s.limit]] : s.points);
 
-/// Entry that represents all circles in a list of hidden series.
+/// Entry of `hidden` for all circles together.
 const circlesKey = "circles";
-/// List of hidden elements of a chart.
+/// The hidden elements of a chart.
 const hiddenOf = (chart) => [...chart.series.flatMap((s, i) => (s.hidden ? [i] : [])),
   ...(chart.circlesHidden ? [circlesKey] : [])];
 
-/// The circles of a chart with equal axes (obstacles), in its units.
+/// Marks of the circles (obstacles) of a chart with equal axes, in the units of the axes.
 function circleMarks(circles) {
   return circles.map((circle) => ({type: "arc", clip: true, interactive: false, aria: true,
     description: circle.name, encode: {update: {
@@ -70,7 +70,7 @@ function circleMarks(circles) {
       stroke: {value: obstacleLook.colour}}}}));
 }
 
-/// The vertical line at the pointer.
+/// Mark of the vertical line at the pointer.
 const pointedRule = {type: "rule", interactive: false, aria: false, encode: {update: {
   x: {scale: "x", signal: "pointed"}, y: {value: 0}, y2: {signal: "height"},
   stroke: {value: "var(--dim)"}, strokeDash: {value: [2, 2]},
@@ -79,8 +79,7 @@ const pointedRule = {type: "rule", interactive: false, aria: false, encode: {upd
 /// `chart`: {title, x, y, series: [{name, kind: "line" | "points" | "band" | "shade",
 /// points: [[x, y, ...]], colour, ...}], equal, circles}
 function specification(chart) {
-  // With equal axes, x and y have the same scale: the range is extended on the axis that has space
-  // left.
+  // With equal axes, x and y have the same scale, and the axis with space left gets a longer range.
   const domain = (axis, length) => (chart.equal
     ? `[mid_${axis} - unit * ${length} / 2, mid_${axis} + unit * ${length} / 2]` : `view_${axis}`);
   const signals = [
@@ -112,8 +111,8 @@ function specification(chart) {
   };
 }
 
-/// Range of both axes over the visible series, with a small margin; `zero` names the axes that
-/// include 0, `least` is the smallest range of y.
+/// Ranges of both axes for the visible series, with a small margin. `zero` names the axes that include
+/// 0, `least` is the smallest length of the y range.
 function extentOf({series, circles, zero = "", least = 0}) {
   const range = (values, room, most) => {
     let low = Infinity, high = -Infinity;
@@ -138,7 +137,7 @@ function extentOf({series, circles, zero = "", least = 0}) {
   };
 }
 
-/// Description of a chart for screen readers: its axes, and the range of each series.
+/// Text that describes a chart for screen readers: its axes, and the range of each series.
 function described(chart) {
   const of = (s) => {
     if (s.kind === "shade") return s.name;
@@ -205,7 +204,7 @@ function legend(parent, entries, charts) {
   }
 }
 
-/// Sample of a series for the legend.
+/// Small drawing of a series' line and mark, for the legend.
 function sample(entry) {
   const {kind, colour, opacity, width, dash, shape, fill} = entry;
   const svg = drawIn(document.createElement("span"), "svg",

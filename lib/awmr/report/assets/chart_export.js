@@ -1,7 +1,7 @@
-// Saves a chart as SVG or PNG, drawn by Vega in the page's colours on paper, with its legend.
+// Saves a chart as SVG or PNG with its legend, in the colours that the page has on paper.
 
-/// The chart's specification as it is shown now, with a title and a legend, and with colours in
-/// place of the page's variables.
+/// Specification of a chart as it is shown now, with a title and a legend. The style variables of the
+/// page are replaced by colours.
 function exported(chart) {
   const spec = chart.specification(chart);
   for (const signal of spec.signals) {
@@ -40,8 +40,8 @@ function exportedLegend(spec, shown) {
   };
 }
 
-/// A colour of the page on paper: of the first rule of the style sheet, which precedes that of dark
-/// screens, or of an element around the chart.
+/// Value of a colour variable on paper: from the first rule of the style sheet (the rule for dark screens
+/// comes later), or from an element around the chart.
 function lightColour(chart, name) {
   const own = document.styleSheets[0].cssRules[0].style.getPropertyValue(name).trim();
   if (own) return own;

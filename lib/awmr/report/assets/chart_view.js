@@ -1,10 +1,10 @@
-// Draws charts when they are needed, and handles the pointer.
+// Draws charts when they become visible, and handles the pointer.
 
 const onScreen = new IntersectionObserver((entries) => {
   for (const entry of entries) if (entry.isIntersecting) draw(entry.target.chart);
 }, {rootMargin: "300px"});
 const resized = new ResizeObserver((entries) => {
-  // Not inside the observer's callback: a changed height would trigger it again.
+  // Not inside the callback of the observer, because a changed height would trigger it again.
   requestAnimationFrame(() => entries.forEach(({target}) => fit(target.chart, target.clientWidth)));
 });
 
@@ -14,7 +14,7 @@ function register(chart) {
   onScreen.observe(chart.node);
 }
 
-/// Opens and draws the whole page. Returns the sections that were closed.
+/// Opens all sections and draws all charts. Returns the sections that were closed.
 function drawAll() {
   const closed = [...document.querySelectorAll("details:not([open])")];
   for (const details of closed) details.open = true;
@@ -22,8 +22,8 @@ function drawAll() {
   return closed;
 }
 
-/// For print, all sections are open, and charts are laid out for a column of A4, so that their text
-/// stays readable.
+/// Prepares the page for print: opens all sections, and sizes the charts for a column of A4, so that their
+/// text stays readable.
 const paperColumn = 318, paperHeight = 200;
 let closedBefore = [];
 addEventListener("beforeprint", () => {
@@ -50,8 +50,8 @@ function draw(chart) {
   if (chart.series.length) listen(chart);
 }
 
-/// Lays a chart out for a width in pixels, including its margins. With equal axes, its height
-/// follows from its range, within limits.
+/// Sizes a chart for a width in pixels, including its margins. With equal axes, the height follows from
+/// the ranges of the axes, within limits.
 function fit(chart, outer, most = Infinity) {
   if (!chart.view || outer < 50 || outer === chart.outer) return;
   chart.outer = outer;
@@ -64,7 +64,7 @@ function fit(chart, outer, most = Infinity) {
   chart.view.width(width).height(height).run();
 }
 
-/// Position of the pointer, in pixels from the corner of the plot, and in the units of the axes.
+/// Position of the pointer in a plot, in pixels from its corner and in the units of the axes.
 function place(chart, event) {
   const box = chart.node.getBoundingClientRect();
   const [left, top] = chart.view.origin();
@@ -126,7 +126,7 @@ function whole(chart) {
   }
 }
 
-/// Shows the values at the pointer: of every line at its x, or of the nearest point.
+/// Shows the values of every line at the x of the pointer, or those of the point nearest to the pointer.
 function point(chart, event) {
   const at = place(chart, event);
   const shown = chart.series.filter((s) => !s.hidden && s.kind !== "band" && s.kind !== "shade");

@@ -1,7 +1,7 @@
-// The paper's claims: a mark, the statement and small multiples of the figures by mode.
+// Section of the paper's claims. Each has a mark, its statement, and small bar charts of its numbers by mode.
 
-/// Figures of a claim by mode, as validate writes them: "WHAT differential A, steering B, combined
-/// C UNIT; ...". What has another form stays a sentence.
+/// Reads the numbers of a claim by mode from the text that validate writes: "WHAT differential A, steering
+/// B, combined C UNIT; ...". Text of another form is shown as a sentence.
 function multiplesOf(figure) {
   const pattern = /differential ([-\d.]+), steering ([-\d.]+), combined ([-\d.]+) ?([^\s;,]*)/g;
   let end = 0;
@@ -26,12 +26,12 @@ function multiple(parent, {what, values}) {
   });
 }
 
-/// Verdicts of a claim under the readings that the paper leaves open.
+/// Verdicts of a claim for the settings that the paper leaves open.
 function claimCases(parent, cases) {
   if (!cases || !cases.length) return;
   const kept = cases.filter((c) => c.verdict === "reproduced").length;
-  small(parent, `Under ${plural(cases.length, "reading")} that the paper leaves open: ${kept} ` +
-    `reproduced.`);
+  small(parent, `Reproduced with ${kept} of ${plural(cases.length, "combination")} of the settings ` +
+    `that the paper leaves open.`);
 }
 
 function claimCard(list, claim) {

@@ -1,8 +1,8 @@
-// Comparison of yaw-control modes: distribution of each metric over the samples, significant
-// differences, ranking.
+// Section that compares the yaw-control modes: distribution of each metric over the samples, differences,
+// ranking.
 
-/// Distribution of each metric by mode. Metrics that no run has are left out, but where headings
-/// are commanded, a settling time is missing because no run settled.
+/// Distribution of each metric by mode. Metrics that no run has are left out, except the settling time if
+/// headings are commanded: then no run settled.
 function spreadCharts(parent, scenario, samples, count) {
   const byMode = Object.entries(scenario.modes);
   const names = distinct(byMode.flatMap(([, m]) => Object.keys(m.metrics)));
@@ -29,7 +29,7 @@ function spreadCharts(parent, scenario, samples, count) {
   }
 }
 
-/// Paired differences between two modes, in percent of the larger mean, with their intervals.
+/// Chart of the paired differences between two modes, in percent of the larger mean, with intervals.
 function differences(parent, scenario) {
   const list = scenario.paired_differences.filter((d) => d.ci95);
   if (!list.length) return;
@@ -70,13 +70,13 @@ function ranking(parent, scenario) {
 function breakEven(parent, entries) {
   if (!entries || !entries.length) return;
   const {sliding_m: sliding, measured_m: measured, lead} = entries[0];
-  add(parent, "h3", "Largest scrub with which a lead remains");
-  add(parent, "p", "Differential turns scrub the tyres. With this additional Coulomb yaw moment, " +
-    "a lead ends. Tyres that slide "
+  add(parent, "h3", "Scrub at which a mode is no longer ahead");
+  add(parent, "p", "In differential turns the tyres scrub, which adds a Coulomb yaw moment. With the " +
+    "moment in the table, a mode is no longer ahead. Tyres that slide "
     + `sideways with a friction of 0.8 cause ${digits(sliding)} m. `
-    + (measured ? `In this vehicle's differential turns, it was ` +
+    + (measured ? `Measured in differential turns of this vehicle: ` +
       `${measured.map((m) => digits(m)).join(" to ")} m.`
-      : "A few differential turns with straight wheels measure this vehicle's own (awmr suggest)."));
+      : "To measure the scrub of this vehicle, record differential turns (awmr suggest)."));
   table(parent, ["scenario", "mode", "ahead of", "#until, m", ...(lead ? ["lead"] : [])],
     entries.map((e) => [scenarioWords(e.scenario), modeCell(e.mode), modeCell(e.against),
     e.yaw_coulomb_m === null ? `beyond ${digits(e.most_m)}` : digits(e.yaw_coulomb_m),
@@ -106,11 +106,11 @@ function comparisonSection(data) {
   const box = section("Comparison of the yaw-control modes", comparison.samples
     ? `${plural(comparison.samples, "sample")} of the model's uncertainty, noise and ` +
       `disturbances; the same for every mode.`
-    : "The model's own values, without spread.", "Modes");
+    : "Nominal model only, without uncertainty.", "Modes");
   const rate = comparison.options.heading_rate_limit;
   if (rate && rate !== "none") {
     add(box, "p", "Heading commands are rate-limited " +
-      (rate === "measured" ? "to the yaw rates at which yaw resistance was measured"
+      (rate === "measured" ? "to the highest yaw rate at which yaw resistance was measured"
         : `to ${rate} deg/s`) +
       ". The simulations above follow the scenarios without this limit.");
   }

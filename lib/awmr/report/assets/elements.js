@@ -33,12 +33,12 @@ function digits(x, n = 3) {
 const interval = (pair) => (pair ? `${digits(pair[0])} to ${digits(pair[1])}` : "–");
 const percent = (x) => (isNumber(x) ? `${digits(100 * x, 2)} %` : "–");
 const plural = (n, word) => `${n} ${word}${n === 1 ? "" : "s"}`;
-/// Decimals that show two digits of a standard error.
+/// Number of decimals with which two digits of a standard error are shown.
 const decimalsOf = (error) => Math.max(0, Math.min(8, 1 - Math.floor(Math.log10(error))));
 
-/// Metrics that are absent because the run did not get there.
+/// Metrics that are absent if the run did not settle or did not arrive.
 const absentWords = {settling_time_s: "never settled", finish_time_s: "not finished"};
-/// A metric's value for people: at most three decimals.
+/// Text of a metric's value, with at most three decimals.
 function metricValue(name, x) {
   if (!isNumber(x)) return absentWords[name] || "–";
   return x !== 0 && Math.abs(x) < 5e-4 ? "< 0.001"
@@ -48,8 +48,8 @@ function metricValue(name, x) {
 /// "settling_time_s" as "settling time, s"
 const metricWords = (name) => report.metric_words[name] || name.replaceAll("_", " ");
 
-/// A scenario's name for people. Names of the tuning's manoeuvres state their headings and whether
-/// their rate is limited: heading_30_-30_led.
+/// Readable name of a scenario. The names of tuning scenarios contain the headings and, as "led", the
+/// heading-rate limit: heading_30_-30_led.
 function scenarioWords(name) {
   const own = (report.scenarios[name] || {}).name;
   const parts = /^heading((?:_-?\d+(?:\.\d+)?)+)(_[a-z_]+)?$/.exec(name);
@@ -58,7 +58,7 @@ function scenarioWords(name) {
   return `headings ${headings.join(" then ")} deg${parts[2] ? ", rate-limited" : ""}`;
 }
 
-/// Opens sections at first, except on narrow screens.
+/// Sections are open at first, except on narrow screens.
 const isWide = innerWidth > 640;
 
 /// Adds an entry of the contents; a click opens the section if it is closed.
@@ -85,7 +85,7 @@ function section(title, lead, short = title, open = isWide) {
   return add(details, "div");
 }
 
-/// A part that is closed at first.
+/// Adds a collapsible part that is closed at first.
 function folded(parent, title, open = false) {
   const details = add(parent, "details");
   details.open = open;
@@ -93,7 +93,7 @@ function folded(parent, title, open = false) {
   return add(details, "div");
 }
 
-/// A round mark with a text for screen readers; tone: "good", "doubt" or "bad".
+/// Adds a round mark with a text for screen readers. tone: "good", "doubt" or "bad".
 function mark(parent, tone) {
   const [sign, words] = {good: ["✓", "good"], doubt: ["!", "attention"], bad: ["✗", "bad"]}[tone];
   return add(parent, "span", sign, {class: `mark ${tone}`, role: "img", "aria-label": words});
@@ -102,8 +102,8 @@ function mark(parent, tone) {
 const lengthOf = (cell) => (cell instanceof Node ? cell.textContent : String(cell)).length;
 const isEmptyCell = (cell) => cell === "–" || cell === "" || cell === undefined;
 
-/// `head`: a name for each column, with a leading "#" for columns of numbers. `rows`: arrays of
-/// text or nodes. `best(row, column)`: whether to emphasise a cell. Empty columns are left out.
+/// Adds a table. `head`: the name of each column, with a leading "#" if it has numbers. `rows`: arrays of
+/// text or nodes. `best(row, column)`: whether a cell is emphasised. Empty columns are left out.
 function table(parent, head, rows, best) {
   const columns = head.map((name, i) =>
     ({i, name: name.replace(/^#/, ""), numeric: name.startsWith("#")}))
@@ -138,7 +138,7 @@ function groupBy(list, key) {
   return groups;
 }
 
-/// Yaw-control modes in order, each with its hue. Thick lines are below thin ones, so that
+/// Yaw-control modes in their order, each with its hue and line width. Thick lines are drawn first, so that
 /// coinciding lines are all visible.
 const modes = ["differential", "steering", "combined"];
 const modeStyle = {
@@ -146,10 +146,10 @@ const modeStyle = {
   steering: {colour: "var(--steering)", width: 2.2},
   combined: {colour: "var(--combined)", width: 1.4},
 };
-/// Colour of a mode; several sets of gains give labels like "combined with NAME".
+/// Colour of a mode. The label can also be "combined with NAME", if there are several sets of gains.
 const colourOf = (label) => (modeStyle[label.split(/[ ,]/)[0]] || {colour: "var(--dim)"}).colour;
 
-/// Sets of gains, each with its line and mark, whatever the mode.
+/// Line and mark of each set of gains, for every mode.
 const gainsOrder = ["robust", "nominal", "baseline", "paper"];
 const gainsStyle = {
   robust: {dash: [], shape: "circle"}, tuned: {dash: [], shape: "circle"},
@@ -157,7 +157,7 @@ const gainsStyle = {
   paper: {dash: [2, 3], shape: "triangle-up"}, lqi: {dash: [12, 4], shape: "cross"},
 };
 
-/// Name of a mode after a sample of its colour.
+/// Adds a sample of the colour of a mode, then its name.
 function modeCell(mode, more = "") {
   const node = document.createElement("span");
   const name = add(node, "span", undefined, {class: "state"});

@@ -1,4 +1,4 @@
-// Findings: the first three for the summary, and all of them.
+// Findings: the three most important ones for the summary, and the section with all findings.
 
 const whereOf = (f) => (f.file ? `${f.file}${f.line ? `:${f.line}` : ""}` : "");
 

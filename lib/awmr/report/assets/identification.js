@@ -1,5 +1,5 @@
-// Identification: the trials with the fitted curve, its band and residuals; values; logs and
-// drives.
+// Section of the identification: trials with the fitted curve, its band and residuals; parameter values;
+// logs and drives.
 
 /// Rows of trials as points: measurements in ink, rows with a warning as hollow diamonds.
 const measuredLook = {kind: "points", colour: "var(--ink)"};
@@ -10,7 +10,7 @@ const modelLook = {kind: "line", colour: "var(--model)"};
 const axisWords = {surge: ["speed, m/s", "thrust τ_speed"],
   turning: ["yaw rate, rad/s", "yaw moment τ_turn, m"]};
 
-/// A note of each row, with its findings.
+/// Text for each row of trials, with its findings, which the pointer shows.
 function rowNote(model) {
   return (t) => [`${t.file}:${t.line}`, ...findingsOfRow(model, t).map((f) =>
     f.message)].join("\n");
@@ -45,8 +45,8 @@ function fitChart(parent, model, fit, kind, height = 300) {
   return plot(parent, {title: `${kind} trials`, x, y, series, byPoint: true, zero: "xy", height});
 }
 
-/// Residuals, in percent of the prediction, and the limits that contain 99 of 100 rows if errors
-/// are normal.
+/// Chart of the residuals in percent of the prediction, with the limits that contain 99 of 100 rows if
+/// errors are normal.
 function residualChart(parent, model, fit, kind) {
   if (!fit) return;
   const note = rowNote(model);
@@ -77,7 +77,7 @@ function coastdownChart(parent, model, coasts) {
     series: [...curves, {name: "stop, measured", ...measuredLook, points: stops}]});
 }
 
-/// Values, rounded to two digits of their standard error.
+/// Table of parameter values, rounded to two digits of their standard error.
 function estimateRows(rows) {
   return rows.map(([name, e]) => {
     const round = (x) => (!isNumber(x) ? "–" : e.std_error > 0 ? x.toFixed(decimalsOf(e.std_error))
@@ -125,7 +125,7 @@ function estimatorsTable(parent, estimates) {
     digits(r.aicc), digits(r.residual_std, 3), r.rows_used, r.stop_reason.split(". ")[0]]));
 }
 
-/// The main values without each row in turn.
+/// Table of the main values if one row of the trials is left out, for each row.
 function influenceTable(parent, estimates) {
   const left = estimates.filter((e) => Array.isArray(e.leave_one_out) && e.leave_one_out.length);
   if (!left.length) return;
@@ -143,15 +143,15 @@ function influenceTable(parent, estimates) {
   }
 }
 
-/// The result of validation in a sentence; trials that were fitted do not show how another drive is
+/// Result of the validation in a sentence. Data that were fitted do not show how well another drive is
 /// predicted.
 function validationWords(data) {
   const {validation} = data;
   if (!validation || !validation.verdict) return;
   return `${validation.verdict}.` + (unseenLogs(data).length || (validation.drives || []).length
     ? "" :
-    " These data were fitted, so the fit is sound. Only a log that was not fitted shows how well " +
-    "another drive is predicted.");
+    " The model was fitted to these data. Only a log that was not fitted shows how well another " +
+    "drive is predicted.");
 }
 
 function identificationSection(data) {
@@ -173,8 +173,7 @@ function identificationSection(data) {
   table(box, estimateHead, estimateRows(parts.flatMap((name) => leaves(model[name], name))));
   if (model.si) {
     const si = folded(box, "The same in SI units");
-    small(si, "Multiplied by F_max = m/m', the largest force of a wheel, by which the equations " +
-      "are divided.");
+    small(si, "The values above, multiplied by F_max = m/m', the largest force of a wheel.");
     table(si, estimateHead, estimateRows(leaves(model.si, "")));
   }
   correlations(box, model.covariance);
@@ -185,17 +184,17 @@ function identificationSection(data) {
   drivesPart(box, data.validation);
 }
 
-/// Tyres fitted to logs, and the errors of both plants where the tyres were not fitted.
+/// Tyres fitted to logs, and the errors of both plants on windows to which the tyres were not fitted.
 function tyresPart(parent, validation) {
   const {tyres} = validation || {};
   if (!tyres) return;
   const better = {model: "the 3-DOF model predicts better",
-    "four-wheel": "they predict better than the 3-DOF model"}[tyres.better] || "neither plant predicts better";
-  add(parent, "h3", `Four wheels on tyres: ${better}`);
+    "four-wheel": "this plant predicts better than the 3-DOF model"}[tyres.better] || "neither plant predicts better";
+  add(parent, "h3", `Plant with four wheels and tyres: ${better}`);
   small(parent, "Friction and cornering stiffness were fitted to the logs. Errors are root mean " +
-    `squares over ${tyres.windows} windows that were held out from the fit.`);
+    `squares over ${tyres.windows} windows, each predicted by a fit to other windows.`);
   const range = (key) => (tyres.estimates[key] ? interval(tyres.estimates[key].ci95)
-    : "not shown by the logs: the default");
+    : "default (not determined by the logs)");
   table(parent, ["tyres", "#value", "95 % interval"], [
     ["friction", digits(tyres.friction), range("friction")],
     ["cornering stiffness, 1/rad", digits(tyres.cornering_stiffness_per_rad),
@@ -212,8 +211,8 @@ function drivesPart(parent, validation) {
       `${drive.inside ? "as predicted" : "not as predicted"}`);
     small(parent, `${digits(drive.duration_s)} s, compared with ${drive.draws} predicted drives, ` +
       `of which ${percent(drive.p_value)} are as far ` +
-      "from the others or farther. Distances are over half seconds, divided by the spread of the " +
-      "predictions.");
+      "from the others or farther. Distances are those of means over half a second, divided by the " +
+      "standard deviation of the predictions.");
     table(parent, ["channel", "#samples", "#distance", "#allowed", "#outside since, s",
       "#measured − predicted"],
       Object.entries(drive.channels).map(([name, c]) =>
@@ -231,7 +230,7 @@ function drivesPart(parent, validation) {
 /// "yaw_rate_radps" as "yaw rate"
 const channelWords = (name) => name.replace(/_[a-z]+$/, "").replaceAll("_", " ");
 
-/// A channel of a log, measured and predicted. The prediction is drawn over the noisy measurement.
+/// Chart of a channel of a log. The prediction is drawn over the noisy measurement.
 function channelChart(parent, log, name, more) {
   const {series, unit} = log.channels[name];
   const points = (key) => series.t_s.map((t, i) => [t, series[key][i]]);
@@ -242,7 +241,7 @@ function channelChart(parent, log, name, more) {
     {name: "predicted", ...modelLook, points: points("predicted")}]});
 }
 
-/// All channels of a log; results of older versions have no series.
+/// Charts of all channels of a log. Results of older versions have no series to draw.
 function logCharts(parent, log) {
   const names = Object.keys(log.channels).filter((name) => log.channels[name].series);
   if (!names.length) return;

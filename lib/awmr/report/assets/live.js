@@ -1,9 +1,9 @@
-// Interactive gains: the program's own simulator and constraints, compiled to WebAssembly, run at
-// every move of a slider.
+// Interactive part of the page: the simulator and the constraints of awmr, compiled to WebAssembly
+// (live/live.cpp), are run at every move of a slider.
 
 const liveColumns = ["t_s", "psi_rad", "psi_ref_rad", "u_mps", "force_left", "force_right",
   "steering_rad", "r_radps"];
-/// Gains and other adjustable values; `log`: the slider has a logarithmic scale.
+/// The sliders: gains and other values. `log`: the slider has a logarithmic scale.
 const liveSliders = [
   {key: "lambda", name: "lambda, 1/s", low: 0.5, high: 15, log: true},
   {key: "mu", name: "mu, rad/s²", low: 1, high: 200, log: true},
@@ -17,8 +17,8 @@ const liveSliders = [
   {key: "heading_noise_deg", name: "heading noise, deg", low: 0, high: 5, log: false},
 ];
 
-/// Loads the module, initialised with the setup's numbers; returns a function from settings to
-/// {rows, constraints, metrics, ended}.
+/// Loads the WebAssembly module and passes the numbers of the setup. Returns a function that simulates the
+/// given slider settings and returns {rows, constraints, metrics, ended}.
 async function liveModule(packed, numbers) {
   const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
   const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
@@ -46,7 +46,7 @@ async function liveModule(packed, numbers) {
   };
 }
 
-/// The gains in the form that --gains accepts; `observer`: the tuned one, if any.
+/// The gains as JSON for --gains. `observer`: the tuned observer, if there is one.
 function gainsDocument(s, observer) {
   const gains = {schema: "awmr.gains/1", heading: {lambda: s.lambda, mu: s.mu, epsilon: s.epsilon},
     speed: {mu: s.speed_mu, epsilon: s.speed_epsilon}};
@@ -80,8 +80,7 @@ function liveSlider(parent, slider, settings, changed) {
 
 const degreesOf = (list) => list.map((x) => x * 180 / Math.PI);
 const pairs = (x, y) => x.map((v, i) => [v, y[i]]);
-/// Reduces a long run to about one row per pixel; keeps the minimum and the maximum of each
-/// interval.
+/// Reduces a long run to about one row per pixel, with the minimum and the maximum of each interval.
 function thinned(points, most = 500) {
   const stretch = Math.ceil(points.length / most);
   if (stretch < 3) return points;
@@ -93,7 +92,8 @@ function thinned(points, most = 500) {
   return kept;
 }
 
-/// The run of the sliders in its mode's hue, the tuned gains under the same conditions in grey.
+/// Charts of the run with the slider values, in the hue of its mode, and of the run with the tuned gains
+/// under the same conditions, in grey.
 function liveCharts(parent, start) {
   const group = [];
   const line = (name, colour, width) => ({name, kind: "line", colour, width});
@@ -171,7 +171,7 @@ async function liveSection(data) {
   const redraw = liveCharts(box, run(settings));
   const tables = add(box, "div");
   let waiting = false;
-  /// At most one run per frame.
+  /// Runs the simulation at most once per frame of the screen.
   function changed() {
     if (waiting) return;
     waiting = true;

@@ -1,5 +1,5 @@
-// The report, from top to bottom. A part with invalid data shows an error; the others are not
-// affected.
+// Builds the report from top to bottom. A part with invalid data shows an error; the other parts are
+// shown.
 const report = JSON.parse(document.getElementById("data").textContent);
 document.getElementById("report").textContent = "";
 document.title = `${report.model.vehicle.name}: awmr report`;
@@ -17,7 +17,7 @@ for (const [title, part] of [["Summary", summarySection], ["Findings", findingsS
   }
 }
 
-// The entry of the section at the top of the window is marked in the contents.
+// Marks the section that is at the top of the window in the contents.
 const inView = new IntersectionObserver((entries) => {
   for (const {target, isIntersecting} of entries) target.isInView = isIntersecting;
   const sections = [...document.querySelectorAll("section")];

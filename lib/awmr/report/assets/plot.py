@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the figures of `awmr report --figures` by matplotlib, each as NAME.svg and NAME.pdf, 150 mm wide.
+"""Draws the figures of `awmr report --figures` with matplotlib, each as NAME.svg and NAME.pdf, 150 mm wide.
 
 usage: plot.py [NAME...]    all figures of figures.json by default
 
@@ -23,8 +23,8 @@ WIDTH_MM, HEIGHT_MM, PANEL_MM, ROW_MM = 150, 100, 20, 8
 RC = {"font.family": "DejaVu Sans", "font.size": 9, "axes.grid": True, "grid.color": "#dddddd", "grid.linewidth": 0.5,
       "axes.axisbelow": True, "axes.formatter.useoffset": False, "svg.fonttype": "none", "svg.hashsalt": "awmr", "pdf.fonttype": 42,
       "legend.frameon": False, "figure.constrained_layout.use": True}
-# Colours of Okabe and Ito, "Color Universal Design" (2008), which colour-blind readers can distinguish; widths, dashes
-# and marks distinguish the series in grey print. A wide line is below a thin one on it.
+# Colours of Okabe and Ito, "Color Universal Design" (2008), which colour-blind readers can distinguish. In grey print,
+# widths, dashes and marks distinguish the series. Wide lines are drawn first, so that thin lines on them are visible.
 STYLES = {
     "measured": {"color": "#000000", "linewidth": 1.0, "marker": "o", "fill": "#e1e1e1"},
     "doubtful": {"color": "#d55e00", "linewidth": 1.0, "marker": "D", "fill": "#f7ded0"},

@@ -1,4 +1,4 @@
-// The firmware, and the inputs of all results.
+// Sections of the firmware and of the provenance: inputs, options and versions of all results.
 
 function firmwareSection(data) {
   const {pil} = data;
@@ -24,7 +24,7 @@ function firmwareSection(data) {
 }
 
 function provenanceSection(data) {
-  const box = section("Provenance", "The same files, options and seeds make the same bytes again.");
+  const box = section("Provenance", "The same files, options and seeds give the same results, byte for byte.");
   box.parentNode.open = false;
   for (const name of ["model", "gains", "validation", "comparison", "pil"]) {
     const document = data[name];

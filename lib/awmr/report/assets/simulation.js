@@ -1,4 +1,5 @@
-// Simulations: a scenario in all modes; all of its charts share one legend and one cursor.
+// Section of the simulations: each scenario in all modes. The charts of a scenario share one legend and one
+// cursor.
 
 const signals = [
   {title: "heading", y: "heading ψ, deg", value: "psi_deg", reference: "psi_ref_deg"},
@@ -12,11 +13,12 @@ const signals = [
 const referenceLook = {name: "reference", kind: "line", colour: "var(--dim)", width: 1.2};
 const obstacleLook = {name: "obstacle", kind: "circle", colour: "var(--dim)"};
 const nameOf = (run) => run.mode + (run.gains === "paper" ? ", the paper's gains" : "");
-/// Tuned gains first, then by mode.
+/// Order of the runs: by gains, the tuned ones first, then by mode.
 const byMode = (a, b) => (a.gains === b.gains ? modes.indexOf(a.mode) - modes.indexOf(b.mode)
   : a.gains === "tuned" ? -1 : 1);
 
-/// Hue by mode, dashes by gains; the paper's gains are hidden at first.
+/// Look of a run: the mode determines the hue, the gains the dashes. Runs with the paper's gains are hidden
+/// at first.
 function lineOf(run, x, y) {
   const points = run.columns[x].map((value, i) => [value, run.columns[y][i]]);
   const look = {name: nameOf(run), kind: "line", points, ...modeStyle[run.mode]};
@@ -27,14 +29,14 @@ function referenceOf(run, x, y) {
   return {...referenceLook, points: run.columns[x].map((v, i) => [v, run.columns[y][i]])};
 }
 
-/// The points of the path: waypoints or the ends of a line.
+/// The points of the path: waypoints, or the points of a line.
 function waypointsOf(scenario) {
   const guidance = (scenario || {}).guidance || {};
   if (Array.isArray(guidance.points_m)) return guidance.points_m;
   return guidance.from_m && guidance.to_m ? [guidance.from_m, guidance.to_m] : [];
 }
 
-/// Yaw rates beyond those at which yaw resistance was measured: a list of one series; empty where
+/// Shade for yaw rates above those at which yaw resistance was measured: a list with one series, or empty if
 /// none was measured.
 function extrapolatedYawRates() {
   const limit = report.yaw_rate_measured_degps;
@@ -46,8 +48,7 @@ function scenarioPart(parent, stem, runs, scenario, open) {
   const box = folded(parent, scenarioWords(stem), open);
   const group = [];
   const first = runs[0];
-  // With guidance, each run has its own heading reference; without it, the reference is the same
-  // for all.
+  // With guidance, each run has its own heading reference; without it, all runs have the same.
   const sameHeading = !(scenario && scenario.guidance) || scenario.guidance.type === "heading";
   const entries = runs.map((run) => lineOf(run, "t_s", "psi_deg"));
   const points = waypointsOf(scenario).filter((p) => Array.isArray(p));
@@ -77,7 +78,7 @@ function scenarioPart(parent, stem, runs, scenario, open) {
 function simulationSection(data) {
   if (!data.runs.length) return;
   const box = section("Simulations",
-    "Axes of paths are equal. Drag over a chart to enlarge it and its neighbours, double-click " +
+    "Path plots use equal scales. Drag over a chart to zoom it and its neighbours, double-click " +
     "to reset.");
   // Same order as in the comparison.
   const names = ((data.comparison || {}).scenarios || []).map((s) => s.name);

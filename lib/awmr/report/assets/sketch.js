@@ -1,4 +1,4 @@
-// The vehicle from above, to scale: wheel forces, steering angle delta and heading psi.
+// Sketch of the vehicle from above, to scale: wheel forces, steering angle delta and heading psi.
 
 const sketchHeading = 24 * Math.PI / 180, sketchSteering = 18 * Math.PI / 180;  // psi, delta
 
@@ -6,7 +6,7 @@ const turned = ([x, y], angle) =>
   [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle)];
 const sum = ([x, y], [dx, dy]) => [x + dx, y + dy];
 
-/// Draws in the body's axes, pixels forward and to the left of the centre of gravity.
+/// Returns functions that draw in body axes: pixels forward and to the left of the centre of gravity.
 function sketchPen(svg) {
   const place = (point) => {
     const [x, y] = turned(point, sketchHeading);
@@ -31,7 +31,7 @@ function sketchPen(svg) {
   return {place, path, box, arc, label};
 }
 
-/// A wheel and its force, those on the right larger: the vehicle turns left.
+/// Draws a wheel and its force. The forces on the right are larger, because the sketch shows a left turn.
 function sketchWheel({path, box, label}, wheel, {size, angle, isDriven, isNamed}) {
   box(wheel, [size, 7], angle, "wheel");
   if (!isDriven) return;

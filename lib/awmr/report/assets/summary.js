@@ -1,5 +1,5 @@
-// Summary on one screen and one printed page: four tiles, the vehicle and its heading response,
-// gains, first findings and next steps.
+// Summary, on one screen and one printed page: four tiles, the vehicle, its heading response, the gains, the
+// first findings and the next steps.
 
 function gainsTable(parent, gains) {
   const row = (name, set, objective) => [name, digits(set.heading.lambda), digits(set.heading.mu),
@@ -18,7 +18,7 @@ function gainsTable(parent, gains) {
     && i < 6);
   write(add(parent, "p", undefined, {class: "small"}),
     "lambda: slope of the sliding surface, T1 = 1/lambda. mu: reaching gain. " +
-    "epsilon: boundary layer, T2 = epsilon/(2 mu). mu_s, epsilon_s: the same of the speed law.");
+    "epsilon: boundary layer, T2 = epsilon/(2 mu). mu_s, epsilon_s: the same for the speed law.");
   if (observer) {
     small(parent, `With a disturbance observer of ${digits(observer.bandwidth_radps)} rad/s, ` +
       `which compensates up to ` +
@@ -27,7 +27,7 @@ function gainsTable(parent, gains) {
   }
 }
 
-/// Next steps, most useful first.
+/// The next steps for the user, the most useful first.
 function nextSteps(data) {
   const steps = [];
   const {model, gains, validation, suggest} = data;
@@ -35,13 +35,13 @@ function nextSteps(data) {
     steps.push("Record the trial that the finding “not-identifiable” names: the model is " +
       "incomplete.");
   }
-  if (data.header) steps.push("Include awmr_params.h, next to this page, in your sketch; awmr " +
-    "emit writes the controller around it.");
+  if (data.header) steps.push("Include awmr_params.h (next to this page) in your sketch, or let awmr " +
+    "emit write a sketch with the controller.");
   if (!gains) steps.push("Tune gains: awmr tune.");
   if (!data.pil && gains) steps.push("Run the firmware on the emulated chip before it drives: " +
     "awmr pil, with its result as pil.json next to this page.");
   const first = ((suggest || {}).trials || [])[0];
-  steps.push(first ? `Record next, for the largest gain in certainty: ${first.words}.`
+  steps.push(first ? `Record this trial next, as it reduces the uncertainty most: ${first.words}.`
     : "Find out which trial to record next: awmr suggest.");
   if (model.findings.some(isWarning)) steps.push("Compare the rows that have a warning with your " +
     "notes.");
@@ -52,8 +52,8 @@ function nextSteps(data) {
   return steps;
 }
 
-/// The heading in every mode over the first scenario with heading steps, else the first; without
-/// runs, trials or a log of the validation.
+/// Chart of the heading in every mode, in the first scenario with heading steps, else in the first scenario.
+/// Without runs: the trials, or a log of the validation.
 function responseChart(parent, data) {
   const height = 210;
   const type = (run) => (((data.scenarios[run.scenario] || {}).guidance || {}).type || "");

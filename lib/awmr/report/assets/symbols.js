@@ -1,4 +1,4 @@
-// Symbols of the control laws: how they are written, and what they mean, shown on hover and focus.
+// Symbols of the control laws: their letters, and their meaning, which is shown on hover and focus.
 const symbols = new Map(Object.entries({
   lambda: ["λ", "lambda, 1/s: slope of the sliding surface. On it, the heading error decays with " +
     "T1 = 1/λ"],
@@ -26,10 +26,10 @@ const symbolParts = (text) => text.replaceAll("<=", "≤").replaceAll(">=", "≥
 const plainSymbols = (text) => symbolParts(text).map((part) =>
   (symbols.get(part) || [part])[0]).join("");
 
-/// The first occurrence of a symbol can be reached by keyboard.
+/// Symbols that were already shown. Only the first occurrence of a symbol can be reached by keyboard.
 const metSymbols = new Set();
 
-/// Appends text; known symbols get their letter and their meaning.
+/// Adds text in which known symbols get their letter and their meaning.
 function write(node, text) {
   for (const part of symbolParts(text)) {
     const symbol = symbols.get(part);
@@ -43,7 +43,7 @@ function write(node, text) {
   }
 }
 
-/// Text with its symbols, as a node of its own.
+/// Returns a node with text and its symbols.
 function symbolic(text) {
   const node = document.createElement("span");
   write(node, text);

@@ -10,7 +10,7 @@ function tile(list, tone, head, figure, text) {
   add(item, "span", text, {class: "small"});
 }
 
-/// Logs that were not among the data of the fit, by hash and by name without folders.
+/// The logs that the model was not fitted to. A log is recognised by its hash, or its name without folders.
 function unseenLogs({model, validation}) {
   const base = (name) => name.split("/").pop();
   const hashes = model.inputs.map((input) => input.sha256);
@@ -20,8 +20,8 @@ function unseenLogs({model, validation}) {
   return (validation.logs || []).filter((log) => !names.includes(base(log.file)));
 }
 
-/// The largest error of the model: of its predictions of logs that were not fitted, else of logs
-/// that were, else of its trials.
+/// Tile of the largest error of the model: on logs that were not fitted, else on logs that were fitted, else
+/// on the trials.
 function modelTile(list, data) {
   const {validation} = data;
   if (!validation) return tile(list, "doubt", "Model error", "not validated",
@@ -50,8 +50,8 @@ function modelTile(list, data) {
     `drives under the controller, over ${plural(drives[0].draws, "predicted drive")}`);
 }
 
-/// Settling time of the baseline's and of the tuned gains in the mode of the gains: medians over
-/// draws that were not tuned on, else the first manoeuvre of the tuning.
+/// Tile of the settling time with the baseline and the tuned gains: medians over draws that were not used for
+/// tuning, else in the first scenario of the tuning.
 function settlingTile(list, gains) {
   if (!gains) return tile(list, "doubt", "Settling time", "no gains",
     "awmr tune computes gains for the model");
@@ -59,7 +59,7 @@ function settlingTile(list, gains) {
   const unmet = (gains.goals || []).filter((goal) => goal.gains === "robust"
     && goal.verdict !== "met");
   const tone = broken.length ? "bad" : unmet.length ? "doubt" : "good";
-  const met = broken.length ? `${plural(broken.length, "constraint")} broken`
+  const met = broken.length ? `${plural(broken.length, "constraint")} violated`
     : "every constraint kept";
   const {by_scenario: byScenario = {}, quantiles = {}} = gains.robust || {};
   const sets = Object.values(byScenario)[0] || quantiles;
@@ -83,12 +83,11 @@ function settlingTile(list, gains) {
     `${met}`);
 }
 
-/// Modes in first place by scenario: those that stay first under every change, where that was
-/// checked.
+/// The best modes of a scenario. If changes were checked: those that stay best under every change.
 const firstOf = (scenario) => (scenario.decision ? scenario.decision.never_behind
   : scenario.ranking.filter((r) => r.rank === 1).map((r) => r.mode));
 
-/// The best mode, if it alone is first in every ranked scenario.
+/// Tile of the best mode: the only mode that is best in every ranked scenario, or "undecided".
 function modeTile(list, comparison) {
   const ranked = ((comparison || {}).scenarios || []).filter((s) => s.ranking.length);
   if (!ranked.length) return tile(list, "doubt", "Best mode", "not compared",

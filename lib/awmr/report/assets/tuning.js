@@ -1,10 +1,10 @@
-// Tuning: constraints, search, and performance of the gains on sampled vehicles that were not used
-// for tuning.
+// Section of the tuning: constraints, search, and performance of the gains on drawn vehicles that were not
+// used for tuning.
 
 const gainsWords = {robust: "tuned", nominal: "nominal", baseline: "baseline",
   paper: "the paper's"};
 
-/// Baseline for which the objective is 1; files without `source` use the paper's gains.
+/// Name of the baseline, whose objective is 1. In files without `source` it is the paper's gains.
 function baselineWords(gains) {
   const {source = "paper"} = gains.baseline || {};
   return {paper: "the paper's gains", "pole-placement": "pole placement"}[source] || source;
@@ -19,18 +19,18 @@ function openWords(open) {
   return `; unmodelled: ${[...masses, ...forces].join("; ")}`;
 }
 
-/// State of a constraint and its tone.
+/// Text and tone for the state of a constraint: met, at its limit, not met or violated.
 function constraintState({margin, required, limit}) {
-  if (!(margin >= 0)) return required ? ["broken", "bad"] : ["not kept", "doubt"];
-  return [margin < 0.01 * Math.abs(limit) ? "at its limit" : "kept", "good"];
+  if (!(margin >= 0)) return required ? ["violated", "bad"] : ["not met", "doubt"];
+  return [margin < 0.01 * Math.abs(limit) ? "at its limit" : "met", "good"];
 }
 
-/// Results of the live part do not state the sense.
+/// Sense of a constraint. Results of the live part have none; it follows from value, limit and margin.
 const senseOf = ({sense, value, limit, margin}) => sense ||
   (Math.abs(limit - value - margin) <= Math.abs(value - limit - margin) ? "at-most" : "at-least");
 
-/// The value as a bar from 0, the limit as a rule, the safe side shaded; to scale, in percent of
-/// the width.
+/// Bar chart of a constraint, in percent of the width: a bar from 0 to the value, a line at the limit, the
+/// permitted side shaded.
 function constraintBar(constraint) {
   const {value, limit, margin} = constraint;
   const reach = 1.25 * Math.max(Math.abs(value), Math.abs(limit)) || 1;
@@ -49,11 +49,11 @@ function constraintBar(constraint) {
   return svg;
 }
 
-/// Constraints with value, limit and safe side.
+/// Table of the constraints with value, limit and permitted side.
 function constraintsTable(parent, constraints) {
   if (!constraints.length) return;
   const signs = {"at-least": "≥ ", "at-most": "≤ "};
-  small(parent, "Bars are values, red rules are limits, the shaded side is the safe one.");
+  small(parent, "Bars are values, red lines are limits, the shaded side is permitted.");
   table(parent, ["constraint", "state", "value and limit", "#value", "#limit", "meaning"],
     constraints.map((c) => {
     const [state, tone] = constraintState(c);
@@ -67,7 +67,7 @@ function constraintsTable(parent, constraints) {
   }));
 }
 
-/// Settling time and command activity: the front found by the search, and the named gains.
+/// Chart of settling time against control variation: the Pareto front of the search, and the named gains.
 function tradeOffChart(parent, gains) {
   const {trade_off: tradeOff} = gains;
   if (!tradeOff) return;
@@ -78,15 +78,15 @@ function tradeOffChart(parent, gains) {
     ...Object.entries(tradeOff.gains).map(([name, point]) =>
       ({name: words[name] || name, kind: "points", size: 80,
       points: [at(point)], colour: "var(--ink)", shape: (gainsStyle[name] || {}).shape}))];
-  add(parent, "h3", "Settling time and command activity");
+  add(parent, "h3", "Settling time and control variation");
   small(parent, "Means over the modes, manoeuvres and plants of the search. No gains of the " +
-    "search that keep every constraint are better in both than the line.");
+    "search that meet every constraint are better in both than the line.");
   plot(add(parent, "div", undefined, {class: "grid"}),
     {title: "trade-off", x: "settling time, s", y: "control variation, 1/s", series, height: 260,
       zero: "xy", byPoint: true});
 }
 
-/// The worst damping and delay margin of the heading loop over the model's confidence set.
+/// Table of the worst damping ratio and delay margin of the heading loop over the model's confidence set.
 function certificateTable(parent, certificate) {
   if (!certificate) return;
   add(parent, "h3", "Certificate");
@@ -102,8 +102,8 @@ function certificateTable(parent, certificate) {
     modeCell(mode), digits(damping.min, 3), place(damping), margin(delay.min_s), place(delay)]));
 }
 
-/// The best objective so far by number of evaluations, of the search for the tuned gains and of the
-/// one without noise.
+/// Chart of the best objective so far over the number of evaluations, for the search of the tuned gains and,
+/// in older files, for the nominal search.
 function historyChart(parent, gains) {
   const own = (gains.search || {}).history, {nominal_history: nominal} = gains.robust || {};
   const searches = [["robust", own, 2.4], ["nominal", nominal, 1.6]].filter(([, h]) => h
@@ -122,7 +122,7 @@ function historyChart(parent, gains) {
   add(parent, "h3", "Search");
   const phases = searches.map(([set, h]) =>
     `${gainsWords[set]}: local from evaluation ${h.global_evaluations + 1} of ${h.evaluations}`);
-  small(parent, `The best gains so far that keep every constraint; 1 is ${baselineWords(gains)}. ` +
+  small(parent, `The best gains so far that meet every constraint; 1 is ${baselineWords(gains)}. ` +
     `A global search, then a local one (${phases.join("; ")}).` +
     (nominal ? " Each is relative to the baseline under its own conditions." : ""));
   plot(add(parent, "div", undefined, {class: "grid"}),
@@ -138,7 +138,7 @@ const robustFigures = [["settling_time_s", "settling time, s"],
 function goalsTable(parent, goals) {
   if (!goals || !goals.length) return;
   add(parent, "h3", "Goals");
-  small(parent, "Share of fresh draws in which every limit is kept, with its 95 % interval.");
+  small(parent, "Share of fresh draws in which every limit is met, with its 95 % interval.");
   const limits = (goal) => Object.entries(goal.at_most).map(([name, most]) =>
     `${metricWords(name)} at most ${digits(most)}`).join("; ") + (goal.soft ? " (soft)" : "");
   table(parent, ["goal", "mode", "gains", "#required", "#kept", "verdict"],
@@ -164,8 +164,8 @@ function robustCharts(parent, robust) {
   }
 }
 
-/// One row of a quantile chart. A run that does not settle counts with its duration, so that a
-/// median is a settling time only if most runs settle.
+/// One row of a quantile chart. A run that does not settle counts with its duration, so the median is a
+/// settling time only if most runs settle.
 function quantileRow(mode, name, set, figure) {
   const {median, q95} = set[figure], label = `${mode}, ${gainsWords[name]}`;
   const settled = `settled: ${percent(set.completed_share)}`;
@@ -177,7 +177,7 @@ function quantileRow(mode, name, set, figure) {
     note: `${label}\nmedian ${digits(median)}, 95 % ${digits(q95)}\n${settled}`};
 }
 
-/// Hue by mode; line and mark by set of gains.
+/// Look of a row: the mode determines the hue, the set of gains the line and the mark.
 function quantileCharts(parent, quantiles) {
   const grid = add(parent, "div", undefined, {class: "grid thirds"});
   for (const [figure, title] of robustFigures) {
@@ -191,18 +191,18 @@ function quantileCharts(parent, quantiles) {
 function sensitivityTable(parent, sensitivity) {
   if (!sensitivity) return;
   const box = folded(parent, "Sensitivity of the tuned loop");
-  small(box, `Total Sobol indices over ${sensitivity.samples} samples: the share of a figure's ` +
-    `variance that remains while only this input is unknown. `
-    + "Noise level, latency and lag are varied from none to twice the assumed values.");
+  small(box, `Total Sobol indices over ${sensitivity.samples} samples: the share of a metric's ` +
+    `variance that remains if only this input is unknown. `
+    + "Noise, latency and lag are varied from 0 to twice the assumed values.");
   const mostMoving = (figure) => [...figure.by_input].sort((a, b) => b.total - a.total).slice(0, 3)
     .map((one) => `${one.input} ${digits(one.total, 2)} (${digits(one.total_ci95[0], 2)} to ` +
       `${digits(one.total_ci95[1], 2)})`).join("; ");
-  table(box, ["mode", "figure", "#mean and spread", "most sensitive to"],
+  table(box, ["mode", "metric", "#mean ± standard deviation", "most sensitive to"],
     sensitivity.figures.map((figure) => [modeCell(figure.mode), metricWords(figure.figure),
     `${digits(figure.mean, 3)} ± ${digits(figure.std, 2)}`, mostMoving(figure)]));
 }
 
-/// The objective of the tuned gains next to the baseline's, and how many goals are met.
+/// Sentence with the objectives of the tuned gains and the baseline, and the number of goals that are met.
 function objectiveWords(gains) {
   const {objective, baseline, goals = []} = gains;
   if (!objective) return "";
@@ -236,7 +236,8 @@ function tuningSection(data) {
   metricsTable(box, gains);
 }
 
-/// Metrics of the objective, by mode and scenario: tuned, and the baseline's in brackets.
+/// Table of the metrics in the objective, by mode and scenario: with the tuned gains and, in brackets, with
+/// the baseline.
 function metricsTable(parent, gains) {
   const base = (gains.baseline || {}).metrics || {};
   const rows = Object.entries(gains.metrics || {}).flatMap(([mode, scenarios]) =>

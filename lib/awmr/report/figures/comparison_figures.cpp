@@ -16,8 +16,8 @@ std::optional<double> number_in(const Json& json, const char* key) {
   return json.at(key).get<double>();
 }
 
-/// File name of the scenario without extension, as in the names of its other figures; else the
-/// scenario's name.
+/// Name of the scenario in file names (SCENARIO of scenario_SCENARIO.json), as in its other figures. If
+/// there is no such file, the scenario's own name.
 std::string stem_of(const Json& data, const std::string& name) {
   for (const auto& [stem, scenario] : data.at("scenarios").items()) {
     if (scenario.value("name", "") == name) return stem;
@@ -25,7 +25,8 @@ std::string stem_of(const Json& data, const std::string& name) {
   return name;
 }
 
-/// A difference in percent of the larger of both modes' means; none if both are 0.
+/// Difference of a metric between two modes, with its 95 % interval, in percent of the larger of both
+/// means. There is no row if both means are 0.
 struct DifferenceRow {
   std::string metric;
   double mean = 0.0;
@@ -97,7 +98,8 @@ void add_differences(const Json& scenario, const std::string& stem, FiguresOfRes
   }
 }
 
-/// Distribution of one metric: one row per mode, with its samples and its 5 to 95 % range.
+/// Figure of the distribution of a metric: one row per mode, with the samples, the median and the range
+/// from 5 to 95 %.
 Figure spread_figure(const std::string& stem, const std::string& metric, const Json& scenario,
                      const Json& samples) {
   const MetricWords words = metric_words(metric);
@@ -168,7 +170,7 @@ void add_comparison_figures(const Json& data, FiguresOfResults& all) {
         "differences and distributions of the modes: there is no comparison.json");
     return;
   }
-  // The metrics with a weight in the ranking, and the differences in all metrics.
+  // Distributions are drawn for metrics with a weight in the ranking, differences for all metrics.
   for (const Json& scenario : data.at("comparison").at("scenarios")) {
     const std::string stem = stem_of(data, scenario.at("name"));
     add_spreads(data, scenario, stem, all);

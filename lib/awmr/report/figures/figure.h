@@ -1,7 +1,6 @@
-/// A print figure as plain values: series and axes. Private to this folder.
+/// A print figure as plain values: axes, panels and series. Private to report/.
 ///
-/// The functions of figures_of.h create figures from results, figure_files.h writes them, and
-/// assets/plot.py draws them.
+/// figures_of.h makes figures from results, figure_files.h writes them, and assets/plot.py draws them.
 #pragma once
 
 #include <string>
@@ -9,25 +8,25 @@
 
 namespace awmr {
 
-/// Role of a series, in the order of the legend. plot.py has the style of each role.
+/// Role of a series, which determines its style in plot.py. The legend has the order of this list.
 enum class Role {
   kMeasured,
   kDoubtful,  ///< measured, with a warning
-  kModel,     ///< a fit
+  kModel,     ///< a fitted curve
   kPredicted,
   kDifferential,
   kSteering,
   kCombined,
   kReference,
-  kMinor,  ///< not relevant
+  kMinor,  ///< of less importance: grey
 };
 
 enum class SeriesShape {
   kLine,
   kPoints,
-  kBand,    ///< over x from `low` to `high`
-  kTicks,   ///< short vertical lines at x in the row y of a named axis
-  kRanges,  ///< at the row y of a named axis from `low` to `high` along x, a mark at x
+  kBand,    ///< a filled area over x, from `low` to `high`
+  kTicks,   ///< short vertical lines at x, in row y of an axis with names
+  kRanges,  ///< a bar from `low` to `high` along x with a mark at x, in row y of an axis with names
 };
 
 /// One series of a panel. It has a legend entry unless its name is empty.
@@ -41,12 +40,13 @@ struct Series {
   std::vector<double> high = {};  ///< for kBand and kRanges
 };
 
-/// A quantity and its unit. `_{...}` is an index, `^{...}` an exponent.
+/// An axis: its quantity and unit, or row names. In `quantity`, `_{...}` is an index, `^{...}` an
+/// exponent.
 struct Axis {
   std::string quantity = {};
   std::string unit = {};               ///< empty if dimensionless
-  bool zero = false;                   ///< the range includes 0, with a line there
-  std::vector<std::string> rows = {};  ///< names instead of numbers, from the top: 0, 1, 2, ...
+  bool zero = false;                   ///< the range includes 0, with a line at 0
+  std::vector<std::string> rows = {};  ///< names of the rows 0, 1, 2, ... from the top; else empty
 };
 
 struct FigureCircle {
@@ -55,19 +55,19 @@ struct FigureCircle {
   double radius = 0.0;
 };
 
-/// A plot; the panels of a figure are stacked over one x axis.
+/// A panel of a figure. All panels are stacked above one x axis.
 struct Panel {
   Axis y;
   std::vector<Series> series = {};
 };
 
 struct Figure {
-  std::string name = {};     ///< of its file, without extension
+  std::string name = {};     ///< name of its file, without extension
   std::string meaning = {};  ///< one sentence for figures.json; it is not drawn
   Axis x;
   std::vector<Panel> panels = {};
   bool equal_axes = false;                 ///< same scale on x and y; only for one panel
-  std::vector<FigureCircle> circles = {};  ///< obstacles; with equal axes
+  std::vector<FigureCircle> circles = {};  ///< obstacles; only with equal axes
 };
 
 }  // namespace awmr

@@ -1,5 +1,4 @@
-/// The files of print figures: one CSV per figure, figures.json and plot.py. Private to this
-/// folder.
+/// Text of the files of print figures: one CSV file per figure, and figures.json. Private to report/.
 #pragma once
 
 #include <string>
@@ -10,12 +9,12 @@
 
 namespace awmr {
 
-/// Columns panel, series (both counted from 0), name, x, y, low, high; one row per point. Errors
-/// (input): a number that is not finite; the message names the series and the figure.
+/// Text of the CSV file of a figure: one row per point with the columns panel, series (both from 0),
+/// name, x, y, low, high. Error (input) if a number is not finite; it names series and figure.
 Result<std::string> figure_csv(const Figure& figure);
 
-/// figures.json: names, axes, panels, series with their shapes and roles; no numbers of the CSV
-/// files.
+/// Text of figures.json: names, axes, panels, and series with their shapes and roles, without the
+/// numbers of the CSV files.
 std::string figures_text(const std::vector<Figure>& figures);
 
 }  // namespace awmr

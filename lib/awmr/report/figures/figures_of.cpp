@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMostNameBytes = 100;
 
-/// Numbers duplicate names: path_a, path_a_2.
+/// Makes equal names unique by a number: path_a, path_a_2.
 void number_equal_names(std::vector<Figure>& figures) {
   std::set<std::string> taken;
   for (Figure& figure : figures) {
@@ -20,7 +20,7 @@ void number_equal_names(std::vector<Figure>& figures) {
   }
 }
 
-/// Errors (input): the file does not have awmr's format.
+/// Calls `add` for the data of a file. Error (input) if the file does not have awmr's format.
 Status add_from_file(void (*add)(const Json&, FiguresOfResults&), const std::string& file,
                      const Json& data, FiguresOfResults& all) {
   try {

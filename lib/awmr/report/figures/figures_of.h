@@ -1,4 +1,4 @@
-/// Creates all figures that the results permit. Private to this folder.
+/// Makes all print figures for which the results have data. Private to report/.
 #pragma once
 
 #include <string>
@@ -9,16 +9,17 @@
 
 namespace awmr {
 
+/// The figures, and those that cannot be made.
 struct FiguresOfResults {
   std::vector<Figure> figures = {};       ///< names are unique
   std::vector<std::string> lacking = {};  ///< missing figures and the reasons, one sentence each
 };
 
-/// Identification, logs, tuning, runs, comparison, as far as the data have them. Errors (input):
-/// validation.json, gains.json or comparison.json does not have awmr's format.
+/// Makes the figures of identification, logs, tuning, runs and comparison, as far as there are data.
+/// Errors (input): validation.json, gains.json or comparison.json does not have awmr's format.
 Result<FiguresOfResults> figures_of(const ReportData& data);
 
-// Each function appends figures of one kind.
+// Each of these functions adds the figures of one kind.
 void add_identification_figures(const Model& model, FiguresOfResults& all);
 /// Throws Json::exception if validation.json does not have awmr's format.
 void add_log_figures(const Json& data, FiguresOfResults& all);
@@ -28,8 +29,8 @@ void add_run_figures(const Json& data, FiguresOfResults& all);
 /// Throws Json::exception if comparison.json does not have awmr's format.
 void add_comparison_figures(const Json& data, FiguresOfResults& all);
 
-/// KIND_NAME, reduced to characters that are valid in file names on every system: letters, digits,
-/// - and _; at most 100 bytes.
+/// Returns "KIND_NAME" with NAME limited to 100 bytes. All characters except letters, digits, - and _
+/// are replaced by _, so that the name is valid in file names on every system.
 std::string figure_name(const std::string& kind, const std::string& name);
 
 }  // namespace awmr

@@ -9,7 +9,7 @@
 namespace awmr {
 namespace {
 
-/// Names for the figures of one kind of trial.
+/// Names and axes for the figures of one kind of trial.
 struct KindWords {
   TrialKind kind;
   const char* name;        ///< in file names
@@ -25,7 +25,7 @@ const std::vector<KindWords>& kinds() {
   return kKinds;
 }
 
-/// Adds the rows of the fit without and with a warning; empty series are omitted.
+/// Adds the measured rows as two series: rows without and with a warning. Empty series are left out.
 void add_measured(const Model& model, const DrawnFit& fit, std::vector<Series>& series) {
   const std::vector<bool> doubtful = doubtful_trials(model);
   Series good{.name = "measured", .shape = SeriesShape::kPoints, .role = Role::kMeasured};

@@ -9,7 +9,7 @@
 namespace awmr {
 namespace {
 
-/// A channel of validation.json, with the unit for drawing.
+/// A channel of validation.json, with the axis on which it is drawn and the factor from SI to its unit.
 struct ChannelAxis {
   std::string_view channel;
   const char* quantity;
@@ -36,7 +36,7 @@ Series channel_series(const Json& series, const char* key, Role role, double per
   return one;
 }
 
-/// One panel per channel; none for a log validated by an older version.
+/// Figure of a log with one panel per channel. It has no panels if an older version validated the log.
 Figure log_figure(const Json& log) {
   const std::string file = log.at("file");
   Figure figure{.name = figure_name("log", std::filesystem::path(file).stem().string()),
@@ -69,7 +69,8 @@ void add_log_figures(const Json& data, FiguresOfResults& all) {
     }
   }
   if (all.figures.size() > before) return;
-  all.lacking.push_back("log: validation.json has no log, or was made by a version without series");
+  all.lacking.push_back(
+      "log: there is no validation.json with a log, or an older version made it without series");
 }
 
 }  // namespace awmr

@@ -7,7 +7,7 @@
 namespace awmr {
 namespace {
 
-/// Role of the mode in a run's name.
+/// Role of a series for the yaw-control mode of a run.
 Role role_of_mode(const Json& run) {
   static const std::map<std::string, Role> kRoles{{"differential", Role::kDifferential},
                                                   {"steering", Role::kSteering},
@@ -22,7 +22,7 @@ struct ScenarioRuns {
   Json scenario;
 };
 
-/// By scenario, the runs with the tuned gains; if there are none, those with the paper's.
+/// For each scenario the runs with the tuned gains or, if there are none, with the paper's gains.
 std::vector<ScenarioRuns> runs_by_scenario(const Json& data) {
   std::map<std::string, std::map<std::string, std::vector<const Json*>>> by_gains;
   for (const Json& run : data["runs"]) {
@@ -60,8 +60,8 @@ Series reference_of(const Json& run, const char* y) {
           .y = column(run, y)};
 }
 
-/// The reference heading, shifted by whole turns to be nearest to the driven heading: headings are
-/// continuous, references are not.
+/// The reference heading, shifted by whole turns to be nearest to the heading of the run, because the
+/// heading is continuous and the reference is not.
 Series heading_reference_of(const Json& run) {
   Series reference = reference_of(run, "psi_ref_deg");
   const std::vector<double> psi_deg = column(run, "psi_deg");
@@ -71,7 +71,7 @@ Series heading_reference_of(const Json& run) {
   return reference;
 }
 
-/// One signal of all runs over time.
+/// Panel with one signal of all runs over time.
 Panel panel_of(const ScenarioRuns& one, const char* signal, Axis y) {
   Panel panel{.y = std::move(y), .series = {}};
   for (const Json* run : one.runs) panel.series.push_back(line_of(*run, "t_s", signal));
@@ -86,8 +86,8 @@ Figure figure_over_time(const ScenarioRuns& one, const char* kind, const std::st
           .panels = std::move(panels)};
 }
 
-/// Heading references of the scenario are the same for every run. With guidance, each run has its
-/// own reference, in a separate panel.
+/// Figure of the heading. If the scenario commands headings, all runs have the same reference and share
+/// one panel. With guidance, each run has its own reference and its own panel.
 Figure heading_figure(const ScenarioRuns& one) {
   const Axis psi{"ψ", "deg"};
   std::vector<Panel> panels;
@@ -111,7 +111,7 @@ Figure speed_figure(const ScenarioRuns& one) {
   return figure_over_time(one, "speed", "Speed and its reference", {std::move(panel)});
 }
 
-/// Waypoints, or the points of a line.
+/// The waypoints of a scenario, or the points of its line.
 Series path_points(const Json& scenario) {
   Series points{.name = "", .shape = SeriesShape::kPoints, .role = Role::kReference};
   if (!scenario.contains("guidance")) return points;

@@ -5,7 +5,7 @@
 namespace awmr {
 namespace {
 
-/// The best objective so far as a step curve, up to the last evaluation.
+/// Step curve of the best objective so far, up to the last evaluation.
 Series stairs_of(const Json& history, const char* name, Role role) {
   Series stairs{.name = name, .shape = SeriesShape::kLine, .role = role};
   for (const Json& step : history.at("best")) {
@@ -23,7 +23,7 @@ Series stairs_of(const Json& history, const char* name, Role role) {
   return stairs;
 }
 
-/// The searches whose history is in the gains.
+/// Curves of the searches whose history is in gains.json.
 std::vector<Series> searches_of(const Json& gains) {
   std::vector<Series> all;
   const auto& search = gains.at("search").get_ref<const Json::object_t&>();
@@ -38,7 +38,7 @@ std::vector<Series> searches_of(const Json& gains) {
   return all;
 }
 
-/// Name of the gains whose objective is 1. Older files without `source` use the paper's gains.
+/// Name of the baseline, whose objective is 1. In older files without `source` it is the paper's gains.
 std::string baseline_name(const Json& gains) {
   const bool is_named = gains.contains("baseline") && gains.at("baseline").contains("source");
   return is_named && gains.at("baseline").at("source") != "paper" ? "baseline"
@@ -65,7 +65,8 @@ void add_tuning_figures(const Json& data, FiguresOfResults& all) {
                       .y = {1.0, 1.0}});
   all.figures.push_back(
       {.name = "tuning_history",
-       .meaning = "Best objective of the search so far, by evaluation; the baseline's is 1",
+       .meaning = "Best objective of the search so far over the number of evaluations; that of the "
+                  "baseline is 1",
        .x = {"evaluation"},
        .panels = {{.y = {"objective, best so far"}, .series = searches}}});
 }

@@ -1,6 +1,6 @@
-# The interactive part of the page: simulation and constraints, compiled to WebAssembly, compressed
-# and written as text into ${AWMR_LIVE_SOURCE}. Without AWMR_LIVE_PAGE or the toolchain the text is
-# empty, and the page reports that it has no sliders.
+# Builds the interactive part of the page: simulation and constraints are compiled to WebAssembly,
+# compressed and written as text into ${AWMR_LIVE_SOURCE}. If AWMR_LIVE_PAGE is off or the toolchain is
+# missing, the text is empty, and the page reports that it has no sliders.
 set(live_directory ${CMAKE_CURRENT_BINARY_DIR}/live)
 set(AWMR_LIVE_SOURCE ${live_directory}/live_wasm.cpp)
 file(MAKE_DIRECTORY ${live_directory})
@@ -23,7 +23,8 @@ if(NOT works EQUAL 0)
   return()
 endif()
 
-# Two objects: -ffp-contract=off as everywhere; no exception leaves these sources.
+# Flags of both objects. -ffp-contract=off as in the whole project; -fno-exceptions because these sources
+# throw none.
 set(flags --target=wasm32-wasi -std=c++20 -Oz -ffp-contract=off -ffunction-sections -fno-exceptions -fno-rtti -DNDEBUG
   -DFMT_HEADER_ONLY -isystem /usr/include/eigen3 -I${PROJECT_SOURCE_DIR}/lib)
 set(text "")
@@ -40,7 +41,8 @@ foreach(source ${live_directory}/simulation.cpp ${PROJECT_SOURCE_DIR}/lib/awmr/c
   set(object ${live_directory}/${name}.o)
   set(more)
   if(name STREQUAL random)
-    # Random123 knows no wasm32, but what it does for a small ARM holds; its arrays throw, which nothing here lets them.
+    # Random123 does not support wasm32, but its code for small ARM processors works. Its arrays contain throw
+    # statements that are never reached.
     set(more -fexceptions -fignore-exceptions -D__arm__)
   endif()
   add_custom_command(OUTPUT ${object} DEPENDS ${source} DEPFILE ${object}.d

@@ -1,9 +1,10 @@
-/// The interactive part of the page, compiled to WebAssembly: one run and the constraints for the
-/// gains set by the reader. The command line uses the same sources for simulation and tuning.
+/// Interactive part of the report page, compiled to WebAssembly: simulates one run and computes the
+/// constraints for the gains of the sliders. The command line uses the same simulation and tuning
+/// sources.
 ///
-/// The page writes the setup's numbers to live_setup(), calls live_begin(), then live_run() for
-/// each position of its sliders. It reads live_rows() rows of kColumns doubles at live_table() and
-/// live_size() bytes of JSON at live_text().
+/// The page writes the numbers of the setup to the array of live_setup() and calls live_begin(). For
+/// each position of the sliders it calls live_run(), then reads live_rows() rows of kColumns doubles
+/// at live_table() and live_size() bytes of JSON at live_text().
 #include <fmt/format.h>
 
 #include <optional>
@@ -77,10 +78,10 @@ std::string metrics_text(const Metrics& m) {
   return json;
 }
 
-/// JSON has no infinity.
+/// Text of a number; "null" for infinity and NaN, which JSON does not have.
 std::string number(double x) { return x - x == 0.0 ? fmt::format("{}", x) : "null"; }
 
-/// Assumes that names and meanings have no quotes or backslashes.
+/// JSON of the constraints. Precondition: names and meanings have no quotes or backslashes.
 std::string constraints_text(const std::vector<ConstraintReport>& constraints) {
   std::string json;
   for (const ConstraintReport& c : constraints) {
@@ -100,7 +101,7 @@ using namespace awmr;
 
 #define AWMR_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
-/// Allocates space for the setup's numbers.
+/// Returns an array for `count` numbers of the setup.
 AWMR_EXPORT(live_setup) double* live_setup(int count) {
   numbers.assign(static_cast<std::size_t>(count), 0.0);
   return numbers.data();
@@ -111,8 +112,9 @@ AWMR_EXPORT(live_begin) void live_begin() {
   visit_numbers(setup, [&](double& x) { x = numbers[next++]; });
 }
 
-/// mode: as YawMode. mass and friction: factors of the plant relative to the model of the
-/// controller. observer_radps: 0 without an observer. Returns true if the run was completed.
+/// Simulates one run. mode: as YawMode. mass and friction: factors on the plant, not on the model that
+/// the controller uses. observer_radps: bandwidth, 0 without an observer. Returns false if the run
+/// diverges.
 AWMR_EXPORT(live_run)
 bool live_run(double lambda, double mu, double epsilon, double speed_mu, double speed_epsilon,
               double observer_radps, int mode, double sample_time_s, double mass, double friction,

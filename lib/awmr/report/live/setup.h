@@ -1,5 +1,6 @@
-/// Input of the interactive part of the page: written by the program from model.json and
-/// gains.json, read by the same code compiled to WebAssembly. Private to the report.
+/// Input of the interactive part of the page, as a list of numbers. The program writes the list from
+/// model.json and gains.json, and the part (live.cpp, WebAssembly) reads it with the same code. Private
+/// to report/.
 #pragma once
 
 #include <vector>
@@ -9,13 +10,13 @@
 
 namespace awmr {
 
-/// A model, its vehicle's limits, a heading scenario, and the inputs of the constraints.
+/// The inputs of the constraints, with plant and limits of the vehicle, and a heading scenario.
 struct LiveSetup {
-  ConstraintContext context;  ///< its plant is the model's
+  ConstraintContext context;  ///< its plant is the nominal one of the model
   double allocation_form = 0.0;
-  double observer_yaw_max_m = 0.0;  ///< for an observer tuned with the gains
+  double observer_yaw_max_m = 0.0;  ///< limit of the observer, if one was tuned with the gains
   double observer_surge_max = 0.0;
-  double speed_mps = 0.0;  ///< of the scenario
+  double speed_mps = 0.0;  ///< u_d of the scenario
   double duration_s = 0.0;
   State<double> initial{};
   std::vector<HeadingStep> steps;
@@ -57,7 +58,7 @@ void visit_list(std::vector<T>& list, Visit&& visit, VisitElement&& visit_elemen
   for (T& element : list) visit_element(element, visit);
 }
 
-/// Visits all numbers of the setup in a fixed order, for writing and for reading: visit(double&).
+/// Calls visit(double&) for all numbers of the setup in a fixed order, to write or to read them.
 template <class Visit>
 void visit_numbers(LiveSetup& setup, Visit&& visit) {
   ConstraintContext& c = setup.context;
