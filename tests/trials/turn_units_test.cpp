@@ -122,7 +122,7 @@ TEST(TurnUnits, TheBoundsAreTheDocumentedOnes) {
   // u(0.6) = 2 m/s lies halfway between two runs; l_f = 0.35 m: up to three times u tan(d)/l_f = 6.24 rad/s.
   const double rolled = 2.0 * tan20 / 0.35;
   EXPECT_EQ(steered(2.95 * rolled), "");
-  EXPECT_THAT(steered(3.05 * rolled), HasSubstr("2 m/s by the surge runs"));
+  EXPECT_THAT(steered(3.05 * rolled), HasSubstr("2 m/s of the surge runs"));
   EXPECT_EQ(steered(0.011 * rolled), "");
   EXPECT_THAT(steered(0.009 * rolled), HasSubstr("*57.29578"));
 
@@ -134,7 +134,7 @@ TEST(TurnUnits, TheBoundsAreTheDocumentedOnes) {
   };
   // (2 - -0.5)/(2 0.36) = 3.47 rad/s, of which four times are possible.
   EXPECT_EQ(by_sides(3.95 * 2.5 / 0.72), "");
-  EXPECT_THAT(by_sides(4.05 * 2.5 / 0.72), HasSubstr("2.5 m/s apart"));
+  EXPECT_THAT(by_sides(4.05 * 2.5 / 0.72), HasSubstr("differ by 2.5 m/s"));
 
   const auto without = [&](double rate) {
     return refusal_of(paper_vehicle(), "",

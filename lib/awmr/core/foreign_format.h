@@ -1,5 +1,5 @@
-/// Recognises files that are not CSV, so that one error names the format instead of a fault per row.
-/// Private to the library.
+/// Recognises files that are not CSV, so that one error names the format instead of a fault per
+/// row. Private to the library.
 #pragma once
 
 #include <set>
@@ -11,8 +11,8 @@
 
 namespace awmr {
 
-/// The text of a file, without its byte order mark. Errors: it is empty, of a known binary format or
-/// not UTF-8.
+/// The text of a file, without its byte order mark. Errors: it is empty, of a known binary format
+/// or not UTF-8.
 Result<std::string_view> text_of(std::string_view bytes, const std::string& file);
 
 /// Errors: the next line begins JSON, HTML or XML.

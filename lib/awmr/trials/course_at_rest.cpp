@@ -10,9 +10,9 @@
 namespace awmr {
 namespace {
 
-/// Largest speed at rest: this, or a tenth of the highest speed if that is smaller.
+/// Below this speed, or below a tenth of the highest speed if that is smaller, the vehicle rests.
 constexpr double kRest_mps = 0.1;
-/// Smallest change from one reading to the next that neither noise nor a turn on the spot causes.
+/// A larger change from one reading to the next is a jump, not noise or a turn on the spot.
 constexpr double kFar_rad = 20.0 * pi<double>() / 180.0;
 
 double difference(double a_rad, double b_rad) { return std::abs(wrap_angle(a_rad - b_rad)); }
