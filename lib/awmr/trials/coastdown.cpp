@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Minimum for the initial speed, the deceleration and one row to check them. The fit decides
-/// whether all curves together identify the parameters.
+/// Minimum number of rows of a curve: two determine the initial speed and the deceleration, one
+/// checks them.
 constexpr std::size_t kShortestCurve = 3;
 
 bool is_curve(const TrialReader& reader) { return reader.has("t_s") && reader.has("speed_mps"); }
@@ -20,7 +20,7 @@ bool is_stop_time(const TrialReader& reader) {
   return reader.has("initial_speed_mps") && reader.has("stop_time_s");
 }
 
-/// One row per speed bin, as in road-load measurements.
+/// True if the file has one row per speed bin, as road-load measurements do.
 bool is_binned(const TrialReader& reader) {
   return reader.has("from_mps") && reader.has("to_mps") && reader.has("elapsed_s");
 }
@@ -44,7 +44,8 @@ void check_coastdown_columns(TrialReader& reader) {
   }
   if (is_curve(reader) || is_stop_time(reader) || is_binned(reader)) return;
   if (reader.has("from_mps") || reader.has("to_mps")) {
-    reader.header_fault(ErrorCode::kMissing, "speed bins need from_mps, to_mps and elapsed_s");
+    reader.header_fault(ErrorCode::kMissing,
+                        "speed bins need from_mps, to_mps and elapsed_s; add the missing ones");
     return;
   }
   const bool meant_curve = reader.has("t_s") || reader.has("speed_mps");
@@ -83,7 +84,7 @@ TrialSet<StopTimeRow> read_stop_times(TrialReader& reader, std::vector<Finding>&
     }
   }
   set.set_aside = static_cast<int>(set_aside.size());
-  note_rows_set_aside(reader, set_aside, "a coast-down that begins at rest shows nothing of m'",
+  note_rows_set_aside(reader, set_aside, "a coast-down from rest does not determine m'",
                       findings);
   find_repeated_rows(reader, kept,
                      {.settings = {"initial_speed_mps"}, .timed = "stop_time_s", .scatter = 0.01},
@@ -109,9 +110,9 @@ void check_length(TrialReader& reader, const std::vector<CoastCurve>& curves) {
   }
 }
 
-/// Converts times per speed bin to a curve: the speeds are the ends of the bins, the times the sums
-/// of their durations. A new run begins if `run` changes, or with a bin that does not start at the
-/// end of the previous one.
+/// Converts speed bins to curves. The speeds of a curve are the limits of its bins, the times the
+/// sums of their durations. A new curve begins if `run` changes, or if a bin does not begin at the
+/// speed at which the one before ends.
 std::vector<CoastCurve> read_bins(TrialReader& reader) {
   std::vector<CoastCurve> curves;
   std::optional<double> run;
@@ -140,7 +141,8 @@ std::vector<CoastCurve> read_bins(TrialReader& reader) {
   return curves;
 }
 
-/// A run is a contiguous block with one value of `run`; without that column the file is one run.
+/// Reads curves. Each contiguous block with one value of `run` is a curve; without that column the
+/// file is one curve.
 std::vector<CoastCurve> read_curves(TrialReader& reader) {
   std::vector<CoastCurve> curves;
   std::optional<double> run;

@@ -30,8 +30,8 @@ Result<std::vector<fs::path>> files_of(const fs::path& path) {
     if (!paths.empty()) return paths;
   }
   return input_error(ErrorCode::kMissing, path.string(),
-                     "a log in a directory is a bag (.db3) or tables (.csv) with a topic each; "
-                     "there is neither");
+                     "this directory has neither a bag (.db3) nor tables (.csv, one topic each); "
+                     "give a directory with one of them, or a file");
 }
 
 }  // namespace awmr

@@ -52,7 +52,7 @@ std::vector<Piece> odometry() {
           {Part::kSkipped36, ""}};
 }
 
-/// From the public message definitions. Covariances are skipped.
+/// Supported types, as in the public message definitions. Covariances are skipped.
 const std::array<MessageType, 7>& types() {
   static const std::array<MessageType, 7> kTypes{
       {{"std_msgs/msg/Float32", {{Part::kFloat32, "data"}}},

@@ -21,7 +21,7 @@ const Rate kTurningRate{.printed_column = "yaw_rate_radps",
                         .per_amount = 2.0 * pi<double>(),
                         .code = "yaw-rate-mismatch"};
 
-/// l_f and the steering angle are known to about 1 %; F' is set exactly.
+/// Relative error of the computed tau_turn: l_f and the steering angle are known to about 1 %.
 constexpr double kGeometryError = 0.01;
 
 void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
@@ -40,9 +40,9 @@ void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
   }
 }
 
-/// Cause of the turn in a row, as given in the file.
+/// What turns the vehicle in a row of the file: steering, or a force difference.
 struct Turn {
-  double left = 0.0;        ///< sign of the left-right term: positive in a turn to the left
+  double left = 0.0;        ///< steering_deg or F'R - F'L: positive in a turn to the left
   std::string in_words;     ///< "steering_deg 5", for messages
   double computed_m = 0.0;  ///< tau_turn computed from the forces, m, >= 0
   std::string equation;     ///< equation used
@@ -54,7 +54,7 @@ struct Turn {
   std::optional<SideForces<double>> sides = {};
 };
 
-/// Adds a fault if the sign is not that of the turn; counted turns have no sign.
+/// Adds a fault if `value` has not the sign of the turn.
 void check_side(TrialReader& reader, std::size_t row, const char* column, double value,
                 const Turn& turn) {
   if (value * turn.left >= 0.0) return;
@@ -64,7 +64,7 @@ void check_side(TrialReader& reader, std::size_t row, const char* column, double
                            value, turn.in_words));
 }
 
-/// Magnitude of the yaw rate.
+/// Magnitude of yaw_rate_radps in the row; empty without a value.
 std::optional<double> printed_yaw_rate(TrialReader& reader, std::size_t row, const Turn& turn) {
   const auto rate = reader.cell(row, "yaw_rate_radps");
   if (!rate) return std::nullopt;
@@ -81,8 +81,8 @@ void check_stop(const TrialReader& reader, std::size_t row, const Vehicle& vehic
                   steering_deg, vehicle.steering_max_deg)));
 }
 
-/// tau_turn as printed, else as computed. The paper heads its column N m; over F_max, as in all of
-/// awmr, it is in m.
+/// Magnitude of tau_turn, m: the value in the file, else the computed one. (The paper's table gives
+/// the unit N m; divided by F_max, as everywhere in awmr, the unit is m.)
 double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
                    std::vector<Finding>& findings) {
   const auto cell = reader.cell(row, "tau_turn");
@@ -99,7 +99,7 @@ double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
     findings.push_back(reader.finding(
         row, Severity::kWarning, "tau-turn-mismatch",
         fmt::format(
-            "tau_turn is {}, but {} with {} {} makes {:.4g}; the printed value {} is used{}",
+            "tau_turn is {}, but {} with {} {} gives {:.4g}; the printed value {} is used{}",
             printed, turn.equation, turn.parameter, turn.length_m, turn.computed_m, printed,
             implied)));
   }
@@ -217,8 +217,8 @@ std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
   return std::nullopt;
 }
 
-/// A run of a vehicle without steering. Empty on a fault; check_sides_given() reports rows without
-/// forces.
+/// A run of a vehicle without steering. Empty if a cell is missing; check_sides_given() reports
+/// missing forces.
 std::optional<Turn> by_sides_alone(TrialReader& reader, std::size_t row, const Vehicle& vehicle) {
   if (!reader.cell(row, "force_left") || !reader.cell(row, "force_right")) return std::nullopt;
   if (!has_rate(reader, row)) return std::nullopt;
@@ -241,8 +241,8 @@ void check_sides_given(TrialReader& reader) {
                            without.size(), reader.table().rows(), lines_of(reader, without)));
 }
 
-/// The row with its moment and its yaw rate, both magnitudes: g3 is odd, so a turn to the right is
-/// mirrored to the left.
+/// Reads one row. Moment and yaw rate are magnitudes: a turn to the right is stored as its mirror
+/// image, because g3 is odd. Empty on a fault.
 std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
                                    Preference preference, std::vector<Finding>& findings) {
   const auto turn = vehicle.has_steering() ? by_steering_or_sides(reader, row, vehicle)
@@ -263,7 +263,8 @@ std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const V
                     .sides = turn->sides};
 }
 
-/// If a vehicle with steering has only differential turns in its table, g3 is fitted to these.
+/// If the table of a vehicle with steering has only differential turns, moves them to `rows`, so
+/// that g3 is fitted to them. Adds the warning `turned-by-sides`.
 void take_sides_alone(TrialSet<TurningRow>& set, std::vector<Finding>& findings) {
   if (!set.rows.empty() || set.by_sides.empty()) return;
   set.rows = std::exchange(set.by_sides, {});
@@ -312,7 +313,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   }
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   if (set.rows.empty()) {
-    // Without steered turns the static tyre moment cannot be separated from the resistance.
+    // The moment that the standing tyres hold is only evaluated if there are turns to compare with.
     set.standing.clear();
     set_aside.insert(set_aside.end(), standing.begin(), standing.end());
     std::sort(set_aside.begin(), set_aside.end());
@@ -320,7 +321,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   take_sides_alone(set, findings);
   set.set_aside = static_cast<int>(set_aside.size());
   note_rows_set_aside(reader, set_aside,
-                      "without yaw moment or yaw rate, a run shows nothing of tau_turn = a3 r^b3",
+                      "a run without yaw moment or yaw rate does not determine tau_turn = a3 r^b3",
                       findings);
   find_repeated_rows(reader, kept,
                      {.settings = {"steering_deg", "wheel_force", "force_left", "force_right",
