@@ -1,4 +1,4 @@
-/// Files compiled into the program as text by lib/cmake/Embed.cmake.
+/// A file that lib/cmake/Embed.cmake compiled into the program.
 #pragma once
 
 #include <string_view>

@@ -1,11 +1,12 @@
-/// Codes of errors. Codes are stable; the words of a message can change.
+/// Codes of errors. A code stays the same in later versions; the text of its message may change.
 #pragma once
 
 #include "awmr/core/name_table.h"
 
 namespace awmr {
 
-/// The cause of an error. `awmr explain CODE` prints each one's meaning and remedy (FINDINGS.md).
+/// The cause of an error. `awmr explain CODE` prints its meaning and remedy
+/// (apps/awmr/FINDINGS.md).
 enum class ErrorCode {
   // A name, a value or a set of options.
   kMissing,

@@ -64,9 +64,8 @@ void tell_of_scan(const Scan& scan, const std::string& file, AwlLog& log) {
                      })));
   }
   if (scan.truncated > 0) {
-    warn(
-        log, file, "log-truncated",
-        fmt::format("the file ends inside a row, whose {} bytes are not read", scan.truncated));
+    warn(log, file, "log-truncated",
+         fmt::format("the file ends inside a row, whose {} bytes are not read", scan.truncated));
   }
 }
 
@@ -166,10 +165,10 @@ Result<AwlLog> read_awl(std::string_view bytes, const std::string& file) {
   const std::vector<Place> rows =
       without_short_runs(usable_rows(bytes, scan, file, log), file, log);
   if (rows.empty()) {
-    return refusal(ErrorCode::kTooFewData,
-                   fmt::format("{}: none of the {} complete rows can be used{}", file,
-                               scan.rows.size(),
-                               log.findings.empty() ? "" : "; " + log.findings.back().message));
+    return refusal(
+        ErrorCode::kTooFewData,
+        fmt::format("{}: none of the {} complete rows can be used{}", file, scan.rows.size(),
+                    log.findings.empty() ? "" : "; " + log.findings.back().message));
   }
   fill_columns(bytes, scan.layout, rows, log);
   tell_of_resets(bytes, scan.layout, rows, file, log);

@@ -38,7 +38,7 @@ struct ColumnGuess {
   std::string column;      ///< awmr's column: "speed_mps"
   std::string expression;  ///< EXPRESSION over the file's columns, as parse_column() reads it
   Confidence confidence = Confidence::kUnsure;
-  std::string why;  ///< reason, for the user
+  std::string why;                   ///< reason, for the user
   std::vector<double> samples = {};  ///< first few values of the source column
 };
 

@@ -30,7 +30,7 @@ struct EvidenceWindow {
   double steering_rad = 0.0;     ///< mean steering input
   double tau_steering_m = 0.0;   ///< l_f (F'L + F'R) sin d_r, as in allocation.h
   double tau_diff_m = 0.0;       ///< d (F'R - F'L)(cos d_r + 1), as in allocation.h
-  double span_s = 0.0;  ///< length of the window
+  double span_s = 0.0;           ///< length of the window
 };
 
 /// Input of every check of a log: the log, its vehicle and its windows.

@@ -34,7 +34,7 @@ struct RepeatRule {
   std::vector<std::string_view> settings;
   std::string_view timed = "elapsed_s";  ///< column with the reading
   std::string_view printed = {};         ///< column used if rows lack `timed`; may be empty
-  double scatter = 0.003;         ///< relative standard deviation of the reading
+  double scatter = 0.003;                ///< relative standard deviation of the reading
 };
 
 /// Adds the warning `repeated-rows` if more of the `rows` repeat an earlier one than chance

@@ -158,10 +158,9 @@ Result<Signals> read_rosbag(std::string_view bytes, const std::string& file, con
     AWMR_RETURN_IF_ERROR(read_messages(database.get(), bag, numbers, file, signals.topics.back()));
   }
   if (!unread.empty()) {
-    signals.notes.push_back(
-        {0, "topics-unread",
-         "these topics are not read, because their types are not supported: " +
-             printable(shortened(unread, 500))});
+    signals.notes.push_back({0, "topics-unread",
+                             "these topics are not read, because their types are not supported: " +
+                                 printable(shortened(unread, 500))});
   }
   signals.notes.push_back({0, "bag-time", "t_s is the time at which the bag received a message"});
   return signals;

@@ -13,7 +13,7 @@ namespace awmr {
 /// The tables of one vehicle that the check of another table also uses.
 struct Tables {
   const Vehicle& vehicle;
-  const std::optional<TrialSet<SurgeRow>>& surge;  ///< limits the speed; decides the force unit
+  const std::optional<TrialSet<SurgeRow>>& surge;      ///< limits the speed; decides the force unit
   const std::optional<TrialSet<TurningRow>>& turning;  ///< decides the force unit
 };
 

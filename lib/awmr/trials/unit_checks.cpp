@@ -356,12 +356,12 @@ std::optional<Contradiction> check_speed(const Evidence& evidence) {
                          compared + fmt::format(": the speed looks like {}", unit->words),
                          scaled_mapping(evidence, "speed_mps", unit->factor)};
   }
-  return Contradiction{"speed_mps",
-                       compared + ", which no known unit explains" +
-                           words_of_wheel(ratio->ratio, evidence.vehicle),
-                       "",
-                       "compare the units of speed_mps, x_m, y_m and t_s with the sensors' data "
-                       "sheets"};
+  return Contradiction{
+      "speed_mps",
+      compared + ", which no known unit explains" + words_of_wheel(ratio->ratio, evidence.vehicle),
+      "",
+      "compare the units of speed_mps, x_m, y_m and t_s with the sensors' data "
+      "sheets"};
 }
 
 /// Detects a speed that is too large for a wheeled vehicle of this length, in logs without
@@ -423,9 +423,8 @@ std::optional<Contradiction> check_servo(const Evidence& evidence, const std::st
   const double low = degrees(*low_rad);
   const double high = degrees(*high_rad);
   const double stop_deg = evidence.vehicle.steering_max_deg;
-  const std::string reads =
-      fmt::format("goes from {:.4g} to {:.4g} deg, while the stop is at {:g} deg", low, high,
-                  stop_deg);
+  const std::string reads = fmt::format(
+      "goes from {:.4g} to {:.4g} deg, while the stop is at {:g} deg", low, high, stop_deg);
   // Calibration and trim may move both ends slightly beyond the stop.
   constexpr double kBeyondStop = 1.2;
   for (const double centre : {90.0, 180.0}) {
