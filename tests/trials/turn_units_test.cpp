@@ -149,7 +149,7 @@ TEST(TurnUnits, TheBoundsAreTheDocumentedOnes) {
                       fmt::format("force_left,force_right,yaw_rate_radps\n-0.2,0.6,{}\n", rate));
   };
   EXPECT_EQ(sides_without(24.9), "");
-  EXPECT_THAT(sides_without(25.1), HasSubstr("more than 25 rad/s"));
+  EXPECT_THAT(sides_without(25.1), HasSubstr("faster than 25 rad/s"));
 }
 
 /// 200 vehicles of each drive, with and without surge runs: 1200 campaigns.
