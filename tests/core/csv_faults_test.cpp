@@ -86,10 +86,11 @@ TEST(CsvFaults, DuplicateColumnIsPlacedAtTheSecond) {
 }
 
 TEST(CsvFaults, RaggedRows) {
-  EXPECT_THAT(faults("tau_speed,speed_mps\n1\n1,2,3\n1,2,\n"),
-              ElementsAre(AllOf(StartsWith("a.csv:2:1: "), HasSubstr("1 cells, the header 2")),
-                          AllOf(StartsWith("a.csv:3:5: "), HasSubstr("3 cells, the header 2")),
-                          StartsWith("a.csv:4:5: ")));
+  EXPECT_THAT(
+      faults("tau_speed,speed_mps\n1\n1,2,3\n1,2,\n"),
+      ElementsAre(AllOf(StartsWith("a.csv:2:1: "), HasSubstr("1 cells, but the header has 2")),
+                  AllOf(StartsWith("a.csv:3:5: "), HasSubstr("3 cells, but the header has 2")),
+                  StartsWith("a.csv:4:5: ")));
 }
 
 TEST(CsvFaults, DecimalCommasInACommaFile) {

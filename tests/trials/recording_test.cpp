@@ -49,8 +49,8 @@ struct Damaged {
 };
 
 TEST(Recording, KeepsDamagedLinesAsCommentsAtTheirPlace) {
-  const Damaged cases[] = {{"0.3,0.1,0.1", "it has 3 cells, the header 5"},
-                           {"0.3,0.1,0.1,go,0.4,9,9", "it has 7 cells, the header 5"},
+  const Damaged cases[] = {{"0.3,0.1,0.1", "it has 3 cells, but the header has 5"},
+                           {"0.3,0.1,0.1,go,0.4,9,9", "it has 7 cells, but the header has 5"},
                            {"0.3,0.1,0.1,go,0.0x4", "its cell speed_mps is \"0.0x4\""},
                            {"0.3,0.1,0.1,g\x01o,0.4", "control characters"},
                            {std::string("0.3,0.1,0.1,g\0o,0.4", 19), "control characters"},

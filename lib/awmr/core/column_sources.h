@@ -27,7 +27,7 @@ struct ColumnSource {
 /// A fault of a header.
 struct HeaderFault {
   ErrorCode code;
-  std::optional<std::size_t> cell;  ///< none: the header as a whole
+  std::optional<std::size_t> cell;  ///< index of the faulty cell; none: the whole header
   std::string message;
 };
 

@@ -41,7 +41,7 @@ struct CsvNote {
   std::string message;
 };
 
-/// The requested numeric columns, and the position of each cell.
+/// Table of the requested columns: their numbers, and the place of each cell in the file.
 class CsvTable {
  public:
   struct Column {

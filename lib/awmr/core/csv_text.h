@@ -15,10 +15,10 @@ Result<CsvTable> read_csv_text(std::string_view bytes, const std::string& file,
                                std::span<const CsvColumn> columns,
                                std::span<const ColumnMapping> mappings = {});
 
-/// The beginning of a table.
+/// Header and first rows of a table, as text.
 struct CsvHead {
   std::vector<std::string> names;
-  std::vector<std::vector<std::string>> rows;  ///< unparsed cells
+  std::vector<std::vector<std::string>> rows;  ///< cells, by row
   char delimiter = ',';
 };
 

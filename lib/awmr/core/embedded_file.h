@@ -6,7 +6,7 @@
 namespace awmr {
 
 struct EmbeddedFile {
-  std::string_view path;  ///< relative, with '/'
+  std::string_view path;  ///< relative path with '/' as separator
   std::string_view bytes;
 };
 

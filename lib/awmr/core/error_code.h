@@ -8,7 +8,7 @@ namespace awmr {
 /// The cause of an error. `awmr explain CODE` prints its meaning and remedy
 /// (apps/awmr/FINDINGS.md).
 enum class ErrorCode {
-  // A name, a value or a set of options.
+  // Wrong names, values and options.
   kMissing,
   kUnknownName,
   kGivenTwice,
@@ -24,7 +24,7 @@ enum class ErrorCode {
   kUsage,
   kContradiction,
   kImplausible,
-  // A file or a program.
+  // Files and programs that cannot be used.
   kCannotRead,
   kCannotWrite,
   kWouldOverwrite,
@@ -32,19 +32,19 @@ enum class ErrorCode {
   kBrokenFile,
   kStaleResult,
   kNotInstalled,
-  // A vehicle, a model or the trials.
+  // Vehicles, models and trials for which a command is not possible.
   kUnsupported,
   kTooFewData,
   kNotIdentified,
   kDiverges,
-  // Negative results.
+  // Negative results of commands that ran.
   kNoGains,
   kSlowReaching,
   kNoTable,
   kNotRecovered,
   kCompassUnusable,
   kNoAnswer,
-  // The program itself.
+  // Omitted faults, and internal errors of the program.
   kMoreFaults,
   kInternal,
 };

@@ -13,7 +13,7 @@ namespace awmr {
 
 /// A program to run.
 struct ProgramCall {
-  std::filesystem::path program;         ///< absolute, see find_program()
+  std::filesystem::path program;         ///< absolute path, as find_program() returns it
   std::vector<std::string> arguments;    ///< without the program name
   std::filesystem::path directory;       ///< working directory
   std::vector<std::string> environment;  ///< all of its variables, as "NAME=value"

@@ -162,7 +162,7 @@ std::set<std::string> differing(const std::vector<std::pair<std::string, std::st
   return names;
 }
 
-/// (name, hash) of each input.
+/// The inputs as (name, hash).
 std::vector<std::pair<std::string, std::string>> inputs_of(const Provenance& provenance) {
   std::vector<std::pair<std::string, std::string>> inputs;
   for (const InputFile& input : provenance.inputs) inputs.emplace_back(input.name, input.sha256);
@@ -193,7 +193,7 @@ Status write_part(const ShardKind& kind, const std::filesystem::path& directory,
                        return kind.files[i].check(text, file, part.shard_json);
                      }});
   }
-  // Last, because it has the hashes of the others.
+  // shard.json is written last, because it has the hashes of the other files.
   files.push_back({directory / kShardFile, part.shard_json,
                    [&](std::string_view text, const std::string& file) {
                      return check_json_object(text, file,

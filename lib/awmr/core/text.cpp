@@ -8,7 +8,7 @@ namespace awmr {
 namespace {
 
 struct Character {
-  std::uint32_t code = 0;  ///< Unicode
+  std::uint32_t code = 0;  ///< Unicode code point
   std::size_t bytes = 0;   ///< 0 if the text does not begin with UTF-8
 };
 

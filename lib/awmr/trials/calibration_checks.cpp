@@ -19,7 +19,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::size_t kFewestWindows = 15;
-constexpr double kSignificance = 5.0;  // standard errors
+constexpr double kSignificance = 5.0;  // smallest significant error, in standard errors
 constexpr double kLeastScale = 0.03;
 constexpr double kLeastOffset_rad = 0.0175;
 
@@ -139,7 +139,8 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
                    found->scatter};
 }
 
-/// Ratio of the heading's change to the integral of the yaw rate.
+/// Factor k between the change of heading and the integral of the yaw rate (calibration_checks.h).
+/// Empty if a channel is missing or with fewer than 15 windows.
 std::optional<Calibration> heading_over_rate(const DrivingLog& log) {
   if (!log[LogChannel::kHeading] || !log[LogChannel::kYawRate]) return std::nullopt;
   const std::vector<LogWindow> windows = calibration_windows(log);
@@ -194,7 +195,7 @@ std::optional<Finding> rate_mismatch(const DrivingLog& log,
   const auto scale = heading_over_rate(log);
   if (!scale || !is_off_one(*scale)) return std::nullopt;
   const std::string compared =
-      fmt::format("heading_deg turns {:.3f} +- {:.3f} times the integral of yaw_rate_radps",
+      fmt::format("heading_deg changes by {:.3f} +- {:.3f} times the integral of yaw_rate_radps",
                   scale->value, scale->std_error);
   const std::string rate = mapping_option(mappings, "yaw_rate_radps", scale->value);
   const std::string heading = mapping_option(mappings, "heading_deg", 1.0 / scale->value);
@@ -224,7 +225,7 @@ std::optional<Finding> speed_mismatch(const DrivingLog& log, const CourseFit& co
   if (!is_off_one(scale)) return std::nullopt;
   return scale_finding(
       log,
-      fmt::format("x_m and y_m move {:.3f} +- {:.3f} times the integral of speed_mps: the scale "
+      fmt::format("x_m and y_m move by {:.3f} +- {:.3f} times the integral of speed_mps: the scale "
                   "of the speed is wrong (wheel radius, gear, slip; map it with {}) or that of the "
                   "positions (map them with {} and {})",
                   scale.value, scale.std_error, mapping_option(mappings, "speed_mps", scale.value),

@@ -29,16 +29,16 @@ void check_coastdown_columns(TrialReader& reader) {
   if (is_binned(reader) && (is_curve(reader) || is_stop_time(reader))) {
     reader.header_fault(
         ErrorCode::kConflict,
-        fmt::format("speed bins (from_mps, to_mps, elapsed_s) and a curve or stop times: give "
-                    "two files, {} twice",
+        fmt::format("the file has both speed bins (from_mps, to_mps, elapsed_s) and a curve or "
+                    "stop times: put them into two files and give {} twice",
                     option_text("coastdown")));
     return;
   }
   if (is_curve(reader) && is_stop_time(reader)) {
     reader.header_fault(
         ErrorCode::kConflict,
-        fmt::format("both a curve (t_s, speed_mps) and stop times (initial_speed_mps, "
-                    "stop_time_s): give two files, {} twice",
+        fmt::format("the file has both a curve (t_s, speed_mps) and stop times "
+                    "(initial_speed_mps, stop_time_s): put them into two files and give {} twice",
                     option_text("coastdown")));
     return;
   }
@@ -73,8 +73,8 @@ TrialSet<StopTimeRow> read_stop_times(TrialReader& reader, std::vector<Finding>&
     const double stop_time_s = *reader.non_negative(i, "stop_time_s");
     if (!is_rest(speed_mps, kRestSpeed_mps) && stop_time_s == 0.0) {
       reader.fault(ErrorCode::kOutOfRange, i, "stop_time_s",
-                   fmt::format("found 0 from initial_speed_mps {}; a moving vehicle takes time to "
-                               "stop",
+                   fmt::format("found 0 with initial_speed_mps {}; give the time in which the "
+                               "vehicle stopped",
                                speed_mps));
     } else if (is_rest(speed_mps, kRestSpeed_mps)) {
       set_aside.push_back(i);
@@ -121,8 +121,8 @@ std::vector<CoastCurve> read_bins(TrialReader& reader) {
     const double elapsed_s = *reader.non_negative(i, "elapsed_s");
     if (!(to_mps < from_mps) || elapsed_s == 0.0) {
       reader.fault(ErrorCode::kContradiction, i, to_mps < from_mps ? "elapsed_s" : "to_mps",
-                   fmt::format("found from_mps {}, to_mps {} in {} s: a coast-down slows from "
-                               "from_mps to to_mps, which takes time",
+                   fmt::format("found from_mps {}, to_mps {} in {} s: to_mps must be below "
+                               "from_mps, and elapsed_s above 0",
                                from_mps, to_mps, elapsed_s));
     }
     const double this_run = reader.cell(i, "run").value_or(0.0);

@@ -98,7 +98,8 @@ Scale scale_of(const std::string& quoted, const Words& words, Dimension dimensio
   }
   const double to_column_unit = dimension == Dimension::kAngle ? degrees(1.0) : 1.0;
   if (is_si_by_convention(words)) {
-    return {times(quoted, to_column_unit), Confidence::kLikely, "such messages are in SI units"};
+    return {times(quoted, to_column_unit), Confidence::kLikely,
+            "messages of this kind are in SI units"};
   }
   if (dimension == Dimension::kAngle && looks_like_pulses(values)) {
     return {fmt::format("({} - 1500)/500*{:g}", quoted, kUsualStop_deg), Confidence::kUnsure,
@@ -107,9 +108,9 @@ Scale scale_of(const std::string& quoted, const Words& words, Dimension dimensio
                         kUsualStop_deg)};
   }
   if (dimension == Dimension::kAngle && largest(values) > 2.0 * pi<double>()) {
-    return {
-        quoted, Confidence::kLikely,
-        fmt::format("the values reach {:.4g}, beyond a turn in radians: degrees", largest(values))};
+    return {quoted, Confidence::kLikely,
+            fmt::format("the values reach {:.4g}, more than a turn in radians: degrees",
+                        largest(values))};
   }
   return {times(quoted, 1.0), Confidence::kUnsure,
           "the name has no unit, and the values fit several units"};

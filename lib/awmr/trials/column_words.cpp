@@ -51,7 +51,7 @@ std::vector<Rule> log_rules() {
       {"yaw_rate_radps", {{"gyr", "gyro"}}, {"x", "y", "z", "temp"}, Dimension::kAngularRate},
       {"steering_deg", {kSteerWords}, kCommand, Dimension::kAngle},
       {"steering_cmd_deg", {kSteerWords, kCommand}, {}, Dimension::kAngle},
-      // "servo" without such a word is its command.
+      // A column "servo" without one of these words is the servo's command.
       {"steering_cmd_deg", {{"servo"}}, {"feedback", "measured", "actual"}, Dimension::kAngle},
       {"latitude_deg", {{"lat", "latitude"}}, {}, Dimension::kGeographic},
       {"longitude_deg", {{"lon", "lng", "long", "longitude"}}, {}, Dimension::kGeographic}};

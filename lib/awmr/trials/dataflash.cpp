@@ -116,8 +116,8 @@ Result<Contents> contents_of(std::string_view bytes, const std::string& file) {
 
 /// A topic and its requested fields.
 struct Listed {
-  std::size_t topic = 0;                        ///< in Signals::topics
-  std::vector<const dataflash::Field*> wanted;  ///< in column order
+  std::size_t topic = 0;                        ///< index in Signals::topics
+  std::vector<const dataflash::Field*> wanted;  ///< in the order of Topic::columns
 };
 
 std::map<TopicKey, Listed> list_topics(const Contents& contents, const Wanted& wanted,

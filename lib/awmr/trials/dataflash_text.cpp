@@ -175,8 +175,8 @@ Result<TextContents> text_contents(std::string_view bytes, const std::string& fi
 
 /// A topic and its requested fields.
 struct ListedText {
-  std::size_t topic = 0;            ///< in Signals::topics
-  std::vector<std::size_t> fields;  ///< in column order
+  std::size_t topic = 0;            ///< index in Signals::topics
+  std::vector<std::size_t> fields;  ///< indices in Format::fields, in the order of Topic::columns
 };
 
 std::map<TextTopic, ListedText> list_text_topics(const TextContents& contents, const Wanted& wanted,
@@ -202,7 +202,7 @@ std::map<TextTopic, ListedText> list_text_topics(const TextContents& contents, c
   return listed;
 }
 
-/// Time in ns; empty if invalid.
+/// Time of a line, ns; empty if invalid.
 std::optional<std::int64_t> time_of_line(const Cells& cells, const dataflash::Format& format) {
   const bool in_us = format.fields[*format.time].name == "TimeUS";
   const std::int64_t unit_ns = in_us ? 1'000 : 1'000'000;

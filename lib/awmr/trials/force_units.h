@@ -41,7 +41,7 @@ bool is_share_of_f_max(const ForceSpan& span);
 /// Range that covers both ranges.
 ForceSpan joined(const ForceSpan& a, const ForceSpan& b);
 
-/// A possible unit of the values. F' = factor value + offset.
+/// A possible unit. F' = factor times the value in the file, plus offset.
 struct ForceUnit {
   std::string_view words;  ///< name of the unit: "8-bit PWM counts"
   double factor = 0.0;     ///< 0: unknown, as for newtons; `words` then names the divisor

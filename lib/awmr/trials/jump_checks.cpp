@@ -40,7 +40,7 @@ std::vector<Move> moves_between(const DrivingLog& log, const std::vector<std::si
   return moves;
 }
 
-/// 95 % quantile of the change per second.
+/// Usual change per second: the 95 % quantile over all moves.
 double common_rate(const std::vector<Move>& moves) {
   std::vector<double> rates;
   for (const Move& move : moves) rates.push_back(move.size / move.span_s);
@@ -119,7 +119,7 @@ std::optional<Contradiction> jump_contradiction(const Evidence& evidence) {
     const auto jump = jump_in(moves, kVehicleLengths * evidence.vehicle.length_m, size);
     if (jump) {
       if (auto zeros = zero_fix(log, *jump)) return zeros;
-      return described(log, *jump, "x_m", fmt::format("{:.3g} m with y_m", jump->size));
+      return described(log, *jump, "x_m", fmt::format("{:.3g} m, y_m included,", jump->size));
     }
   }
   if (!evidence.has(LogChannel::kHeading)) return std::nullopt;

@@ -8,7 +8,7 @@ namespace {
 
 /// Largest delay of the commands, in either direction.
 constexpr double kLongestDelay_s = 1.0;
-constexpr double kForgotten = 40.0;  // time constants: exp(-40) is 4e-18
+constexpr double kForgotten = 40.0;  // in time constants; exp(-40) = 4e-18 is below rounding
 
 /// Decay of a force difference over a time h.
 struct Decay {

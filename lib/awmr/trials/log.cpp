@@ -78,7 +78,8 @@ void check_log_columns(TrialReader& reader, bool has_steering) {
       !has("yaw_rate_radps") && !has("latitude_deg")) {
     reader.header_fault(
         ErrorCode::kMissing,
-        "nothing measured: add any of x_m, y_m, heading_deg, speed_mps, sway_mps, yaw_rate_radps");
+        "no measurement: add at least one of x_m, y_m, heading_deg, speed_mps, sway_mps, "
+        "yaw_rate_radps");
   }
 }
 
@@ -228,7 +229,7 @@ double DrivingLog::median_step_s() const {
 }
 
 bool has_force_difference(const DrivingLog& log) {
-  constexpr double kMuch = 0.01;  // of the largest force
+  constexpr double kMuch = 0.01;  // F', a fraction of F_max
   for (std::size_t i = 0; i < log.rows(); ++i) {
     if (std::abs(log.force_right[i] - log.force_left[i]) > kMuch) return true;
   }

@@ -22,7 +22,7 @@ inline constexpr std::array<LogChannel, kChannelCount> kChannels{
 struct ChannelInfo {
   std::string_view column;  ///< CSV name: "heading_deg"
   std::string_view name;    ///< SI name: "heading_rad"
-  std::string_view unit;    ///< of the SI value: "rad"
+  std::string_view unit;    ///< unit of the SI value: "rad"
   double to_si = 1.0;       ///< SI value = column value times this
 };
 const ChannelInfo& info(LogChannel channel);
@@ -65,7 +65,7 @@ struct DrivingLog {
   /// Steering input of the model, rad, left positive: the servo's command d_ro, or its angle d_r if
   /// only that was logged.
   const std::vector<double>& driving_steering_rad() const;
-  /// The source column of the steering input.
+  /// Name of the column from which the steering input was read.
   std::string_view steering_column() const {
     return steering_command_rad ? "steering_cmd_deg" : "steering_deg";
   }

@@ -46,7 +46,7 @@ struct Evidence {
   bool has(LogChannel channel) const { return log[channel].has_value(); }
 };
 
-/// Builds windows of kEvidenceWindow_s.
+/// Divides a log into windows of kEvidenceWindow_s and computes their sums.
 Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
                      std::span<const ColumnMapping> mappings);
 

@@ -7,7 +7,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Errors (input): an entry is not a regular file.
+/// The entries with this extension. Errors (input): one of them is not a regular file.
 Result<std::vector<fs::path>> with_extension(const std::vector<fs::path>& entries,
                                              const std::string& extension) {
   std::vector<fs::path> paths;

@@ -143,7 +143,8 @@ std::string Recording::damage_of(const std::string& line) {
   if (std::any_of(line.begin(), line.end(), is_control)) return "it has control characters";
   const std::vector<CsvCell> cells = cells_of(line, header_.delimiter);
   if (cells.size() != header_.names.size()) {
-    return fmt::format("it has {} cells, the header {}", cells.size(), header_.names.size());
+    return fmt::format("it has {} cells, but the header has {}", cells.size(),
+                       header_.names.size());
   }
   const auto same = [](const CsvCell& cell, const std::string& name) { return cell.text == name; };
   if (std::equal(cells.begin(), cells.end(), header_.names.begin(), same)) {

@@ -39,7 +39,7 @@ std::vector<WindowMoments> moments_of(const DrivingLog& log, LogChannel channel)
 /// True if a channel is only noise about one value. Analysis of variance: F = n var(means of the
 /// windows)/mean variance within a window, with n readings per window, is at most kMostF.
 bool is_noise_alone(const std::vector<WindowMoments>& windows) {
-  constexpr double kMostF = 5.0;  // correlated noise gives more than 1, motion more than 100
+  constexpr double kMostF = 5.0;  // F is above 1 for correlated noise, above 100 for motion
   const auto n = static_cast<double>(windows.size());
   double mean = 0.0, within = 0.0, readings = 0.0, between = 0.0;
   for (const WindowMoments& w : windows) {
@@ -53,7 +53,7 @@ bool is_noise_alone(const std::vector<WindowMoments>& windows) {
 
 /// True if the mean speed is 0 within its error, or slower than any vehicle of this length drives.
 bool is_about_zero(const std::vector<WindowMoments>& windows, double length_m) {
-  constexpr double kFroude = 0.005;  // u over sqrt(g length)
+  constexpr double kFroude = 0.005;  // Froude number u/sqrt(g length) of the slowest driving
   double sum = 0.0, count = 0.0, variance = 0.0;
   for (const WindowMoments& w : windows) {
     sum += w.mean * w.count;

@@ -13,7 +13,7 @@ enum class Part { kHeader, kText, kFloat32, kFloat64, kSkipped9, kSkipped36 };
 
 struct Piece {
   Part part;
-  std::string_view name;  ///< for numbers
+  std::string_view name;  ///< name of a number; empty for other parts
 };
 
 struct MessageType {

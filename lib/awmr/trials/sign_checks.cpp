@@ -139,7 +139,7 @@ std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations,
 /// from north, and x may be east. 0 if the positions show no such offset.
 double mirrored_heading_deg(const Evidence& evidence) {
   constexpr double kQuarter_deg = 90.0;
-  constexpr double kClose_deg = 20.0;  // declination, sideslip
+  constexpr double kClose_deg = 20.0;  // tolerance for declination and sideslip
   if (!evidence.has(LogChannel::kX) || !evidence.has(LogChannel::kY)) return 0.0;
   const CourseRelation course = course_relation(evidence.overlapping);
   if (course.sign != -1) return 0.0;
@@ -208,7 +208,7 @@ std::vector<Contradiction> check_signs(const Evidence& evidence) {
   if (solutions.size() == 1) return found;
   const std::string columns = alternatives(found);
   for (Contradiction& one : found) {
-    one.message += fmt::format(" (correct only one of {}: either explains it)", columns);
+    one.message += fmt::format(" (correct only one of {}: each alone explains it)", columns);
   }
   return found;
 }

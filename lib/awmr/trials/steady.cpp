@@ -17,7 +17,7 @@ struct Stretch {
   std::size_t end = 0;
 };
 
-/// The measured angle, or else the commanded one.
+/// Steering angle by row, rad: measured, or commanded if it was not measured.
 const std::vector<double>& steering_angle_of(const DrivingLog& log) {
   return log[LogChannel::kSteering] ? log[LogChannel::kSteering]->value : *log.steering_command_rad;
 }

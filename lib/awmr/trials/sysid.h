@@ -26,7 +26,7 @@ namespace awmr {
 /// All tests one after the other. `t_s` begins at 0 in each run.
 struct SysIdLog {
   std::vector<std::string> header = {};  ///< run, t_s, left_volts, ..., in SI units and degrees
-  std::vector<std::vector<double>> columns = {};  ///< by name
+  std::vector<std::vector<double>> columns = {};  ///< by column, then by row
   std::vector<CsvNote> notes = {};                ///< one: `sysid-log`
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }

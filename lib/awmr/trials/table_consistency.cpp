@@ -141,7 +141,8 @@ void check_wheel_force(const Table& table, const std::vector<TurningRow>& rows,
       remedy_of(units, force_unit_fixes(units, "wheel_force"), table.options.columns));
 }
 
-/// tau_speed = 4 F' with the wheels straight                                        [paper (41)]
+/// Checks the tau_speed of surge runs against n F'max, n = 4 driven wheels:
+///   tau_speed = 4 F' with the wheels straight                                      [paper (41)]
 void check_thrust(const Table& table, const TrialSet<SurgeRow>& surge, const Tables& tables) {
   const Vehicle& vehicle = tables.vehicle;
   const int wheels = vehicle.driven_wheels();

@@ -37,7 +37,7 @@ const CsvColumn kTurningColumns[] = {{"steering_deg", true},
                                      {"elapsed_s", false, EmptyCells::kOptional},
                                      {"tau_turn", false, EmptyCells::kOptional}};
 
-/// For a vehicle without steering.
+/// Columns of a turning table of a vehicle without steering.
 const CsvColumn kSidesTurningColumns[] = {
     {"force_left", true, EmptyCells::kOptional},      {"force_right", true, EmptyCells::kOptional},
     {"yaw_rate_radps", false, EmptyCells::kOptional}, {"turns", false, EmptyCells::kOptional},

@@ -134,11 +134,11 @@ std::string turn_text(const TurningRow& row) {
     return fmt::format("{:.3g} rad/s with {:.3g} deg of steering", row.yaw_rate_radps,
                        degrees(row.steering_rad));
   }
-  return fmt::format("{:.3g} rad/s with {:.3g} between left and right", row.yaw_rate_radps,
+  return fmt::format("{:.3g} rad/s with a force difference of {:.3g}", row.yaw_rate_radps,
                      row.sides->right - row.sides->left);
 }
 
-/// r over u tan(d_r)/l_f.
+/// Yaw rate r of a steered turn over that of rolling wheels, u tan(d_r)/l_f. Empty if u is unknown.
 std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& speed,
                                        const Vehicle& vehicle) {
   const auto u = speed.at(vehicle.driven_wheels() * row.wheel_force);
@@ -150,8 +150,9 @@ std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& 
                                *u, most)};
 }
 
-/// r over (u(n F'R) - u(n F'L))/(2 d). Scatter of the surge runs may make their curve flat between
-/// the two forces. Its slope there counts as at least half the mean slope from the origin.
+/// Yaw rate r of a differential turn over that of rolling wheels, (u(n F'R) - u(n F'L))/(2 d).
+/// Empty if a speed u is unknown. Scatter of the surge runs may make their curve flat between the
+/// two forces. Its slope there counts as at least half the mean slope from the origin.
 std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& speed,
                                     const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();

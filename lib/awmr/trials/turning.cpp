@@ -45,9 +45,9 @@ struct Turn {
   double left = 0.0;        ///< steering_deg or F'R - F'L: positive in a turn to the left
   std::string in_words;     ///< "steering_deg 5", for messages
   double computed_m = 0.0;  ///< tau_turn computed from the forces, m, >= 0
-  std::string equation;     ///< equation used
-  std::string parameter;    ///< vehicle parameter used: "front_axle_m"
-  double length_m = 0.0;    ///< the parameter's value
+  std::string equation;     ///< equation of computed_m, for messages
+  std::string parameter;    ///< vehicle parameter in the equation: "front_axle_m"
+  double length_m = 0.0;    ///< value of this parameter
   // Values stored in the row.
   double steering_rad = 0.0;
   double wheel_force = 0.0;
@@ -106,7 +106,7 @@ double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
   return printed;
 }
 
-/// A steered turn:
+/// Reads a steered turn:
 ///   tau_turn = 2 l_f F' sin d_r                                                       [paper (62)]
 /// Empty on a fault.
 std::optional<Turn> by_steering(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
@@ -128,7 +128,7 @@ std::optional<Turn> by_steering(TrialReader& reader, std::size_t row, const Vehi
               .wheel_force = wheel_force};
 }
 
-/// A differential turn, with straight wheels:
+/// Reads a differential turn, with straight wheels:
 ///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
 Turn by_sides(const TrialReader& reader, std::size_t row, const Vehicle& vehicle) {
   const double left = *reader.cell(row, "force_left");
@@ -157,11 +157,12 @@ void check_mean(TrialReader& reader, std::size_t row, double left, double right)
                            *mean, left, right, computed));
 }
 
-/// F' of a steered run without force_left and force_right; a fault if it is empty or negative.
+/// Reads wheel_force of a steered run that has no force_left and force_right. Adds a fault if the
+/// cell is empty or negative.
 std::optional<double> wheel_force_of(TrialReader& reader, std::size_t row) {
   if (!reader.has("wheel_force")) {
     reader.fault(ErrorCode::kMissing, row, "force_left",
-                 "no force: give both sides', or a column wheel_force");
+                 "no force: give force_left and force_right, or add a column wheel_force");
     return std::nullopt;
   }
   const auto force = reader.non_negative(row, "wheel_force");
@@ -172,7 +173,7 @@ std::optional<double> wheel_force_of(TrialReader& reader, std::size_t row) {
   return force;
 }
 
-/// Adds a fault for a row without any rate of turn.
+/// True if the row has a yaw rate, printed or timed; else adds a fault.
 bool has_rate(TrialReader& reader, std::size_t row) {
   if (reader.cell(row, "yaw_rate_radps")) return true;
   if (reader.cell(row, "turns") && reader.cell(row, "elapsed_s")) return true;
@@ -181,8 +182,8 @@ bool has_rate(TrialReader& reader, std::size_t row) {
   return false;
 }
 
-/// A run of a vehicle with steering: a steered turn or, with straight wheels, a differential one.
-/// Empty on a fault.
+/// Reads a run of a vehicle with steering: a steered turn or, with straight wheels, a differential
+/// one. Empty on a fault.
 std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
                                          const Vehicle& vehicle) {
   const auto left = reader.cell(row, "force_left");
@@ -217,8 +218,8 @@ std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
   return std::nullopt;
 }
 
-/// A run of a vehicle without steering. Empty if a cell is missing; check_sides_given() reports
-/// missing forces.
+/// Reads a run of a vehicle without steering. Empty if a cell is missing; check_sides_given()
+/// reports missing forces.
 std::optional<Turn> by_sides_alone(TrialReader& reader, std::size_t row, const Vehicle& vehicle) {
   if (!reader.cell(row, "force_left") || !reader.cell(row, "force_right")) return std::nullopt;
   if (!has_rate(reader, row)) return std::nullopt;

@@ -24,7 +24,7 @@ struct Subscription {
   std::size_t topic = 0;                        ///< index in Signals::topics
 };
 
-/// Parser state.
+/// State of the parser.
 struct Reading {
   const std::string& file;
   const Wanted& wanted;
@@ -44,7 +44,7 @@ Status subscribe(ByteReader message, std::size_t offset, Reading& reading) {
   const auto id = message.number<std::uint16_t>();
   const auto name = message.take(message.left());
   if (!instance || !id || name->empty())
-    return wrong(reading, offset, "a subscription is too short");
+    return wrong(reading, offset, "the message that announces a topic is too short");
   const std::string topic =
       std::string(*name) + (*instance == 0 ? std::string() : fmt::format("[{}]", *instance));
   auto layout = ulog::layout_of(*name, reading.formats);

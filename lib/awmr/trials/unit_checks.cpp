@@ -186,7 +186,7 @@ std::optional<Contradiction> check_rates(const Evidence& evidence) {
   const auto without_bias = robust_ratio(centred(rate), centred(turned));
   if (without_bias && agree(without_bias->ratio)) return std::nullopt;
   const double degree = 180.0 / pi<double>();
-  // Factors by which to multiply the yaw rate.
+  // Factors that convert the column to rad/s.
   static constexpr std::array<UnitFactor, 5> kUnits{
       {{57.29578, "rad/s, converted from deg/s once too often"},
        {1.0 / 57.29578, "degrees per second"},
@@ -195,7 +195,7 @@ std::optional<Contradiction> check_rates(const Evidence& evidence) {
        {1e-3, "mrad/s"}}};
   const auto unit = known_factor(size, kUnits);
   const std::string compared =
-      fmt::format("the heading turns {:.4g} times the integral of the yaw rate", size);
+      fmt::format("the heading changes by {:.4g} times the integral of the yaw rate", size);
   if (unit && unit->factor == 1.0 / 57.29578) {
     if (heading_spans_radians(evidence.log) || turning_rate(evidence) < kSlowTurn) {
       return Contradiction{"heading_deg", compared + ": the heading looks like radians",
@@ -345,7 +345,7 @@ std::optional<Contradiction> check_speed(const Evidence& evidence) {
   static constexpr std::array<UnitFactor, 4> kPositionUnits{
       {{1e3, "mm"}, {100.0, "cm"}, {1.0 / 0.0254, "inches"}, {1.0 / 0.3048, "feet"}}};
   const std::string compared =
-      fmt::format("the positions move {:.4g} times the integral of the speed", ratio->ratio);
+      fmt::format("the positions move by {:.4g} times the integral of the speed", ratio->ratio);
   if (const auto unit = known_factor(ratio->ratio, kPositionUnits)) {
     return Contradiction{"x_m", compared + fmt::format(": the positions look like {}", unit->words),
                          scaled_mapping(evidence, "x_m", 1.0 / unit->factor) + "' and column '" +
