@@ -19,7 +19,7 @@ namespace awmr {
 struct SurgeRow {
   int line = 0;                      ///< line in the file
   double tau_speed = 0.0;            ///< n F' of n driven wheels, dimensionless, > 0
-  double speed_mps = 0.0;            ///< u, m/s, > 0: printed or timed, as preferred
+  double speed_mps = 0.0;            ///< u, m/s, > 0: as printed in the file or timed
   std::optional<double> distance_m;  ///< m, > 0; with elapsed_s if the run was timed
   std::optional<double> elapsed_s;   ///< s, > 0
 };
@@ -34,7 +34,7 @@ struct TurningRow {
   double steering_rad = 0.0;        ///< d_r, rad, > 0; 0 for differential turns
   double wheel_force = 0.0;         ///< F' of each wheel, over F_max, > 0; 0 for differential turns
   double tau_turn_m = 0.0;          ///< m, > 0: from the file if given, else from the forces
-  double yaw_rate_radps = 0.0;      ///< r, rad/s, > 0: printed or timed, as preferred
+  double yaw_rate_radps = 0.0;      ///< r, rad/s, > 0: as printed in the file or timed
   std::optional<double> turns;      ///< full turns, > 0; with elapsed_s if the run was timed
   std::optional<double> elapsed_s;  ///< s, > 0
   /// Set for differential turns: F' of each left and of each right wheel. The larger is `right`.
