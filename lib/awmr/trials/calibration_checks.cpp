@@ -23,8 +23,8 @@ constexpr double kSignificance = 5.0;  // smallest significant error, in standar
 constexpr double kLeastScale = 0.03;
 constexpr double kLeastOffset_rad = 0.0175;
 
-/// Divides the log into twenty windows of 1 to 5 s, or more of 5 s. Longer windows reduce the
-/// effect of noise at their ends, but accumulate sideslip and heading errors.
+/// Divides the log into about twenty windows of 1 to 5 s. Longer windows reduce the effect of noise
+/// at their ends, but accumulate sideslip and heading errors.
 std::vector<LogWindow> calibration_windows(const DrivingLog& log) {
   constexpr double kShortest_s = 1.0;
   constexpr double kLongest_s = 5.0;
