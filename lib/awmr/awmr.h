@@ -1,11 +1,11 @@
-/// Everything. A file of one's own needs only the header of its task:
+/// Includes the whole library. A program that needs less includes the header of its task:
 ///
 ///     read a vehicle, a model, gains     model/vehicle_file.h, model/model_file.h, model/gains_file.h
 ///     check a vehicle's plausibility     model/plausibility.h
 ///     read trials                        trials/load.h
 ///     fit a model to them                identify/identify.h
 ///     rank the trials to record next     identify/planning/suggest.h
-///     test a plan of trials, simulated   identify/planning/recover.h
+///     test planned trials by simulation  identify/planning/recover.h
 ///     search gains                       tune/tune.h, tune/tune_file.h
 ///     simulate the closed loop, metrics  simulate/simulate.h, simulate/metrics.h
 ///     validate a model on its trials     validate/validate.h
@@ -14,7 +14,7 @@
 ///     write other programs' parameters   emit/export.h
 ///     make the report                    report/report.h
 ///
-/// Whatever can fail returns a Result (core/result.h): a value, or every fault that was found.
+/// A function that can fail returns a Result (core/result.h): a value, or an error with all faults.
 #pragma once
 
 #include "awmr/compare/compare.h"

@@ -111,7 +111,7 @@ TEST_F(Live, AWrongUnitIsReportedDuringTheDrive) {
             path("messages") + " && break; sleep 0.1; done; } | " + live("--log - --every 0.1") +
             " 2> " + path("messages") + "; code=$?; cat " + path("messages") + " >&2; exit $code");
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, AllOf(HasSubstr("map it by --column 'speed_mps="), HasSubstr("km/h")));
+  EXPECT_THAT(run.err, AllOf(HasSubstr("map it with --column 'speed_mps="), HasSubstr("km/h")));
   EXPECT_LT(run.err.find("speed looks like km/h"), run.err.find("rows are in")) << run.err;
   EXPECT_FALSE(fs::exists(path("live.json")));
   // The recording exists, and the suggested mapping makes a model of it.

@@ -85,7 +85,7 @@ TEST_F(ShardsOfCommands, OfATuningAreMergedToTheBytesOfASingleRun) {
   const std::string mixed = path("part1") + " " + path("other");
   expect_done(awmr(recover("--shard 2/2 -o " + path("other"))));
   EXPECT_THAT(awmr(fmt::format("merge {} -o {}", mixed, path("mixed"))).err,
-              HasSubstr("another kind of work"));
+              HasSubstr("another kind of job"));
 }
 
 TEST_F(ShardsOfCommands, OfTheLargestSeedAreMergedWithTheHeadingRateLimit) {
@@ -104,7 +104,7 @@ TEST_F(ShardsOfCommands, OfDifferentKindsAreNotMixed) {
     const ProcessResult merged = awmr(fmt::format("merge {} -o {}", parts, path("merged")));
     EXPECT_EQ(merged.exit_code, 2);
     EXPECT_THAT(merged.err, HasSubstr("shard.json:/schema: expected \"awmr."));
-    EXPECT_THAT(merged.err, HasSubstr("another kind of work"));
+    EXPECT_THAT(merged.err, HasSubstr("another kind of job"));
     EXPECT_FALSE(fs::exists(path("merged")));
   }
 }

@@ -80,7 +80,7 @@ TEST_F(Shards, NamesMissingAndDuplicateParts) {
   const auto second = write({2, 4});
   EXPECT_THAT(fault({first, second}), HasSubstr("of 4 parts, these are missing: 3, 4"));
   EXPECT_THAT(fault({second}), HasSubstr("these are missing: 1, 3, 4"));
-  EXPECT_THAT(fault({first, second, first}), HasSubstr("is part 1 of 4, which"));
+  EXPECT_THAT(fault({first, second, first}), HasSubstr("is part 1 of 4, and so is"));
   EXPECT_THAT(fault({}), HasSubstr("no directories"));
   EXPECT_THAT(fault({directory_.path()}), HasSubstr("shard.json"));
 }
@@ -111,7 +111,7 @@ TEST_F(Shards, DamagedOrStoppedPartsAreRefused) {
   Comparison twice = run({2, 2});
   twice.rows.push_back(twice.rows.back());
   EXPECT_THAT(fault({first, write({2, 2}, twice)}),
-              HasSubstr("has sample 5 instead of 1: rows are missing, repeated or of another "
+              HasSubstr("has sample 5 instead of 1: rows are missing, repeated or from another "
                         "part; run part 2 of 2 again"));
   // Rows of a whole scenario are missing, or have the name of another scenario.
   Comparison half = run({2, 2});
@@ -137,7 +137,7 @@ TEST_F(Shards, PartWithoutSamplesIsRefused) {
   nominal_only.shard = {2, 2};
   ASSERT_TRUE(
       write_part(comparison_shards(), b, comparison_part(run({2, 2}), nominal_only, kProvenance)));
-  EXPECT_THAT(fault({a, b}), HasSubstr("/2 is no part: I/N"));
+  EXPECT_THAT(fault({a, b}), HasSubstr("/2; expected I/N"));
 }
 
 }  // namespace

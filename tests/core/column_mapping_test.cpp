@@ -55,16 +55,16 @@ TEST(ColumnMapping, ReadsBackWhatAnOutputNamesAsItsOption) {
 
 TEST(ColumnMapping, RefusesInvalidMappings) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"speed_mps", "no '='"},          {"=V", "NAME is empty"},
-      {"x=", "SOURCE is empty"},        {"x=*2", "SOURCE is empty"},
-      {"x=\"\"", "SOURCE is empty"},    {"x=\"a", "not closed"},
-      {"x=a*", "the scale is no"},      {"x=a*b", "the scale is no"},
-      {"x=a*nan", "the scale is no"},   {"x=a*inf", "the scale is no"},
-      {"x=a*1e999", "the scale is no"}, {"x=a*0", "scale of 0"},
-      {"x=a+", "the offset is no"},     {"x=a+inf", "the offset is no"},
-      {"x=a*2+b", "the offset is no"},  {"x=a*2*3", "left over"},
-      {"x=a*2+3+4", "left over"},       {"x=\"a\"b", "left over"},
-      {"x=a*0x10", "scale of 0"},       {"x=a*1,5", "left over"}};
+      {"speed_mps", "no '='"},           {"=V", "NAME is empty"},
+      {"x=", "SOURCE is empty"},         {"x=*2", "SOURCE is empty"},
+      {"x=\"\"", "SOURCE is empty"},     {"x=\"a", "not closed"},
+      {"x=a*", "the scale is not"},      {"x=a*b", "the scale is not"},
+      {"x=a*nan", "the scale is not"},   {"x=a*inf", "the scale is not"},
+      {"x=a*1e999", "the scale is not"}, {"x=a*0", "scale of 0"},
+      {"x=a+", "the offset is not"},     {"x=a+inf", "the offset is not"},
+      {"x=a*2+b", "the offset is not"},  {"x=a*2*3", "unexpected"},
+      {"x=a*2+3+4", "unexpected"},       {"x=\"a\"b", "unexpected"},
+      {"x=a*0x10", "scale of 0"},        {"x=a*1,5", "unexpected"}};
   for (const auto& [text, words] : cases) {
     const auto mapping = parse_column_mapping(text);
     ASSERT_FALSE(mapping) << text;

@@ -107,7 +107,7 @@ TEST(Csv, ReadsAHeaderBehindAHash) {
         "## tau_speed , speed_mps\n\n"}) {
     const auto table = read_text(header + "0.5,0.25\n2,1.66\n", kSurge);
     expect_two_rows(table);
-    EXPECT_THAT(notes_of(table), HasSubstr("names behind #"));
+    EXPECT_THAT(notes_of(table), HasSubstr("names after #"));
   }
   const auto commas = read_text("# tau_speed;speed_mps\n0,5;0,25\n2;1,66\n", kSurge);
   expect_two_rows(commas);

@@ -153,7 +153,7 @@ TEST_F(RecoverShards, NamesMissingAndDuplicateParts) {
   const auto first = write({1, 4});
   const auto second = write({2, 4});
   EXPECT_THAT(fault({first, second}), HasSubstr("of 4 parts, these are missing: 3, 4"));
-  EXPECT_THAT(fault({first, second, first}), HasSubstr("is part 1 of 4, which"));
+  EXPECT_THAT(fault({first, second, first}), HasSubstr("is part 1 of 4, and so is"));
   EXPECT_THAT(fault({}), HasSubstr("no directories"));
   EXPECT_THAT(fault({directory_.path()}), HasSubstr("shard.json"));
 }

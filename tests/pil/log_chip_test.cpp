@@ -97,7 +97,8 @@ TEST_F(LogChip, RowsReadBackAsTheyWereAndThoseOfAStallAreCounted) {
     ASSERT_EQ(column("tau_turn_m")[row], number(12));
     ASSERT_EQ(column("mode")[row], std::fmod(step, 3.0));
     const double sensor_fault = std::fmod(step, 18.0);
-    ASSERT_EQ(column("limits")[row], 4.0 * std::fmod(step, 2.0) + 16.0 * std::fmod(sensor_fault, 16.0));
+    ASSERT_EQ(column("limits")[row],
+              4.0 * std::fmod(step, 2.0) + 16.0 * std::fmod(sensor_fault, 16.0));
     ASSERT_EQ(column("reset_cause")[row], sensor_fault < 16.0 ? 1.0 : 129.0);
     ASSERT_EQ(column("run")[row], 1.0);
   }

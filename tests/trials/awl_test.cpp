@@ -178,15 +178,15 @@ TEST(Awl, RefusesMalformedHeaders) {
     return awl_header(json) + awl_rows(0, 20);
   };
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"", "no header of an awmr log is whole"},
-      {awl_rows(0, 20), "no header"},
+      {"", "no undamaged header of an awmr log"},
+      {awl_rows(0, 20), "no undamaged header"},
       {awl_header("{"), "a.awl:1"},
       {awl_header("[]"), "a.awl:"},
       {replaced("awl/1", "awl/2"), "awmr.awl/1"},
-      {replaced(":64", ":63"), "sync, check sum, number and columns are 64"},
+      {replaced(":64", ":63"), "the sync bytes, checksum, row number and columns have 64"},
       {replaced(":64", ":0"), "/row_bytes"},
-      {replaced("\"t_s\"", "\"time\""), "has to be t_s"},
-      {replaced("\"x_m\"", "\"y_m\""), "a second column"},
+      {replaced("\"t_s\"", "\"time\""), "must be t_s"},
+      {replaced("\"x_m\"", "\"y_m\""), "another column"},
       {replaced("\"x_m\"", "\"run\""), "not 'run'"},
       {replaced("\"x_m\"", "\"x,m\""), "letters, digits and _"},
       {replaced("\"x_m\"", "\"=1\\n\""), "letters, digits and _"},
@@ -194,7 +194,7 @@ TEST(Awl, RefusesMalformedHeaders) {
       {replaced("f32", "f64"), "f64"},
       {replaced("0.01", "0"), "/columns/0/scale"},
       {replaced("\"scale\":0.01", "\"scal\":0.01"), "scale"},
-      {awl_log(20) + awl_header(awl_json("0.02")) + awl_rows(0, 20), "cut the file there"}};
+      {awl_log(20) + awl_header(awl_json("0.02")) + awl_rows(0, 20), "split the file there"}};
   for (const auto& [bytes, words] : cases) {
     const auto log = read_awl(bytes, "a.awl");
     ASSERT_FALSE(log) << words;

@@ -50,11 +50,11 @@ TEST(ForceUnits, TauSpeedIsFourTimesTheForceOfAWheel) {
                     HasSubstr("tau_speed=\"tau_speed\"*0.003921569")));
   EXPECT_THAT(refusal_of("tau_speed,speed_mps\n300,0.55\n800,1.66\n", turns),
               AllOf(Not(HasSubstr("0.01568627")),
-                    HasSubstr("tau_speed=\"tau_speed\"*0.003921569', or take it")));
+                    HasSubstr("tau_speed=\"tau_speed\"*0.003921569', or accept it")));
   // 400 means four wheels at 100 %; no scale ends at 400.
   EXPECT_THAT(refusal_of("tau_speed,speed_mps\n300,0.55\n400,1.66\n", ""),
               AllOf(HasSubstr("look like percent;"),
-                    HasSubstr("tau_speed=\"tau_speed\"*0.01', or take it")));
+                    HasSubstr("tau_speed=\"tau_speed\"*0.01', or accept it")));
 }
 
 TEST(ForceUnits, MicrosecondsOfAServoPulseHaveAnOffset) {
@@ -88,7 +88,7 @@ TEST(ForceUnits, NamesAllUnitsIfNoneIsClear) {
   // A mapping names its unit even if the other units have none.
   EXPECT_THAT(refusal_of("wheel_force,speed_mps\n20,0.55\n38,1.66\n", ""),
               AllOf(HasSubstr("percent, volts"), HasSubstr("newtons"),
-                    HasSubstr("wheel_force=\"wheel_force\"*0.01' (percent), or take it")));
+                    HasSubstr("wheel_force=\"wheel_force\"*0.01' (percent), or accept it")));
   // 12 is below a fifth of the end of every scale, so it can be volts or newtons, whose factors are
   // unknown.
   EXPECT_THAT(refusal_of("wheel_force,speed_mps\n4,0.55\n12,1.66\n", ""),

@@ -184,7 +184,7 @@ TEST(LogFormat, IsReported) {
   EXPECT_DOUBLE_EQ(read.set[LogChannel::kSpeed]->value[3], 1.13);
   EXPECT_THAT(codes_of(read.findings), ElementsAre("csv-format@1", "time-column@0"));
   EXPECT_THAT(read.findings[0].message,
-              AllOf(HasSubstr("semicolons"), HasSubstr("decimal commas"), HasSubstr("behind #")));
+              AllOf(HasSubstr("semicolons"), HasSubstr("decimal commas"), HasSubstr("after #")));
 }
 
 }  // namespace

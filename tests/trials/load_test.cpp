@@ -229,7 +229,7 @@ TEST(LoadTrials, NoFileAndSteadyRunsWithoutALogAreRefused) {
   EXPECT_THAT(to_text(load_trials({.vehicle = paper_vehicle()}).error()), HasSubstr("no trials"));
   TrialFiles files = paper_files();
   files.steady_from_logs = true;
-  EXPECT_THAT(to_text(load_trials(files).error()), HasSubstr("there is no log"));
+  EXPECT_THAT(to_text(load_trials(files).error()), HasSubstr("no log was given"));
 }
 
 TEST(LoadTrials, SteadyRunsOfALogJoinTheRowsOfATable) {

@@ -129,7 +129,7 @@ TEST(LogConsistency, ASpeedWithoutASignIsNamedAndOneWithASignIsNot) {
     const auto is_named = [&](const DrivingLog& log) {
       return std::ranges::any_of(contradictions(log, vehicle(), {}), [](const Contradiction& c) {
         return c.column == "speed_mps" &&
-               c.message.find("measures no direction") < c.message.size();
+               c.message.find("does not measure the direction") < c.message.size();
       });
     };
     EXPECT_TRUE(is_named(reversing_log(seed, false))) << seed;
@@ -176,7 +176,7 @@ TEST(LogConsistency, AMisalignedCompassAndScalesThatAreOffAreNamed) {
     EXPECT_EQ(calibrations(turned, "scale-mismatch"), 0) << seed;
     DrivingLog gyro = sound_log(seed);
     scale(gyro[LogChannel::kYawRate]->value, 1.1);
-    EXPECT_EQ(calibrations(gyro, "scale-mismatch", "gyroscope is off; map"), 1) << seed;
+    EXPECT_EQ(calibrations(gyro, "scale-mismatch", "gyroscope is wrong; map"), 1) << seed;
     DrivingLog wheel = sound_log(seed);
     scale(wheel[LogChannel::kSpeed]->value, 0.9);
     EXPECT_EQ(calibrations(wheel, "scale-mismatch", "or that of the positions"), 1) << seed;

@@ -144,7 +144,7 @@ TEST(Log, RefusesUnusableLogs) {
                                       "speed_mps", [](int) { return std::string("1"); }, 5)),
               ElementsAre(HasSubstr("at least 10")));
   EXPECT_THAT(faults_of(read_log, log_text("latitude_deg", [](int) { return std::string("1"); })),
-              ElementsAre(HasSubstr("go together")));
+              ElementsAre(HasSubstr("belong together")));
 }
 
 /// 1 m/s at 90 deg, with rest before and in between; `course` is the heading at rest.

@@ -49,15 +49,14 @@ struct Damaged {
 };
 
 TEST(Recording, KeepsDamagedLinesAsCommentsAtTheirPlace) {
-  const Damaged cases[] = {
-      {"0.3,0.1,0.1", "it has 3 cells, the header 5"},
-      {"0.3,0.1,0.1,go,0.4,9,9", "it has 7 cells, the header 5"},
-      {"0.3,0.1,0.1,go,0.0x4", "its cell speed_mps is \"0.0x4\""},
-      {"0.3,0.1,0.1,g\x01o,0.4", "control characters"},
-      {std::string("0.3,0.1,0.1,g\0o,0.4", 19), "control characters"},
-      {kHeader.substr(0, kHeader.size() - 1), "the recorder may have restarted"},
-      {std::string(kMaxRecordedLine + 1, 'x'), "longer than"},
-      {"\"0.3,0.1,0.1,go,0.4", "it has 0 cells"}};
+  const Damaged cases[] = {{"0.3,0.1,0.1", "it has 3 cells, but the header has 5"},
+                           {"0.3,0.1,0.1,go,0.4,9,9", "it has 7 cells, but the header has 5"},
+                           {"0.3,0.1,0.1,go,0.0x4", "its cell speed_mps is \"0.0x4\""},
+                           {"0.3,0.1,0.1,g\x01o,0.4", "control characters"},
+                           {std::string("0.3,0.1,0.1,g\0o,0.4", 19), "control characters"},
+                           {kHeader.substr(0, kHeader.size() - 1), "the board may have restarted"},
+                           {std::string(kMaxRecordedLine + 1, 'x'), "longer than"},
+                           {"\"0.3,0.1,0.1,go,0.4", "it has 0 cells"}};
   for (const Damaged& damaged : cases) {
     SCOPED_TRACE(damaged.why);
     const Recording recording = recorded(kHeader + kRows + damaged.line + "\n0.4,0,0,go,0.1\n");

@@ -175,12 +175,12 @@ TEST_F(Bag, RefusesMalformedContent) {
   write_bag(path, topics_, {{2, 1, "short"}});
   EXPECT_THAT(
       to_text(read(path).error()),
-      HasSubstr("message 1 of /wheel/odom: its 5 bytes are no nav_msgs/msg/Odometry in CDR"));
+      HasSubstr("message 1 of /wheel/odom: its 5 bytes are not a nav_msgs/msg/Odometry in CDR"));
   const std::string whole = read_all(path);
   write_all(path, whole.substr(0, whole.size() / 2));
-  EXPECT_THAT(to_text(read(path).error()), HasSubstr("no bag of ROS 2"));
+  EXPECT_THAT(to_text(read(path).error()), HasSubstr("not a readable bag of ROS 2"));
   write_all(path, whole.substr(0, 16));
-  EXPECT_THAT(to_text(read(path).error()), HasSubstr("no bag of ROS 2"));
+  EXPECT_THAT(to_text(read(path).error()), HasSubstr("not a readable bag of ROS 2"));
   std::filesystem::remove(path);
   write_bag(path, {}, {}, "DROP TABLE topics;");
   EXPECT_THAT(to_text(read(path).error()), HasSubstr("no such table: topics"));
@@ -189,7 +189,7 @@ TEST_F(Bag, RefusesMalformedContent) {
             "DROP TABLE topics; CREATE VIEW topics AS WITH RECURSIVE n(id) AS (SELECT 1 UNION ALL "
             "SELECT id FROM n) SELECT id, 'a' AS name, 'b' AS type, 'cdr' AS "
             "serialization_format FROM n;");
-  EXPECT_THAT(to_text(read(path).error()), HasSubstr("no bag of ROS 2"));
+  EXPECT_THAT(to_text(read(path).error()), HasSubstr("not a readable bag of ROS 2"));
 }
 
 class Tables : public ::testing::Test {
@@ -252,7 +252,7 @@ TEST_F(Tables, ThatAllBeginAtZeroAreNoted) {
 
 TEST_F(Tables, NoFileThatCanBeReadIsRefused) {
   write("notes.txt", "nothing");
-  EXPECT_THAT(to_text(read({}).error()), HasSubstr("there is neither"));
+  EXPECT_THAT(to_text(read({}).error()), HasSubstr("has neither a bag"));
 }
 
 }  // namespace

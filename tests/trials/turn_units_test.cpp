@@ -125,7 +125,7 @@ TEST(TurnUnits, TheBoundsAreTheDocumentedOnes) {
   // 6.24 rad/s.
   const double rolled = 2.0 * tan20 / 0.35;
   EXPECT_EQ(steered(2.95 * rolled), "");
-  EXPECT_THAT(steered(3.05 * rolled), HasSubstr("2 m/s by the surge runs"));
+  EXPECT_THAT(steered(3.05 * rolled), HasSubstr("2 m/s of the surge runs"));
   EXPECT_EQ(steered(0.011 * rolled), "");
   EXPECT_THAT(steered(0.009 * rolled), HasSubstr("*57.29578"));
 
@@ -137,7 +137,7 @@ TEST(TurnUnits, TheBoundsAreTheDocumentedOnes) {
   };
   // (2 - -0.5)/(2 0.36) = 3.47 rad/s, of which four times are possible.
   EXPECT_EQ(by_sides(3.95 * 2.5 / 0.72), "");
-  EXPECT_THAT(by_sides(4.05 * 2.5 / 0.72), HasSubstr("2.5 m/s apart"));
+  EXPECT_THAT(by_sides(4.05 * 2.5 / 0.72), HasSubstr("differ by 2.5 m/s"));
 
   const auto without = [&](double rate) {
     return refusal_of(paper_vehicle(), "",
@@ -152,7 +152,7 @@ TEST(TurnUnits, TheBoundsAreTheDocumentedOnes) {
                       fmt::format("force_left,force_right,yaw_rate_radps\n-0.2,0.6,{}\n", rate));
   };
   EXPECT_EQ(sides_without(24.9), "");
-  EXPECT_THAT(sides_without(25.1), HasSubstr("more than 25 rad/s"));
+  EXPECT_THAT(sides_without(25.1), HasSubstr("faster than 25 rad/s"));
 }
 
 /// 200 vehicles of each drive, with and without surge runs: 1200 campaigns.

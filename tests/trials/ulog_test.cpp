@@ -96,15 +96,15 @@ TEST(Ulog, RefusesMalformedContent) {
   const std::string h = ulog_header();
   const std::string v = ulog_format("v:uint64_t timestamp;double x;");
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {h + ulog_format("no format"), "is no format"},
+      {h + ulog_format("not a format"), "is not a format"},
       {h + ulog_format("v:"), "has no fields"},
-      {h + ulog_format("v:uint64_t;"), "is no field"},
-      {h + ulog_format("v:float[0] x;"), "is no field"},
-      {h + ulog_format("v:float[99999999999999999999] x;"), "is no field"},
-      {h + ulog_format("v:float[2 x;"), "is no field"},
-      {h + ulog_topic(0, 1, "v"), "no known type"},
-      {h + ulog_format("v:w x;") + ulog_topic(0, 1, "v"), "no known type"},
-      {h + ulog_format("v:v x;") + ulog_topic(0, 1, "v"), "an endless format"},
+      {h + ulog_format("v:uint64_t;"), "is not a field"},
+      {h + ulog_format("v:float[0] x;"), "is not a field"},
+      {h + ulog_format("v:float[99999999999999999999] x;"), "is not a field"},
+      {h + ulog_format("v:float[2 x;"), "is not a field"},
+      {h + ulog_topic(0, 1, "v"), "an unknown type"},
+      {h + ulog_format("v:w x;") + ulog_topic(0, 1, "v"), "an unknown type"},
+      {h + ulog_format("v:v x;") + ulog_topic(0, 1, "v"), "nested too deep"},
       {h + ulog_format("v:w[60000] x;") + ulog_format("w:u[60000] x;") +
            ulog_format("u:double x;") + ulog_topic(0, 1, "v"),
        "longer than any message"},
@@ -113,10 +113,12 @@ TEST(Ulog, RefusesMalformedContent) {
       {h + v + ulog_topic(0, 1, "v") + ulog_topic(1, 1, "v"), "a second topic has the id 1"},
       {h + ulog_data(1, 0, ""), "not announced"},
       {h + ulog_message('D', ""), "not announced"},
-      {h + v + ulog_topic(0, 1, "v") + ulog_data(1, 0, "1234567"), "has 15 bytes, its format 16"},
-      {h + v + ulog_topic(0, 1, "v") + ulog_data(1, ~std::uint64_t{0}, le(1.0)), "cannot be"},
+      {h + v + ulog_topic(0, 1, "v") + ulog_data(1, 0, "1234567"),
+       "has 15 bytes; its format has 16"},
+      {h + v + ulog_topic(0, 1, "v") + ulog_data(1, ~std::uint64_t{0}, le(1.0)), "too large"},
       {h + ulog_message('B', "short"), "flags are too short"},
-      {h + ulog_message('B', std::string(8, '\0') + "\x02" + std::string(31, '\0')), "newer kind"}};
+      {h + ulog_message('B', std::string(8, '\0') + "\x02" + std::string(31, '\0')),
+       "not supported"}};
   for (const auto& [bytes, words] : cases)
     EXPECT_THAT(refusal_of(bytes), HasSubstr(words)) << words;
 }

@@ -79,7 +79,7 @@ TEST_F(TuneShard, PartsAreTheBytesOfASingleRunInAnyOrder) {
   EXPECT_EQ(merged->goals.size(), whole->robust->goals.size());
   EXPECT_EQ(merge_tune_shards({write({1, 1})})->gains_text, expected);
   EXPECT_THAT(fault({first, third}), HasSubstr("2"));
-  EXPECT_THAT(fault({first, first, second, third}), HasSubstr("as well"));
+  EXPECT_THAT(fault({first, first, second, third}), HasSubstr("and so is"));
 }
 
 TEST_F(TuneShard, NamesFilesThatAreNotOfThePart) {

@@ -45,11 +45,12 @@ struct LogRow {
   float u_ref_mps;
   float tau_speed;
   float tau_turn_m;
-  uint8_t mode;         ///< a YawMode
-  uint8_t fault;        ///< SafetyFault bits
-  uint8_t limits;       ///< 1: speed, 2: steering, 4: force, 8: too little force to steer with;
-                        ///< 16 ... 240: SensorFault (sensor_fault.h) modulo 16
-  uint8_t reset_cause;  ///< 1 ... 31: as reported by the board, the same in every row; 128: SensorFault is 16 or more
+  uint8_t mode;    ///< a YawMode
+  uint8_t fault;   ///< SafetyFault bits
+  uint8_t limits;  ///< 1: speed, 2: steering, 4: force, 8: too little force to steer with;
+                   ///< 16 ... 240: SensorFault (sensor_fault.h) modulo 16
+  uint8_t
+      reset_cause;  ///< 1 ... 31: as reported by the board, the same in every row; 128: SensorFault is 16 or more
 };
 static_assert(sizeof(LogRow) == 64, "eight rows fill a block of 512 bytes");
 

@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 15> kFunctions{"sin",  "cos",   "tan",  "
                                                       "atan", "atan2", "sqrt", "abs",   "min",
                                                       "max",  "exp",   "ln",   "log10", "sign"};
 
-/// True if a bare name can begin with it. Bytes above 0x7F belong to non-ASCII UTF-8 characters.
+/// True if a bare name can begin with this byte. Bytes above 0x7F belong to UTF-8 characters.
 bool begins_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
          static_cast<unsigned char>(c) >= 0x80U;
@@ -30,11 +30,11 @@ bool begins_name(char c) {
 
 bool continues_name(char c) { return begins_name(c) || is_digit(c) || c == '.'; }
 
-/// The formula as passed to the parser: columns are renamed c0, c1, ..., numbers are reformatted.
+/// The formula as muParser gets it: columns are renamed to c0, c1, ..., numbers are rewritten.
 struct Formula {
-  std::vector<std::string> names = {};
-  std::string text = {};
-  std::vector<bool> open = {};  ///< by open bracket: it belongs to a function
+  std::vector<std::string> names = {};  ///< columns, in order of first use
+  std::string text = {};                ///< the rewritten formula
+  std::vector<bool> open = {};          ///< open brackets; true: of a function's arguments
 };
 
 std::string_view without_spaces(std::string_view text) {
@@ -50,7 +50,7 @@ void add_column(std::string_view name, Formula& formula) {
   formula.text += fmt::format(" c{} ", found - formula.names.begin());
 }
 
-/// Removes `name`, `name.of.parts` or `name[0]` from the front.
+/// Removes a name such as `name`, `name.of.parts` or `name[0]` from the front and returns it.
 std::string_view take_bare_name(std::string_view& rest) {
   std::size_t end = 0;
   while (end < rest.size() && continues_name(rest[end])) {
@@ -66,15 +66,15 @@ std::string_view take_bare_name(std::string_view& rest) {
   return name;
 }
 
-/// The functions below each remove one token from the front of `rest`. They return an error text,
-/// or nothing.
+/// Each function below removes one token from the front of `rest` and adds it to the formula. It
+/// returns the text of an error, or nothing.
 using Wrong = std::optional<std::string>;
 
 Wrong take_number(std::string_view& rest, Formula& formula) {
   double value = 0.0;
   const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
   if (error != std::errc() || !std::isfinite(value)) {
-    return fmt::format("\"{}\" is no finite number", shortened(rest, 40));
+    return fmt::format("\"{}\" is not a finite number", shortened(rest, 40));
   }
   formula.text += fmt::format(" {} ", format_number(value));
   rest.remove_prefix(static_cast<std::size_t>(stop - rest.data()));
@@ -95,7 +95,7 @@ Wrong take_name(std::string_view& rest, Formula& formula) {
   rest = without_spaces(rest);
   if (rest.starts_with('(')) {
     if (std::find(kFunctions.begin(), kFunctions.end(), name) == kFunctions.end()) {
-      return fmt::format("there is no function {}; there are {}", shortened(name, 40),
+      return fmt::format("there is no function {}; use one of {}", shortened(name, 40),
                          fmt::join(kFunctions, " "));
     }
     rest.remove_prefix(1);
@@ -123,7 +123,8 @@ Wrong take_sign(std::string_view& rest, Formula& formula) {
     formula.open.pop_back();
   }
   if (sign == ',' && (formula.open.empty() || !formula.open.back())) {
-    return "a comma parts the arguments of a function; decimal numbers have a point";
+    return "a comma may only separate the arguments of a function; write decimal numbers with a "
+           "point";
   }
   formula.text += sign;
   rest.remove_prefix(1);
@@ -166,8 +167,7 @@ ColumnExpression::~ColumnExpression() = default;
 
 tl::expected<ColumnExpression, std::string> ColumnExpression::parse(std::string_view text) {
   if (text.size() > kLongest) {
-    return tl::unexpected(
-        fmt::format("it has {} bytes; at most {} are read", text.size(), kLongest));
+    return tl::unexpected(fmt::format("it has {} bytes; the limit is {}", text.size(), kLongest));
   }
   auto formula = formula_of(text);
   if (!formula) return tl::unexpected(formula.error());
@@ -181,7 +181,7 @@ tl::expected<ColumnExpression, std::string> ColumnExpression::parse(std::string_
     compiled->parser.Eval();
   } catch (const mu::ParserError&) {
     return tl::unexpected(std::string(
-        "it is no formula: a value, an operator or an argument is missing or too many"));
+        "it is not a formula: a value, an operator or an argument is missing or superfluous"));
   }
   return ColumnExpression(std::move(formula->names), std::move(compiled));
 }

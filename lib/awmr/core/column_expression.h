@@ -1,8 +1,9 @@
-/// Arithmetic over the columns of a file: `(left + right)/2*0.1`. Private to the library.
+/// Formulas over the columns of a file, such as `(left + right)/2*0.1`. Private to the library.
 ///
-/// Numbers, names, + - * / ^ ( ), pi and the functions sin cos tan asin acos atan atan2 sqrt abs
-/// min max exp ln log10 sign. A bare name has letters, digits, '_' and '.', with an index as in
-/// `output[0]`; any other name is quoted or in backticks: `wheel speed/left`.
+/// A formula has numbers, column names, + - * / ^ ( ), pi and the functions sin cos tan asin acos
+/// atan atan2 sqrt abs min max exp ln log10 sign. A bare column name has letters, digits, '_' and
+/// '.', possibly with an index as in `output[0]`. Any other name must be in double quotes or
+/// backticks: "wheel speed/left".
 #pragma once
 
 #include <memory>
@@ -14,23 +15,24 @@
 
 namespace awmr {
 
-/// An expression, checked and compiled once, evaluated for every row.
+/// A formula, which is checked and compiled once and evaluated for every row.
 class ColumnExpression {
  public:
   /// Maximum length of the text, in bytes.
   static constexpr std::size_t kLongest = 1000;
 
-  /// Errors, as text: too long; a character or function that is not listed above (this excludes
-  /// assignments, comparisons, strings and lists); not a formula.
+  /// Parses a formula. Errors, as text: longer than kLongest; a character or function that is not
+  /// listed above; incomplete or malformed.
   static tl::expected<ColumnExpression, std::string> parse(std::string_view text);
 
   ColumnExpression(ColumnExpression&&) noexcept;
   ColumnExpression& operator=(ColumnExpression&&) noexcept;
   ~ColumnExpression();
 
-  /// Names of the columns, each once, in order of first use; empty for a constant.
+  /// Names of the columns that the formula uses, each once, in order of first use.
   const std::vector<std::string>& names() const { return names_; }
-  /// The value, which may be infinite or NaN. `values` are those of names(), in their order.
+  /// Evaluates the formula; the result may be infinite or NaN. `values`: the values of names(), in
+  /// the same order.
   double operator()(std::span<const double> values);
 
  private:

@@ -19,7 +19,7 @@ constexpr std::string_view kForm = "expected NAME=SOURCE[*SCALE][+OFFSET]";
 constexpr std::string_view kExpressionForm =
     "expected NAME=EXPRESSION, for example speed_mps=(left + right)/2*0.1";
 
-/// Removes a number from the front of `text`; nothing if there is none.
+/// Removes a number from the front of `text` and returns it; empty if there is none.
 std::optional<double> take_number(std::string_view& text) {
   std::string_view digits = trimmed(text);
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
@@ -31,8 +31,8 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
-/// Removes SOURCE from the front of `text`: up to the closing quote, else up to the first '*' or
-/// '+'.
+/// Removes SOURCE from the front of `text` and returns it: up to the closing quote if it is quoted,
+/// else up to the first '*' or '+'. Empty if the quote is not closed.
 std::optional<std::string> take_source(std::string_view& text) {
   if (text.empty() || text[0] != '"') {
     const std::size_t end = std::min(text.find_first_of("*+"), text.size());
@@ -55,27 +55,28 @@ std::optional<std::string> take_source(std::string_view& text) {
   return std::nullopt;
 }
 
-/// Parses `[*SCALE][+OFFSET]`, the whole of `rest`. Returns an error text, or nothing.
+/// Parses `rest` as `[*SCALE][+OFFSET]`. Returns the text of an error, or nothing.
 std::optional<std::string> take_scale_and_offset(std::string_view rest, ColumnMapping& mapping) {
   if (!rest.empty() && rest[0] == '*') {
     rest.remove_prefix(1);
     const auto scale = take_number(rest);
-    if (!scale) return "the scale is no finite number";
+    if (!scale) return "the scale is not a finite number";
     mapping.scale = *scale;
     if (*scale == 0.0) return "a scale of 0 would make all values the same";
   }
   if (!rest.empty() && (rest[0] == '+' || rest[0] == '-')) {
     if (rest[0] == '+') rest.remove_prefix(1);
     const auto offset = take_number(rest);
-    if (!offset) return "the offset is no finite number";
+    if (!offset) return "the offset is not a finite number";
     mapping.offset = *offset;
   }
   if (!rest.empty())
-    return fmt::format("\"{}\" is left over; quote a SOURCE with * or +", shortened(rest, 100));
+    return fmt::format("unexpected \"{}\"; quote a SOURCE that contains * or +",
+                       shortened(rest, 100));
   return std::nullopt;
 }
 
-/// Parses `SOURCE[*SCALE][+OFFSET]`. Returns an error text, or nothing.
+/// Parses `SOURCE[*SCALE][+OFFSET]`. Returns the text of an error, or nothing.
 std::optional<std::string> take_body(std::string_view body, ColumnMapping& mapping) {
   auto source = take_source(body);
   if (!source) return "the quote is not closed";
@@ -84,7 +85,7 @@ std::optional<std::string> take_body(std::string_view body, ColumnMapping& mappi
   return take_scale_and_offset(body, mapping);
 }
 
-/// `NAME=BODY`, split.
+/// The two sides of `NAME=BODY`.
 struct Halves {
   std::string_view name;
   std::string_view body;
@@ -143,7 +144,7 @@ Result<ColumnMapping> parse_column(std::string_view text) {
 std::string text_of(const ColumnMapping& mapping) {
   const std::string name =
       mapping.file.empty() ? mapping.name : fmt::format("{}:{}", mapping.file, mapping.name);
-  // A constant has both forms.
+  // A constant parses as SOURCE and as a formula; it is written as a formula.
   const bool scaled = !mapping.source.empty() && !number_from_text(mapping.expression);
   if (!scaled) return fmt::format("{}={}", name, mapping.expression);
   return fmt::format("{}={}*{}+{}", name, mapping.source, format_number(mapping.scale),
@@ -160,7 +161,7 @@ std::string scaled_expression(const ColumnMapping& mapping, double factor, doubl
   const std::string source =
       is_formula ? fmt::format("({})", mapping.expression) : fmt::format("\"{}\"", mapping.source);
   const std::string scaled = scale == 1.0 ? source : fmt::format("{}*{:.7g}", source, scale);
-  // A formula includes its offset.
+  // The offset of a formula is part of its text.
   const double added = offset + (is_formula ? 0.0 : factor * mapping.offset);
   return added == 0.0 ? scaled : fmt::format("{}{:+.7g}", scaled, added);
 }

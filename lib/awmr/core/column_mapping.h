@@ -1,5 +1,5 @@
-/// Maps a column to a file that has it under another name, in another unit, or as arithmetic over
-/// several columns.
+/// Mapping of one of awmr's columns to a file that has it under another name or in another unit, or
+/// from which it must be computed.
 #pragma once
 
 #include <string>
@@ -9,37 +9,36 @@
 
 namespace awmr {
 
-/// Column `name` is the file's `source` times `scale` plus `offset`, or the value of `expression`.
-/// The header decides: text equal to a column's name means that column; else `source` if the header
-/// has it; else arithmetic over the header's columns.
+/// Gives column `name` from a file. The header of the file decides how; the first that applies:
+///   1. `expression` is exactly the name of a column: that column;
+///   2. the header has `source`: that column times `scale` plus `offset`;
+///   3. `expression` is a formula over columns of the header.
 struct ColumnMapping {
   std::string name;
-  std::string source;  ///< empty: only the expression is used
+  std::string source;  ///< empty: 2 does not apply
   double scale = 1.0;
   double offset = 0.0;
-  std::string expression =
-      {};                 ///< text after the '='; empty: only source, scale and offset are used
-  std::string file = {};  ///< applies only to the file of this name or path; empty: to every file
-  bool standing = false;  ///< from the vehicle file: lowest priority, and may be unused
+  std::string expression = {};  ///< text after the '='; empty: only 2 applies
+  std::string file = {};        ///< name or path of the file for which it is; empty: every file
+  bool standing = false;        ///< from the vehicle file: lowest priority, and may be unused
 };
 
-/// Parses `NAME=SOURCE[*SCALE][+OFFSET]`. A SOURCE may be quoted, and must be if it contains '*' or
-/// '+'. After a scale or a quoted SOURCE, `-OFFSET` is also accepted. Errors: not of that form; a
-/// scale or offset that is not a finite number; a scale of 0.
+/// Parses `NAME=SOURCE[*SCALE][+OFFSET]`. A SOURCE that contains '*' or '+' must be in double
+/// quotes. After a scale or a quoted SOURCE, `-OFFSET` is also accepted. Errors: not of that form;
+/// a scale or offset that is not a finite number; a scale of 0.
 Result<ColumnMapping> parse_column_mapping(std::string_view text);
 
-/// Parses `[FILE:]NAME=EXPRESSION`: the form above, arithmetic over columns (column_expression.h)
-/// or a constant. Errors: neither of them; a scale of 0.
+/// Parses `[FILE:]NAME=EXPRESSION`, where EXPRESSION is `SOURCE[*SCALE][+OFFSET]`, a formula
+/// (column_expression.h) or a constant. Errors: none of these; a scale of 0.
 Result<ColumnMapping> parse_column(std::string_view text);
-/// As above, with `[FILE:]NAME` and EXPRESSION separate, as in JSON.
+/// The same, with `[FILE:]NAME` and EXPRESSION as separate texts, as in JSON.
 Result<ColumnMapping> parse_column(std::string_view name, std::string_view expression);
 
-/// The mapping as given, `NAME=EXPRESSION`: recorded as an option in outputs.
+/// The mapping as text, `[FILE:]NAME=EXPRESSION`, which outputs record as an option.
 std::string text_of(const ColumnMapping& mapping);
 
-/// `"SOURCE"*FACTOR+OFFSET` or `(EXPRESSION)*FACTOR+OFFSET`: an EXPRESSION whose values are those
-/// of `mapping` (its scale and offset included) times `factor` plus `offset`. An offset of 0 is
-/// omitted.
+/// Returns an EXPRESSION whose value is that of `mapping` (including its scale and offset) times
+/// `factor` plus `offset`: `"SOURCE"*FACTOR+OFFSET` or `(EXPRESSION)*FACTOR+OFFSET`.
 std::string scaled_expression(const ColumnMapping& mapping, double factor, double offset = 0.0);
 
 }  // namespace awmr

@@ -15,11 +15,12 @@ namespace {
 
 using Header = std::span<const std::string>;
 
+/// True if the header has a column of this name.
 bool stands(const std::string& name, Header header) {
   return std::find(header.begin(), header.end(), name) != header.end();
 }
 
-/// The header's names, limited to a readable number.
+/// Lists the names for a message; of more than 20, the number of the others.
 std::string listed(Header names) {
   constexpr std::size_t kMost = 20;
   std::string text;
@@ -30,15 +31,15 @@ std::string listed(Header names) {
   return text;
 }
 
-/// Result of applying a mapping to this header.
+/// A mapping as this header interprets it.
 struct Candidate {
   ColumnSource source;
   std::vector<std::string> names;    ///< columns that it uses
-  std::vector<std::string> missing;  ///< those that the header does not have
+  std::vector<std::string> missing;  ///< those of them that the header lacks
 };
 
-/// The whole text as a name, SOURCE with scale and offset, or arithmetic: the first that the header
-/// has.
+/// Interprets a mapping: as a column with exactly this text as name, as SOURCE with scale and
+/// offset, or as a formula; the first that the header permits (column_mapping.h).
 Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, Header header) {
   Candidate candidate{
       .source = {.column = column, .indices = {}, .mapping = &mapping}, .names = {}, .missing = {}};
@@ -64,7 +65,8 @@ Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, He
   return candidate;
 }
 
-/// Priority of a mapping: lower is more specific to the file.
+/// Priority of a mapping; the lowest value wins: 0 for this file, 1 for every file, 2 of the
+/// vehicle.
 int distance(const ColumnMapping& mapping) {
   return !mapping.file.empty() ? 0 : mapping.standing ? 2 : 1;
 }
@@ -73,7 +75,7 @@ std::string shown(const ColumnMapping& mapping) {
   return mapping.expression.empty() ? mapping.source : mapping.expression;
 }
 
-/// One requested column, with the results of its mappings.
+/// Search for the source of one requested column, among its mappings and the header's own columns.
 class Search {
  public:
   Search(const CsvColumn& column, Header header, Header samples, ColumnSources& result)
@@ -139,7 +141,7 @@ class Search {
     }
   }
 
-  /// Uses the only column that can be the time; false if there is none.
+  /// Uses the column that find_time() finds. False if there is none; true after a fault.
   bool use_time() {
     auto time = find_time(header_, samples_);
     if (!time) {
@@ -151,7 +153,7 @@ class Search {
     ColumnSource source{.column = column_, .indices = {}};
     std::vector<std::string> names{(*time)->expression};
     if (!(*time)->is_date) {
-      // A name with a backtick cannot be written in a formula; no such name with a unit is known.
+      // Parsing fails only for a name that contains a backtick.
       auto expression = ColumnExpression::parse((*time)->expression);
       if (!expression) return false;
       names = expression->names();
@@ -162,7 +164,8 @@ class Search {
     return true;
   }
 
-  /// Sets the indices of the columns; a name that occurs twice in the header is a fault.
+  /// Adds the source to the result, with the indices of its columns `names`. A name that occurs
+  /// twice in the header is a fault.
   void use(ColumnSource source, const std::vector<std::string>& names) {
     for (const std::string& name : names) {
       const auto first = std::find(header_.begin(), header_.end(), name);
@@ -176,7 +179,7 @@ class Search {
       }
       source.indices.push_back(static_cast<std::size_t>(first - header_.begin()));
     }
-    // A mapping of the time can name a column of dates.
+    // A mapping of t_s may name a column of dates.
     const bool is_one = source.indices.size() == 1 && !source.expression && source.scale == 1.0;
     if (column_.name == kTimeName && source.mapping != nullptr && is_one &&
         source.indices[0] < samples_.size() && seconds_of_date(samples_[source.indices[0]])) {

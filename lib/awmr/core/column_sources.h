@@ -1,4 +1,4 @@
-/// Finds the columns of a header that provide the requested columns. Private to the library.
+/// Finds out from which columns of a file the requested columns come. Private to the library.
 #pragma once
 
 #include <optional>
@@ -15,19 +15,19 @@ namespace awmr {
 
 /// Source of one requested column.
 struct ColumnSource {
-  CsvColumn column;
-  std::vector<std::size_t> indices;              ///< into the header; none for a constant
-  const ColumnMapping* mapping = nullptr;        ///< null: the header's own
-  std::optional<ColumnExpression> expression{};  ///< none: the one column, scaled
+  CsvColumn column;                              ///< the requested column
+  std::vector<std::size_t> indices;              ///< columns of the header from which it is made
+  const ColumnMapping* mapping = nullptr;        ///< null: the header has a column of this name
+  std::optional<ColumnExpression> expression{};  ///< formula; none: one column, scaled
   double scale = 1.0;
   double offset = 0.0;
-  std::optional<TimeColumn> time = {};  ///< set if t_s was found by its unit or as dates
+  std::optional<TimeColumn> time = {};  ///< set if find_time() found t_s
 };
 
 /// A fault of a header.
 struct HeaderFault {
   ErrorCode code;
-  std::optional<std::size_t> cell;  ///< none: the header as a whole
+  std::optional<std::size_t> cell;  ///< index of the faulty cell; none: the whole header
   std::string message;
 };
 
@@ -36,25 +36,24 @@ struct ColumnSources {
   std::vector<HeaderFault> faults = {};
 };
 
-/// A mapping applies if the header has its columns. Order of priority: mappings of this file,
-/// mappings of every file, mappings of the vehicle, then the column under its own name. `file` is
-/// the table's path. `samples` are the cells of its first row, used to recognise dates. If t_s is
-/// neither present nor mapped, find_time() looks for it.
-/// Faults: a missing required column; two mappings of one column; a formula with only some of its
-/// columns present; a column name that occurs twice; more than one candidate for the time.
+/// Finds the source of each requested column. A mapping applies if the header has its columns.
+/// Priority: mappings for this file, mappings for every file, mappings of the vehicle, then the
+/// column under its own name. If t_s is neither present nor mapped, find_time() looks for it.
+/// `samples`: the cells of the first row, by which dates are recognised. `file`: path of the table.
+/// Faults: a missing required column; two mappings of one column; a formula of which the header has
+/// only some columns; a name that occurs twice in the header; more than one candidate for the time.
 ColumnSources find_columns(std::span<const std::string> header,
                            std::span<const std::string> samples, std::span<const CsvColumn> columns,
                            std::span<const ColumnMapping> mappings, const std::string& file);
 
-/// Columns that the mapping needs and the header does not have, for the reading of the mapping that
-/// find_columns() chooses. Empty: the header has all of them.
+/// Columns that the mapping needs and the header lacks. Empty: the mapping applies to this header.
 std::vector<std::string> missing_columns(const ColumnMapping& mapping,
                                          std::span<const std::string> header);
 
-/// True if the mapping applies to every file, or to this one by its path or name.
+/// True if the mapping is for every file, or names this file by its path or name.
 bool is_for(const ColumnMapping& mapping, const std::string& file);
 
-/// All names that the columns and their mappings can refer to in a header.
+/// All names that a header may have for these columns: their own and those in mappings.
 std::set<std::string> wanted_names(std::span<const CsvColumn> columns,
                                    std::span<const ColumnMapping> mappings);
 

@@ -20,15 +20,15 @@
 namespace awmr {
 namespace {
 
-/// A column of the file that is read.
+/// A column of the file whose cells are read.
 struct UsedColumn {
-  std::size_t index;         ///< into the header
-  std::string name;          ///< name in error messages
-  bool may_be_empty = true;  ///< for every column derived from it
-  bool is_date = false;      ///< a date of ISO 8601
+  std::size_t index;         ///< index in the header
+  std::string name;          ///< name in messages
+  bool may_be_empty = true;  ///< every requested column that uses it permits empty cells
+  bool is_date = false;      ///< its cells are dates of ISO 8601
 };
 
-/// Each file column once, however many requested columns use it.
+/// The columns of the file that the requested columns use, each once.
 std::vector<UsedColumn> used_columns(const ColumnSources& sources, const CsvHeader& header) {
   std::vector<UsedColumn> used;
   for (const ColumnSource& source : sources.found) {
@@ -46,7 +46,7 @@ std::vector<UsedColumn> used_columns(const ColumnSources& sources, const CsvHead
   return used;
 }
 
-/// Parses the header, then the rows. Collects faults up to a maximum.
+/// Parses the header and the rows of a text. Collects up to kMaxFaults faults.
 class CsvParser {
  public:
   CsvParser(std::string file, std::string_view text) : text_(text), scanner_(text) {
@@ -111,7 +111,7 @@ Result<CsvTable> CsvParser::parse(std::span<const CsvColumn> columns,
   return table_of(std::move(raw_), std::move(sources), mappings, std::move(faults_));
 }
 
-/// Reserves memory for as many rows as there are if all are as long as the first.
+/// Reserves memory. Estimates the number of rows from the length of the first row.
 void CsvParser::reserve() {
   std::size_t row_bytes = 1;
   for (const std::string& sample : header_.samples) row_bytes += sample.size() + 1;
@@ -121,8 +121,8 @@ void CsvParser::reserve() {
   }
 }
 
-/// Fills `cells_` with the next record. False at the end of the text and after an unterminated
-/// quote. After another fault in a record, `cells_` is empty.
+/// Reads the next record into `cells_`. False at the end of the text and after an unterminated
+/// quote. After any other fault in the record, `cells_` is empty.
 bool CsvParser::scan() {
   const CsvScanner::Outcome outcome = scanner_.next(cells_);
   if (outcome == CsvScanner::Outcome::kRecord) return true;
@@ -157,7 +157,8 @@ bool CsvParser::read_row() {
   return true;
 }
 
-/// True if a row with more cells than the header, separated by commas, has only whole numbers.
+/// True if decimal commas may have split the cells of this row: cells between commas, more of them
+/// than in the header, all whole numbers.
 bool CsvParser::has_decimal_commas() const {
   if (header_.delimiter != ',' || cells_.size() <= header_.names.size()) return false;
   const auto is_whole = [](const CsvCell& cell) {
@@ -172,19 +173,19 @@ bool CsvParser::has_decimal_commas() const {
 void CsvParser::report_ragged() {
   const CsvCell& cell =
       cells_.size() > header_.names.size() ? cells_[header_.names.size()] : cells_.back();
-  std::string message =
-      fmt::format("this row has {} cells, the header {}", cells_.size(), header_.names.size());
+  std::string message = fmt::format("this row has {} cells, but the header has {}", cells_.size(),
+                                    header_.names.size());
   if (has_decimal_commas()) {
     message +=
         ": these look like decimal commas; write numbers with a point, or separate the cells "
         "by semicolons";
   } else if (cells_.size() < header_.names.size() && cells_.back().text.end() == text_.end()) {
-    message += "; the file ends inside it: delete this row";
+    message += "; the file ends inside this row: delete it";
   }
   fault(ErrorCode::kBrokenFile, cell.line, cell.character, std::move(message));
 }
 
-/// Faulty cells and permitted empty cells have marker values.
+/// Value of a cell; kEmptyCell for a permitted empty cell, kFaultyCell after a fault.
 double CsvParser::value_of(const CsvCell& cell, const UsedColumn& used) {
   if (used.may_be_empty && cell.text.empty()) return kEmptyCell;
   if (used.is_date) {
@@ -208,7 +209,7 @@ double CsvParser::value_of(const CsvCell& cell, const UsedColumn& used) {
   return kFaultyCell;
 }
 
-/// Reports decimal commas that are ambiguous or inconsistent.
+/// Adds a fault if decimal commas are ambiguous or mixed with decimal points.
 void CsvParser::check_commas() {
   if (const auto wrong = fault_of(commas_)) {
     fault(ErrorCode::kAmbiguous, commas_.comma->line, commas_.comma->character, *wrong);

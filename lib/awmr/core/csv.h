@@ -1,5 +1,6 @@
-/// CSV input: header row, unit in the column name; comma, semicolon or tab (detected), `#` comment
-/// lines, CRLF, a BOM and quoted fields. Columns are found by name, extra ones ignored.
+/// Reads CSV files as tables of numbers. Columns are found by their names in the header; other
+/// columns are ignored. The delimiter (comma, semicolon, tab or vertical bar) is detected. Comment
+/// lines (`#`), CRLF, a byte order mark and quoted cells are accepted.
 #pragma once
 
 #include <filesystem>
@@ -16,46 +17,47 @@
 
 namespace awmr {
 
-/// Meaning of an empty cell in a table whose columns have different sample times.
+/// Meaning of an empty cell.
 enum class EmptyCells {
   kFault,   ///< a fault: every row needs a value
-  kHeld,    ///< a command: the previous value still holds
-  kAbsent,  ///< a measurement: there was none in this row
-  /// For tables with one row per run: this run has no value. Any number of rows can be empty; no
-  /// value is carried over from the row before, and no row is dropped. If all are empty, the column
-  /// is absent, even if it is required.
+  kHeld,    ///< a command in a log of different rates: the previous value still holds
+  kAbsent,  ///< a measurement in a log of different rates: no measurement in this row
+  /// In a table with one row per run: this run has no value. Nothing is carried over from the row
+  /// before, and no row is dropped. A column that is empty in all rows counts as absent.
   kOptional,
 };
 
+/// A requested column.
 struct CsvColumn {
   std::string name;
   bool required = true;
   EmptyCells empty = EmptyCells::kFault;
 };
 
-/// Note on how a file was interpreted. Always reported, never a fault.
+/// Note on how a file was interpreted, for the user.
 struct CsvNote {
-  int line = 0;  ///< 0: the file as a whole
+  int line = 0;  ///< 0: the whole file
   std::string code;
   std::string message;
 };
 
-/// The requested numeric columns, and the position of each cell.
+/// Table of the requested columns: their numbers, and the place of each cell in the file.
 class CsvTable {
  public:
   struct Column {
     std::vector<double> values;
-    std::vector<int> character;      ///< column in the file, from 1, by row; empty: unknown
-    std::vector<bool> present = {};  ///< by row: has its own value; empty: all have
+    std::vector<int> character;      ///< by row: place in the line, from 1; empty: unknown
+    std::vector<bool> present = {};  ///< by row: the file has a value; empty: in all rows
   };
+  /// Content of a table.
   struct Parts {
     std::string file;
     int header_line = 1;
     RowLines lines = {};
     std::map<std::string, Column, std::less<>> columns = {};
     std::vector<CsvNote> notes = {};
-    std::vector<std::size_t> mapped = {};
-    double clock_s = 0.0;
+    std::vector<std::size_t> mapped = {};  ///< see mapped()
+    double clock_s = 0.0;                  ///< see clock_s()
   };
   /// Precondition: every column has a value for every line.
   explicit CsvTable(Parts parts) : parts_(std::move(parts)) {}
@@ -65,38 +67,37 @@ class CsvTable {
   bool has(std::string_view column) const;
   /// Values by row. Precondition: has(column).
   std::span<const double> column(std::string_view column) const;
-  /// As column(), moved out of the table, which leaves the column empty. Precondition: has(column).
+  /// As column(), and leaves the column of the table empty. Precondition: has(column).
   std::vector<double> take(std::string_view column);
-  /// By row: the value was in the file, not carried over from an earlier row. Empty: all were.
-  /// Precondition: has(column).
+  /// By row: true if the file has the value, false if it was carried over from an earlier row.
+  /// Empty: the file has all values. Precondition: has(column).
   const std::vector<bool>& present(std::string_view column) const;
   /// Line in the file, from 1.
   int line(std::size_t row) const { return parts_.lines[row]; }
-  /// `FILE:LINE:COLUMN` of a cell; `FILE:LINE:1` if the column is absent or its place unknown.
+  /// `FILE:LINE:COLUMN` of a cell; `FILE:LINE:1` if the column is absent or its position unknown.
   std::string place(std::size_t row, std::string_view column) const;
   /// `FILE:LINE:1` of the header.
   std::string header_place() const;
   const std::vector<CsvNote>& notes() const { return parts_.notes; }
-  /// Clock time subtracted so that t_s counts from the first row, s.
+  /// Clock time of the first row, s, which was subtracted from t_s; 0 if nothing was subtracted.
   double clock_s() const { return parts_.clock_s; }
-  /// Mappings that gave a column: indices into those that the table was read with.
+  /// Mappings that were used, as indices into those given to the reader.
   const std::vector<std::size_t>& mapped() const { return parts_.mapped; }
 
  private:
   Parts parts_;
 };
 
-/// Reads the requested columns. If at least one kHeld or kAbsent column is empty in a quarter of
-/// its rows or more, the file is sparse: it holds signals of different rates. Empty cells of
-/// columns that permit them then have the meaning in EmptyCells, and rows without any value are
-/// dropped.
-/// Reports all faults of the file at once: missing required or duplicate columns, ragged rows,
-/// cells that are empty, not numbers, NaN or infinite, an unterminated quote, no rows, a formula
-/// whose value is infinite or NaN.
+/// Reads the requested columns. A file has signals of different rates if a kHeld or kAbsent column
+/// is empty in a quarter of its rows or more. Empty cells of such columns then have the meaning in
+/// EmptyCells, and rows without any value are dropped. In other files they are faults. Reports all
+/// faults of the file at once: a missing required column, a duplicate column, rows with another
+/// number of cells than the header, cells that are empty, not numbers, NaN or infinite, an
+/// unterminated quote, no rows, a formula whose value is infinite or NaN.
 Result<CsvTable> read_csv(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                           std::span<const ColumnMapping> mappings = {});
 
-/// CSV output: numbers in the shortest form that reads back to the same value.
+/// The shortest text that reads back to the same number.
 std::string format_number(double value);
 
 }  // namespace awmr

@@ -25,7 +25,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// The text in quotes, shortened, on one line.
+/// The text of a cell for a message: in quotes, shortened, on one line.
 std::string shown(std::string_view text) {
   const std::string_view begin = first_characters(text, kLongestCell);
   std::string result(begin);
@@ -47,7 +47,7 @@ std::size_t count_digits(std::string_view text) {
                                   text.begin());
 }
 
-/// True if it begins with 2026-01-31, 31.01.2026 or 1/31/26.
+/// True if the text begins with a date such as 2026-01-31, 31.01.2026 or 1/31/26.
 bool is_date(std::string_view text) {
   const std::size_t first = count_digits(text);
   if (first == 0 || first >= text.size()) return false;
@@ -60,17 +60,17 @@ bool is_date(std::string_view text) {
   return first == 4 ? third == 1 || third == 2 : first <= 2 && (third == 2 || third == 4);
 }
 
-/// True if it begins with 12:34.
+/// True if the text begins with a clock time such as 12:34.
 bool is_clock_time(std::string_view text) {
   const std::size_t hours = count_digits(text);
   return hours > 0 && hours <= 2 && text.substr(hours).starts_with(':') &&
          count_digits(text.substr(hours + 1)) == 2;
 }
 
-/// U+2212, which spreadsheets and typesetters use for '-'.
+/// The Unicode minus sign U+2212, which some programs write in place of '-'.
 constexpr std::string_view kMinusSign = "\xE2\x88\x92";
 
-/// Reason why a text is not a number; its first `read` characters are one.
+/// Message for a text that is not a number. `read`: length of the number at its beginning.
 std::string why_not_a_number(std::string_view text, std::size_t read) {
   const std::size_t sign = text.find_first_not_of("+-");
   const std::string word = sign == std::string_view::npos ? "" : lower(text.substr(sign));
@@ -84,7 +84,7 @@ std::string why_not_a_number(std::string_view text, std::size_t read) {
   }
   if (word.rfind("nan", 0) == 0) return found + "; leave out rows without a measured value";
   if (word == "inf" || word == "infinity") {
-    return found + "; a measured value is finite: leave out the row";
+    return found + "; leave out rows without a finite value";
   }
   if (word.rfind("0x", 0) == 0) return found + ": hexadecimal; write it in decimal";
   if (is_decimal_comma(text)) {
@@ -93,7 +93,7 @@ std::string why_not_a_number(std::string_view text, std::size_t read) {
     return fmt::format("{} with a decimal comma; write {} with a point", found, point);
   }
   if (read > 0 && read < text.size() && !is_digit(text[read])) {
-    return found + "; a cell holds the number alone, the column's name holds the unit";
+    return found + "; write only the number, and its unit in the column's name";
   }
   return found;
 }

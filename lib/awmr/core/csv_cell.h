@@ -16,18 +16,19 @@ inline std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Parses a finite decimal number; a leading '+' is allowed. Errors state the found text and the
-/// remedy: an empty cell, NaN, infinity, a hexadecimal number, a decimal comma, a unit behind the
-/// number, a number out of range, any other text.
+/// Parses a finite decimal number; a leading '+' is allowed. Errors, as text with the remedy: an
+/// empty cell, NaN, infinity, a hexadecimal number, a decimal comma, a unit after the number, a
+/// number out of range, any other text.
 tl::expected<double, std::string> number_from_text(std::string_view text);
 
-/// Writes text as a cell, quoted if necessary. A text that a spreadsheet would run as a formula (it
-/// begins with = + - @, a tab or a carriage return) gets a leading '. So does a text that begins
-/// with '.
+/// Returns text as a CSV cell, quoted if necessary. A text that a spreadsheet would run as a
+/// formula (it begins with = + - @, a tab or a carriage return) gets a leading apostrophe. So does
+/// a text that begins with an apostrophe.
 std::string cell_of_text(std::string_view text);
 
-/// Removes the first record from `csv` and undoes cell_of_text(). A quoted cell can contain line
-/// ends. Only for text written by this program: nothing is checked.
+/// Removes the first record (row) from `csv` and returns its cells as text, without what
+/// cell_of_text() added. A quoted cell can contain line ends. Only for text that this program
+/// wrote, because nothing is checked.
 std::vector<std::string> take_text_record(std::string_view& csv);
 
 }  // namespace awmr

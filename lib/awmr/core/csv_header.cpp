@@ -29,10 +29,10 @@ std::string name_of(const CsvCell& cell) {
 
 struct Delimiter {
   char character = ',';
-  int found = 0;  ///< requested columns that it separates
+  int found = 0;  ///< number of requested columns among the cells of the header
 };
 
-/// The delimiter that finds most requested columns; of equal ones, the one that gives most cells.
+/// The delimiter with which a line has the most requested columns; among equals, the most cells.
 Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& wanted) {
   int best = 0;
   Delimiter chosen;
@@ -51,8 +51,9 @@ Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& w
   return chosen;
 }
 
-/// Uses the last comment above the first row as the header, because some programs write names
-/// behind a '#'. It must have as many cells as that row and some of the requested columns.
+/// Takes the last comment above the first row as the header, because some programs write the header
+/// after a '#'. It must have as many cells as the first row and at least one requested column.
+/// False if it has not.
 bool take_comment(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
   CsvScanner comment(scanner.comment());
   const Delimiter chosen = delimiter_of(comment, wanted);
@@ -88,7 +89,8 @@ bool is_number(const CsvCell& cell, bool may_have_comma) {
   return number_from_text(text).has_value();
 }
 
-/// If columns are requested by position and the first line holds numbers, the first line is a row.
+/// For a file without a header: if columns are requested by position (`column_1`) and the first
+/// line has only numbers, takes that line as the first row. Else false.
 bool take_positions(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
   if (std::none_of(wanted.begin(), wanted.end(), is_position)) return false;
   for (const char delimiter : {';', '\t', '|', ','}) {
@@ -110,7 +112,7 @@ bool take_positions(CsvScanner& scanner, const std::set<std::string>& wanted, Cs
   return false;
 }
 
-/// Line that a program writes for itself: PuTTY's mark of a new log, Excel's separator.
+/// True for a line that is not part of the table: PuTTY's mark of a new log, Excel's `sep=;`.
 bool is_mark(std::string_view line) {
   std::string_view text = trimmed(line);
   if (text.starts_with("=~=~=")) return true;
@@ -126,8 +128,8 @@ bool has_number(const std::vector<CsvCell>& cells, char delimiter) {
                      [&](const CsvCell& cell) { return is_number(cell, delimiter != ','); });
 }
 
-/// True if `scanner` is at a header: it has requested columns, or names above a row of as many
-/// cells.
+/// True if the scanner is at a header: a line with two or more requested columns, or a line without
+/// numbers above a row with as many cells.
 bool is_above_rows(CsvScanner scanner, const Delimiter& chosen) {
   const std::vector<CsvCell> names = scanner.peek_cells(chosen.character);
   if (chosen.found >= 2) return true;
@@ -138,7 +140,7 @@ bool is_above_rows(CsvScanner scanner, const Delimiter& chosen) {
   return row.size() == names.size() && has_number(row, chosen.character);
 }
 
-/// Skips such marks above the header.
+/// Skips the lines above the header for which is_mark() is true.
 void skip_marks(CsvScanner& scanner, CsvHeader& header) {
   while (is_mark(scanner.peek_line())) {
     scanner.skip_line();
@@ -146,8 +148,8 @@ void skip_marks(CsvScanner& scanner, CsvHeader& header) {
   }
 }
 
-/// Skips up to kMaxTitleLines title lines above the header, which have fewer cells than it. A first
-/// line with a requested column or a number is not a title.
+/// Skips up to 20 lines of titles above the header. Titles have fewer cells than the header. If the
+/// first line has a requested column or a number, there are no titles.
 void skip_titles(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
   constexpr int kMaxTitleLines = 20;
   CsvScanner ahead = scanner;
@@ -167,7 +169,7 @@ void skip_titles(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHe
   }
 }
 
-/// Errors: a name is not UTF-8.
+/// Checks the column names. Errors: a name is not UTF-8.
 Status check_names(const CsvHeader& header, const std::string& file) {
   for (const CsvCell& cell : header.cells) {
     if (is_utf8(cell.text)) continue;
@@ -246,7 +248,7 @@ std::vector<CsvNote> format_notes(const CsvHeader& header, bool has_decimal_comm
   return {{header.line, "csv-format",
            fmt::format("read with cells between {}{}{}{}", between,
                        has_decimal_commas ? ", decimal commas" : "",
-                       header.is_comment      ? ", column names behind #"
+                       header.is_comment      ? ", column names after #"
                        : header.is_positional ? ", the columns by position (no header)"
                                               : "",
                        skipped)}};
@@ -255,8 +257,8 @@ std::vector<CsvNote> format_notes(const CsvHeader& header, bool has_decimal_comm
 std::string message_of(CsvScanner::Outcome outcome) {
   return outcome == Outcome::kOpenQuote
              ? "this quote is not closed"
-             : "there is text between the closing quote of this cell and the delimiter; double a "
-               "quote inside a quoted cell";
+             : "there is text between the closing quote of this cell and the delimiter; write a "
+               "quote inside a quoted cell twice";
 }
 
 }  // namespace awmr

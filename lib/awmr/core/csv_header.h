@@ -1,5 +1,4 @@
-/// Finds the header of a CSV text: its line, its delimiter and its column names. Private to the
-/// library.
+/// Finds the header of a CSV text, its delimiter and its column names. Private to the library.
 #pragma once
 
 #include <span>
@@ -12,29 +11,31 @@
 namespace awmr {
 
 struct CsvHeader {
-  std::vector<CsvCell> cells = {};        ///< the names, as in the text
-  std::vector<std::string> names = {};    ///< by column, doubled quotes replaced by single ones
+  std::vector<CsvCell> cells = {};        ///< the cells of the header, as in the text
+  std::vector<std::string> names = {};    ///< column names: without the doubling of quotes
   std::vector<std::string> samples = {};  ///< the cells of the first row
   int line = 1;
   char delimiter = ',';
-  int skipped_lines = 0;    ///< lines above it that are neither header nor comments
-  bool is_comment = false;  ///< the names follow a '#'
-  /// No header: the names are `column_1`, ..., `cells` are the first row's.
+  int skipped_lines = 0;    ///< number of lines above the header, without comments
+  bool is_comment = false;  ///< true: the header is a comment, after a '#'
+  /// True: the file has no header. The names are `column_1`, `column_2`, ...; `cells` are those of
+  /// the first row.
   bool is_positional = false;
 };
 
-/// Finds the header and leaves `scanner` at the first row. `scanner` starts at the text's first
-/// byte. `file` names the text in errors. Errors: no header; an unterminated quote or text behind a
-/// quote; numbers instead of names; JSON or HTML; cells separated by spaces; names that are not
-/// UTF-8.
+/// Finds the header and moves `scanner` to the first row. Precondition: `scanner` is at the first
+/// byte of the text. `file` names the text in errors. Errors: no header; an unterminated quote, or
+/// text after a closing quote; numbers instead of names; JSON or HTML; cells separated by spaces;
+/// names that are not UTF-8.
 Result<CsvHeader> find_header(CsvScanner& scanner, const std::string& file,
                               std::span<const CsvColumn> columns,
                               std::span<const ColumnMapping> mappings);
 
-/// Notes on how the file was interpreted, where that is not obvious.
+/// Returns the note `csv-format` if the format is unusual (other than cells between commas,
+/// semicolons or tabs below a header in the first line); else none.
 std::vector<CsvNote> format_notes(const CsvHeader& header, bool has_decimal_commas);
 
-/// Fault text for a record: an unterminated quote, or text behind a closing quote.
+/// Text of a scanner's fault: an unterminated quote, or text after a closing quote.
 std::string message_of(CsvScanner::Outcome outcome);
 
 }  // namespace awmr

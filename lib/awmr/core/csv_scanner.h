@@ -7,33 +7,38 @@
 
 namespace awmr {
 
-/// One cell: its text without quotes and outer spaces, and its position, from 1.
+/// One cell.
 struct CsvCell {
-  std::string_view text;
+  std::string_view text;  ///< without quotes and outer spaces
   int line = 1;
-  int character = 1;
+  int character = 1;  ///< position in the line, from 1
   bool is_quoted = false;
-  std::optional<double> number = {};  ///< of most numbers; number_from_text() parses the others
+  /// The value, if the text is a plain number such as -12.5. number_from_text() parses the others.
+  std::optional<double> number = {};
 };
 
+/// Reads one record (row) after the other.
 class CsvScanner {
  public:
   enum class Outcome { kRecord, kEnd, kOpenQuote, kTextAfterQuote };
 
-  /// `bytes` without a byte order mark.
+  /// Precondition: `bytes` have no byte order mark.
   explicit CsvScanner(std::string_view bytes) : rest_(bytes) {}
   void set_delimiter(char delimiter) { delimiter_ = delimiter; }
 
-  /// Skips comments and blank lines. Returns the next line, whose number is line().
+  /// Skips comments and blank lines. Returns the next line without consuming it; line() is its
+  /// number.
   std::string_view peek_line();
   int line() const { return line_; }
-  /// The last comment that was skipped, without its '#', and its line; line 0: there was none.
+  /// The last comment that was skipped, without its '#'.
   std::string_view comment() const { return comment_; }
+  /// Line of that comment; 0: no comment was skipped.
   int comment_line() const { return comment_line_; }
 
-  /// Reads the next record. On a fault, the last cell is the faulty one.
+  /// Reads the next record. On a fault (an outcome other than kRecord and kEnd), the last cell is
+  /// the faulty one.
   Outcome next(std::vector<CsvCell>& cells);
-  /// Cells of the next record, up to the first fault, for another delimiter; reads nothing.
+  /// Cells of the next record with another delimiter, up to the first fault. Consumes nothing.
   std::vector<CsvCell> peek_cells(char delimiter) const;
 
   /// Skips the rest of the line after a fault.

@@ -1,4 +1,4 @@
-/// Reads CSV from memory.
+/// Reads CSV from text in memory.
 #pragma once
 
 #include <span>
@@ -10,25 +10,26 @@
 
 namespace awmr {
 
-/// Like read_csv(), but from text. `file` is the name in error messages.
+/// As read_csv(), from the bytes of a file. `file` names it in errors.
 Result<CsvTable> read_csv_text(std::string_view bytes, const std::string& file,
                                std::span<const CsvColumn> columns,
                                std::span<const ColumnMapping> mappings = {});
 
-/// The beginning of a table.
+/// Header and first rows of a table, as text.
 struct CsvHead {
   std::vector<std::string> names;
-  std::vector<std::vector<std::string>> rows;  ///< unparsed cells
+  std::vector<std::vector<std::string>> rows;  ///< cells, by row
   char delimiter = ',';
 };
 
-/// Finds the header as read_csv_text() does and reads up to `most_rows` rows. Errors: no header.
+/// Reads the header and up to `most_rows` rows as text. `columns` and `mappings` help to recognise
+/// the header. Errors: as find_header() (csv_header.h).
 Result<CsvHead> csv_head(std::string_view bytes, const std::string& file,
                          std::span<const CsvColumn> columns,
                          std::span<const ColumnMapping> mappings, std::size_t most_rows);
 
-/// File name without its directory. Findings use it so that their bytes do not depend on the file's
-/// location; errors show the path as typed.
+/// Name of the table's file without its directory. Findings use this name, so that outputs do not
+/// depend on where the file is.
 std::string finding_file(const CsvTable& table);
 
 }  // namespace awmr

@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// True for 1,250 or -12,500: the comma can be a thousands separator.
+/// True for texts such as 1,250 or -12,500, whose comma may be a thousands separator.
 bool may_be_thousands(std::string_view text) {
   if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
   const std::size_t comma = text.find(',');
@@ -43,7 +43,7 @@ std::optional<std::string> fault_of(const DecimalCommas& seen) {
   const std::string text = shortened(seen.comma->text, 40);
   if (seen.point) {
     return fmt::format(
-        "\"{}\" with a comma, and \"{}\" with a point in line {}: write all numbers "
+        "found \"{}\" with a comma, and \"{}\" with a point in line {}: write all numbers "
         "with a point",
         text, shortened(seen.point->text, 40), seen.point->line);
   }

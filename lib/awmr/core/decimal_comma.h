@@ -1,5 +1,4 @@
-/// Detects numbers with decimal commas from all cells of a file, if the delimiter is not a comma.
-/// Private to the library.
+/// Recognises decimal commas in files whose delimiter is not a comma. Private to the library.
 #pragma once
 
 #include <optional>
@@ -10,20 +9,22 @@
 
 namespace awmr {
 
-/// Cells seen so far. A file must use one notation; "1,250" alone can mean 1250 or 1.25.
+/// Record of the commas and points in the cells of a file. All numbers of a file must use the same
+/// decimal mark. A comma may also be a thousands separator: "1,250" can mean 1250 or 1.25.
 struct DecimalCommas {
-  std::optional<CsvCell> comma = {};  ///< the first cell with a comma
+  std::optional<CsvCell> comma = {};  ///< the first number with a comma
   std::optional<CsvCell> point = {};  ///< the first number with a point
-  bool unmistakable = false;          ///< some cell cannot have a thousands separator
+  bool unmistakable = false;          ///< true: a comma was found that separates no thousands
 };
 
-/// Parses a cell like `-1,25` or `1,25e3` and records it in `seen`; nothing for any other text.
+/// Parses a cell such as `-1,25` or `1,25e3` and records its comma in `seen`. Empty for other text.
 std::optional<double> number_with_comma(const CsvCell& cell, DecimalCommas& seen);
 
-/// Records a number with a decimal point.
+/// Records the point of a number in `seen`; nothing if the cell has none.
 void note_point(const CsvCell& cell, DecimalCommas& seen);
 
-/// Fault of the file's commas: points occur as well, or all commas can be thousands separators.
+/// Text of the fault if the file also has decimal points, or if all of its commas may be thousands
+/// separators; else empty.
 std::optional<std::string> fault_of(const DecimalCommas& seen);
 
 }  // namespace awmr

@@ -5,7 +5,7 @@
 
 namespace awmr {
 
-/// Closes a descriptor at the end of its scope.
+/// A file descriptor that the destructor closes.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}

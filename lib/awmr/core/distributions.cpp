@@ -11,7 +11,7 @@ namespace math = boost::math;
 
 namespace {
 
-/// In double throughout: long double takes three times as long, and 128 bits on some processors.
+/// Computes in double: long double takes three times as long, and differs between processors.
 using InDouble = math::policies::policy<math::policies::promote_double<false>>;
 using Normal = math::normal_distribution<double, InDouble>;
 using StudentsT = math::students_t_distribution<double, InDouble>;

@@ -1,12 +1,12 @@
-/// Probabilities and quantiles of the standard distributions. Boost.Math is compiled in
-/// distributions.cpp alone. Private: not installed.
+/// Probabilities and quantiles of the normal, t, chi-squared and F distributions. Only
+/// distributions.cpp includes Boost.Math, which is slow to compile. Private: not installed.
 #pragma once
 
 namespace awmr {
 
 /// P(Z <= z), Z standard normal.
 double normal_cdf(double z);
-/// P(Z > z), exact far into the tail.
+/// P(Z > z), accurate for large z too.
 double normal_tail(double z);
 
 /// P(T > t), T Student's t with degrees_of_freedom > 0.

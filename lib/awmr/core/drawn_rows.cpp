@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// Range of each signal: the scale of its tolerance.
+/// Range (largest minus smallest value) of each signal.
 std::vector<double> ranges_of(std::span<const std::vector<double>> signals) {
   std::vector<double> ranges;
   for (const std::vector<double>& signal : signals) {
@@ -22,7 +22,7 @@ std::vector<double> ranges_of(std::span<const std::vector<double>> signals) {
 
 struct Farthest {
   std::size_t row = 0;
-  double distance = 0.0;  ///< over the signal's range
+  double distance = 0.0;  ///< divided by the signal's range
 };
 
 /// The row between `first` and `last` that is farthest from the straight line between them.
@@ -53,7 +53,7 @@ std::vector<std::size_t> rows_within(std::span<const double> t,
     open.pop_back();
     const Farthest far = farthest_row(t, signals, ranges, first, last);
     if (far.distance > tolerance) {
-      open.emplace_back(far.row, last);  // the earlier half is processed first: rows stay in order
+      open.emplace_back(far.row, last);  // the earlier half is on top, so rows stay in order
       open.emplace_back(first, far.row);
     } else {
       rows.push_back(last);

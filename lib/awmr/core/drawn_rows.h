@@ -1,4 +1,4 @@
-/// Selects the rows of a time series that a chart needs, and rounds its numbers. Not installed.
+/// Reduces a time series to the rows that its chart needs, and rounds the numbers. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -7,24 +7,23 @@
 
 namespace awmr {
 
-/// Rows, first and last included, whose connecting straight lines stay within `tolerance` times
-/// each signal's range at every row. Peaks are kept, whatever their width. If more than `most` rows
-/// are necessary, the tolerance is doubled until they suffice.
-///
-/// Douglas-Peucker along time, for all signals together.
-/// t: ascending, one value a row; signals: each with as many values. `most` >= 2.
+/// Selects rows so that the straight lines between them deviate from each signal by at most
+/// `tolerance` times the signal's range (Douglas-Peucker algorithm over time, for all signals
+/// together). The first and the last row are always selected. If more than `most` >= 2 rows are
+/// needed, the tolerance is doubled until `most` suffice.
+/// `t`: ascending, one value per row; each signal has as many values.
 std::vector<std::size_t> drawn_rows(std::span<const double> t,
                                     std::span<const std::vector<double>> signals, double tolerance,
                                     std::size_t most);
 
-/// Tolerance as a fraction of a signal's range: a tenth of a pixel in a chart 220 px high, one
-/// pixel at tenfold zoom.
+/// Tolerance for drawn_rows(): a tenth of a pixel in a chart 220 px high, so one pixel at tenfold
+/// zoom.
 inline constexpr double kDrawnTolerance = 1.0 / 2000.0;
 
 /// Rounds a finite number to this many significant digits, 1 to 17.
 double rounded_number(double x, int digits);
 
-/// Rounds a finite number to the five digits that a chart shows.
+/// Rounds a finite number to five significant digits, for charts.
 double drawn_number(double x);
 
 }  // namespace awmr

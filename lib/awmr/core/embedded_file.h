@@ -1,4 +1,4 @@
-/// Files compiled into the program as text by lib/cmake/Embed.cmake.
+/// A file that lib/cmake/Embed.cmake compiled into the program.
 #pragma once
 
 #include <string_view>
@@ -6,7 +6,7 @@
 namespace awmr {
 
 struct EmbeddedFile {
-  std::string_view path;  ///< relative, with '/'
+  std::string_view path;  ///< relative path with '/' as separator
   std::string_view bytes;
 };
 

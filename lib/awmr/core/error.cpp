@@ -29,7 +29,8 @@ std::string file_and_keys(const std::string& place) {
   return text.substr(0, end == std::string::npos ? 0 : end + 1);
 }
 
-/// Key for faults with the same cause: file, and message without the values that it quotes.
+/// Text that is equal for faults with the same cause: the file, and the message without numbers and
+/// quoted values.
 std::string cause_of(const Fault& fault) {
   std::string cause = file_and_keys(fault.place) + '\n';
   bool is_quoted = false;
@@ -41,8 +42,8 @@ std::string cause_of(const Fault& fault) {
   return cause;
 }
 
-/// If more than kMaxAlike faults have the same cause, keeps the first, with the number of the
-/// others.
+/// If more than kMaxAlike faults have the same cause, replaces them by the first, with the number
+/// of the others in its message.
 std::vector<Fault> without_repeats(const std::vector<Fault>& faults) {
   std::map<std::string, std::size_t> counts;
   for (const Fault& fault : faults) ++counts[cause_of(fault)];
@@ -53,7 +54,7 @@ std::vector<Fault> without_repeats(const std::vector<Fault>& faults) {
     first_ones.push_back(fault);
     if (count <= kMaxAlike || fault.place.empty()) continue;
     first_ones.back().message +=
-        fmt::format("; {}{} more faults of this file are the same",
+        fmt::format("; {}{} more faults in this file have the same cause",
                     faults.size() >= kMaxFaults ? "at least " : "", count - 1);
     count = 0;
   }

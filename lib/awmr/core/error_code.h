@@ -1,13 +1,14 @@
-/// Codes of errors. Codes are stable; the words of a message can change.
+/// Codes of errors. A code stays the same in later versions; the text of its message may change.
 #pragma once
 
 #include "awmr/core/name_table.h"
 
 namespace awmr {
 
-/// The cause of an error. `awmr explain CODE` prints each one's meaning and remedy (FINDINGS.md).
+/// The cause of an error. `awmr explain CODE` prints its meaning and remedy
+/// (apps/awmr/FINDINGS.md).
 enum class ErrorCode {
-  // A name, a value or a set of options.
+  // Wrong names, values and options.
   kMissing,
   kUnknownName,
   kGivenTwice,
@@ -23,7 +24,7 @@ enum class ErrorCode {
   kUsage,
   kContradiction,
   kImplausible,
-  // A file or a program.
+  // Files and programs that cannot be used.
   kCannotRead,
   kCannotWrite,
   kWouldOverwrite,
@@ -31,19 +32,19 @@ enum class ErrorCode {
   kBrokenFile,
   kStaleResult,
   kNotInstalled,
-  // A vehicle, a model or the trials.
+  // Vehicles, models and trials for which a command is not possible.
   kUnsupported,
   kTooFewData,
   kNotIdentified,
   kDiverges,
-  // Negative results.
+  // Negative results of commands that ran.
   kNoGains,
   kSlowReaching,
   kNoTable,
   kNotRecovered,
   kCompassUnusable,
   kNoAnswer,
-  // The program itself.
+  // Omitted faults, and internal errors of the program.
   kMoreFaults,
   kInternal,
 };

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinks = 40;  ///< symbolic links followed, as the system does
+constexpr int kMostLinks = 40;  ///< maximum chain of symbolic links, as in Linux
 
 std::string reason() { return std::strerror(errno); }
 
@@ -31,10 +31,11 @@ tl::unexpected<Error> write_error(const fs::path& path, const std::string& why) 
   return input_error(ErrorCode::kCannotWrite, path.string(), "cannot write the file: " + why);
 }
 
-/// Bytes of one read.
+/// Number of bytes requested in one call of read().
 constexpr std::size_t kBlock = std::size_t{1} << 18U;
 
-/// Appends up to the end, at most one byte more than `max_bytes`; false if reading fails.
+/// Appends the rest of a file to `bytes`, and stops as soon as there are more than `max_bytes`.
+/// False if reading fails.
 bool read_all(int descriptor, std::size_t max_bytes, std::string& bytes) {
   while (bytes.size() <= max_bytes) {
     const std::size_t before = bytes.size();
@@ -47,7 +48,7 @@ bool read_all(int descriptor, std::size_t max_bytes, std::string& bytes) {
   return true;
 }
 
-/// The path with symbolic links resolved; the last link may point to a missing file.
+/// Resolves symbolic links. The last link may point to a missing file. Empty for a loop of links.
 std::optional<fs::path> resolved(fs::path path) {
   std::error_code error;
   for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
@@ -59,11 +60,11 @@ std::optional<fs::path> resolved(fs::path path) {
   return path;
 }
 
-/// Destination of the bytes and the file that exists there.
+/// Where an output is written, and what exists there.
 struct Target {
-  fs::path path;
+  fs::path path;  ///< with symbolic links resolved
   bool exists = false;
-  bool is_stream = false;  ///< a terminal, a pipe or another device: nothing to replace
+  bool is_stream = false;  ///< a terminal, a pipe or another device: written directly
   struct stat status {};
 };
 
@@ -77,7 +78,7 @@ Result<Target> target_of(const fs::path& path) {
   target.is_stream = target.exists && !S_ISREG(target.status.st_mode);
   if (target.is_stream) return target;
   const auto file = resolved(path);
-  if (!file) return write_error(path, "its symbolic links lead nowhere");
+  if (!file) return write_error(path, "its symbolic links form a loop; give another name");
   target.path = *file;
   if (!target.exists) return target;
   const bool is_writable =
@@ -87,13 +88,13 @@ Result<Target> target_of(const fs::path& path) {
   }
   if (target.status.st_nlink > 1) {
     return write_error(path,
-                       "it has another name (hard link) that would keep the old bytes; remove one "
-                       "of them or give another name");
+                       "it has a second name (hard link) that would keep the old bytes; remove one "
+                       "of the two or give another name");
   }
   return target;
 }
 
-/// Opens a stream for writing. Waits up to kPipeWait_s for a pipe's reader.
+/// Opens a pipe or device for writing. Waits up to kPipeWait_s until a program reads the pipe.
 Result<Descriptor> open_stream(const fs::path& path) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPipeWait_s);
   while (true) {
@@ -118,15 +119,15 @@ Status write_stream(const fs::path& path, std::string_view bytes) {
   return {};
 }
 
-/// Errors (fault): the reader of this kind of file rejects the bytes.
+/// Checks an output before it is written. Errors (fault): `read_back` rejects the bytes.
 Status check_read_back(const fs::path& path, std::string_view bytes, const ReadBack& read_back) {
   if (!read_back) return {};
   const Status read = read_back(bytes, path.string());
   if (read) return {};
   const Fault& first = read.error().faults.front();
   return program_fault(fmt::format(
-      "{} was not written, because its own reader refuses it ({}: {}). An existing file is left as "
-      "it was; please report this with the inputs",
+      "{} was not written, because awmr could not read it again ({}: {}). An existing file is "
+      "unchanged; please report this with the inputs",
       path.string(), first.place, first.message));
 }
 
@@ -144,7 +145,7 @@ Result<PathKind> kind_of(const fs::path& path) {
   return S_ISDIR(status.st_mode) ? PathKind::kDirectory : PathKind::kOther;
 }
 
-/// Process umask, read once, because reading it requires setting it.
+/// The umask of this process. It is read once, because reading it means to set it for a moment.
 mode_t creation_mask() {
   static const mode_t kMask = [] {
     const mode_t current = ::umask(077);
@@ -158,18 +159,18 @@ fs::path directory_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// Makes the rename durable. If the system cannot, the new file is still complete.
+/// Flushes a directory, so that a rename in it survives a power failure. Failures are ignored.
 void flush_directory(const fs::path& path) {
   const Descriptor directory(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (directory.number() >= 0) ::fsync(directory.number());
 }
 
-/// A file that is written but not yet renamed.
+/// An output whose bytes are in a temporary file that is not yet renamed.
 struct Staged {
-  fs::path path;  ///< as typed
+  fs::path path;  ///< as the user gave it
   std::string_view bytes;
   Target target;
-  std::optional<TemporaryFile> temporary;  ///< none for a stream
+  std::optional<TemporaryFile> temporary;  ///< none for a pipe or device
 };
 
 Result<Staged> stage(const fs::path& path, std::string_view bytes, const ReadBack& read_back) {
@@ -185,7 +186,7 @@ Result<Staged> stage(const fs::path& path, std::string_view bytes, const ReadBac
   return Staged{path, bytes, std::move(target), std::move(temporary)};
 }
 
-/// Renames all files to their final names.
+/// Renames all temporary files to their final names, and writes to pipes and devices.
 Status finish(std::vector<Staged> files) {
   for (Staged& file : files) {
     if (!file.temporary) {
@@ -269,8 +270,8 @@ Result<bool> regular_file_exists(const fs::path& path) {
   if (kind == PathKind::kNothing || kind == PathKind::kFile) return kind == PathKind::kFile;
   return input_error(ErrorCode::kWrongFile, path.string(),
                      kind == PathKind::kDirectory
-                         ? "this is a directory where a file is expected; move it away"
-                         : "this is a pipe or a device where a file is expected; move it away");
+                         ? "this is a directory, but a file is expected; move it away"
+                         : "this is a pipe or a device, but a file is expected; move it away");
 }
 
 Status check_regular_file(const fs::path& path) {
@@ -293,7 +294,7 @@ Status check_output_directory(const fs::path& path) {
   AWMR_ASSIGN_OR_RETURN(const bool is_a_directory, directory_exists(there));
   if (!is_a_directory) {
     return input_error(ErrorCode::kWrongFile, there.string(),
-                       "this is a file where a directory is needed; give another name");
+                       "this is a file, but a directory is needed; give another name");
   }
   if (::access(there.c_str(), W_OK | X_OK) != 0) {
     return input_error(

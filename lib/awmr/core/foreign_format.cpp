@@ -14,7 +14,7 @@ namespace {
 /// UTF-8 byte order mark, which some programs write at the beginning of a file.
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// Non-text file formats, by their first bytes.
+/// A binary file format, recognised by its first bytes.
 struct KnownFile {
   std::string_view begin;
   std::string_view words;
@@ -24,9 +24,9 @@ constexpr std::array<KnownFile, 5> kKnownFiles{
      {"\xD0\xCF\x11\xE0", "an old Excel workbook; export the sheet as CSV"},
      {"\x1F\x8B", "compressed by gzip; unpack it"},
      {"%PDF-", "a PDF; export the table as CSV"},
-     {"\x89MCAP", "an MCAP bag; convert it by ros2 bag convert to sqlite3"}}};
+     {"\x89MCAP", "an MCAP bag; convert it to sqlite3 with ros2 bag convert"}}};
 
-/// File format recognised from the first line; empty: it can be a header.
+/// The text format that begins with this line: JSON, HTML or XML. Empty if it may be a CSV header.
 std::string_view format_of(std::string_view line) {
   const std::string_view text = trimmed(line);
   const std::string_view next = trimmed(text.substr(std::min<std::size_t>(1, text.size())));
@@ -40,7 +40,7 @@ std::string_view format_of(std::string_view line) {
   return {};
 }
 
-/// Splits a line at spaces.
+/// Splits a line at spaces and tabs.
 std::vector<std::string_view> words_in(std::string_view line) {
   std::vector<std::string_view> words;
   for (std::size_t begin = 0; (begin = line.find_first_not_of(" \t", begin)) != line.npos;) {
@@ -51,8 +51,8 @@ std::vector<std::string_view> words_in(std::string_view line) {
   return words;
 }
 
-/// True for names separated by spaces: one is a requested column, or the next row has as many
-/// words, one of them a number.
+/// True if the scanner is at a header whose names are separated by spaces: one of them is a
+/// requested column, or the next line has as many words, all of them numbers.
 bool is_between_spaces(CsvScanner scanner, const std::set<std::string>& wanted) {
   const std::vector<std::string_view> words = words_in(scanner.peek_line());
   if (words.size() < 2) return false;

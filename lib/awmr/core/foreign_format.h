@@ -1,5 +1,5 @@
-/// Recognises files that are not CSV, so that one error names the format instead of a fault per row.
-/// Private to the library.
+/// Recognises files that are not CSV, so that one error names their format in place of a fault for
+/// every row. Private to the library.
 #pragma once
 
 #include <set>
@@ -11,14 +11,15 @@
 
 namespace awmr {
 
-/// The text of a file, without its byte order mark. Errors: it is empty, of a known binary format or
-/// not UTF-8.
+/// The text of a file, without its byte order mark. Errors: the file is empty, of a known binary
+/// format, or has NUL bytes, as UTF-16 has.
 Result<std::string_view> text_of(std::string_view bytes, const std::string& file);
 
-/// Errors: the next line begins JSON, HTML or XML.
+/// Checks the next line. Errors: it begins JSON, HTML or XML.
 Status check_format(CsvScanner scanner, const std::string& file);
 
-/// Errors: the cells of the header are separated by spaces. `wanted`: names that it can hold.
+/// Checks the header. Errors: its cells are separated by spaces. `wanted`: names of columns that
+/// indicate a header.
 Status check_spaces(CsvScanner scanner, const std::string& file,
                     const std::set<std::string>& wanted);
 

@@ -1,4 +1,4 @@
-/// The standard acceleration of gravity.
+/// The standard acceleration of gravity, m/s^2.
 #pragma once
 
 namespace awmr {

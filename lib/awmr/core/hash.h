@@ -1,4 +1,4 @@
-/// SHA-256, used to identify inputs in outputs.
+/// SHA-256 hashes. Outputs identify their inputs by them.
 #pragma once
 
 #include <filesystem>
@@ -10,20 +10,21 @@
 
 namespace awmr {
 
-/// Hash of bytes that arrive in pieces.
+/// Computes the hash of bytes that arrive in pieces.
 class Sha256 {
  public:
   Sha256();
   void add(std::string_view bytes);
-  /// As sha256_hex(), of all bytes added. Call once.
+  /// The hash of all bytes added, as 64 hexadecimal digits. May be called once.
   std::string hex();
 
  private:
   std::shared_ptr<void> context_;
 };
 
-/// 64 lower-case hexadecimal digits.
+/// The hash of the bytes as 64 lower-case hexadecimal digits.
 std::string sha256_hex(std::string_view bytes);
+/// The same for the bytes of a file. Errors: as read_file().
 Result<std::string> sha256_of_file(const std::filesystem::path& path);
 
 }  // namespace awmr

@@ -1,5 +1,5 @@
-/// Index conversions without casts in the mathematics. Standard containers use std::size_t, Eigen
-/// uses std::ptrdiff_t; both are non-negative here.
+/// Conversions between the index types of standard containers (std::size_t) and of Eigen
+/// (std::ptrdiff_t), which keep casts out of formulas. Indices must not be negative.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace awmr {
 
-/// Converts an Eigen index or size for a standard container: values[at(i)].
+/// Converts an Eigen index or an enumerator to the index of a standard container: values[at(i)].
 template <class Integer>
 constexpr std::size_t at(Integer i) {
   static_assert(std::is_integral_v<Integer> || std::is_enum_v<Integer>);

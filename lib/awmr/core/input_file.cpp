@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// SHA-256 of the bytes last read, by path as typed.
+/// Hashes of the bytes last read, by path as the user gave it.
 class Notes {
  public:
   void put(const std::string& path, std::string sha256) {

@@ -1,5 +1,5 @@
-/// Input files, each read once, so that the hash in an output is that of the bytes used. A pipe
-/// gives its bytes only once, and a file can change between two reads.
+/// Reads input files and records their hashes. Each file is read once, so that the hash in an
+/// output is that of the bytes that were used, even if the file changes later or is a pipe.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,13 @@
 
 namespace awmr {
 
-/// As read_file; also records the hash under the path. The records are per process, one per path,
-/// and thread-safe.
+/// As read_file(), and records the hash of the bytes under the path, for input_file(). There is one
+/// record per path in the process. Thread-safe.
 Result<std::string> read_input(const std::filesystem::path& path,
                                std::size_t max_bytes = kMaxFileBytes);
 
-/// The file's name and the hash of the bytes last read from it. Reads the file if it was not read
-/// yet. Errors: as read_file.
+/// The name of the file, and the hash of the bytes last read from it by read_input(). Reads the
+/// file if it was not read yet. Errors: as read_file().
 Result<InputFile> input_file(const std::filesystem::path& path);
 
 }  // namespace awmr

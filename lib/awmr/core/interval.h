@@ -4,10 +4,10 @@
 namespace awmr {
 
 struct Interval {
-  double lo = 0.0;  ///< the lower end
-  double hi = 0.0;  ///< the upper end, >= lo
+  double lo = 0.0;  ///< lower end
+  double hi = 0.0;  ///< upper end, >= lo
 
-  /// Includes both ends; false for NaN.
+  /// True for values from lo to hi, both included; false for NaN.
   bool contains(double value) const { return lo <= value && value <= hi; }
 };
 

@@ -8,7 +8,8 @@
 namespace awmr {
 namespace {
 
-/// Rows to keep: from where every command is known, those with a value in some column.
+/// By row: true for rows to keep. They are not before the first value of every command, and have a
+/// value of their own in at least one column.
 std::vector<bool> rows_that_count(const CsvTable::Parts& parts, const ColumnSources& sources) {
   const std::size_t rows = parts.lines.size();
   std::vector<bool> counts(rows, false);
@@ -47,12 +48,12 @@ void keep(Values& values, const std::vector<bool>& kept) {
   values.resize(end);
 }
 
-/// Number of values that each column has, as text.
+/// Text with the number of values of each column.
 std::string rates_of(const CsvTable::Parts& parts) {
   std::string text;
   for (const auto& [name, column] : parts.columns) {
     if (column.present.empty()) continue;
-    text += fmt::format("{}{} in {}", text.empty() ? "" : ", ", name,
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name,
                         std::count(column.present.begin(), column.present.end(), true));
   }
   return text;
@@ -71,11 +72,12 @@ void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources) {
   }
   parts.notes.push_back(
       {0, "joined-by-time",
-       fmt::format("signals of different rates, of {} rows with values of their own: {}; commands "
-                   "keep their previous value, measurements count in their own rows, a formula "
-                   "where the fastest of its columns has a value; {} rows without any, or before "
-                   "every command is known, are left out",
-                   parts.lines.size(), rates_of(parts), before - parts.lines.size())});
+       fmt::format(
+           "signals of different rates in {} rows; number of values by column: {}; commands "
+           "keep their previous value, measurements count in their own rows, a formula has "
+           "a value where the fastest of its columns has one; {} rows without any value, or "
+           "before the first value of every command, are left out",
+           parts.lines.size(), rates_of(parts), before - parts.lines.size())});
 }
 
 void refuse_void_columns(const CsvTable::Parts& parts, const ColumnSources& sources,
@@ -86,8 +88,11 @@ void refuse_void_columns(const CsvTable::Parts& parts, const ColumnSources& sour
   };
   for (const ColumnSource& source : sources.found) {
     if (source.column.empty == EmptyCells::kOptional || !is_void(source)) continue;
-    faults.push_back({ErrorCode::kMissing, fmt::format("{}:{}:1", parts.file, parts.header_line),
-                      fmt::format("the column {} has no value in any row", source.column.name)});
+    faults.push_back(
+        {ErrorCode::kMissing, fmt::format("{}:{}:1", parts.file, parts.header_line),
+         fmt::format("the column {} has no value in any row; add values, or map another "
+                     "column",
+                     source.column.name)});
   }
 }
 

@@ -1,5 +1,4 @@
-/// Selects the rows to keep in tables whose columns have different sample times. Private to the
-/// library.
+/// Drops unusable rows of tables with signals of different rates. Private to the library.
 #pragma once
 
 #include <vector>
@@ -9,10 +8,11 @@
 
 namespace awmr {
 
-/// Drops rows without any value and rows before every command is known; a note gives their number.
+/// Drops rows without any value of their own, and rows before the first value of every command.
+/// Adds the note `joined-by-time` with their number.
 void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources);
 
-/// Reports each column without any value as a fault.
+/// Adds a fault for each column without any value, except for kOptional columns.
 void refuse_void_columns(const CsvTable::Parts& parts, const ColumnSources& sources,
                          std::vector<Fault>& faults);
 

@@ -1,6 +1,6 @@
-/// Strict JSON: unknown, missing and duplicate keys and values out of range are faults, each with
-/// its JSON pointer. All faults of a file are reported at once. Include from .cpp files only,
-/// because it includes nlohmann/json.
+/// Strict reader of JSON files. Unknown, missing and duplicate keys and values out of range are
+/// faults, each with its JSON pointer. All faults of a file are reported at once. Also writes JSON.
+/// Include this header from .cpp files only, because nlohmann/json is slow to compile.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace awmr {
 
 using Json = nlohmann::ordered_json;
 
-/// Range of a number.
+/// Permitted range of a number.
 struct NumberRule {
   double min = std::numeric_limits<double>::lowest();
   double max = std::numeric_limits<double>::max();
@@ -33,18 +33,19 @@ inline constexpr NumberRule kAnyNumber{};
 inline constexpr NumberRule kPositive{.min = 0.0, .min_excluded = true};
 inline constexpr NumberRule kNonNegative{.min = 0.0};
 
-/// Parses a file. Errors: as MappedFile::open; syntax (`FILE:LINE:COLUMN`); duplicate keys.
+/// Parses a file. Errors: as read_input() and read_json_text().
 Result<Json> read_json_file(const std::filesystem::path& path);
 
 class JsonShape;
 
-/// A strict view of one JSON object. Each reader marks its key as known. On a fault it adds to the
-/// shared list and returns a placeholder (NaN, empty), so that reading continues and finds the
-/// rest. Call `reject_unknown_keys()` after all keys were read.
+/// A strict view of one JSON object. Each function that reads a key marks the key as known. On a
+/// fault it adds to the shared list of faults and returns a placeholder (NaN, empty), so that
+/// reading continues and finds all faults. Call `reject_unknown_keys()` after all keys were read.
 class JsonObject {
  public:
   JsonObject(const Json& value, std::string file, std::string pointer, std::vector<Fault>& faults);
-  /// Reads nothing: records the requested keys in `shape` and returns placeholders.
+  /// A view without a document, for json_schema_text(): records the requested keys in `shape` and
+  /// returns placeholders.
   JsonObject(JsonShape& shape, std::vector<Fault>& ignored) : faults_(&ignored), shape_(&shape) {}
 
   bool has(std::string_view key);
@@ -60,11 +61,12 @@ class JsonObject {
   std::optional<std::string> optional_string(std::string_view key);
   /// A whole number from 0 to 2^64 - 1; 0 on a fault.
   std::uint64_t seed(std::string_view key);
-  /// A number that follows the rule, as text, or a string; absent on a fault.
+  /// A number in the range of the rule, as text, or a string; empty if absent or on a fault.
   std::optional<std::string> optional_number_or_string(std::string_view key, NumberRule rule);
-  /// One of a fixed set; a fault suggests the nearest one. Returns its index, 0 on a fault.
+  /// A string that is one of `choices`; a fault suggests the nearest one. Returns its index, 0 on a
+  /// fault.
   std::size_t choice(std::string_view key, std::span<const std::string> choices);
-  /// The value of the name in the table; the first value on a fault.
+  /// A string that is a name in the table. Returns its value, the first value on a fault.
   template <class T, std::size_t N>
   T choice(std::string_view key, const NameTable<T, N>& table) {
     return table[choice(key, std::span<const std::string>(names_in(table)))].value;
@@ -75,30 +77,33 @@ class JsonObject {
   std::optional<Interval> nullable_interval(std::string_view key);
   std::vector<double> numbers(std::string_view key, NumberRule rule = kAnyNumber);
   std::vector<std::string> strings(std::string_view key);
-  /// An unchecked array of arrays, for the caller to check; null if it is missing, which is a
-  /// fault.
+  /// An array of arrays of numbers, unchecked: the caller must check it. Null if the key is
+  /// missing, which is a fault.
   const Json* rows(std::string_view key);
-  /// A missing key or a value that is not an object gives an empty view, which reports no further
-  /// faults.
+  /// The object under the key. If it is missing or not an object (a fault), returns an empty view
+  /// that reports no further faults.
   JsonObject object(std::string_view key);
   std::optional<JsonObject> optional_object(std::string_view key);
   /// The elements of an array of objects.
   std::vector<JsonObject> objects(std::string_view key);
   std::vector<JsonObject> optional_objects(std::string_view key);
-  /// The values of an object with free keys, each an object.
+  /// The values of an object with arbitrary keys, whose values are all objects.
   std::vector<JsonObject> values();
   /// Accepts a key without reading it.
   void ignore(std::string_view key);
-  /// The optional `schema` key: absent or `expected`.
+  /// Reads the optional key `schema`; any other value than `expected` is a fault.
   void schema(std::string_view expected);
-  /// All keys of the object, in the file's order (for maps with free keys).
+  /// All keys of the object, in the order of the file; for objects with arbitrary keys.
   std::vector<std::string> keys() const;
 
+  /// Adds a fault of the key's value.
   void fault(ErrorCode code, std::string_view key, std::string message);
-  /// The first fault of an error of the key's value.
+  /// Adds the first fault of `cause` as a fault of the key's value.
   void fault(std::string_view key, const Error& cause);
+  /// Adds a fault for each key of the object that was not read.
   void reject_unknown_keys();
   const std::string& file() const { return file_; }
+  /// JSON pointer of a key of this object.
   std::string pointer(std::string_view key) const;
 
  private:
@@ -107,30 +112,30 @@ class JsonObject {
   std::string file_;
   std::string pointer_;
   std::vector<Fault>* faults_;
-  JsonShape* shape_ = nullptr;  ///< null: reads
+  JsonShape* shape_ = nullptr;  ///< null: reads a document
   std::set<std::string, std::less<>> known_;
 };
 
-/// The JSON Schema (draft 2020-12) of the documents that `read` accepts. `read` is run for every
-/// value of every choice, with and without each optional key. The schema accepts every document
-/// that `read` accepts. It has no rules between keys, except for keys that depend on a choice.
-/// `format` is the value of the `schema` key.
+/// Returns a JSON Schema (draft 2020-12) that accepts every document that `read` accepts. It is
+/// derived by running `read` for every value of every choice(), with and without optional keys. It
+/// has no rules between keys, except for keys that depend on a choice. `format`: value of the key
+/// `$id`.
 std::string json_schema_text(std::string_view format, std::string_view title,
                              const std::function<void(JsonObject&)>& read);
 
 /// Writes the provenance keys `{"command", "version", "options", "inputs"}` into `json`.
 void put_provenance(Json& json, const Provenance& provenance);
-/// Beginning of an output document: schema and provenance.
+/// A new output document with the keys `schema` and those of put_provenance().
 Json output_document(std::string_view schema, const Provenance& provenance);
 /// Reads the keys written by put_provenance().
 Provenance read_provenance(JsonObject& json);
-/// True if the document was made from the file with this hash; none if it names no inputs, like a
-/// document written by hand.
+/// True if the inputs of the document include a file with this hash. Empty if the document names no
+/// inputs, as one written by hand.
 std::optional<bool> is_made_from(const Json& document, std::string_view sha256);
 
-/// Two-space indentation, numbers that read back to the same value, a newline at the end.
-/// Precondition: all numbers are finite, because JSON has no others. Otherwise throws
-/// std::logic_error with the pointer of the number.
+/// JSON text with an indentation of two spaces and a newline at the end. Numbers read back to the
+/// same value. Throws std::logic_error with the pointer of a number that is not finite, because
+/// JSON has no such numbers.
 std::string to_text(const Json& json);
 
 }  // namespace awmr

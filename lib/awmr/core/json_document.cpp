@@ -27,7 +27,7 @@ std::string place_of(const std::string& file, std::string_view text, std::size_t
   return fmt::format("{}:{}:{}", file, lines + 1, characters + 1);
 }
 
-/// Rejects documents that need excessive memory or stack, before anything is built.
+/// Fault of a text that exceeds the limits of json_document.h; found before memory is used for it.
 std::optional<Fault> beyond_bounds(const std::string& file, std::string_view text) {
   std::size_t depth = 0;
   std::size_t values = 1;
@@ -52,8 +52,8 @@ std::optional<Fault> beyond_bounds(const std::string& file, std::string_view tex
   return std::nullopt;
 }
 
-/// Builds the document from parser events and reports duplicate keys by their JSON pointer. Json's
-/// own builder searches a list of all earlier keys for each new key.
+/// Builds the document from the events of the parser, and reports duplicate keys. It replaces the
+/// builder of nlohmann/json, whose time grows with the square of the number of keys.
 class DocumentBuilder final : public Json::json_sax_t {
  public:
   explicit DocumentBuilder(std::string file, std::string_view text)
@@ -81,8 +81,8 @@ class DocumentBuilder final : public Json::json_sax_t {
   /// An array or object that is still open.
   struct Level {
     Json value;
-    std::string key;  ///< of the next member
-    std::unordered_set<std::string> keys;
+    std::string key;                       ///< key of the member that follows
+    std::unordered_set<std::string> keys;  ///< keys so far
   };
 
   bool open(Json value) {
@@ -105,8 +105,7 @@ bool DocumentBuilder::add(Json value) {
   } else if (Level& level = levels_.back(); level.value.is_array()) {
     level.value.push_back(std::move(value));
   } else {
-    // The members of an ordered object are a vector of pairs; their keys were already checked for
-    // duplicates.
+    // An ordered object is a vector of pairs. key() has already checked for duplicates.
     std::vector<Json::object_t::value_type>& members = level.value.get_ref<Json::object_t&>();
     members.emplace_back(std::move(level.key), std::move(value));
   }
@@ -134,7 +133,7 @@ bool DocumentBuilder::key(string_t& value) {
   return true;
 }
 
-/// The parser's message without its prefix "[json.exception...] ... at line 3, column 5: ".
+/// Message of the parser without its prefix "[json.exception...] ... at line 3, column 5: ".
 std::string reason_of(const Json::exception& error) {
   const std::string text = error.what();
   const std::size_t prefix = text.find("] ");
@@ -151,7 +150,7 @@ bool DocumentBuilder::parse_error(std::size_t position, const std::string& last_
     faults_ = {{ErrorCode::kOutOfRange, place_of(file_, text_, begin),
                 "a number is out of range: " + reason}};
   } else {
-    // `position` counts the bytes read, including the faulty one.
+    // `position` is the number of bytes read, including the faulty one.
     const std::size_t offset = position == 0 ? 0 : position - 1;
     faults_ = {{ErrorCode::kBrokenFile, place_of(file_, text_, offset),
                 "this is not valid JSON: " + reason}};
@@ -159,7 +158,7 @@ bool DocumentBuilder::parse_error(std::size_t position, const std::string& last_
   return false;
 }
 
-/// Rejects NaN and infinity, which nlohmann would silently print as null.
+/// Throws for NaN and infinity, which nlohmann/json would write as null.
 void require_finite(const Json& value, const std::string& pointer) {
   if (value.is_number_float() && !std::isfinite(value.get<double>())) {
     throw std::logic_error("a number to be written is not finite: " + pointer);
@@ -196,7 +195,7 @@ Result<Json> read_json_file(const std::filesystem::path& path) {
 
 std::string to_text(const Json& json) {
   require_finite(json, "");
-  // A name that is not UTF-8 (possible for a path) is written with replacement characters.
+  // A text that is not UTF-8, such as a path, is written with replacement characters.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

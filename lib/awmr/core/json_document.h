@@ -1,5 +1,5 @@
-/// Parses JSON documents in memory and defines the size limits of all documents. The limits are far
-/// above the program's own files.
+/// Parses JSON text in memory. The limits on size protect against hostile files; they are far above
+/// the size of awmr's own files.
 #pragma once
 
 #include <cstddef>
@@ -12,19 +12,19 @@
 
 namespace awmr {
 
-inline constexpr std::size_t kMaxJsonBytes = std::size_t{64} << 20U;
+inline constexpr std::size_t kMaxJsonBytes = std::size_t{64} << 20U;  ///< size of a file: 64 MiB
 inline constexpr std::size_t kMaxJsonDepth = 64;          ///< nesting depth of arrays and objects
-inline constexpr std::size_t kMaxJsonValues = 2'000'000;  ///< in total
+inline constexpr std::size_t kMaxJsonValues = 2'000'000;  ///< number of values in a document
 
-/// Parses a text in time and memory proportional to its length; `file` names it in errors. Errors:
-/// beyond a limit, syntax, a number out of range (all `FILE:LINE:COLUMN`); duplicate keys.
+/// Parses a text, in time and memory proportional to its length. `file` names it in errors. Errors:
+/// a limit is exceeded; a syntax error; a number out of range; a duplicate key.
 Result<Json> read_json_text(std::string_view text, const std::string& file);
 
-/// Read-back check (file.h) of a JSON file without a strict reader. Errors: as read_json_text.
+/// ReadBack (file.h) of a JSON file that has no strict reader. Errors: as read_json_text().
 Status check_json_text(std::string_view text, const std::string& file);
 
-/// Read-back check with a strict reader: runs `read` on the document. Errors: as read_json_text;
-/// all faults that `read` finds.
+/// Checks a JSON text with its strict reader `read(JsonObject&)`, for a ReadBack (file.h). Errors:
+/// as read_json_text(); all faults that `read` finds.
 template <class Read>
 Status check_json_object(std::string_view text, const std::string& file, const Read& read) {
   AWMR_ASSIGN_OR_RETURN(const Json document, read_json_text(text, file));

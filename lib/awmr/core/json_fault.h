@@ -1,4 +1,4 @@
-/// Formatting of JSON faults. Private to this folder.
+/// Texts of faults in JSON values. Private to this folder.
 #pragma once
 
 #include <string>
@@ -8,12 +8,15 @@
 
 namespace awmr {
 
-/// A value as shown in a fault; long values are cut between characters.
+/// Type and value as text: "number 3"; long values are shortened.
 std::string describe(const Json& value);
+/// Permitted range as text: "a number above 0".
 std::string describe(const NumberRule& rule);
+/// True if the value is in the permitted range.
 bool allows(const NumberRule& rule, double value);
-/// Of a value that is not the expected number: its range, or its type.
+/// Code for a value that is not the expected number: kOutOfRange for a number, else kWrongType.
 ErrorCode number_error(const Json& value);
+/// Adds a fault at the JSON pointer `pointer` of the file.
 void add_fault(ErrorCode code, std::vector<Fault>& faults, const std::string& file,
                const std::string& pointer, std::string message);
 

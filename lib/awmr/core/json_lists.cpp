@@ -1,4 +1,4 @@
-// Reads arrays in JSON and formats faults.
+// The functions of JsonObject that read arrays, and the texts of faults (json_fault.h).
 
 #include <fmt/format.h>
 

@@ -6,10 +6,10 @@
 namespace awmr {
 namespace {
 
-/// Represents any key: the checks on it apply to all keys of the object.
+/// Key that stands for every key of an object with arbitrary keys.
 constexpr std::string_view kAnyKey = "*";
 
-/// True if the way makes all of these choices.
+/// True if the run `way` makes all of these choices.
 bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   return std::all_of(picks.begin(), picks.end(), [&](const auto& pick) {
     const auto taken = way.picks.find(pick.first);
@@ -17,7 +17,7 @@ bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   });
 }
 
-/// Schema that forbids those of `keys` that are not `allowed`; empty if all are.
+/// Schema that forbids the keys in `keys` that are not in `allowed`; empty if there are none.
 Json forbidding(const std::set<std::string>& keys, const std::set<std::string>& allowed) {
   Json rule = Json::object();
   for (const std::string& key : keys) {
@@ -79,7 +79,7 @@ void JsonShape::requested(std::string_view key, bool required) {
   property(key);
   RequestedKeys& requested = now();
   requested.keys.emplace(key);
-  // A key whose presence is checked before it is read can be missing.
+  // A key is optional if its first request was not `required`, as by has() before reading.
   if (!required && !requested.required.contains(std::string(key))) requested.optional.emplace(key);
   if (required && !requested.optional.contains(std::string(key))) requested.required.emplace(key);
 }
@@ -128,7 +128,7 @@ Json JsonShape::property_schema(const Property& property) const {
   return kinds.size() == 1 ? kinds.front() : Json{{"anyOf", kinds}};
 }
 
-/// Keys requested for any name of the choice under `key`, with everything else equal.
+/// Keys of all runs that differ only in the name of the choice under `key`.
 JsonShape::Keys JsonShape::with_any_name(const std::string& key) const {
   const std::string place = place_ + "/" + key;
   Keys keys;
@@ -144,8 +144,8 @@ JsonShape::Keys JsonShape::with_any_name(const std::string& key) const {
   return keys;
 }
 
-/// Rule for the choice under `key` with this name: it requires some keys and forbids those of other
-/// names. Empty if the name makes no difference.
+/// Schema rule for one name of the choice under `key`. If the document has this name, the rule
+/// requires the keys of this name and forbids keys that only other names have.
 Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& name) const {
   const std::string place = place_ + "/" + key;
   const auto& on = exploration_->met.at(place).on;
@@ -158,15 +158,15 @@ Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& na
   for (const RequestedKeys& one : ways_) {
     if (!takes(one.way, at_least)) continue;
     if (!one.way.present && one.optional.contains(key)) {
-      // This choice is not made here. Keys requested only if others are missing are allowed for all
-      // names.
+      // The choice is absent in this run. Keys that are only requested without the optional keys
+      // are allowed with every name.
       for (const std::string& other : one.keys) {
         if (!keys.present.contains(other)) allowed.insert(other);
       }
       continue;
     }
     allowed.insert(one.keys.begin(), one.keys.end());
-    // A choice found only under this name can omit the keys that its first name requires.
+    // Required are the keys that every run with this name requires.
     if (std::exchange(first, false)) required = one.required;
     std::erase_if(required, [&](const std::string& k) { return !one.required.contains(k); });
   }
@@ -176,7 +176,7 @@ Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& na
           {"then", then}};
 }
 
-/// Schema condition: the choices of this object have these names.
+/// Schema that is valid if the choices of this object have these names.
 Json JsonShape::names_of(const std::map<std::string, std::size_t>& picks) const {
   Json rule = Json::object();
   for (const auto& [key, property] : properties_) {
@@ -188,8 +188,8 @@ Json JsonShape::names_of(const std::map<std::string, std::size_t>& picks) const 
   return rule;
 }
 
-/// Rule for the optional choice under `key` when it is absent: its default decides which keys are
-/// required, and those of other names are forbidden.
+/// Schema rule for a document without the optional choice under `key`: requires the keys of its
+/// default, and forbids keys that only other names have. Empty if the choice is not optional.
 Json JsonShape::variant_without(const std::string& key) const {
   const auto& on = exploration_->met.at(place_ + "/" + key).on;
   const RequestedKeys* absent = nullptr;
@@ -203,7 +203,7 @@ Json JsonShape::variant_without(const std::string& key) const {
   const Keys keys = with_any_name(key);
   Json then = forbidding(keys.all, allowed);
   std::set<std::string> required = absent->required;
-  // Keys requested only if others are missing do not depend on the choice.
+  // Keys that are only required without the optional keys do not depend on the choice.
   std::erase_if(required, [&](const std::string& k) { return !keys.required.contains(k); });
   then["required"] = required;
   Json where = names_of(on);
@@ -211,7 +211,7 @@ Json JsonShape::variant_without(const std::string& key) const {
   return {{"if", where}, {"then", then}};
 }
 
-/// Adds one rule for each name of each choice that decides which keys exist.
+/// Adds the rules of variant() and variant_without() for each choice that decides which keys exist.
 void JsonShape::add_variants(Json& schema) const {
   for (const auto& [key, property] : properties_) {
     const auto met = exploration_->met.find(place_ + "/" + key);

@@ -1,5 +1,6 @@
-/// Derives a JSON Schema from a reader. In this mode a JsonObject reads no document: it records
-/// each key that the reader requests, with the allowed values. Private to this folder.
+/// Derives the JSON Schema of a file from its reader, for json_schema_text(). The reader is run
+/// with JsonObjects that have no document. They record in a JsonShape each key that the reader
+/// requests, with the permitted values. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -15,36 +16,38 @@
 
 namespace awmr {
 
-/// One path through a reader: which optional keys are present, and which name each choice has, by
-/// the choice's position. Choices without an entry have their first name.
+/// One run of the reader: what it finds in the pretended document.
 struct Way {
-  bool present = true;
+  bool present = true;  ///< true: all optional keys are present; false: none is
+  /// Index of the name that each JsonObject::choice() returns, by the choice's JSON pointer. A
+  /// choice without an entry returns its first name.
   std::map<std::string, std::size_t> picks = {};
 };
 
-/// A choice that was found, and the way on which it was found.
+/// A choice that the reader requested.
 struct MetChoice {
-  std::size_t count = 0;  ///< number of names
-  std::map<std::string, std::size_t> on = {};
+  std::size_t count = 0;                       ///< number of its names
+  std::map<std::string, std::size_t> on = {};  ///< Way::picks of the run that first requested it
 };
 
-/// State shared by all objects of one description.
+/// State shared by the JsonShapes of one schema.
 struct Exploration {
-  Way way = {};
-  std::map<std::string, MetChoice> met = {};  ///< by position
+  Way way = {};                               ///< the current run
+  std::map<std::string, MetChoice> met = {};  ///< choices requested so far, by JSON pointer
 };
 
+/// Records the keys that a reader requests of one object.
 class JsonShape {
  public:
   JsonShape(Exploration& exploration, std::string place);
 
-  void begin();  ///< starts a new way; keys recorded on earlier ways are kept
+  void begin();  ///< starts a new run of the reader; the keys of earlier runs are kept
   void requested(std::string_view key, bool required);
   bool has(std::string_view key);
   void type(std::string_view key, const Json& schema);
   std::size_t choice(std::string_view key, std::span<const std::string> choices);
   JsonShape& object(std::string_view key);
-  JsonShape& element(std::string_view key);  ///< of an array of objects
+  JsonShape& element(std::string_view key);  ///< shape of the elements of an array of objects
   void close() { closed_ = true; }           ///< no other keys are allowed
 
   Json schema() const;
@@ -55,18 +58,18 @@ class JsonShape {
     std::unique_ptr<JsonShape> object;
     std::unique_ptr<JsonShape> element;
   };
-  /// Keys requested on one way.
+  /// Keys requested in one run.
   struct RequestedKeys {
     Way way;
     std::set<std::string> keys;
     std::set<std::string> required;
     std::set<std::string> optional;
   };
-  /// Keys requested on several ways.
+  /// Keys requested in several runs.
   struct Keys {
     std::set<std::string> all;
-    std::set<std::string> present;   ///< if optional keys are present
-    std::set<std::string> required;  ///< on at least one way
+    std::set<std::string> present;   ///< in the runs in which optional keys are present
+    std::set<std::string> required;  ///< required in at least one run
   };
   Property& property(std::string_view key);
   RequestedKeys& now();
@@ -85,7 +88,7 @@ class JsonShape {
   bool closed_ = false;
 };
 
-// Schemas of values that are not objects.
+// Schemas of numbers, whole numbers, arrays, intervals and nullable values.
 Json schema_of(const NumberRule& rule);
 Json schema_of(long min, long max);
 Json array_schema(Json items);

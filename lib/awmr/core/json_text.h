@@ -1,4 +1,4 @@
-/// Helpers shared by the JSON sources.
+/// Escapes keys in JSON pointers.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace awmr {
 
-/// A key inside a JSON pointer. [RFC 6901, section 3]
+/// A key as written in a JSON pointer: '~' as "~0", '/' as "~1". [RFC 6901, section 3]
 inline std::string pointer_token(std::string_view key) {
   std::string text;
   for (const char c : key) {

@@ -7,9 +7,9 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kLongestCompared = 100;  ///< bytes; the cost is the product of the lengths
+constexpr std::size_t kLongestCompared = 100;  ///< bytes; limits the time of edit_distance()
 
-/// Levenshtein distance, one row at a time.
+/// Levenshtein distance; keeps one row of the table.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

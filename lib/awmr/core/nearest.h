@@ -7,8 +7,8 @@
 
 namespace awmr {
 
-/// The candidate with the smallest edit distance, or empty if the distance exceeds a third of the
-/// word's length (at least 1). Names above 100 bytes never match.
+/// Returns the candidate with the smallest edit distance. Empty if that exceeds both 1 and a third
+/// of the word's length. Names of more than 100 bytes are ignored.
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace awmr

@@ -15,11 +15,12 @@
 namespace awmr {
 namespace {
 
-/// Waits up to kPipeWait_s: true once a program has the pipe open for writing or has left bytes in
-/// it. tee() does not consume bytes; on an empty pipe it returns 0 if there is no writer.
+/// Waits up to kPipeWait_s until a program has opened the pipe for writing, or has left bytes in
+/// it. False if no program does. tee() consumes no bytes and returns 0 for an empty pipe without a
+/// writer.
 bool has_writer(int pipe) {
   int copy[2] = {-1, -1};
-  if (::pipe2(copy, O_CLOEXEC) != 0) return true;  // the read then blocks until data arrives
+  if (::pipe2(copy, O_CLOEXEC) != 0) return true;  // cannot check: reading will block for data
   const Descriptor copy_out(copy[0]);
   const Descriptor copy_in(copy[1]);
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPipeWait_s);
@@ -86,8 +87,8 @@ tl::unexpected<Error> too_long_error(const std::string& name, std::size_t max_by
   const std::string most = max_bytes < kMebibyte ? fmt::format("{} bytes", max_bytes)
                                                  : fmt::format("{} MiB", max_bytes / kMebibyte);
   return input_error(ErrorCode::kTooLarge, name,
-                     fmt::format("it is longer than {}, the most that is read of such a "
-                                 "file; is it the right one?",
+                     fmt::format("it is longer than {}, the limit for such a file; check that "
+                                 "it is the right one",
                                  most));
 }
 

@@ -1,4 +1,5 @@
-/// An open input that detects later modification. Private to the library.
+/// An open input file that can be checked for modification while it is read. Private to the
+/// library.
 #pragma once
 
 #include <sys/stat.h>
@@ -14,15 +15,15 @@ namespace awmr {
 
 class OpenedFile {
  public:
-  /// Errors: the file is missing, a directory or unreadable; a pipe that no program opens for
-  /// writing within kPipeWait_s (file.h).
+  /// Opens a file for reading. Errors: the file is missing, a directory or unreadable; a pipe that
+  /// no program opens for writing within kPipeWait_s (file.h).
   static Result<OpenedFile> open(const std::filesystem::path& path);
 
   const std::string& name() const { return name_; }
   int descriptor() const { return descriptor_.number(); }
-  /// Size in bytes when it was opened; 0: unknown, as for a pipe.
+  /// Size of the file when it was opened, bytes; 0 if unknown, as for a pipe.
   std::size_t size() const;
-  /// Errors: it was modified after it was opened.
+  /// Checks that the file was not modified since it was opened. Errors: it was.
   Status check_unchanged() const;
 
  private:
@@ -34,8 +35,9 @@ class OpenedFile {
   struct stat status_ {};
 };
 
+/// Error for a file that became shorter while it was read.
 tl::unexpected<Error> became_shorter_error(const std::string& name);
-/// "it is longer than 1024 MiB ..."
+/// Error for a file that is longer than `max_bytes`.
 tl::unexpected<Error> too_long_error(const std::string& name, std::size_t max_bytes);
 
 }  // namespace awmr

@@ -9,7 +9,7 @@ namespace {
 constexpr std::string_view kOpen = "{option:";
 constexpr std::string_view kClose = "}";
 
-/// The name after the prefix, with hyphens on a command line. The value is unchanged.
+/// The option's name, with '-' for '_' if the prefix is "--", and its value unchanged.
 std::string spelt(std::string_view option, std::string_view prefix) {
   std::string text(option);
   if (prefix == "--") {

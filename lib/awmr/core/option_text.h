@@ -1,5 +1,5 @@
-/// Option names in messages. The library does not know how its caller spells options: messages mark
-/// option names, and the caller formats them for its users.
+/// Option names in messages. The command line and Python spell options differently, so the library
+/// marks option names in its messages, and the caller replaces the marks.
 ///
 ///     option_text("loss huber");                          // a marked name, for a message
 ///     plain_text("use " + option_text("loss huber"));     // "use loss huber"
@@ -14,22 +14,24 @@
 
 namespace awmr {
 
-/// `name` is the option's name as in model.json's provenance, with its value if necessary.
+/// Marks an option in a message. `name`: the option's name as in the provenance of model.json
+/// ("time_limit"), followed by its value if necessary.
 std::string option_text(std::string_view name);
 
-/// The message with `prefix` before every option name; with prefix "--", names have hyphens.
+/// Replaces each marked name by `prefix` and the name. With the prefix "--", '_' becomes '-'.
 std::string spell_options(std::string_view message, std::string_view prefix);
 
-/// The message with the option names unchanged.
+/// Removes the marks and keeps the names.
 std::string plain_text(std::string_view message);
 
-/// The first 20 faults; if there are more, a last one with the number omitted.
+/// The first 20 faults to show. If there are more, a last one gives the number of the others.
+/// Faults of a file with the same cause are merged into one.
 std::vector<Fault> shown_faults(const std::vector<Fault>& faults);
 
-/// `PLACE: MESSAGE [CODE]` in one printable line, with `prefix` before every option name.
+/// One printable line, `PLACE: MESSAGE [CODE]`, with option names as by spell_options().
 std::string to_text(const Fault& fault, std::string_view prefix);
 
-/// to_text(error) with `prefix` before every option name; to_text() leaves the names unchanged.
+/// As to_text(error) in result.h, with option names as by spell_options().
 std::string to_text(const Error& error, std::string_view prefix);
 
 }  // namespace awmr

@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// The exception of the item with the smallest index, if any.
+/// Keeps the exception of the item with the smallest index.
 class FirstException {
  public:
   void keep(std::size_t item, std::exception_ptr exception) {
@@ -31,8 +31,9 @@ class FirstException {
   std::exception_ptr exception_;
 };
 
-/// Persistent worker threads: a search runs thousands of loops, each about as short as the start of
-/// a thread. A loop waits only for threads that work on it, so that nested loops always end.
+/// Worker threads that are kept between loops, because a search runs thousands of loops that each
+/// take about as long as the start of a thread. A loop waits only for threads that work on it, so
+/// nested loops cannot block each other.
 class Helpers {
  public:
   ~Helpers() {
@@ -43,8 +44,8 @@ class Helpers {
     offered_.notify_all();
   }
 
-  /// Calls `work` here and on up to `most` other threads as they become free. Returns once all have
-  /// returned.
+  /// Calls `own_work` on this thread, and `work` on up to `most` other threads as they become free.
+  /// Returns when all calls have returned.
   void share(std::size_t most, const std::function<void()>& own_work,
              const std::function<void()>& work) {
     Loop loop{&work, most, 0};
@@ -63,11 +64,12 @@ class Helpers {
  private:
   struct Loop {
     const std::function<void()>* work;
-    std::size_t wanted;   ///< further threads that can join
-    std::size_t running;  ///< threads that work on it
+    std::size_t wanted;   ///< number of further threads that may join
+    std::size_t running;  ///< number of threads that work on it
   };
 
-  /// Starts as many threads as the system permits: results do not depend on their number.
+  /// Starts threads until there are `count`, or as many as the system permits. Results do not
+  /// depend on their number.
   void grow_to(std::size_t count) {
     try {
       while (threads_.size() < count) threads_.emplace_back([this] { help(); });
@@ -87,7 +89,7 @@ class Helpers {
       (*loop.work)();
       lock.lock();
       --loop.running;
-      // A loop has no work left once a thread has returned from it.
+      // A thread returns from a loop only if no item is left, so no other thread needs to join.
       std::erase(loops_, &loop);
       left_.notify_all();
     }
@@ -97,7 +99,7 @@ class Helpers {
   std::condition_variable offered_, left_;
   std::vector<Loop*> loops_;  ///< loops that need threads, the oldest first
   bool ended_ = false;
-  std::vector<std::jthread> threads_;  ///< last member: the threads end before the data they use
+  std::vector<std::jthread> threads_;  ///< last member, so that it is destroyed first
 };
 
 Helpers& helpers() {

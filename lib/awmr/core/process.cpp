@@ -26,7 +26,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kOutputBytes = 65536;
 constexpr int kPoll_ms = 20;
 
-/// Process groups that run_program() waits for.
+/// Programs that run_program() waits for, by process group. `may_start` is false after
+/// end_running_programs().
 std::mutex running_mutex;
 std::set<pid_t> running;
 bool may_start = true;
@@ -48,8 +49,9 @@ struct Pipe {
   Pipe& operator=(const Pipe&) = delete;
 };
 
-/// Differences of the new process from this one: directory, files, its own process group (so that
-/// it can be killed with its children), no signal blocked or ignored.
+/// Settings of a new process: working directory, stdin, stdout and stderr, no other open files, a
+/// process group of its own (so that it can be killed with its children), no signal blocked or
+/// ignored.
 class SpawnSettings {
  public:
   SpawnSettings(const fs::path& directory, int output) {
@@ -91,7 +93,8 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return list;
 }
 
-/// Process id, which is also its process group; or a negative error number.
+/// Starts a program. Returns its process id, which is also its process group, or a negative error
+/// number.
 pid_t start(const ProgramCall& call, int output) {
   std::vector<std::string> arguments{call.program.string()};
   arguments.insert(arguments.end(), call.arguments.begin(), call.arguments.end());
@@ -108,7 +111,7 @@ pid_t start(const ProgramCall& call, int output) {
   return process;
 }
 
-/// Reads the available bytes and keeps up to kOutputBytes. False at the pipe's end.
+/// Reads the available bytes of a pipe. Keeps the first kOutputBytes. False at the end of the pipe.
 bool read_on(int file, std::string& output) {
   std::array<char, 4096> block;
   const ssize_t count = ::read(file, block.data(), block.size());
@@ -118,7 +121,8 @@ bool read_on(int file, std::string& output) {
   return count > 0;
 }
 
-/// Reads until the process has ended or its time limit is reached.
+/// Reads the output until the process has ended or its time limit is reached. Then kills its
+/// process group.
 ProgramEnd wait_for(pid_t process, int file, double time_limit_s) {
   ProgramEnd end;
   const auto deadline = Clock::now() + std::chrono::duration<double>(time_limit_s);
@@ -128,7 +132,7 @@ ProgramEnd wait_for(pid_t process, int file, double time_limit_s) {
     pollfd waiting{.fd = readable ? file : -1, .events = POLLIN, .revents = 0};
     if (::poll(&waiting, 1, kPoll_ms) > 0) readable = read_on(file, end.output);
     if (waiting.revents != 0 && readable && Clock::now() < deadline) continue;
-    // WNOWAIT keeps the process id reserved until its group has been killed.
+    // With WNOWAIT the process id is not reused before its group has been killed.
     const int waited =
         ::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT);
     if (waited == 0 && ended.si_pid == process) break;
@@ -179,9 +183,9 @@ std::vector<std::string> plain_environment(const fs::path& temporary) {
 
 Result<ProgramEnd> run_program(const ProgramCall& call) {
   const auto failed = [&](int error) {
-    return input_error(
-        ErrorCode::kNotInstalled, call.program.string(),
-        fmt::format("cannot be started in {}: {}", call.directory.string(), std::strerror(error)));
+    return input_error(ErrorCode::kNotInstalled, call.program.string(),
+                       fmt::format("cannot start this program in {}: {}", call.directory.string(),
+                                   std::strerror(error)));
   };
   Pipe pipe;
   if (!pipe.open()) return failed(errno);

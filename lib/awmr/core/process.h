@@ -1,4 +1,4 @@
-/// Runs other programs with a list of arguments, without a shell.
+/// Runs another program, such as a compiler, with a list of arguments and without a shell.
 #pragma once
 
 #include <filesystem>
@@ -11,34 +11,37 @@
 
 namespace awmr {
 
+/// A program to run.
 struct ProgramCall {
-  std::filesystem::path program;         ///< absolute, see find_program()
+  std::filesystem::path program;         ///< absolute path, as find_program() returns it
   std::vector<std::string> arguments;    ///< without the program name
   std::filesystem::path directory;       ///< working directory
-  std::vector<std::string> environment;  ///< "NAME=value", complete
-  double time_limit_s = 60.0;            ///< > 0; then the program is killed
+  std::vector<std::string> environment;  ///< all of its variables, as "NAME=value"
+  double time_limit_s = 60.0;            ///< > 0: the program is killed after this time
 };
 
+/// How a program ended.
 struct ProgramEnd {
   int exit_code = -1;      ///< -1: ended by a signal or the time limit
   bool timed_out = false;  ///< the time limit was reached
-  std::string output;      ///< stdout and stderr, interleaved, the first 64 KiB
+  std::string output;      ///< first 64 KiB of its stdout and stderr together
 };
 
-/// The executable file of this name in an absolute directory of PATH. Other entries (".", an empty
-/// entry) are skipped, because they depend on the working directory.
+/// The first executable file of this name in the directories of PATH. Relative directories (".")
+/// are skipped.
 std::optional<std::filesystem::path> find_program(std::string_view name);
 
-/// PATH, HOME and LANG of this process, and TMPDIR as given: sufficient for a compiler, without
-/// variables that change its behaviour (CPATH, GCC_EXEC_PREFIX and the like).
+/// Environment for a compiler: PATH, HOME and LANG of this process, and `temporary` as TMPDIR.
+/// Variables that would change the compiler's behaviour, such as CPATH, are left out.
 std::vector<std::string> plain_environment(const std::filesystem::path& temporary);
 
-/// Runs a program to its end, with empty stdin and no other open file of this process. Its
-/// remaining children are killed. Errors (input): it cannot be started, with the reason.
+/// Runs a program to its end, with an empty stdin and without open files of this process. Then
+/// kills processes that it has started and left running. Errors (input): the program cannot be
+/// started.
 Result<ProgramEnd> run_program(const ProgramCall& call);
 
-/// Kills all programs that run_program() waits for, with their children; no further one can start.
-/// For a process that was requested to terminate.
+/// Kills all programs that run_program() waits for, and their children. Later calls of
+/// run_program() fail. For use when this process was requested to end.
 void end_running_programs();
 
 }  // namespace awmr

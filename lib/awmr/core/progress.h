@@ -1,4 +1,4 @@
-/// Progress of long work.
+/// Callback that reports the progress of long work.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,8 @@
 
 namespace awmr {
 
-/// Called with the number of finished parts, which can stay below `total` if the work ends early.
-/// Calls do not overlap. Empty: no reports. It does not affect the result.
+/// Called with the number of finished steps. `done` may never reach `total`, if the work ends
+/// early. Calls do not overlap. An empty function reports nothing.
 using Progress = std::function<void(std::size_t done, std::size_t total)>;
 
 }  // namespace awmr

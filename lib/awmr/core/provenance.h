@@ -1,5 +1,5 @@
-/// Provenance of an output: program version, resolved options, inputs by SHA-256. No clock time, so
-/// that the same inputs give the same bytes.
+/// Provenance of an output file: the command, its options and the SHA-256 of its inputs. It has no
+/// clock time, so that the same inputs give the same bytes.
 #pragma once
 
 #include <string>
@@ -8,18 +8,19 @@
 
 namespace awmr {
 
-/// The program version, from CMake's project().
+/// Version of the program, from project() in CMakeLists.txt.
 const char* version();
 
-/// An input file of an output; input_file() in core/input_file.h creates it.
+/// An input file of an output. input_file() in input_file.h creates it.
 struct InputFile {
-  std::string name;    ///< without the directory, so that the location does not matter
-  std::string sha256;  ///< of its bytes
+  std::string name;    ///< file name without the directory
+  std::string sha256;  ///< hash of its bytes
 };
 
+/// How an output file was made.
 struct Provenance {
   std::string command;  ///< "identify", "tune", ...
-  /// Every option with its resolved value.
+  /// Name and value of every option, including defaults.
   std::vector<std::pair<std::string, std::string>> options;
   std::vector<InputFile> inputs;
 };

@@ -33,7 +33,7 @@ double Random::uniform() {
 }
 
 double Random::normal() {
-  // sqrt(-2 ln U1) cos(2 pi U2) with U1 in (0, 1]
+  // Box-Muller method: sqrt(-2 ln U1) cos(2 pi U2), U1 in (0, 1]
   const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
   return radius * std::cos(2.0 * pi<double>() * uniform());
 }

@@ -1,25 +1,24 @@
-/// Counter-based random numbers (Philox 4x32-10): the n-th number of a stream depends only on seed,
-/// stream and n, so results do not depend on threads or order.
+/// Counter-based random numbers (Philox 4x32-10). The n-th number of a stream depends only on the
+/// seed, the stream and n. Results therefore do not depend on threads or on the order of work.
 #pragma once
 
 #include <cstdint>
 
 namespace awmr {
 
-/// One stream of numbers.
+/// One stream of random numbers.
 class Random {
  public:
-  /// Streams of one seed are independent. Each independent random quantity (each sample, each
-  /// sensor) uses its own stream.
+  /// Streams with the same seed and different `stream` are independent. Use one stream for each
+  /// independent random quantity, such as a sensor.
   Random(std::uint64_t seed, std::uint64_t stream);
 
   /// The next 32 random bits.
   std::uint32_t bits();
   /// The next number, uniform in [0, 1), with 53 random bits.
   double uniform();
-  /// The next number, normal with mean 0 and standard deviation 1. Uses two uniform numbers and
-  /// only one output of the Box-Muller method, so that the stream position depends only on the
-  /// number of draws.
+  /// The next number, normal with mean 0 and standard deviation 1. Always consumes two uniform
+  /// numbers (Box-Muller method, without its second output).
   double normal();
 
  private:

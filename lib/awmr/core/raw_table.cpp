@@ -13,8 +13,8 @@
 namespace awmr {
 namespace {
 
-/// From this fraction of empty cells on, a column has its own rate; below it, an empty cell is a
-/// fault.
+/// Fraction of empty cells from which on a column counts as a signal of its own rate. Below it, an
+/// empty cell is a fault.
 constexpr double kSparseShare = 0.25;
 
 bool is_empty(double value) { return std::isnan(value); }
@@ -25,11 +25,12 @@ std::size_t count_of_values(const RawColumn& column) {
       std::count_if(column.value.begin(), column.value.end(), has_value));
 }
 
-/// True for a column whose empty cells are due to its own sample times, in a sparse table.
+/// True for a column that may have empty cells in a table with signals of different rates.
 bool has_own_rate(const ColumnSource& source) {
   return source.column.empty == EmptyCells::kHeld || source.column.empty == EmptyCells::kAbsent;
 }
 
+/// True if the table has signals of different rates ("sparse").
 bool is_sparse(const RawTable& raw, const ColumnSources& sources) {
   if (raw.joined) return true;
   const double rows = static_cast<double>(raw.lines.size());
@@ -50,7 +51,7 @@ int character_of(const RawTable& raw, const ColumnSource& source, std::size_t ro
   return character.empty() ? 1 : character[row];
 }
 
-/// Collects faults with their positions, up to kMaxFaults.
+/// Collects up to kMaxFaults faults with their places.
 struct FaultList {
   const RawTable& raw;
   std::vector<Fault>& faults;
@@ -63,13 +64,13 @@ struct FaultList {
   }
 };
 
-/// Checks the value of a row: its cells and the result of its formula.
+/// Adds a fault if the value of a row is not finite after scaling or as the result of its formula.
 void check_value(double value, const ColumnSource& source, std::span<const double> inputs,
                  std::size_t row, FaultList& faults) {
   if (std::isfinite(value)) return;
   if (!source.expression) {
     faults.add(ErrorCode::kOutOfRange, row, character_of(faults.raw, source, row),
-               fmt::format("column {}: out of range once scaled", source.column.name));
+               fmt::format("column {}: out of range after scaling", source.column.name));
     return;
   }
   std::string at;
@@ -85,8 +86,8 @@ void check_value(double value, const ColumnSource& source, std::span<const doubl
                          std::isnan(value) ? "not a number" : "infinite", at));
 }
 
-/// The input column with the most values: it decides in which rows a formula has a value. The
-/// others keep their previous value.
+/// Index of the formula's column with the most values. The formula has a value in the rows of this
+/// column; its other columns keep their previous value.
 std::size_t fastest(const RawTable& raw, const ColumnSource& source) {
   std::size_t best = 0;
   std::size_t most = 0;
@@ -100,7 +101,7 @@ std::size_t fastest(const RawTable& raw, const ColumnSource& source) {
   return best;
 }
 
-/// Fills rows without a value with the previous value, or with the first one.
+/// Fills rows without a value with the previous value, and rows before the first value with that.
 void hold(CsvTable::Column& column) {
   const auto first = std::find(column.present.begin(), column.present.end(), true);
   if (first == column.present.end()) return;
@@ -116,7 +117,8 @@ double value_of(ColumnSource& source, std::span<const double> inputs) {
   return source.mapping == nullptr ? inputs.front() : inputs.front() * source.scale + source.offset;
 }
 
-/// Checks a pair of seconds and nanoseconds: both must be in range.
+/// Adds a fault if a time from seconds and nanoseconds has no whole seconds, or nanoseconds outside
+/// [0, 1e9).
 void check_pair(const ColumnSource& source, std::span<const double> inputs, std::size_t row,
                 FaultList& faults) {
   if (!source.time || !source.time->is_pair) return;
@@ -128,7 +130,7 @@ void check_pair(const ColumnSource& source, std::span<const double> inputs, std:
                          option_text("column t_s=EXPRESSION")));
 }
 
-/// By column of the file: number of requested columns still to be made from it.
+/// Number of requested columns that are made from each column of the file.
 std::vector<int> uses_of(const RawTable& raw, const ColumnSources& sources) {
   std::vector<int> uses(raw.columns.size(), 0);
   for (const ColumnSource& source : sources.found) {
@@ -137,8 +139,8 @@ std::vector<int> uses_of(const RawTable& raw, const ColumnSources& sources) {
   return uses;
 }
 
-/// Storage for values that are written row by row: that of a file column that nothing else is made
-/// from, else new storage. So a derived column needs no extra memory.
+/// Storage for the values of a derived column. Reuses the storage of one of its source columns if
+/// no other column needs it, to save memory.
 std::vector<double> storage_for(const ColumnSource& source, const std::vector<int>& uses,
                                 RawTable& raw) {
   for (const std::size_t index : source.indices) {
@@ -147,10 +149,11 @@ std::vector<double> storage_for(const ColumnSource& source, const std::vector<in
   return std::vector<double>(raw.lines.size());
 }
 
-/// Makes a column. `uses`: remaining uses of each file column; `sparse`: it can have empty cells.
+/// Makes a requested column. `uses`: number of other columns still to be made from each column of
+/// the file. `sparse`: the column may have empty cells.
 CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, bool sparse,
                            RawTable& raw, FaultList& faults) {
-  // In a table of runs, a formula uses only the cells of its own row.
+  // In a table with one run per row, a formula uses only cells of its row.
   const bool keeps_previous = sparse && source.column.empty != EmptyCells::kOptional;
   const std::size_t rows = raw.lines.size();
   CsvTable::Column column;
@@ -188,7 +191,8 @@ CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, b
   return column;
 }
 
-/// Makes clock time start at the first row; notes where the time came from.
+/// For a time that find_time() found: subtracts the first time if it is a clock time, and adds the
+/// note `time-column`.
 void settle_time(const ColumnSource& source, CsvTable::Parts& parts) {
   if (!source.time) return;
   std::vector<double>& t_s = parts.columns.at(source.column.name).values;
@@ -203,8 +207,7 @@ void settle_time(const ColumnSource& source, CsvTable::Parts& parts) {
                                      is_clock ? ", counted from the first row" : "")});
 }
 
-/// Reports empty cells of a column that permits none, and of any column in a table that is not
-/// sparse.
+/// Adds a fault for each empty cell of a requested column that must have a value in every row.
 void find_empty_cells(const ColumnSource& source, FaultList& faults) {
   for (const std::size_t index : source.indices) {
     const RawColumn& column = faults.raw.columns[index];
@@ -218,7 +221,7 @@ void find_empty_cells(const ColumnSource& source, FaultList& faults) {
   }
 }
 
-/// Drops optional columns without any value.
+/// Removes kOptional columns without any value.
 void drop_void_columns(CsvTable::Parts& parts, const ColumnSources& sources) {
   for (const ColumnSource& source : sources.found) {
     if (source.column.empty != EmptyCells::kOptional) continue;
@@ -252,7 +255,7 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
     parts.columns.emplace(source.column.name,
                           column_of(source, uses, may_be_empty(source), raw, list));
   }
-  // Columns used unchanged are moved, once nothing else is made from them.
+  // Columns that are used unchanged are moved at the end, when no other column is made from them.
   for (const ColumnSource& source : sources.found) {
     if (source.mapping != nullptr || source.expression || may_be_empty(source)) continue;
     RawColumn& column = raw.columns[source.indices.front()];
@@ -270,7 +273,7 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
   if (sparse && faults.empty()) drop_rows(parts, sources);
   if (faults.empty() && parts.lines.empty()) {
     faults.push_back({ErrorCode::kTooFewData, fmt::format("{}:{}:1", parts.file, parts.header_line),
-                      sparse ? "no row has all commands known and a measurement"
+                      sparse ? "no row has a measurement after the first value of every command"
                              : "there are no rows below the header"});
   }
   if (!faults.empty()) return input_errors(std::move(faults));

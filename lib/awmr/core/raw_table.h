@@ -1,5 +1,5 @@
-/// The numbers of a file before names and units are applied: the common form of all formats, from
-/// which the table of requested columns is made. Private to the library.
+/// The numbers of a file, as all readers of formats return them, and their conversion to the table
+/// of requested columns. Private to the library.
 #pragma once
 
 #include <limits>
@@ -11,28 +11,29 @@
 
 namespace awmr {
 
-/// Marks a cell without a value, or with a fault already reported. It cannot be read from a file,
-/// because values in files are finite.
+/// Markers for a cell without a value, and for a cell whose fault was already reported. Values from
+/// files are finite, so they never equal a marker.
 inline constexpr double kEmptyCell = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kFaultyCell = std::numeric_limits<double>::infinity();
 
 struct RawColumn {
   std::vector<double> value = {};
-  std::vector<int> character = {};  ///< position in the line, from 1; empty: unknown
+  std::vector<int> character = {};  ///< by row: position in the line, from 1; empty: unknown
 };
 
 struct RawTable {
   std::string file;
   int header_line = 1;
   RowLines lines = {};
-  std::vector<RawColumn> columns = {};  ///< as in the header; unused ones are empty
+  std::vector<RawColumn> columns = {};  ///< as in the header; columns that are not used are empty
   std::vector<CsvNote> notes = {};
-  std::vector<std::size_t> mapped = {};  ///< mappings used to read it
-  bool joined = false;  ///< made of signals with different sample times: cells can be empty
+  std::vector<std::size_t> mapped = {};  ///< indices of the mappings used so far
+  bool joined = false;                   ///< true: signals of different rates: empty cells
 };
 
-/// Makes the requested columns. `faults`: those found so far; `mappings`: those used to find
-/// `sources`. Errors: as read_csv().
+/// Converts the table to the requested columns, whose sources find_columns() has found with
+/// `mappings`. `faults`: faults found so far, which are reported with the others. Errors: as
+/// read_csv().
 Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
                           std::span<const ColumnMapping> mappings, std::vector<Fault> faults);
 

@@ -1,5 +1,5 @@
-/// Errors as values. Every failure that a user can cause is returned as an `Error` with its place,
-/// the fault and the remedy. A broken invariant of the program asserts.
+/// Errors as return values. Every failure that a user can cause is returned as an `Error`, with its
+/// place, its cause and the remedy. A broken invariant of the program asserts.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +17,13 @@ namespace awmr {
 struct Fault {
   ErrorCode code;
   std::string place;    ///< `FILE:LINE:COLUMN`, `FILE:/json/pointer`, `FILE`, or empty
-  std::string message;  ///< what is wrong, what was found, what to do
+  std::string message;  ///< the problem, the value found, the remedy
 };
 
 /// Maximum number of faults collected from a file.
 inline constexpr std::size_t kMaxFaults = 100;
 
-/// Each kind has one exit code.
+/// Kind of an error, which determines the exit code.
 enum class ErrorKind {
   kInput,    ///< the command line, a file or a value is wrong (exit code 2)
   kRefused,  ///< the command ran, with a negative result (exit code 1)
@@ -32,7 +32,7 @@ enum class ErrorKind {
 
 struct Error {
   ErrorKind kind = ErrorKind::kInput;
-  std::vector<Fault> faults;  ///< all faults found, never empty
+  std::vector<Fault> faults;  ///< all faults found; never empty
 };
 
 /// A value or an error.
@@ -40,28 +40,32 @@ template <class T>
 using Result = tl::expected<T, Error>;
 using Status = Result<void>;
 
-/// `return input_error(ErrorCode::kWrongType, "a.csv:3:7", "...")` from any function that returns a
-/// Result.
+/// Makes an error of kind kInput, to be returned from a function that returns a Result:
+/// `return input_error(ErrorCode::kWrongType, "a.csv:3:7", "...");`
 tl::unexpected<Error> input_error(ErrorCode code, std::string place, std::string message);
+/// Makes an error of kind kRefused.
 tl::unexpected<Error> refusal(ErrorCode code, std::string message);
+/// Makes an error of kind kFault.
 tl::unexpected<Error> program_fault(std::string message);
-/// All faults of a file; `faults` must not be empty.
+/// Makes an error of kind kInput with several faults. Precondition: `faults` is not empty.
 tl::unexpected<Error> input_errors(std::vector<Fault> faults);
 
-/// `error: PLACE: MESSAGE [CODE]`, one line per fault, at most 20, then the number omitted.
+/// One line per fault: `error: PLACE: MESSAGE [CODE]`. After 20 faults, a line gives the number of
+/// the others.
 std::string to_text(const Error& error);
 
-/// 1 for a refusal, 2 for invalid input, 3 for an internal error.
+/// Exit code of a program that ends with this error: that of its ErrorKind.
 int exit_code(const Error& error);
 
 }  // namespace awmr
 
-/// Returns an error to the caller; both macros are for functions that return a Result.
+/// Macros for functions that return a Result. If the expression is an error, the function returns
+/// it.
 ///
 ///     AWMR_RETURN_IF_ERROR(write_file(path, text));
 ///     AWMR_ASSIGN_OR_RETURN(const Model model, read_model(path));
 ///
-/// The second declares `model`, so it cannot be the only statement of an `if`.
+/// AWMR_ASSIGN_OR_RETURN declares a variable, so it cannot be the only statement of an `if`.
 #define AWMR_RETURN_IF_ERROR(expression)                                      \
   do {                                                                        \
     if (auto awmr_status = (expression); !awmr_status) {                      \

@@ -1,13 +1,13 @@
-/// Fingerprint of this machine's floating-point rounding.
+/// Detects machines whose mathematical functions round differently.
 #pragma once
 
 #include <string>
 
 namespace awmr {
 
-/// Hash of results of the C library's mathematical functions, to their last bits, as 16 hexadecimal
-/// digits. The library selects variants by processor, and with fused multiply-add some results
-/// round differently. Results are byte-identical only between machines with the same value.
+/// Hash (16 hexadecimal digits) of results of exp, log, pow and other functions on this machine, to
+/// their last bits. The C library has variants for different processors, some of which round
+/// differently. Two machines give byte-identical results only if their hashes are equal.
 std::string rounding_of_functions();
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// Line of each row of a table, stored as runs of consecutive lines.
+/// Line number of each row of a table. Consecutive lines are stored as one entry.
 #pragma once
 
 #include <algorithm>
@@ -31,9 +31,10 @@ class RowLines {
   }
 
  private:
+  /// Rows on consecutive lines.
   struct Run {
-    std::size_t row;
-    int line;  ///< of the first row
+    std::size_t row;  ///< first row
+    int line;         ///< its line
   };
   std::vector<Run> runs_ = {};
   std::size_t rows_ = 0;

@@ -40,7 +40,7 @@ Result<bool> make_raw(int file, unsigned baud) {
     std::string names;
     for (const BaudRate& one : kBaudRates) names += fmt::format(" {}", one.baud);
     return input_error(ErrorCode::kOutOfRange, option_text("baud"),
-                       fmt::format("{}: one of{}", baud, names));
+                       fmt::format("found {}; expected one of{}", baud, names));
   }
   termios settings{};
   if (::tcgetattr(file, &settings) != 0) return false;
@@ -51,14 +51,14 @@ Result<bool> make_raw(int file, unsigned baud) {
 }
 
 Result<Descriptor> open_serial_port(const std::filesystem::path& path, unsigned baud) {
-  // Without O_NONBLOCK, a modem port can wait for its carrier forever.
+  // Without O_NONBLOCK, open() of a modem's port may wait for its carrier forever.
   Descriptor port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
   if (port.number() < 0) {
     return input_error(ErrorCode::kCannotRead, path.string(), std::strerror(errno));
   }
   ::fcntl(port.number(), F_SETFL, ::fcntl(port.number(), F_GETFL) & ~O_NONBLOCK);
   AWMR_ASSIGN_OR_RETURN(const bool raw, make_raw(port.number(), baud));
-  if (!raw) return input_error(ErrorCode::kWrongFile, path.string(), "is not a serial port");
+  if (!raw) return input_error(ErrorCode::kWrongFile, path.string(), "this is not a serial port");
   return port;
 }
 

@@ -1,4 +1,4 @@
-/// Serial port in raw mode.
+/// Opens serial ports in raw mode.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +8,14 @@
 
 namespace awmr {
 
-/// Sets a terminal to raw mode without echo, at `baud`. Errors (input): the rate is not one of
-/// 9600, 19200, 38400, 57600, 115200, 230400, 460800, 500000, 921600, 1000000, 2000000. False:
-/// `file` is not a terminal.
+/// Sets the serial port or terminal of the descriptor `file` to raw mode without echo, at `baud`.
+/// Returns false if it is neither. Errors (input): the rate is not one of 9600, 19200, 38400,
+/// 57600, 115200, 230400, 460800, 500000, 921600, 1000000, 2000000.
 Result<bool> make_raw(int file, unsigned baud);
 
-/// Opens a port for reading and writing, without waiting for a modem's carrier. Boards that restart
-/// when their port is opened do so. Errors (input): as make_raw(); the path cannot be opened or is
-/// not a serial port.
+/// Opens a port for reading and writing, without waiting for a modem's carrier. Many boards restart
+/// when their port is opened. Errors (input): as make_raw(); the path cannot be opened or is not a
+/// serial port.
 Result<Descriptor> open_serial_port(const std::filesystem::path& path, unsigned baud);
 
 }  // namespace awmr

@@ -1,4 +1,5 @@
-/// Shards: parts of one job for several machines. A shard has every count-th item.
+/// Shards: a job over many items (runs, vehicles) is divided into shards that several machines
+/// process.
 #pragma once
 
 #include <optional>
@@ -8,19 +9,19 @@
 
 namespace awmr {
 
-/// One of `count` shards: every item i, from 0, with i mod count = index - 1.
+/// Shard `index` of `count`. It has the items i = 0, 1, ... with i mod count = index - 1.
 struct Shard {
   int index = 1;  ///< 1 ... count
   int count = 1;
   bool has(int item) const { return item >= 0 && item % count == index - 1; }
-  /// Number of the shard's items, of `items` in total.
+  /// Number of items of this shard if the job has `items` items.
   int share_of(int items) const { return items < index ? 0 : (items - index) / count + 1; }
-  /// Global index of the shard's i-th item, from 0.
+  /// Index in the job of this shard's i-th item, i from 0.
   int item(int i) const { return index - 1 + i * count; }
 };
 
-/// Fault of a shard of `items` items: each shard needs at least one. `kind` names the items:
-/// "runs".
+/// Fault if the shard is invalid for a job of `items` items: index not in 1 ... count, or more
+/// shards than items. `kind` names the items: "runs".
 std::optional<Fault> shard_fault(const Shard& shard, long items, std::string_view kind);
 
 }  // namespace awmr

@@ -15,10 +15,10 @@
 namespace awmr {
 namespace {
 
-/// Maximum number of shards: far above any cluster.
+/// Maximum number of shards of a job.
 constexpr long kMaxShards = 1'000'000;
 
-/// Beginning of shard.json: everything but the payload.
+/// The keys of shard.json that all kinds have, which precede the payload.
 Json common_keys(const ShardKind& kind, const PartOrigin& origin,
                  const std::vector<std::string>& files) {
   Json json = output_document(kind.schema, origin.provenance);
@@ -50,7 +50,7 @@ PartOrigin read_part(const ShardKind& kind, JsonObject& json) {
   return origin;
 }
 
-/// Empty if the file names none.
+/// The value of the key `schema`; empty if there is none.
 std::string schema_in(const Json& document) {
   if (!document.is_object()) return {};
   const auto schema = document.find("schema");
@@ -70,7 +70,7 @@ Result<Part> read_part(const ShardKind& kind, const std::filesystem::path& direc
   if (!found.empty() && found != kind.schema) {
     return input_error(ErrorCode::kStaleResult, place + ":/schema",
                        fmt::format("expected \"{}\", found \"{}\": this is a part of another kind "
-                                   "of work; merge each kind separately",
+                                   "of job; merge each kind separately",
                                    kind.schema, found));
   }
   std::vector<Fault> faults;
@@ -80,7 +80,7 @@ Result<Part> read_part(const ShardKind& kind, const std::filesystem::path& direc
   return part;
 }
 
-/// shard.json without the keys that differ between the parts of one job.
+/// shard.json without the keys that may differ between the parts of one job.
 Json shared_keys(const ShardKind& kind, Json json) {
   for (const char* key : {"shard_index", "stopped", "arithmetic"}) json.erase(key);
   json.erase(kind.files.front().hash_key);
@@ -88,12 +88,12 @@ Json shared_keys(const ShardKind& kind, Json json) {
   return json;
 }
 
-/// Reason why a part is not of the same job as the first; empty if it is.
+/// Text that says why `part` cannot be combined with the first part; empty if it can.
 std::string difference(const ShardKind& kind, const Part& first, const Part& part) {
   const std::string name = first.directory.string();
   const Shard& shard = part.origin.shard;
   if (shard.count != first.origin.shard.count) {
-    return fmt::format("is one of {} parts, {} is one of {}", shard.count, name,
+    return fmt::format("is one of {} parts, but {} is one of {}", shard.count, name,
                        first.origin.shard.count);
   }
   if (shard.index > shard.count) {
@@ -105,7 +105,7 @@ std::string difference(const ShardKind& kind, const Part& first, const Part& par
   if (part.origin.stopped) return "was stopped before its end: run it again";
   if (part.origin.arithmetic != first.origin.arithmetic) {
     return fmt::format(
-        "was computed in {} arithmetic, {} in {}: their numbers are rounded differently; {}",
+        "was computed in {} arithmetic, but {} in {}: their numbers are rounded differently; {}",
         part.origin.arithmetic, name, first.origin.arithmetic, kind.arithmetic_advice);
   }
   if (shared_keys(kind, part.json) != shared_keys(kind, first.json)) {
@@ -114,7 +114,7 @@ std::string difference(const ShardKind& kind, const Part& first, const Part& par
   return {};
 }
 
-/// The lowest numbers of missing shards.
+/// The indices of missing shards, at most the first 20.
 std::vector<int> missing_of(const std::map<int, const Part*>& by_index, int count) {
   constexpr std::size_t kNamed = 20;
   std::vector<int> missing;
@@ -133,8 +133,8 @@ Status check_parts(const ShardKind& kind, const std::vector<Part>& parts) {
     if (why.empty()) {
       const auto [there, is_new] = by_index.emplace(shard.index, &part);
       if (is_new) continue;
-      why = fmt::format("is part {} of {}, which {} is as well", shard.index, shard.count,
-                        there->second->directory.string());
+      why = fmt::format("is part {} of {}, and so is {}; give each part once", shard.index,
+                        shard.count, there->second->directory.string());
     }
     faults.push_back(
         {ErrorCode::kStaleResult, (part.directory / kShardFile).string(), std::move(why)});
@@ -142,15 +142,15 @@ Status check_parts(const ShardKind& kind, const std::vector<Part>& parts) {
   const int count = parts.front().origin.shard.count;
   const std::vector<int> missing = missing_of(by_index, count);
   if (faults.empty() && !missing.empty()) {
-    faults.push_back(
-        {ErrorCode::kMissing, "",
-         fmt::format("of {} parts, these are missing: {}", count, fmt::join(missing, ", "))});
+    faults.push_back({ErrorCode::kMissing, "",
+                      fmt::format("of {} parts, these are missing: {}; give their directories too",
+                                  count, fmt::join(missing, ", "))});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};
 }
 
-/// Names of the options or inputs, as (name, value), that are in only one of the lists.
+/// Names of the (name, value) pairs that are in only one of the two lists.
 std::set<std::string> differing(const std::vector<std::pair<std::string, std::string>>& a,
                                 const std::vector<std::pair<std::string, std::string>>& b) {
   std::set<std::string> names;
@@ -162,7 +162,7 @@ std::set<std::string> differing(const std::vector<std::pair<std::string, std::st
   return names;
 }
 
-/// (name, hash) of each input.
+/// The inputs as (name, hash).
 std::vector<std::pair<std::string, std::string>> inputs_of(const Provenance& provenance) {
   std::vector<std::pair<std::string, std::string>> inputs;
   for (const InputFile& input : provenance.inputs) inputs.emplace_back(input.name, input.sha256);
@@ -193,7 +193,7 @@ Status write_part(const ShardKind& kind, const std::filesystem::path& directory,
                        return kind.files[i].check(text, file, part.shard_json);
                      }});
   }
-  // Last, because it has the hashes of the others.
+  // shard.json is written last, because it has the hashes of the other files.
   files.push_back({directory / kShardFile, part.shard_json,
                    [&](std::string_view text, const std::string& file) {
                      return check_json_object(text, file,
@@ -237,7 +237,8 @@ std::string shard_schema(const ShardKind& kind) {
 Result<std::vector<Part>> read_parts(const ShardKind& kind,
                                      const std::vector<std::filesystem::path>& directories) {
   if (directories.empty()) {
-    return input_error(ErrorCode::kMissing, "", "no directories: give those of all parts");
+    return input_error(ErrorCode::kMissing, "",
+                       "no directories: give the directories of all parts");
   }
   std::vector<Part> parts;
   for (const std::filesystem::path& directory : directories) {
@@ -276,7 +277,7 @@ Status check_items(const Part& part, const ShardFile& file, std::string_view nam
     if (item_of(i) == expected) continue;
     return input_error(
         ErrorCode::kStaleResult, place,
-        fmt::format("row {} has {} {} instead of {}: rows are missing, repeated or of "
+        fmt::format("row {} has {} {} instead of {}: rows are missing, repeated or from "
                     "another part; run part {} of {} again",
                     i + 1, name, item_of(i), expected, shard.index, shard.count));
   }
@@ -290,7 +291,7 @@ Status check_items(const Part& part, const ShardFile& file, std::string_view nam
 std::string origin_difference(const Provenance& found, const std::string& found_version,
                               const Provenance& expected, const std::string& name) {
   if (found_version != version()) {
-    return fmt::format("was written by version {} of the program, this is {}", found_version,
+    return fmt::format("was written by version {} of the program, but this is {}", found_version,
                        version());
   }
   std::set<std::string> options;
@@ -304,7 +305,7 @@ std::string origin_difference(const Provenance& found, const std::string& found_
   if (inputs == expected_inputs) return {};
   const std::set<std::string> files = differing(inputs, expected_inputs);
   return files.empty()
-             ? fmt::format("was made from the inputs in another order than {}", name)
+             ? fmt::format("was made from the same inputs as {} in another order", name)
              : fmt::format("was made from other inputs ({}) than {}", fmt::join(files, ", "), name);
 }
 

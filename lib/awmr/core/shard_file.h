@@ -1,5 +1,5 @@
-/// Reads and writes the files of a part, and combines the parts of a job. Include from .cpp files
-/// only, because it includes nlohmann/json.
+/// Reads the stored results of shards ("parts", shard_kind.h) and combines those of one job.
+/// Include this header from .cpp files only, because nlohmann/json is slow to compile.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,34 +18,34 @@
 
 namespace awmr {
 
-/// Contents common to every shard.json, except the hashes.
+/// Keys that every shard.json has, without the hashes of files.
 struct PartOrigin {
   Provenance provenance;
   Shard shard;
-  std::string arithmetic;    ///< rounding of its numbers; "scalar" in files of earlier versions
-  bool stopped = false;      ///< stopped before all items were done: must be run again
-  std::string version = {};  ///< of the program that wrote it
+  std::string arithmetic;    ///< ShardKind::arithmetic; "scalar" in files of earlier versions
+  bool stopped = false;      ///< true: stopped before all items were done; must be run again
+  std::string version = {};  ///< version of the program that wrote it
 };
 
-/// The text of a part with these files. `payload` has the keys of ShardKind::read.
+/// Returns the text of a part. `files`: the texts of its files; `payload`: the keys that
+/// ShardKind::read reads.
 PartText part_text(const ShardKind& kind, const PartOrigin& origin, std::vector<std::string> files,
                    const Json& payload);
 
-/// A part, read. Its payload is that of `json`, which ShardKind::read accepts.
+/// A part that was read.
 struct Part {
   std::filesystem::path directory;
-  Json json;  ///< shard.json
-  PartOrigin origin;
+  Json json;          ///< shard.json; ShardKind::read accepts its payload
+  PartOrigin origin;  ///< the common keys of shard.json
 };
 
-/// Reads the parts in the directories and checks that they are of one job, each exactly once;
-/// returns them in order of their numbers. Errors (input), each with its place: a part of another
-/// kind, program version, number of parts, option, input, arithmetic or payload; one that is
-/// stopped, duplicate or missing.
+/// Reads the parts in the directories, checks that they are all parts of one job, and returns them
+/// by shard index. Errors (input): a part that was stopped, is missing or given twice; parts that
+/// differ in kind, program version, number of parts, options, inputs, arithmetic or payload.
 Result<std::vector<Part>> read_parts(const ShardKind& kind,
                                      const std::vector<std::filesystem::path>& directories);
 
-/// Reads the payload of a valid shard.json by `read`.
+/// Returns read(JsonObject&) of a shard.json that was already checked.
 template <class Read>
 auto payload_of(const Json& shard_json, const Read& read) {
   std::vector<Fault> faults;
@@ -53,19 +53,21 @@ auto payload_of(const Json& shard_json, const Read& read) {
   return read(json);
 }
 
-/// Reads a file next to shard.json. Errors: as read_file(); (input) its hash differs from the one
-/// in shard.json.
+/// Reads a file of a part. Errors: as read_file(); (input) its hash differs from the one in
+/// shard.json.
 Result<std::string> read_part_file(const Part& part, const ShardFile& file);
 
-/// Checks that the rows of a table are those of the part's items, of `items` in total: each item in
-/// order, with one or more consecutive rows. `item_of(i)`: the item of row i. `name`: kind of item,
-/// "run". Errors (input): the part has no items; a row is of another item; rows are missing.
+/// Checks that the `rows` rows of a part's table belong to the part's items: the items in order,
+/// once or several times over. `items`: number of items of the whole job. `item_of(i)`: item of row
+/// i. `name`: kind of item, "run". Errors (input): the part has no items; a row belongs to another
+/// item; rows are missing.
 Status check_items(const Part& part, const ShardFile& file, std::string_view name, int items,
                    std::size_t rows, const std::function<int(std::size_t)>& item_of);
 
-/// Merges the rows of all parts in the order of a single run. Each part has blocks of the rows of
-/// its items in order, `per_item` rows per item. Errors (input): the parts have different numbers
-/// of blocks.
+/// Merges the rows of all parts into the order that a job without shards has. A part has one or
+/// more blocks of rows; each block has all items of the part in order, with `per_item` rows per
+/// item. `items`: number of items of the whole job. Errors (input): the parts have different
+/// numbers of blocks.
 template <class Row>
 Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& parts, int items,
                                            std::size_t per_item = 1) {
@@ -91,8 +93,9 @@ Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& 
   return all;
 }
 
-/// Difference between the origins of two results that are to be combined, as text: `found` compared
-/// with `expected`, whose name is `name`. Empty if there is none.
+/// Text for messages that says how the origin of a result (`found`, `found_version`) differs from
+/// the one with which it is to be combined (`expected`, called `name`): program version, options or
+/// inputs. Empty if they agree.
 std::string origin_difference(const Provenance& found, const std::string& found_version,
                               const Provenance& expected, const std::string& name);
 

@@ -24,7 +24,7 @@ constexpr std::string_view kPrefix = ".awmr-";
 constexpr std::size_t kRandomCharacters = 6;
 constexpr int kAttempts = 100;  ///< attempts to find an unused name
 
-/// Id of the process that made a temporary file, from the file's name.
+/// Id of the process that made a temporary file, from the file's name; empty for other files.
 std::optional<pid_t> maker_of(std::string_view name) {
   if (!name.starts_with(kPrefix)) return std::nullopt;
   name.remove_prefix(kPrefix.size());
@@ -35,13 +35,13 @@ std::optional<pid_t> maker_of(std::string_view name) {
   return fits && rest[0] == '-' ? std::optional(number) : std::nullopt;
 }
 
-/// Paths that a signal handler removes. A handler cannot allocate or lock, so these point to text
-/// owned by each TemporaryFile, on the heap so that a move does not change its address.
+/// Paths that the signal handler removes; null: free entry. The handler must not allocate or lock,
+/// so the paths are copied to the heap beforehand.
 constexpr int kSlots = 64;
 std::atomic<char*> registered[kSlots];
 static_assert(std::atomic<char*>::is_always_lock_free, "a signal handler reads it");
 
-/// Signals that end a program and are sent by a user or the system.
+/// Signals with which a user or the system ends a program.
 constexpr int kEndingSignals[] = {SIGHUP,  SIGINT,  SIGQUIT, SIGTERM, SIGPIPE,
                                   SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU};
 
@@ -49,12 +49,13 @@ extern "C" void remove_and_end(int signal) {
   for (std::atomic<char*>& slot : registered) {
     if (const char* path = slot.load()) ::unlink(path);
   }
-  // SA_RESETHAND has restored the default action; the signal is delivered once this handler
+  // SA_RESETHAND has restored the default action, so this ends the program when the handler
   // returns.
   ::raise(signal);
 }
 
-/// Its slot, or -1 if all are in use; the next program start then removes files left by a signal.
+/// Enters a path for the signal handler. Returns its slot, or -1 if all are in use: a file left by
+/// a signal is then removed by remove_stale_temporaries().
 int register_path(const fs::path& path) {
   char* text = ::strdup(path.c_str());
   for (int i = 0; text != nullptr && i < kSlots; ++i) {
@@ -69,7 +70,8 @@ std::string random_characters() {
   constexpr std::string_view kCharacters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
   unsigned char bytes[kRandomCharacters] = {};
-  // Without random bytes, names collide in the end and the file cannot be made.
+  // If there are no random bytes, the names collide, and TemporaryFile::in() fails after some
+  // attempts.
   [[maybe_unused]] const ssize_t count = ::getrandom(bytes, sizeof bytes, 0);
   std::string text;
   for (const unsigned char byte : bytes) text += kCharacters[byte % kCharacters.size()];
@@ -111,7 +113,7 @@ TemporaryFile::TemporaryFile(fs::path path)
     path_.clear();  // nothing to remove, or another process's file
     return;
   }
-  // If the file system has no locks, only the process id protects the file.
+  // On a file system without locks, only the process id shows that the file is in use.
   (void)::flock(file_.number(), LOCK_EX | LOCK_NB);
 }
 

@@ -1,5 +1,5 @@
-/// Temporary files for atomic output. Used by file.cpp; the programs call
-/// remove_temporaries_on_signals().
+/// Temporary files that are renamed to their final name, for atomic output (file.cpp). Programs
+/// call remove_temporaries_on_signals() at their start.
 #pragma once
 
 #include <sys/types.h>
@@ -12,20 +12,20 @@
 
 namespace awmr {
 
-/// False if writing fails; errno has the reason.
+/// Writes all bytes. False if writing fails; errno has the reason.
 bool write_all(int descriptor, std::string_view bytes);
 
-/// `DIRECTORY/.awmr-PID-XXXXXX`, short enough for any file system, whatever the output's name.
-/// Removed by the destructor unless it was renamed.
+/// The temporary file `DIRECTORY/.awmr-PID-XXXXXX`. The name is short, so that any file system
+/// accepts it. The destructor removes the file unless it was renamed.
 class TemporaryFile {
  public:
-  /// Nothing if it cannot be made; errno has the reason.
+  /// Makes a file in the directory; empty if that fails, and errno has the reason.
   static std::optional<TemporaryFile> in(const std::filesystem::path& directory);
   ~TemporaryFile();
   TemporaryFile(TemporaryFile&& other) noexcept;
   TemporaryFile& operator=(TemporaryFile&&) = delete;
 
-  /// Writes and flushes; false on failure.
+  /// Writes all bytes, sets the permissions `mode` and flushes; false on failure.
   bool write(std::string_view bytes, mode_t mode);
   bool rename_to(const std::filesystem::path& target);
 
@@ -33,16 +33,17 @@ class TemporaryFile {
   explicit TemporaryFile(std::filesystem::path path);
   void unregister_path();
   std::filesystem::path path_;  ///< empty: nothing to remove
-  int slot_ = -1;               ///< slot in which a signal handler finds the path; -1: none
+  int slot_ = -1;               ///< entry in the table of the signal handler; -1: none
   Descriptor file_;
 };
 
-/// Makes signals that end this process (SIGINT, SIGTERM, SIGHUP, ...) remove its temporary files
-/// first. An ignored signal, as under nohup, stays ignored. Call at program start.
+/// Installs handlers for signals that end this process (SIGINT, SIGTERM, SIGHUP, ...). They remove
+/// its temporary files first. A signal that is ignored, as with nohup, stays ignored.
 void remove_temporaries_on_signals();
 
-/// Removes temporary files in `directory` of programs that have ended: no process has their id, and
-/// no process holds their lock (on another machine, ids mean other processes).
+/// Removes temporary files of programs that have ended from `directory`. A file is removed if no
+/// process has the id in its name and no process holds its lock. (The lock is needed for
+/// directories that several machines share, where ids mean different processes.)
 void remove_stale_temporaries(const std::filesystem::path& directory);
 
 }  // namespace awmr

@@ -8,11 +8,11 @@ namespace awmr {
 namespace {
 
 struct Character {
-  std::uint32_t code = 0;  ///< Unicode
+  std::uint32_t code = 0;  ///< Unicode code point
   std::size_t bytes = 0;   ///< 0 if the text does not begin with UTF-8
 };
 
-/// The first character of a non-empty text.  [RFC 3629, section 3]
+/// Decodes the first UTF-8 character of a non-empty text.  [RFC 3629, section 3]
 Character first_character(std::string_view text) {
   const auto byte = static_cast<unsigned char>(text[0]);
   if (byte < 0x80U) return {byte, 1};

@@ -1,4 +1,5 @@
-/// Sanitises user text for display: escapes control characters and shortens long text.
+/// Text from users' files in messages: escapes control characters, shortens long text, checks
+/// UTF-8.
 #pragma once
 
 #include <cstddef>
@@ -7,31 +8,31 @@
 
 namespace awmr {
 
-/// The second and later bytes of a UTF-8 character are 10xxxxxx.
+/// True for the second and later bytes of a UTF-8 character (10xxxxxx).
 inline bool continues_character(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
 }
 
-/// Independent of the system's locale.
+/// True for 0 to 9, whatever the locale.
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 bool is_utf8(std::string_view text);
 
-/// The first `longest` bytes of a text, or fewer, so that no UTF-8 character is cut.
+/// The beginning of a text: at most `longest` bytes, without cutting a UTF-8 character.
 std::string_view first_characters(std::string_view text, std::size_t longest);
 
-/// The text on one line. Control characters, marks that change the writing direction and bytes that
-/// are not UTF-8 are written as `\n`, `\t`, `\u{202e}`, `\xff`.
+/// The text on one line, safe to print on a terminal. Control characters, marks that change the
+/// writing direction and bytes that are not UTF-8 are escaped: `\n`, `\t`, `\u{202e}`, `\xff`.
 std::string printable(std::string_view text);
 
 /// As `printable`, but keeps line breaks.
 std::string printable_lines(std::string_view text);
 
-/// Maximum length that `shortened` leaves unchanged, in bytes.
+/// Default of shortened(), bytes.
 inline constexpr std::size_t kLongestShown = 1000;
 
-/// The text; if longer than `longest`, its beginning and its end, because a message ends with its
-/// remedy.
+/// The text unchanged if it has at most `longest` bytes; else its beginning, " ... " and its end,
+/// so that the remedy at the end of a message is kept.
 std::string shortened(std::string_view text, std::size_t longest = kLongestShown);
 
 }  // namespace awmr

@@ -15,7 +15,7 @@
 namespace awmr {
 namespace {
 
-/// Splits a name into parts, lower case: `Header.Stamp_ns` gives header, stamp, ns.
+/// Splits a name into lower-case words: `Header.Stamp_ns` gives header, stamp, ns.
 std::vector<std::string> parts_of(std::string_view name) {
   std::vector<std::string> parts(1);
   for (const char c : name) {
@@ -59,7 +59,8 @@ bool is_time_word(std::string_view word) {
 
 std::string in_backticks(const std::string& name) { return "`" + name + "`"; }
 
-/// Matches `time_ms`, `header.stamp [us]`; not `stop_time_s`, which is a duration.
+/// Recognises names such as `time_ms` and `header.stamp [us]`. `stop_time_s` is a duration and is
+/// not recognised.
 std::optional<TimeColumn> with_unit(const std::string& name) {
   // PlotJuggler exports seconds under this name.
   if (name == "__time") {
@@ -75,7 +76,7 @@ std::optional<TimeColumn> with_unit(const std::string& name) {
                     .meaning = fmt::format("\"{}\" in {}", name, parts.back())};
 }
 
-/// Matches `stamp.sec` with `stamp.nanosec`.
+/// Recognises `stamp.sec` together with `stamp.nanosec`.
 std::optional<TimeColumn> with_nanoseconds(const std::string& name,
                                            std::span<const std::string> header) {
   std::vector<std::string> parts = parts_of(name);
@@ -101,8 +102,8 @@ std::optional<TimeColumn> as_date(const std::string& name, std::string_view samp
       .expression = name, .is_date = true, .meaning = fmt::format("the dates of \"{}\"", name)};
 }
 
-/// Matches `timestamp` with 1763892000.25 in it: seconds since 1970 with a fraction, in the years
-/// 2001 to 2096. Counts of smaller units have no fraction.
+/// Recognises a column such as `timestamp` with seconds since 1970, of the years 2001 to 2096. The
+/// number must have a fraction, because counts of milliseconds or smaller units have none.
 std::optional<TimeColumn> as_unix_seconds(const std::string& name, std::string_view sample) {
   if (!is_time_word(parts_of(name).back()) || sample.find('.') == std::string_view::npos) {
     return std::nullopt;
@@ -115,7 +116,7 @@ std::optional<TimeColumn> as_unix_seconds(const std::string& name, std::string_v
                     .meaning = fmt::format("\"{}\" in s since 1970", name)};
 }
 
-/// Removes `digits` digits from the front; nothing if they are missing.
+/// Removes a number of `digits` digits from the front and returns it; empty if there is none.
 std::optional<int> take_digits(std::string_view& text, std::size_t digits) {
   int value = 0;
   if (text.size() < digits) return std::nullopt;
@@ -131,7 +132,8 @@ bool take(std::string_view& text, char c) {
   return true;
 }
 
-/// Removes `.789` or `,789`.
+/// Removes a fraction such as `.789` or `,789` from the front. Returns its value; 0 if there is
+/// none.
 std::optional<double> take_fraction(std::string_view& text) {
   if (!take(text, '.') && !take(text, ',')) return 0.0;
   double value = 0.0;
@@ -145,7 +147,8 @@ std::optional<double> take_fraction(std::string_view& text) {
   return value;
 }
 
-/// Removes `Z`, `+hh:mm`, `-hhmm` or nothing. Returns the offset from UTC, s.
+/// Removes a time zone (`Z`, `+hh:mm`, `-hhmm` or nothing). Returns its offset from UTC, s; empty
+/// if it is invalid.
 std::optional<int> take_zone(std::string_view& text) {
   if (text.empty() || take(text, 'Z')) return 0;
   const int sign = text[0] == '-' ? -1 : 1;
@@ -157,7 +160,8 @@ std::optional<int> take_zone(std::string_view& text) {
   return sign * (3600 * *hours + 60 * *minutes);
 }
 
-/// Removes `hh:mm[:ss[.fff]]`. Returns seconds since midnight.
+/// Removes a clock time `hh:mm[:ss[.fff]]`. Returns the seconds since midnight; empty if it is
+/// invalid.
 std::optional<double> take_clock(std::string_view& text) {
   const auto hours = take_digits(text, 2);
   if (!hours || *hours > 23 || !take(text, ':')) return std::nullopt;
@@ -197,7 +201,7 @@ tl::expected<std::optional<TimeColumn>, std::string> find_time(
   for (std::size_t i = 0; i < header.size(); ++i) {
     auto one = with_nanoseconds(header[i], header);
     if (!one) one = with_unit(header[i]);
-    // The nanoseconds of a pair are not a separate time.
+    // Names are tried first, then dates.
     if (!one && i < samples.size()) one = as_date(header[i], samples[i]);
     if (one) found.push_back(*std::move(one));
   }
@@ -208,7 +212,7 @@ tl::expected<std::optional<TimeColumn>, std::string> find_time(
   }
   if (found.empty()) return std::nullopt;
   if (found.size() == 1) return std::move(found.front());
-  // A pair counts as one time, even if each half looks like a time.
+  // A pair is one time, even if each of its columns is a candidate too.
   for (const TimeColumn& pair : found) {
     const auto is_part = [&](const TimeColumn& other) {
       const std::size_t star = other.expression.find('*');

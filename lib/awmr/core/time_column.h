@@ -1,6 +1,6 @@
-/// Detects time columns with names other than `t_s` if the name or the cells are unambiguous: with
-/// a unit (`time_ms`); whole seconds and nanoseconds (`stamp.sec`, `stamp.nanosec`); ISO 8601
-/// dates; if nothing else is found, seconds since 1970 with a fraction. Private to the library.
+/// Finds the time column of a file without a column `t_s`. Recognised are: a name with a unit
+/// (`time_ms`); whole seconds with nanoseconds (`stamp.sec`, `stamp.nanosec`); dates of ISO 8601;
+/// if there is none of these, seconds since 1970 with a fraction. Private to the library.
 #pragma once
 
 #include <optional>
@@ -11,27 +11,30 @@
 
 namespace awmr {
 
-/// Column required in every time series.
+/// Name of the time column, s.
 inline constexpr std::string_view kTimeName = "t_s";
 
-/// From this value on, s, a time is a clock time and is counted from the first row.
+/// A first time of at least this, s, is a clock time; the times are then counted from the first
+/// row.
 inline constexpr double kClockTime_s = 1e6;
 
+/// A column or a pair of columns with the time.
 struct TimeColumn {
-  std::string expression;  ///< over the header's columns, s
-  bool is_date = false;    ///< the cells are dates, and the expression is the column's name
-  bool is_pair = false;    ///< whole seconds first, then nanoseconds below 1e9
+  std::string expression;  ///< formula over the file's columns that gives the time, s
+  bool is_date = false;    ///< true: the cells are dates, and `expression` is the column's name
+  bool is_pair = false;    ///< true: a column of whole seconds and one of nanoseconds below 1e9
   std::string meaning;     ///< description for messages
 };
 
-/// `samples`: cells of the first row, as text; none: dates are not detected. Nothing if no column
-/// is a time. Error: more than one is, as text that names them.
+/// Finds the time in a header. `samples`: cells of the first row; if empty, dates and seconds since
+/// 1970 are not found. Empty if no column is a time. Error: a text that names the candidates, if
+/// there is more than one.
 tl::expected<std::optional<TimeColumn>, std::string> find_time(
     std::span<const std::string> header, std::span<const std::string> samples);
 
-/// Seconds since 1970 of `2026-01-31T12:34:56.789Z`. A space can replace the T, and `+hh:mm` the Z.
-/// Without a zone, UTC is assumed: only differences matter, and a change to summer time would
-/// appear as a jump. Seconds and their fraction are optional. Nothing if the form differs.
+/// Converts a date such as `2026-01-31T12:34:56.789Z` to seconds since 1970; empty for other text.
+/// A space may replace the T, `+hh:mm` the Z. Seconds and their fraction are optional. Without a
+/// zone, UTC is assumed, because only differences matter.
 std::optional<double> seconds_of_date(std::string_view text);
 
 }  // namespace awmr

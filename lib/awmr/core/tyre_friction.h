@@ -1,4 +1,5 @@
-/// Default tyre parameters if nothing was measured. All are divided by the weight on the tyre.
+/// Tyre parameters that are used if they were not measured. Forces are divided by the weight on the
+/// tyre.
 #pragma once
 
 namespace awmr {
@@ -13,8 +14,8 @@ inline constexpr double kTyreFriction = 0.8;
 /// are hardly ever measured.
 inline constexpr double kCorneringStiffness_per_rad = 10.0;
 
-/// m/s: below it, a tyre's slip is computed as if it rolled at about this speed. Far below the
-/// speeds at which paths are driven.
+/// Smallest rolling speed in the computation of a tyre's slip, m/s, which avoids a division by 0.
+/// Far below the speeds of driving.
 inline constexpr double kTyreRestSpeed_mps = 0.1;
 
 }  // namespace awmr

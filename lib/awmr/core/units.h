@@ -9,13 +9,13 @@ constexpr T pi() {
   return T(3.14159265358979323846);
 }
 
-/// An angle or angular rate given in degrees, in radians.
+/// Converts an angle or an angular rate from degrees to radians.
 template <class T>
 constexpr T radians(T degrees) {
   return degrees * T(3.14159265358979323846 / 180.0);
 }
 
-/// An angle or angular rate given in radians, in degrees.
+/// Converts an angle or an angular rate from radians to degrees.
 template <class T>
 constexpr T degrees(T radians) {
   return radians * T(180.0 / 3.14159265358979323846);

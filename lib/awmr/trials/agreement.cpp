@@ -14,8 +14,8 @@ constexpr double kAutomaticTiming_s = 1e-3;
 constexpr double kCourseError = 0.005;
 constexpr double kLargestRoundingShare = 0.05;
 
-/// Decimal places of a number written with up to 12 significant digits: 79.16 has 2, 1e-05 has 5.
-/// Limiting to 12 digits removes the last-digit noise of a mapping's scale and offset.
+/// Decimal places of a number: 79.16 has 2, 1e-05 has 5. Only 12 significant digits count, because
+/// a mapping's scale and offset change the digits after them.
 int decimal_places(double value) {
   const std::string text = fmt::format("{:.11e}", value);  // d.ddddddddddde[+-]dd
   const std::size_t exponent_mark = text.find('e');

@@ -1,20 +1,17 @@
-/// Contradiction check for a quantity that a row gives twice. Private to this folder.
-///
-/// A trial row may contain both a printed value (a speed) and a timed one (distance over elapsed
-/// time). The two agree if
+/// Tolerance for a quantity that a table row gives twice: as a printed value (a speed) and as a
+/// timed one (distance over elapsed time). Private to this folder. The two values agree if
 ///
 ///     |printed - timed| <= rounding(printed) + timed (stop_watch/elapsed + course)
 ///
 /// with
 ///
-///     rounding     half a unit in the last decimal place of the printed column, and at most 5 % of
-///                  the value. Trailing zeros are lost, so the finest place in the whole column is
-///                  used. Without the limit of 5 %, a column of whole numbers would agree with any
-///                  value.
-///     stop_watch   0.2 s: a hand on a stop watch is accurate to about 0.1 s, once at the start and
-///                  once at the end. Times given to the millisecond or finer are not hand-timed:
-///                  for them it is one unit of their last place.
-///     course       0.5 %: uncertain ends of a 10 m course (5 cm) or of a full turn (2 deg).
+///     rounding     half a unit in the last decimal place of the printed column, at most 5 % of the
+///                  value. The last place is the finest one in the column, because trailing zeros
+///                  are lost. Without the 5 %, whole numbers would agree with almost any value.
+///     stop_watch   0.2 s: 0.1 s for pressing the stop watch at the start, 0.1 s at the end. Times
+///                  given to the millisecond or finer are timed automatically: one unit of their
+///                  last place.
+///     course       0.5 %: the ends of a 10 m course are known to 5 cm, those of a turn to 2 deg.
 #pragma once
 
 #include <span>
@@ -24,19 +21,21 @@
 
 namespace awmr {
 
-/// One unit in the last decimal place of a column as the file writes it, in the column's own unit.
-/// `mappings` are those with which the table was read; a formula uses its computed values.
+/// Returns one unit in the last decimal place of a column as written in the file, converted to
+/// awmr's unit of the column. For a column computed by a formula: the last place of its computed
+/// values. `mappings`: those with which the table was read.
 double last_place(const CsvTable& table, std::string_view column,
                   std::span<const ColumnMapping> mappings);
 
-/// Maximum error of a printed value whose column has this last place.
+/// Maximum rounding error of a printed value whose column has this last place.
 double rounding_error(double printed, double last_place);
 
-/// Maximum error of `timed`, which was measured over `elapsed_s` > 0.
+/// Maximum error of `timed`, a rate measured over `elapsed_s` > 0: timed (stop_watch/elapsed +
+/// course). `elapsed_last_place`: last_place() of the times, s.
 double timing_error(double timed, double elapsed_s, double elapsed_last_place);
 
-/// Standard deviation of a time written to this last place, s. For a stop watch that of two
-/// presses, 0.1/sqrt(2) s each; for automatic timing that of the rounding.
+/// Standard deviation of a time that is written to this last place, s. Stop watch: 0.1 s, from two
+/// presses of 0.1/sqrt(2) s each. Automatic timing: that of the rounding, last place/sqrt(12).
 double timing_std_s(double elapsed_last_place);
 
 }  // namespace awmr

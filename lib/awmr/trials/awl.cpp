@@ -22,7 +22,7 @@ using awl::Lost;
 using awl::Place;
 using awl::Scan;
 
-/// Bits of SafetyFault for which the motion in a row is not a current measurement.
+/// Bits of SafetyFault with which heading or speed of a row is not a current measurement.
 constexpr unsigned kNotMeasured = kFaultHeadingStale | kFaultSpeedStale | kFaultNotFinite;
 
 /// Bits of `reset_cause`, as in the chip's MCUSR. [ATmega2560 data sheet, 12.5.1]
@@ -64,9 +64,8 @@ void tell_of_scan(const Scan& scan, const std::string& file, AwlLog& log) {
                      })));
   }
   if (scan.truncated > 0) {
-    warn(
-        log, file, "log-truncated",
-        fmt::format("the file ends inside a row; its {} bytes there are left out", scan.truncated));
+    warn(log, file, "log-truncated",
+         fmt::format("the file ends inside a row, whose {} bytes are not read", scan.truncated));
   }
 }
 
@@ -91,8 +90,8 @@ std::vector<Place> usable_rows(std::string_view bytes, const Scan& scan, const s
   if (!not_measured_s.empty()) {
     warn(log, file, "rows-not-measured",
          fmt::format(
-             "{} rows set aside, in which heading or speed was too old or not a number (no fix "
-             "or no compass yet), the first at {:.6g} s, the last at {:.6g} s",
+             "{} rows are set aside, because heading or speed was too old or not a number (no fix "
+             "or no compass yet); the first is at {:.6g} s, the last at {:.6g} s",
              not_measured_s.size(), not_measured_s.front(), not_measured_s.back()));
   }
   return measured;
@@ -116,8 +115,8 @@ std::vector<Place> without_short_runs(const std::vector<Place>& rows, const std:
   }
   if (!dropped.empty()) {
     warn(log, file, "short-run",
-         fmt::format("{} runs of fewer than {} rows set aside: of {} rows", dropped.size(),
-                     kShortestLog,
+         fmt::format("{} runs with fewer than {} rows are set aside; their rows: {}",
+                     dropped.size(), kShortestLog,
                      list_of(dropped, [](std::size_t size) { return fmt::format("{}", size); })));
   }
   return kept;
@@ -135,7 +134,7 @@ void tell_of_resets(std::string_view bytes, const Layout& layout, const std::vec
     if ((cause & (kBrownOut | kWatchdog)) == 0) continue;
     warn(log, file, "chip-reset",
          fmt::format("run {} began with a reset by {}", run,
-                     (cause & kWatchdog) != 0 ? "the watchdog: a step did not end in time"
+                     (cause & kWatchdog) != 0 ? "the watchdog: a control step did not end in time"
                                               : "a drop of the supply voltage (brown-out)"));
   }
 }
@@ -166,9 +165,10 @@ Result<AwlLog> read_awl(std::string_view bytes, const std::string& file) {
   const std::vector<Place> rows =
       without_short_runs(usable_rows(bytes, scan, file, log), file, log);
   if (rows.empty()) {
-    return refusal(ErrorCode::kTooFewData,
-                   fmt::format("{}: none of {} complete rows can be used{}", file, scan.rows.size(),
-                               log.findings.empty() ? "" : "; " + log.findings.back().message));
+    return refusal(
+        ErrorCode::kTooFewData,
+        fmt::format("{}: none of the {} complete rows can be used{}", file, scan.rows.size(),
+                    log.findings.empty() ? "" : "; " + log.findings.back().message));
   }
   fill_columns(bytes, scan.layout, rows, log);
   tell_of_resets(bytes, scan.layout, rows, file, log);

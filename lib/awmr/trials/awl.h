@@ -1,5 +1,5 @@
-/// Log of the emitted firmware (`.awl`). control/log_row.h defines the file, and the file's header
-/// defines its rows.
+/// Reads the log that the emitted firmware writes on its board (`.awl`). control/log_row.h defines
+/// the file format. The header of each file defines the columns of its rows.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@
 
 namespace awmr {
 
-/// Content of a file, with counts of the lost data.
+/// Content of a file, and how much of it was lost.
 struct AwlLog {
-  std::vector<std::string> header = {};           ///< `t_s` first, `run` last
-  std::vector<std::vector<double>> columns = {};  ///< by name, then by row; all finite
-  std::string parameters_sha256 = {};  ///< of the firmware's model and gains, as in awmr_params.h
+  std::vector<std::string> header = {};           ///< column names: `t_s` first, `run` last
+  std::vector<std::vector<double>> columns = {};  ///< by column, then by row; all finite
+  std::string parameters_sha256 = {};  ///< hash of the model and gains, as in awmr_params.h
   std::size_t runs = 0;                ///< 1, plus one for each restart of the chip
   std::size_t lost = 0;                ///< rows numbered by the chip but missing from the file
   std::size_t damaged_bytes = 0;       ///< bytes outside complete headers and rows
@@ -29,22 +29,23 @@ struct AwlLog {
 /// True if a header begins within the first kilobytes.
 bool is_awl(std::string_view bytes);
 
-/// Reads all complete rows of a file; a checksum identifies a row wherever it begins. Findings,
-/// each with its places:
+/// Reads all complete rows of a file. A row is found by its checksum, so damaged bytes before it do
+/// not matter. Findings, each with its places in the file:
 ///   `rows-lost`          missing row numbers
 ///   `log-damaged`        bytes that are not a row
 ///   `log-truncated`      the file ends inside a row
-///   `rows-not-measured`  rows set aside because their motion is not a current measurement
-///   `short-run`          rows set aside because their run is too short to be a log
-///   `chip-reset`         the chip was reset without being switched off
-/// Errors: (input) no complete header, a header of another version or one that does not describe
-/// its rows, two headers that differ; (refused) no complete row.
+///   `rows-not-measured`  rows set aside: heading or speed was too old, or a value not a number
+///   `short-run`          rows set aside: their run has fewer than ten rows
+///   `chip-reset`         a run began with a watchdog reset or a drop of the supply voltage
+/// Errors (input): no complete header; a header of another version; a header whose columns do not
+/// fill a row; two headers that differ. Errors (refused): no usable row.
 Result<AwlLog> read_awl(std::string_view bytes, const std::string& file);
 
-/// Like read_awl() for a file, whose hash is recorded. Errors: as read_input().
+/// As read_awl(), for a file. Records the hash of the file as an input. Errors also: as
+/// read_input().
 Result<AwlLog> read_awl_file(const std::filesystem::path& path);
 
-/// The log as CSV: header and rows, every number in the shortest form that reads back the same.
+/// Returns the log as CSV text. Numbers are written in the shortest form that reads back exactly.
 std::string log_csv(const AwlLog& log);
 
 }  // namespace awmr

@@ -28,7 +28,7 @@ bool is_plain(std::string_view name) {
 
 std::size_t bytes_of(Kind kind) { return kind == Kind::kByte ? 1 : 4; }
 
-/// Returns the columns with consecutive offsets.
+/// Reads the columns of the header. Each begins in the row where the one before ends.
 std::vector<Column> columns_in(JsonObject& header) {
   std::vector<Column> columns;
   std::set<std::string> names;
@@ -46,7 +46,7 @@ std::vector<Column> columns_in(JsonObject& header) {
           ErrorCode::kBadName, "name",
           fmt::format("expected 1 to {} letters, digits and _, and not 'run'", kLongestName));
     } else if (!names.insert(column.name).second) {
-      entry.fault(ErrorCode::kGivenTwice, "name", "a second column of this name");
+      entry.fault(ErrorCode::kGivenTwice, "name", "another column has this name");
     }
     columns.push_back(std::move(column));
   }
@@ -110,11 +110,12 @@ Result<Layout> layout_of(std::string_view json, const std::string& file) {
                                                          bytes_of(layout.columns.back().kind);
     if (end != layout.row_bytes) {
       header.fault(ErrorCode::kBrokenFile, "row_bytes",
-                   fmt::format("found {}; sync, check sum, number and columns are {}",
+                   fmt::format("found {}; the sync bytes, checksum, row number and columns have {} "
+                               "bytes",
                                layout.row_bytes, end));
     } else if (layout.columns.empty() || layout.columns.front().name != kTimeName) {
       header.fault(ErrorCode::kBrokenFile, "columns",
-                   fmt::format("the first column has to be {}", kTimeName));
+                   fmt::format("the first column must be {}", kTimeName));
     }
   }
   if (!faults.empty()) return input_errors(std::move(faults));

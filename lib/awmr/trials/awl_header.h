@@ -1,4 +1,5 @@
-/// Header of an `.awl` file, which describes its rows. Private to this folder.
+/// Parses the header of an `.awl` file, which defines the columns of its rows. Private to this
+/// folder.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +13,7 @@
 
 namespace awmr::awl {
 
+/// Number type of a column.
 enum class Kind { kFloat, kUnsigned, kByte };
 inline constexpr NameTable<Kind, 3> kKindNames{
     {{"f32", Kind::kFloat}, {"u32", Kind::kUnsigned}, {"u8", Kind::kByte}}};
@@ -19,14 +21,15 @@ inline constexpr NameTable<Kind, 3> kKindNames{
 struct Column {
   std::string name;
   Kind kind = Kind::kFloat;
-  double scale = 1.0;      ///< unit of the stored counts
+  double scale = 1.0;      ///< value = stored number times this
   std::size_t offset = 0;  ///< byte offset in the row
 
   bool operator==(const Column&) const = default;
 };
 
+/// Layout of the rows of a file.
 struct Layout {
-  std::string parameters_sha256;
+  std::string parameters_sha256;  ///< hash of the firmware's model and gains
   std::size_t row_bytes = 0;
   std::vector<Column> columns;  ///< the first is t_s
 
@@ -35,17 +38,18 @@ struct Layout {
   const Column* find(std::string_view name) const;
 };
 
-/// The column's value in a row of `row_bytes`.
+/// Returns the scaled value of a column. Precondition: `row` has Layout::row_bytes bytes.
 double value_in(std::string_view row, const Column& column);
 
-/// Value of a bit-field column of one byte; 0 if there is no such column.
+/// Returns the bits of the one-byte column `name`; 0 if there is no such column.
 unsigned bits_in(std::string_view row, const Layout& layout, std::string_view name);
 
-/// JSON of the header that begins at this offset; empty if none begins there or it is damaged.
+/// Returns the JSON text of the header at this offset; empty if there is no undamaged header.
 std::optional<std::string_view> header_at(std::string_view bytes, std::size_t at);
 
-/// Errors (input), as `FILE:/pointer`: another version, a duplicate column, a first column other
-/// than t_s, a row size that differs from that of the columns.
+/// Parses the JSON text of a header. Errors (input), with the place as `FILE:/pointer`: another
+/// version; a duplicate column; a first column other than t_s; a row size that is not the sum of
+/// its columns.
 Result<Layout> layout_of(std::string_view json, const std::string& file);
 
 }  // namespace awmr::awl

@@ -14,7 +14,7 @@ namespace {
 const std::string_view kMagic(reinterpret_cast<const char*>(kLogMagic), sizeof kLogMagic);
 const std::string_view kSync(reinterpret_cast<const char*>(kLogSync), sizeof kLogSync);
 
-/// Limit on damaged headers. Without it, checking them would take longer than reading the file.
+/// Maximum number of damaged headers. With more, their checksums would dominate the reading time.
 constexpr std::size_t kMostDamagedHeaders = 1000;
 
 /// The first header of a log begins within this number of bytes.
@@ -32,8 +32,8 @@ std::uint32_t sequence_of(std::string_view bytes, std::size_t offset) {
   return number_in<std::uint32_t>(bytes.substr(offset + kLogRowCovered));
 }
 
-/// Adds the complete row at this offset with its run, and the rows lost before it. `after_header`:
-/// a header precedes the row.
+/// Adds the complete row at this offset, and the gap in the row numbers before it. `after_header`:
+/// a header precedes the row, so the row begins a run.
 void add_row(std::string_view bytes, std::size_t at, bool after_header, Scan& scan) {
   const std::uint32_t sequence = sequence_of(bytes, at);
   const double t_s = time_of(bytes, at, scan.layout);
@@ -56,7 +56,8 @@ void add_row(std::string_view bytes, std::size_t at, bool after_header, Scan& sc
   scan.rows.push_back({at, run});
 }
 
-/// Skips bytes to the next possible start of a row or header and returns its offset.
+/// Adds the bytes up to the next possible start of a row or header as damage. Returns the offset of
+/// that start.
 std::size_t pass_over(std::string_view bytes, std::size_t at, Scan& scan) {
   const char starts[] = {kMagic[0], kSync[0]};
   const std::size_t found = bytes.find_first_of(std::string_view(starts, sizeof starts), at + 1);
@@ -69,20 +70,21 @@ std::size_t pass_over(std::string_view bytes, std::size_t at, Scan& scan) {
   return next;
 }
 
-/// Adds the header; all headers of a file must describe the same rows.
+/// Adds the header at this offset. Errors (input): its layout differs from that of an earlier
+/// header.
 Status add_header(std::string_view json, std::size_t at, const std::string& file, Scan& scan) {
   AWMR_ASSIGN_OR_RETURN(Layout layout, layout_of(json, file));
   if (scan.layout.row_bytes > 0 && scan.layout != layout) {
     return input_error(ErrorCode::kBrokenFile, file,
-                       fmt::format("byte {}: a header of other rows or other parameters than "
-                                   "the one before: cut the file there",
+                       fmt::format("byte {}: this header has other columns or parameters than the "
+                                   "header before it; split the file there",
                                    at));
   }
   scan.layout = std::move(layout);
   return {};
 }
 
-/// Bytes left at the end are a truncated row if they are shorter than a row.
+/// Counts damage at the end of the file as a truncated row if it is shorter than a row.
 void note_end(std::string_view bytes, Scan& scan) {
   if (scan.damaged.empty() || scan.damaged.back().end != bytes.size()) return;
   const std::size_t size = bytes.size() - scan.damaged.back().begin;
@@ -118,8 +120,8 @@ Result<Scan> scan_of(std::string_view bytes, const std::string& file) {
   if (scan.layout.row_bytes == 0) {
     return input_error(
         ErrorCode::kWrongFile, file,
-        "no header of an awmr log is whole: is this a file that the emitted sketches "
-        "wrote (LOG00.AWL)?");
+        "no undamaged header of an awmr log found; give a file that an emitted sketch wrote "
+        "(LOG00.AWL)");
   }
   note_end(bytes, scan);
   return scan;

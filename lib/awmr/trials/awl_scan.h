@@ -11,28 +11,28 @@
 
 namespace awmr::awl {
 
-/// A complete row.
+/// Position of a complete row.
 struct Place {
   std::size_t offset = 0;
-  std::size_t run = 1;
+  std::size_t run = 1;  ///< number of the run, from 1; each start of the chip begins a run
 };
 
-/// Bytes that are neither header nor row.
+/// Bytes [begin, end) that are neither header nor row.
 struct Damage {
   std::size_t begin = 0;
   std::size_t end = 0;
 };
 
-/// Gap in the row numbers.
+/// Gap in the row numbers: rows that the file does not have.
 struct Lost {
   std::size_t count = 0;
-  double before_s = 0.0;  ///< time of the next row
-  /// the bytes between the rows are damaged; else the chip did not write them
+  double before_s = 0.0;  ///< t_s of the row after the gap
+  /// True: the file is damaged at the gap. False: the chip did not write the rows.
   bool is_damaged = false;
 };
 
 struct Scan {
-  Layout layout = {};  ///< of the rows; row_bytes 0: no complete header
+  Layout layout = {};  ///< layout of the rows; row_bytes 0: no complete header
   std::vector<Place> rows = {};
   std::vector<Damage> damaged = {};
   std::vector<Lost> lost = {};
@@ -42,8 +42,8 @@ struct Scan {
 /// True if a header seems to begin within the first kilobytes.
 bool begins_log(std::string_view bytes);
 
-/// Finds rows by their checksums, wherever they begin. Errors (input): no complete header; as
-/// layout_of(); headers that differ; too many damaged headers.
+/// Finds all rows by their checksums. Errors (input): no complete header; as layout_of(); headers
+/// that differ; more than 1000 damaged headers.
 Result<Scan> scan_of(std::string_view bytes, const std::string& file);
 
 /// t_s of the row at this offset.

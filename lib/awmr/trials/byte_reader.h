@@ -11,7 +11,8 @@
 
 namespace awmr {
 
-/// Converts the first sizeof(T) bytes to a number; `big`: most significant byte first.
+/// Returns the number in the first sizeof(T) bytes. `big`: the most significant byte comes first.
+/// Precondition: there are so many bytes.
 template <class T>
 T number_in(std::string_view bytes, bool big = false) {
   using Bits = std::conditional_t<
@@ -33,20 +34,21 @@ class ByteReader {
 
   std::size_t offset() const { return offset_; }
   std::size_t left() const { return bytes_.size() - offset_; }
-  /// Returns the next `size` bytes and advances; returns nothing and does not advance if there are
-  /// fewer.
+  /// Returns the next `size` bytes and advances. If fewer are left: returns nothing, stays in
+  /// place.
   std::optional<std::string_view> take(std::size_t size) {
     if (left() < size) return std::nullopt;
     const std::string_view taken = bytes_.substr(offset_, size);
     offset_ += size;
     return taken;
   }
+  /// Returns the next number and advances, as take().
   template <class T>
   std::optional<T> number(bool big = false) {
     const auto taken = take(sizeof(T));
     return taken ? std::optional<T>(number_in<T>(*taken, big)) : std::nullopt;
   }
-  /// Moves to an offset, at most the end.
+  /// Moves to the offset, or to the end of the bytes if the offset is larger.
   void seek(std::size_t offset) { offset_ = offset < bytes_.size() ? offset : bytes_.size(); }
 
  private:

@@ -19,12 +19,12 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::size_t kFewestWindows = 15;
-constexpr double kSignificance = 5.0;  // standard errors
+constexpr double kSignificance = 5.0;  // smallest significant error, in standard errors
 constexpr double kLeastScale = 0.03;
 constexpr double kLeastOffset_rad = 0.0175;
 
-/// Twenty windows or more. Longer windows reduce the effect of noise at their ends, but accumulate
-/// sideslip and heading errors.
+/// Divides the log into about twenty windows of 1 to 5 s. Longer windows reduce the effect of noise
+/// at their ends, but accumulate sideslip and heading errors.
 std::vector<LogWindow> calibration_windows(const DrivingLog& log) {
   constexpr double kShortest_s = 1.0;
   constexpr double kLongest_s = 5.0;
@@ -36,10 +36,11 @@ std::vector<LogWindow> calibration_windows(const DrivingLog& log) {
 struct Regression {
   Eigen::VectorXd coefficients;
   Eigen::VectorXd std_errors;
-  double scatter = 0.0;  ///< of the rows that are not outliers
+  double scatter = 0.0;  ///< standard deviation of the residuals without outliers
 };
 
-/// The rows whose residual is within four standard deviations, by the median.
+/// Rows that are not outliers: residuals within four standard deviations. The standard deviation is
+/// estimated by the median of the magnitudes.
 std::vector<Eigen::Index> usual_rows(const Eigen::VectorXd& residuals) {
   std::vector<double> sizes(residuals.data(), residuals.data() + residuals.size());
   for (double& size : sizes) size = std::abs(size);
@@ -51,8 +52,7 @@ std::vector<Eigen::Index> usual_rows(const Eigen::VectorXd& residuals) {
   return rows;
 }
 
-/// Least squares of y = X k, without outliers, which are removed in three rounds; empty if X is
-/// rank-deficient.
+/// Least squares of y = X k. Outliers are removed in three rounds. Empty if X is rank-deficient.
 std::optional<Regression> regression(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
   constexpr int kRounds = 3;
   Regression found;
@@ -74,7 +74,7 @@ std::optional<Regression> regression(const Eigen::MatrixXd& x, const Eigen::Vect
   return found;
 }
 
-/// The integrals of one window.
+/// Displacement of one window, and the integrals a, b, c, d of calibration_checks.h.
 struct CourseWindow {
   Complex moved, driven, turned, slipped, hastened;
 };
@@ -101,13 +101,15 @@ CourseWindow course_window(const DrivingLog& log, const LogWindow& window, doubl
   return sums;
 }
 
-/// k and the scatter of its fit. Headings are multiplied by `heading_factor`.
+/// Fit of the displacement.
 struct CourseFit {
-  Complex factor;
-  double std_error = 0.0;
-  double scatter_m = 0.0;
+  Complex factor;          ///< k = s exp(i phi)
+  double std_error = 0.0;  ///< of the real and the imaginary part of k
+  double scatter_m = 0.0;  ///< standard deviation of the residuals
 };
 
+/// Fits the displacement with headings multiplied by `heading_factor`. Empty if a channel is
+/// missing, with fewer than 15 windows, or if k is not determined.
 std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor = 1.0) {
   for (const LogChannel channel :
        {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed, LogChannel::kHeading}) {
@@ -115,7 +117,7 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
   }
   const std::vector<LogWindow> windows = calibration_windows(log);
   if (windows.size() < kFewestWindows) return std::nullopt;
-  // k = p + iq, times a: real part p Re a - q Im a, imaginary part p Im a + q Re a.
+  // With k = p + i q: Re(k a) = p Re a - q Im a, Im(k a) = p Im a + q Re a.
   constexpr Eigen::Index kTerms = 4;
   Eigen::MatrixXd left(2 * static_cast<Eigen::Index>(windows.size()), 2 * kTerms);
   Eigen::VectorXd right(left.rows());
@@ -137,7 +139,8 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
                    found->scatter};
 }
 
-/// Ratio of the heading's change to the integral of the yaw rate.
+/// Factor k between the change of heading and the integral of the yaw rate (calibration_checks.h).
+/// Empty if a channel is missing or with fewer than 15 windows.
 std::optional<Calibration> heading_over_rate(const DrivingLog& log) {
   if (!log[LogChannel::kHeading] || !log[LogChannel::kYawRate]) return std::nullopt;
   const std::vector<LogWindow> windows = calibration_windows(log);
@@ -174,8 +177,8 @@ std::string mapping_option(std::span<const ColumnMapping> mappings, std::string_
   return option_text("column '" + scaled_mapping(mappings, column, factor) + "'");
 }
 
-/// Determines which of the two is wrong: the positions agree with the heading, or with the integral
-/// of the yaw rate.
+/// Decides whether the scale of the yaw rate or of the heading is wrong: the positions agree with
+/// the channel that is right.
 enum class ChannelAtFault { kYawRate, kHeading, kEither };
 ChannelAtFault channel_at_fault(const DrivingLog& log, const Calibration& scale) {
   constexpr double kClearly = 0.7;
@@ -192,27 +195,27 @@ std::optional<Finding> rate_mismatch(const DrivingLog& log,
   const auto scale = heading_over_rate(log);
   if (!scale || !is_off_one(*scale)) return std::nullopt;
   const std::string compared =
-      fmt::format("heading_deg turns {:.3f} +- {:.3f} times the integral of yaw_rate_radps",
+      fmt::format("heading_deg changes by {:.3f} +- {:.3f} times the integral of yaw_rate_radps",
                   scale->value, scale->std_error);
   const std::string rate = mapping_option(mappings, "yaw_rate_radps", scale->value);
   const std::string heading = mapping_option(mappings, "heading_deg", 1.0 / scale->value);
   switch (channel_at_fault(log, *scale)) {
     case ChannelAtFault::kYawRate:
       return scale_finding(log,
-                           fmt::format("{}, and the positions follow the heading: the scale of the "
-                                       "gyroscope is off; map it by {}",
+                           fmt::format("{}, and the positions agree with the heading: the scale of "
+                                       "the gyroscope is wrong; map it with {}",
                                        compared, rate));
     case ChannelAtFault::kHeading:
       return scale_finding(log,
-                           fmt::format("{}, and the positions follow the yaw rate: the scale of "
-                                       "the heading is off; map it by {}",
+                           fmt::format("{}, and the positions agree with the yaw rate: the scale "
+                                       "of the heading is wrong; map it with {}",
                                        compared, heading));
     case ChannelAtFault::kEither:
       break;
   }
   return scale_finding(log,
-                       fmt::format("{}: the scale of the gyroscope is off (map it by {}) or that "
-                                   "of the heading ({})",
+                       fmt::format("{}: the scale of the gyroscope is wrong (map it with {}) or "
+                                   "that of the heading (map it with {})",
                                    compared, rate, heading));
 }
 
@@ -222,9 +225,9 @@ std::optional<Finding> speed_mismatch(const DrivingLog& log, const CourseFit& co
   if (!is_off_one(scale)) return std::nullopt;
   return scale_finding(
       log,
-      fmt::format("x_m and y_m move {:.3f} +- {:.3f} times the integral of speed_mps: the scale "
-                  "of the speed is off (wheel radius, gear, slip; map it by {}) or that of the "
-                  "positions ({} and {})",
+      fmt::format("x_m and y_m move by {:.3f} +- {:.3f} times the integral of speed_mps: the scale "
+                  "of the speed is wrong (wheel radius, gear, slip; map it with {}) or that of the "
+                  "positions (map them with {} and {})",
                   scale.value, scale.std_error, mapping_option(mappings, "speed_mps", scale.value),
                   mapping_option(mappings, "x_m", 1.0 / scale.value),
                   mapping_option(mappings, "y_m", 1.0 / scale.value)));
@@ -257,9 +260,9 @@ std::vector<Finding> calibration_findings(const DrivingLog& log,
     findings.push_back(
         {log.file, 0, Severity::kWarning, "heading-offset",
          fmt::format(
-             "the course over ground is {:+.2f} +- {:.2f} deg from heading_deg: the compass "
-             "is turned in the vehicle or its declination is missing, or the vehicle drifts "
-             "to one side; the offset is estimated with the rest ({})",
+             "the course over ground differs from heading_deg by {:+.2f} +- {:.2f} deg: the "
+             "compass is rotated in the vehicle, its declination is missing, or the vehicle "
+             "drifts to one side; the fit estimates this offset, as with {}",
              degrees(offset->value), degrees(offset->std_error),
              option_text("fit bias.heading_deg"))});
   }

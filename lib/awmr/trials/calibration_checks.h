@@ -1,18 +1,20 @@
-/// Calibration checks of a log: small differences of scale and direction between channels, which no
-/// wrong unit causes.
+/// Calibration checks of a driving log: errors of scale and direction that are too small for a
+/// wrong unit, such as a wrong wheel radius or a compass that is rotated in the vehicle.
 ///
-/// In windows of a twentieth of the log (1 to 5 s), the displacement is compared with the integral
-/// of speed and heading, in the complex plane:
+/// The log is divided into windows [t0, t1] of a twentieth of its length (1 to 5 s). In each window
+/// the displacement of the position p = x + i y is compared with the integral of speed and heading.
+/// The complex factors k, k_b, k_c and k_d are fitted over all windows:
 ///
 ///     p(t1) - p(t0) = k a + k_b b + k_c c + k_d d,   k = s exp(i phi)
-///     a = int u exp(i psi) dt
+///     a = int u exp(i psi) dt                displacement by speed and heading
 ///     b = int r exp(i psi) dt                an antenna off the centre of gravity
 ///     c = int u r exp(i psi) dt              sideslip in turns, latency of the heading
 ///     d = int exp(i psi) du                  latency of speed or position
 ///
-/// s is the ratio of the scales of position and speed, phi the angle from the heading to the course
-/// over ground. The change of the heading is compared with the integral of the yaw rate, with a
-/// bias and a latency between them:
+/// s is the ratio of the position's scale to the speed's scale (1 if both are right). phi is the
+/// angle from the heading to the course over ground. The change of heading is compared with the
+/// integral of the yaw rate in the same way. k is the ratio of the heading's scale to the yaw
+/// rate's scale. k_0 is the offset of the yaw rate, k_1 the latency between the two channels:
 ///
 ///     psi(t1) - psi(t0) = k int r dt + k_0 (t1 - t0) + k_1 (r(t1) - r(t0))
 #pragma once
@@ -26,19 +28,20 @@
 
 namespace awmr {
 
-/// A number with its standard error.
+/// Estimate of a calibration error, with its standard error.
 struct Calibration {
   double value = 0.0;
   double std_error = 0.0;
 };
 
-/// Angle from the heading to the course over ground, rad, if it exceeds 1 deg and five standard
-/// errors. Absent if a position, the heading or the speed was not measured.
+/// Angle phi from the heading to the course over ground, rad, left positive. Empty if it is below
+/// 1 deg or below five standard errors, or if x, y, the heading or the speed was not measured.
 std::optional<Calibration> heading_offset_rad(const DrivingLog& log);
 
-/// `heading-offset` and `scale-mismatch` (warnings): scales that differ by more than 3 % and five
-/// standard errors, with the faulty channel if a third one identifies it, else with both.
-/// `mappings`: those that the log was read with.
+/// Returns the warnings `heading-offset` (as heading_offset_rad()) and `scale-mismatch`: two
+/// channels whose scales differ by more than 3 % and five standard errors. `scale-mismatch` names
+/// the wrong channel if a third channel agrees with the other, else both. `mappings`: those with
+/// which the log was read.
 std::vector<Finding> calibration_findings(const DrivingLog& log,
                                           std::span<const ColumnMapping> mappings);
 

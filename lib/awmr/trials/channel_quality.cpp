@@ -11,9 +11,11 @@
 namespace awmr {
 namespace {
 
-/// A larger fraction of repeats in a moving signal is not by chance.
+/// Fraction of repeated values in a moving signal above which the sensor may be slower than the
+/// log.
 constexpr double kRepeatedShare = 0.5;
-/// With fewer repeats the grid is finer than the signal's change per row: only the number format.
+/// Fraction of repeated values above which the resolution is coarse. With fewer repeats, the steps
+/// are only those of the number format.
 constexpr double kSomeRepeats = 0.2;
 
 double quantile(std::vector<double> values, double share) {
@@ -23,10 +25,10 @@ double quantile(std::vector<double> values, double share) {
   return *place;
 }
 
-/// Rows at which the value changes, with the size of the change.
+/// Rows at which the value changes, and the magnitude of each change.
 struct Changes {
   std::vector<std::size_t> row;
-  std::vector<double> step;  ///< absolute
+  std::vector<double> step;
 };
 
 Changes changes_of(std::span<const double> value) {
@@ -39,7 +41,8 @@ Changes changes_of(std::span<const double> value) {
   return changes;
 }
 
-/// Returns the smallest step if most changes are one or two steps and all are multiples of it.
+/// Returns the resolution: the smallest change, if nearly all changes are multiples of it and most
+/// are one or two times it. Else 0.
 double quantum_of(const Changes& changes) {
   const double smallest = *std::min_element(changes.step.begin(), changes.step.end());
   std::size_t on_grid = 0;
@@ -47,7 +50,7 @@ double quantum_of(const Changes& changes) {
   for (const double step : changes.step) {
     const double times = step / smallest;
     steps.push_back(times);
-    // A number written with few digits misses the exact multiple by its rounding.
+    // Tolerance for values that are rounded to few digits.
     if (std::abs(times - std::round(times)) < 0.05 + 1e-6 * times) ++on_grid;
   }
   const bool grid = static_cast<double>(on_grid) > 0.98 * static_cast<double>(steps.size());
@@ -64,8 +67,8 @@ std::vector<double> gaps_of(const Changes& changes) {
   return gaps;
 }
 
-/// Marks the readings of a slow sensor: its changes, and one per usual gap where it repeated a
-/// value.
+/// Marks the rows with a reading of a slow sensor: the rows where the value changes and, within
+/// longer gaps, one row per usual gap, where a reading repeated the value.
 std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
   std::vector<bool> fresh(rows, false);
   fresh[0] = true;
@@ -80,6 +83,7 @@ std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
   return fresh;
 }
 
+/// Decides why values repeat, and marks the measurements.
 void classify_repeats(std::span<const double> value, ChannelQuality& quality) {
   const Changes changes = changes_of(value);
   quality.fresh.assign(value.size(), true);
@@ -101,9 +105,9 @@ void classify_repeats(std::span<const double> value, ChannelQuality& quality) {
   }
 }
 
-/// Each reading less the median of itself and its two neighbours on either side. Edges give small
-/// values; jumps away and back of up to two readings give large ones. 0 for two readings at each
-/// end.
+/// Each reading minus the median of itself and its two neighbours on either side. It is large for a
+/// jump away and back within two readings, and small for a step. 0 for the first and last two
+/// readings.
 std::vector<double> off_median(std::span<const double> value) {
   std::vector<double> off(value.size(), 0.0);
   for (std::size_t k = 2; k + 2 < value.size(); ++k) {
@@ -119,12 +123,14 @@ bool all_equal(std::span<const double> values) {
   return std::ranges::all_of(values, [&](double v) { return v == values.front(); });
 }
 
-/// Beyond noise and motion. Five equal readings, as an encoder gives them at rest, show no
-/// noise. For normal noise, the 75 % quantile of |off| is 1.04 standard deviations, and |off|
-/// exceeds 7 of them once in 1e9 readings. The quantile of n readings has a relative error of
-/// 1.3/sqrt(n), of which four times is added. At a sharp change of a motion, |off| is one change
-/// between rows; the limit includes three times the 80 % quantile of these (5.4 standard deviations
-/// for noise only).
+/// Limit of |off| (off_median()) above which a reading is a spike: the largest of
+///   - 7 standard deviations of the noise, which normal noise exceeds once in 1e9 readings. The
+///     standard deviation is the 75 % quantile of |off| over 1.04, without five equal readings in a
+///     row (an encoder at rest). About four standard errors of the quantile are added (one is
+///     1.3/sqrt(n), relative, for n readings);
+///   - three times the 80 % quantile of the change between readings, for sharp changes of motion;
+///   - a tenth of the range of the values;
+///   - three times the resolution.
 double spike_limit(std::span<const double> value, std::span<const double> off, double quantum) {
   constexpr double kQuantileOverStd = 1.04;
   constexpr double kStandardDeviations = 7.0;
@@ -146,8 +152,8 @@ double spike_limit(std::span<const double> value, std::span<const double> off, d
                    0.1 * range, 3.0 * quantum});
 }
 
-/// True if the readings on one side of `k` extrapolate linearly to it, as at a sharp change of a
-/// motion: from the two nearest readings within the limit.
+/// True if reading `k` is near the straight line through the two nearest unsuspicious readings on
+/// one side (-1 or 1), as at a sharp change of motion. It is then no spike.
 bool is_reached_from(std::span<const double> value, std::span<const double> off, double limit,
                      std::size_t k, std::ptrdiff_t side) {
   const auto rows = static_cast<std::ptrdiff_t>(value.size());
@@ -186,7 +192,7 @@ void find_spikes(std::span<const double> all, ChannelQuality& quality) {
   }
 }
 
-/// Values smaller than this fraction of the signal count as rest, for commands too.
+/// Values smaller than this fraction of the signal's largest magnitude count as rest.
 constexpr double kRestShare = 1e-6;
 
 double largest_size(std::span<const double> values) {
@@ -195,7 +201,7 @@ double largest_size(std::span<const double> values) {
   return most;
 }
 
-/// Rows [begin, end) of the same value.
+/// Consecutive rows with the same value.
 std::vector<RowSpan> equal_runs(std::span<const double> value) {
   std::vector<RowSpan> runs;
   for (std::size_t i = 0; i < value.size();) {
@@ -207,9 +213,9 @@ std::vector<RowSpan> equal_runs(std::span<const double> value) {
   return runs;
 }
 
-/// Time within the run, ending 0.3 s before its end, during which the 0.3 s mean of the command
-/// differs by `notable` from its first 0.3 s. The mean is used because a controller that holds a
-/// speed changes its command constantly but on average only little.
+/// Time during `run` in which the mean of the command over 0.3 s differs by more than `notable`
+/// from the mean over the run's first 0.3 s. The last 0.3 s of the run do not count. Means are
+/// compared, because a speed controller changes its command constantly but hardly on average.
 double changed_s(std::span<const double> t_s, std::span<const double> activity, const RowSpan& run,
                  double notable) {
   constexpr double kMean_s = 0.3;
@@ -229,9 +235,9 @@ double changed_s(std::span<const double> t_s, std::span<const double> activity, 
   return changed;
 }
 
-/// Finds a value that is constant for a second or more, far longer than the sensor usually repeats
-/// one, while the command changed for 0.3 s. Rest is not stuck. Neither is a value that is held
-/// twice for long, which indicates a constant set-point.
+/// Finds stuck values: constant for a second or more and for eight times the usual repetition,
+/// while the command changed for 0.3 s or more. A value near 0 is not stuck: the vehicle rests. A
+/// value that occurs in several such runs is not stuck: it is a set-point.
 void find_stuck(std::span<const double> t_s, std::span<const double> value,
                 std::span<const double> activity, ChannelQuality& quality) {
   const std::vector<RowSpan> runs = equal_runs(value);
@@ -264,8 +270,9 @@ void find_stuck(std::span<const double> t_s, std::span<const double> value,
   }
 }
 
-/// Finds rows at the largest (or smallest) value of a signal that otherwise rarely repeats a value
-/// exactly. Rows without a command do not count, because the vehicle rests there at some value.
+/// Finds saturation: the largest or smallest value occurs often, although the signal rarely repeats
+/// other values exactly. Rows without a command do not count: a resting vehicle also repeats a
+/// value.
 void find_saturation(std::span<const double> all, std::span<const double> activity,
                      ChannelQuality& quality) {
   const double idle = 0.02 * largest_size(activity);
@@ -289,7 +296,7 @@ void find_saturation(std::span<const double> all, std::span<const double> activi
     }
     i = end;
   }
-  // A signal with few levels has no range limit to detect.
+  // A signal with few distinct values repeats all of them.
   constexpr std::size_t kFewestLevels = 20;
   if (levels < kFewestLevels) return;
   for (const double bound : {*high, *low}) {

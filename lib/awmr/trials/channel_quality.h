@@ -1,4 +1,4 @@
-/// Quality checks of one log channel by its readings: sensors slower than the log, coarse
+/// Quality checks of the readings of one log channel: sensor slower than the log, coarse
 /// resolution, spikes, stuck values, saturation.
 #pragma once
 
@@ -11,8 +11,8 @@ namespace awmr {
 /// Reason why a sensor repeats its values.
 enum class Repeats {
   kNone,    ///< most rows bring a new value
-  kSlow,    ///< slower than the log: values change at the sensor's rate and are held in between
-  kCoarse,  ///< on a grid: the value changes when the signal crosses to the next step
+  kSlow,    ///< sensor slower than the log: values are repeated until the next reading
+  kCoarse,  ///< coarse resolution: the value changes only when the signal reaches the next step
 };
 
 /// Rows [begin, end).
@@ -23,21 +23,21 @@ struct RowSpan {
 
 struct ChannelQuality {
   Repeats repeats = Repeats::kNone;
-  std::vector<bool> fresh;          ///< by row: counts as measured
-  double quantum = 0.0;             ///< step of a coarse sensor, in the unit of the values
-  std::vector<std::size_t> spikes;  ///< rows that jump away and back
-  std::vector<RowSpan> stuck;       ///< constant while the command changed
-  std::size_t saturated = 0;        ///< rows at the end of the sensor's range
-  double saturated_at = 0.0;
+  std::vector<bool> fresh;          ///< by row: the value is a measurement
+  double quantum = 0.0;             ///< resolution, in the unit of the values; 0: not detected
+  std::vector<std::size_t> spikes;  ///< rows whose value jumps away and back
+  std::vector<RowSpan> stuck;       ///< rows with one value while the command changed
+  std::size_t saturated = 0;        ///< number of rows at the end of the sensor's range
+  double saturated_at = 0.0;        ///< the value there
 };
 
-/// `activity` by row: the command, in any scale. A signal that is constant while this changes is
-/// stuck; a signal at rest while this rests is not. Times are ascending.
+/// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the
+/// signal, by row, in any scale. A signal that is constant while `activity` changes is stuck.
 ///
-/// A slow sensor changes in at most every second row, by many of its smallest differences. A
-/// coarse one also changes in neighbouring rows, mostly by one step. Each reading of a slow sensor
-/// counts once. Of a coarse one every row counts, because an unchanged value means that the signal
-/// did not cross a step. Spikes, stuck and saturated rows do not count.
+/// A slow sensor changes in every second row at most. A coarse sensor also changes in neighbouring
+/// rows, mostly by one step of its resolution. Of a slow sensor, only the rows with a new reading
+/// are measurements. Of a coarse sensor, every row is one: an unchanged value means that the signal
+/// did not reach the next step. Spikes, stuck and saturated rows are not measurements.
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity);
 

@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Minimum for the initial speed, the deceleration and one row to check them. The fit decides
-/// whether all curves together identify the parameters.
+/// Minimum number of rows of a curve: two determine the initial speed and the deceleration, one
+/// checks them.
 constexpr std::size_t kShortestCurve = 3;
 
 bool is_curve(const TrialReader& reader) { return reader.has("t_s") && reader.has("speed_mps"); }
@@ -20,7 +20,7 @@ bool is_stop_time(const TrialReader& reader) {
   return reader.has("initial_speed_mps") && reader.has("stop_time_s");
 }
 
-/// One row per speed bin, as in road-load measurements.
+/// True if the file has one row per speed bin, as road-load measurements do.
 bool is_binned(const TrialReader& reader) {
   return reader.has("from_mps") && reader.has("to_mps") && reader.has("elapsed_s");
 }
@@ -29,22 +29,23 @@ void check_coastdown_columns(TrialReader& reader) {
   if (is_binned(reader) && (is_curve(reader) || is_stop_time(reader))) {
     reader.header_fault(
         ErrorCode::kConflict,
-        fmt::format("speed bins (from_mps, to_mps, elapsed_s) and a curve or stop times: give "
-                    "two files, {} twice",
+        fmt::format("the file has both speed bins (from_mps, to_mps, elapsed_s) and a curve or "
+                    "stop times: put them into two files and give {} twice",
                     option_text("coastdown")));
     return;
   }
   if (is_curve(reader) && is_stop_time(reader)) {
     reader.header_fault(
         ErrorCode::kConflict,
-        fmt::format("both a curve (t_s, speed_mps) and stop times (initial_speed_mps, "
-                    "stop_time_s): give two files, {} twice",
+        fmt::format("the file has both a curve (t_s, speed_mps) and stop times "
+                    "(initial_speed_mps, stop_time_s): put them into two files and give {} twice",
                     option_text("coastdown")));
     return;
   }
   if (is_curve(reader) || is_stop_time(reader) || is_binned(reader)) return;
   if (reader.has("from_mps") || reader.has("to_mps")) {
-    reader.header_fault(ErrorCode::kMissing, "speed bins need from_mps, to_mps and elapsed_s");
+    reader.header_fault(ErrorCode::kMissing,
+                        "speed bins need from_mps, to_mps and elapsed_s; add the missing ones");
     return;
   }
   const bool meant_curve = reader.has("t_s") || reader.has("speed_mps");
@@ -72,8 +73,8 @@ TrialSet<StopTimeRow> read_stop_times(TrialReader& reader, std::vector<Finding>&
     const double stop_time_s = *reader.non_negative(i, "stop_time_s");
     if (!is_rest(speed_mps, kRestSpeed_mps) && stop_time_s == 0.0) {
       reader.fault(ErrorCode::kOutOfRange, i, "stop_time_s",
-                   fmt::format("found 0 from initial_speed_mps {}; a moving vehicle takes time to "
-                               "stop",
+                   fmt::format("found 0 with initial_speed_mps {}; give the time in which the "
+                               "vehicle stopped",
                                speed_mps));
     } else if (is_rest(speed_mps, kRestSpeed_mps)) {
       set_aside.push_back(i);
@@ -83,8 +84,7 @@ TrialSet<StopTimeRow> read_stop_times(TrialReader& reader, std::vector<Finding>&
     }
   }
   set.set_aside = static_cast<int>(set_aside.size());
-  note_rows_set_aside(reader, set_aside, "a coast-down that begins at rest shows nothing of m'",
-                      findings);
+  note_rows_set_aside(reader, set_aside, "a coast-down from rest does not determine m'", findings);
   find_repeated_rows(reader, kept,
                      {.settings = {"initial_speed_mps"}, .timed = "stop_time_s", .scatter = 0.01},
                      findings);
@@ -109,9 +109,9 @@ void check_length(TrialReader& reader, const std::vector<CoastCurve>& curves) {
   }
 }
 
-/// Converts times per speed bin to a curve: the speeds are the ends of the bins, the times the sums
-/// of their durations. A new run begins if `run` changes, or with a bin that does not start at the
-/// end of the previous one.
+/// Converts speed bins to curves. The speeds of a curve are the limits of its bins, the times the
+/// sums of their durations. A new curve begins if `run` changes, or if a bin does not begin at the
+/// speed at which the one before ends.
 std::vector<CoastCurve> read_bins(TrialReader& reader) {
   std::vector<CoastCurve> curves;
   std::optional<double> run;
@@ -121,8 +121,8 @@ std::vector<CoastCurve> read_bins(TrialReader& reader) {
     const double elapsed_s = *reader.non_negative(i, "elapsed_s");
     if (!(to_mps < from_mps) || elapsed_s == 0.0) {
       reader.fault(ErrorCode::kContradiction, i, to_mps < from_mps ? "elapsed_s" : "to_mps",
-                   fmt::format("found from_mps {}, to_mps {} in {} s: a coast-down slows from "
-                               "from_mps to to_mps, which takes time",
+                   fmt::format("found from_mps {}, to_mps {} in {} s: to_mps must be below "
+                               "from_mps, and elapsed_s above 0",
                                from_mps, to_mps, elapsed_s));
     }
     const double this_run = reader.cell(i, "run").value_or(0.0);
@@ -140,7 +140,8 @@ std::vector<CoastCurve> read_bins(TrialReader& reader) {
   return curves;
 }
 
-/// A run is a contiguous block with one value of `run`; without that column the file is one run.
+/// Reads curves. Each contiguous block with one value of `run` is a curve; without that column the
+/// file is one curve.
 std::vector<CoastCurve> read_curves(TrialReader& reader) {
   std::vector<CoastCurve> curves;
   std::optional<double> run;

@@ -21,7 +21,7 @@
 namespace awmr {
 namespace {
 
-/// Guessed unit of a column.
+/// A guess of a column's unit, and the expression that converts it.
 struct Scale {
   std::string expression;
   Confidence confidence = Confidence::kUnsure;
@@ -40,8 +40,8 @@ std::optional<Scale> by_unit_in_name(const std::string& quoted, const Words& wor
                fmt::format("the name ends in the unit {}", unit->spelling)};
 }
 
-/// True for ROS 2 messages, which are in SI units by convention, and for ArduPilot's gyros in
-/// rad/s.
+/// True for names of ROS 2 messages, which are in SI units by convention, and of ArduPilot's gyros,
+/// which are in rad/s.
 bool is_si_by_convention(const Words& words) {
   const bool ros = has_any(words, {"twist", "pose", "drive"}) ||
                    (has_any(words, {"angular"}) && has_any(words, {"velocity", "z"}));
@@ -54,12 +54,12 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-/// Assumed steering stop, which the reason states.
+/// Assumptions that the user must check; the guess's reason states them.
 constexpr double kUsualStop_deg = 20.0;
-/// Assumed battery voltage, which the reason states.
 constexpr double kUsualVolts = 12.0;
 
-/// Pulses of a servo or a motor driver, us: 1500 in the middle, 500 to either end.
+/// True if the values may be pulses of a servo or a motor driver, us: 1500 in the middle, 500 to
+/// either end.
 bool looks_like_pulses(const std::vector<double>& values) {
   if (values.empty()) return false;
   const auto [least, most] = std::ranges::minmax(values);
@@ -71,7 +71,8 @@ Scale force_scale(const std::string& quoted, const Words& words,
   const double most = largest(values);
   if (has_any(words, {"volts", "volt", "voltage"})) {
     return {fmt::format("{}/{:g}", quoted, kUsualVolts), Confidence::kUnsure,
-            fmt::format("volts over the voltage of full power, taken as {:g} V", kUsualVolts)};
+            fmt::format("volts divided by the voltage of full power, assumed to be {:g} V",
+                        kUsualVolts)};
   }
   if (most <= 1.0) {
     return {quoted, Confidence::kLikely, "the values lie within [-1, 1], as forces over F_max do"};
@@ -84,7 +85,7 @@ Scale force_scale(const std::string& quoted, const Words& words,
             "the values look like servo pulses in us, 1500 at rest"};
   }
   return {fmt::format("{}/{:.4g}", quoted, most), Confidence::kUnsure,
-          fmt::format("full scale is not known; the largest value here is {:.4g}", most)};
+          fmt::format("the value at full power is unknown; the largest here is {:.4g}", most)};
 }
 
 Scale scale_of(const std::string& quoted, const Words& words, Dimension dimension,
@@ -97,24 +98,25 @@ Scale scale_of(const std::string& quoted, const Words& words, Dimension dimensio
   }
   const double to_column_unit = dimension == Dimension::kAngle ? degrees(1.0) : 1.0;
   if (is_si_by_convention(words)) {
-    return {times(quoted, to_column_unit), Confidence::kLikely, "such messages are in SI units"};
+    return {times(quoted, to_column_unit), Confidence::kLikely,
+            "messages of this kind are in SI units"};
   }
   if (dimension == Dimension::kAngle && looks_like_pulses(values)) {
     return {fmt::format("({} - 1500)/500*{:g}", quoted, kUsualStop_deg), Confidence::kUnsure,
-            fmt::format("the values look like servo pulses in us: 1500 straight ahead, 500 to a "
-                        "stop, taken as {:g} deg",
+            fmt::format("the values look like servo pulses in us: 1500 is straight ahead, 500 more "
+                        "or less the stop, assumed to be {:g} deg",
                         kUsualStop_deg)};
   }
   if (dimension == Dimension::kAngle && largest(values) > 2.0 * pi<double>()) {
-    return {
-        quoted, Confidence::kLikely,
-        fmt::format("the values reach {:.4g}, beyond a turn in radians: degrees", largest(values))};
+    return {quoted, Confidence::kLikely,
+            fmt::format("the values reach {:.4g}, more than a turn in radians: degrees",
+                        largest(values))};
   }
   return {times(quoted, 1.0), Confidence::kUnsure,
-          "the name has no unit, and the values fit several"};
+          "the name has no unit, and the values fit several units"};
 }
 
-/// Returns the name as written in an expression.
+/// Returns the name as it is written in an expression: in backticks if necessary.
 std::string quoted(const std::string& name) {
   const bool bare = std::all_of(name.begin(), name.end(), [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
@@ -142,7 +144,7 @@ void add_quaternions(const FileSample& sample, std::vector<ColumnGuess>& guesses
     guesses.push_back({"heading_deg",
                        fmt::format("atan2(2*({0}*{3} + {1}*{2}), 1 - 2*({2}*{2} + {3}*{3}))*180/pi",
                                    part("w"), part("x"), part("y"), part("z")),
-                       Confidence::kLikely, "the turn about the vertical of this quaternion"});
+                       Confidence::kLikely, "the heading of this orientation quaternion"});
   }
 }
 
@@ -160,18 +162,18 @@ void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
                        (*time)->meaning + "; it is also read without a mapping"});
   }
   if (!guesses.empty()) return;
-  // `ms`, `millis`: the name may mean metres per second, but those do not grow from row to row.
+  // A name such as `ms` may mean milliseconds or m/s, but a speed does not rise in every row.
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
     const Words words = words_of(sample.names[i]);
     const auto unit = unit_in(words, Dimension::kTime);
     if (!unit || words.size() > 1 || !increases(sample.values[i])) continue;
     guesses.push_back({std::string(kTimeName), times(quoted(sample.names[i]), unit->factor),
-                       Confidence::kLikely, "the name is a unit of time, and the values grow",
+                       Confidence::kLikely, "the name is a unit of time, and the values rise",
                        first_of(sample.values[i])});
   }
 }
 
-/// Column of the file from which a guess is made, scaled or not; none for a formula of several.
+/// Index of the file's column from which a guess is made; none for a formula of several columns.
 std::optional<std::size_t> source_of(const ColumnGuess& guess, const FileSample& sample) {
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
     const std::string name = quoted(sample.names[i]);
@@ -182,12 +184,13 @@ std::optional<std::size_t> source_of(const ColumnGuess& guess, const FileSample&
   return std::nullopt;
 }
 
-/// Removes guesses for a channel that is constant while others move: it is not a measurement.
+/// Clears guesses whose column is constant while other channels move: it is not a measurement.
 void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   for (ColumnGuess& guess : guesses) {
     const auto source = source_of(guess, sample);
     if (!source) continue;
-    // Other channels use their first guess, this one the column in question.
+    // Values of a channel: the column in question for this guess's channel, the first guess for
+    // others.
     const auto values = [&](std::string_view column) -> std::optional<std::span<const double>> {
       if (column == guess.column) return sample.values[*source];
       for (const ColumnGuess& other : guesses) {
@@ -210,7 +213,7 @@ void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& gues
   }
 }
 
-/// If two columns fit equally well, neither is likely.
+/// Sorts the guesses of one column by confidence. If two are likely, both become unsure.
 void settle(std::span<ColumnGuess> guesses) {
   std::stable_sort(guesses.begin(), guesses.end(), [](const ColumnGuess& a, const ColumnGuess& b) {
     return a.confidence < b.confidence;
@@ -224,8 +227,8 @@ void settle(std::span<ColumnGuess> guesses) {
   }
 }
 
-/// True if surge, sway and yaw rate are named by their letters, as in vehicle dynamics and `awmr
-/// simulate` (u_mps, v_mps, r_radps). In a log with both u and v, v is the sway and not the speed.
+/// True if the log names velocities by the letters u and v, as vehicle dynamics and `awmr simulate`
+/// do (u_mps, v_mps, r_radps). v is then the lateral speed, not the speed.
 bool has_body_velocities(const FileSample& sample) {
   const auto has = [&](const char* letter) {
     return std::any_of(sample.names.begin(), sample.names.end(),
@@ -233,8 +236,9 @@ bool has_body_velocities(const FileSample& sample) {
   };
   return has("u") && has("v");
 }
+/// Replaces the letter u, v or r by speed, sway or yawrate, if the name is that letter and at most
+/// a unit. (u_ref_mps is a reference.)
 Words with_body_velocity(Words words) {
-  // A letter and at most a unit of two words: u_ref_mps is a reference.
   const bool is_reading = words.size() == 1 || unit_in(words, Dimension::kSpeed) ||
                           unit_in(words, Dimension::kAngularRate);
   if (!is_reading || words.size() > 3 || has_any(words, {"ref", "cmd", "des"})) return words;
@@ -253,7 +257,7 @@ std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample&
     const std::string& name = sample.names[i];
     if (name == column) {
       guesses.push_back(
-          {column, name, Confidence::kSure, "it has this name", first_of(sample.values[i])});
+          {column, name, Confidence::kSure, "the name is the same", first_of(sample.values[i])});
       continue;
     }
     const Words words = by_letters ? with_body_velocity(words_of(name)) : words_of(name);
@@ -276,7 +280,7 @@ std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind)
     return std::find(sample.names.begin(), sample.names.end(), name) != sample.names.end();
   };
   for (const CsvColumn& column : columns_of(kind)) {
-    // Speed bins alone take a time each; a curve has t_s.
+    // Only a table of speed bins (from_mps) needs elapsed_s.
     if (kind == TrialKind::kCoastdown && column.name == "elapsed_s" && !has("from_mps")) continue;
     const std::vector<ColumnGuess> guesses = guesses_of(column.name, sample, kind);
     all.insert(all.end(), guesses.begin(), guesses.end());

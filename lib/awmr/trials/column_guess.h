@@ -1,4 +1,5 @@
-/// Guesses for the columns of an unknown file, each with its reason. The user must confirm them.
+/// Guesses which columns of an unknown file are awmr's columns, each guess with its reason (`awmr
+/// map`). The user must confirm the guesses.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +12,7 @@
 
 namespace awmr {
 
-/// First rows of a file in any supported log format.
+/// First rows of a file in any supported format.
 struct FileSample {
   std::vector<std::string> names;
   std::vector<std::vector<double>> values;  ///< by name: the first numbers, at most kSampleRows
@@ -19,32 +20,34 @@ struct FileSample {
 };
 inline constexpr std::size_t kSampleRows = 1000;
 
-/// Errors: as the reader of the file's format; a directory without a log.
+/// Reads the first rows of a file or a directory of files. Errors: as the reader of the file's
+/// format; a directory without a log.
 Result<FileSample> sample_of(const std::filesystem::path& path);
 
 /// Confidence of a guess.
 enum class Confidence {
-  kSure,    ///< the name is the required one
-  kLikely,  ///< name and unit fit, by the name or by the values
-  kUnsure,  ///< the unit is unknown, or another column fits too: needs confirmation
+  kSure,    ///< the name equals awmr's column name
+  kLikely,  ///< the name fits, and the unit follows from the name or the values
+  kUnsure,  ///< the unit is unknown, or another column fits as well: needs confirmation
 };
 inline constexpr NameTable<Confidence, 3> kConfidenceNames{{{"sure", Confidence::kSure},
                                                             {"likely", Confidence::kLikely},
                                                             {"unsure", Confidence::kUnsure}}};
 
 struct ColumnGuess {
-  std::string column;      ///< of the trial: "speed_mps"
-  std::string expression;  ///< as parse_column() takes it
+  std::string column;      ///< awmr's column: "speed_mps"
+  std::string expression;  ///< EXPRESSION over the file's columns, as parse_column() reads it
   Confidence confidence = Confidence::kUnsure;
-  std::string why;
+  std::string why;                   ///< reason, for the user
   std::vector<double> samples = {};  ///< first few values of the source column
 };
 
-/// Guesses the columns of a trial in the order of columns_of(kind), the most confident one first.
-/// Words and units are taken from the names: column_words.h.
+/// Returns the guesses for each column of the trial, in the order of columns_of(kind). Of several
+/// guesses for one column the most confident is first. Uses the words and units in the names of the
+/// file's columns (column_words.h).
 std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind);
 
-/// The guesses usable without confirmation: the first one of each column, unless it is unsure.
+/// Returns the first guess of each column, without guesses that are kUnsure.
 std::vector<ColumnGuess> likely_columns(const std::vector<ColumnGuess>& guesses);
 
 }  // namespace awmr

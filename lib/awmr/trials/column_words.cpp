@@ -8,7 +8,7 @@
 namespace awmr {
 namespace {
 
-/// Rule for the words of a name: one word of each set in `all`, none of `none`.
+/// A name fits `column` if it has a word of each set in `all` and no word of `none`.
 struct Rule {
   const char* column;
   std::vector<std::set<std::string>> all;
@@ -51,7 +51,7 @@ std::vector<Rule> log_rules() {
       {"yaw_rate_radps", {{"gyr", "gyro"}}, {"x", "y", "z", "temp"}, Dimension::kAngularRate},
       {"steering_deg", {kSteerWords}, kCommand, Dimension::kAngle},
       {"steering_cmd_deg", {kSteerWords, kCommand}, {}, Dimension::kAngle},
-      // The command of a servo.
+      // A column "servo" without one of these words is the servo's command.
       {"steering_cmd_deg", {{"servo"}}, {"feedback", "measured", "actual"}, Dimension::kAngle},
       {"latitude_deg", {{"lat", "latitude"}}, {}, Dimension::kGeographic},
       {"longitude_deg", {{"lon", "lng", "long", "longitude"}}, {}, Dimension::kGeographic}};
@@ -127,7 +127,7 @@ const std::vector<Unit>& units() {
   return kUnits;
 }
 
-/// True for `kmh`, `km/h`, `dps`: a unit of only one vehicle quantity, without another word.
+/// True if the name is only a unit that belongs to a single quantity: `kmh`, `km/h`, `dps`.
 bool is_unit_alone(const Rule& rule, const Words& words) {
   static const std::set<std::string> kOnlyOne{"speed_mps", "yaw_rate_radps", "elapsed_s", "t_s"};
   if (kOnlyOne.count(rule.column) == 0 || words.size() > 2) return false;

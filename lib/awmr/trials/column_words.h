@@ -1,4 +1,5 @@
-/// Words (steer, yaw, gyro, left) and units (kmh, degps, rad) in the names of unknown columns.
+/// Recognises quantities (steer, yaw, gyro, left) and units (kmh, degps, rad) in the names of a
+/// file's columns, for column_guess.h.
 #pragma once
 
 #include <optional>
@@ -13,22 +14,25 @@ namespace awmr {
 
 using Words = std::vector<std::string>;
 
-/// Splits a name into lower-case words: `IMU.GyrZ` is imu, gyr, z.
+/// Splits a name into lower-case words: `IMU.GyrZ` gives imu, gyr, z.
 Words words_of(std::string_view name);
 
+/// True if at least one of the words is in `any`.
 bool has_any(const Words& words, const std::set<std::string>& any);
 
 enum class Dimension { kForce, kAngle, kAngularRate, kSpeed, kLength, kGeographic, kTime, kCount };
 
-/// Dimension measured by a name's words, if they may name `column` of a trial of this kind.
+/// Returns the dimension of a file's column whose name has these words, if it may be awmr's
+/// `column` in a trial of this kind; else empty.
 std::optional<Dimension> dimension_as(TrialKind kind, const std::string& column,
                                       const Words& words);
 
-/// Unit at the end of a name, in its last word or its last two (`m/s` is m, s).
+/// Unit in the name of a column.
 struct NamedUnit {
   std::string_view spelling;
-  double factor;  ///< to the unit of awmr's columns
+  double factor;  ///< value in awmr's unit = value in the file times this
 };
+/// Returns the unit of this dimension in the last word or the last two words (`m/s` is m, s).
 std::optional<NamedUnit> unit_in(const Words& words, Dimension dimension);
 
 }  // namespace awmr

@@ -11,7 +11,7 @@ namespace {
 struct MotionLimit {
   std::string_view column;
   double least;      ///< threshold in the column's unit
-  bool is_position;  ///< compare the change of the value, not its size
+  bool is_position;  ///< true: compare the range of the values; false: their largest magnitude
 };
 constexpr std::array<MotionLimit, 8> kMotionLimits{{{"x_m", 0.2, true},
                                                     {"y_m", 0.2, true},

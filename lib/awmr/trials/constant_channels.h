@@ -1,5 +1,5 @@
-/// Channels with exactly one value in a whole file while others move: an unused message field, a
-/// set-point logged as a measurement, a dead sensor. Private to this folder.
+/// Finds channels with a single value in the whole file while other channels move: an unused
+/// message field, a set-point logged as a measurement, or a dead sensor. Private to this folder.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,8 @@
 
 namespace awmr {
 
-/// Returns the values of a log column in its own unit; empty if there is none.
+/// Function that returns the values of a log column in the column's unit; empty if the file lacks
+/// it.
 using ColumnValues = std::function<std::optional<std::span<const double>>(std::string_view column)>;
 
 struct ConstantChannel {
@@ -20,9 +21,9 @@ struct ConstantChannel {
   double value = 0.0;  ///< in the column's unit
 };
 
-/// Returns the constant ones of speed, lateral speed, yaw rate and heading, if another channel
-/// contains motion. Motion is a speed beyond 0.05 m/s, a yaw rate beyond 0.1 rad/s, a heading
-/// change of 5 deg or a position change of 0.2 m. A file of a vehicle at rest has none.
+/// Returns which of speed, lateral speed, yaw rate and heading are constant while another channel
+/// shows motion: a speed or lateral speed of 0.05 m/s, a yaw rate of 0.1 rad/s, a heading change of
+/// 5 deg or a position change of 0.2 m. Empty for a vehicle at rest.
 std::vector<ConstantChannel> constant_channels(const ColumnValues& values);
 
 }  // namespace awmr

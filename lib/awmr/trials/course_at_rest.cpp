@@ -10,9 +10,9 @@
 namespace awmr {
 namespace {
 
-/// Largest speed at rest: this, or a tenth of the highest speed if that is smaller.
+/// Below this speed, or below a tenth of the highest speed if that is smaller, the vehicle rests.
 constexpr double kRest_mps = 0.1;
-/// Smallest change from one reading to the next that neither noise nor a turn on the spot causes.
+/// A larger change from one reading to the next is a jump, not noise or a turn on the spot.
 constexpr double kFar_rad = 20.0 * pi<double>() / 180.0;
 
 double difference(double a_rad, double b_rad) { return std::abs(wrap_angle(a_rad - b_rad)); }
@@ -38,7 +38,8 @@ CourseAtRest course_at_rest(std::span<const double> speed_mps, std::span<const d
     if (i > 0) before = heading_rad[present[i - 1]];
     if (end < present.size()) after = heading_rad[present[end]];
     const bool was_turned = before && after && difference(*before, *after) > kFar_rad;
-    // Changes from the reading before the rest to the one after it.
+    // Largest change between neighbouring readings, from the last one before the rest to the first
+    // one after it.
     for (std::size_t next = std::max<std::size_t>(i, 1); !was_turned && next <= end; ++next) {
       if (next == present.size()) break;
       const double change = difference(heading_rad[present[next - 1]], heading_rad[present[next]]);

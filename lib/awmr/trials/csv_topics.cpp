@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-/// One file, read once.
+/// Text and header of one file.
 struct File {
   std::string path;
   std::string stem;
@@ -22,10 +22,10 @@ struct File {
   std::vector<std::string> header;
 };
 
-/// The mappings of the time, with their indices among all mappings.
+/// The mappings of t_s.
 struct TimeMappings {
   std::vector<ColumnMapping> mappings = {};
-  std::vector<std::size_t> places = {};
+  std::vector<std::size_t> places = {};  ///< their indices among all mappings
 };
 
 TimeMappings time_mappings(std::span<const ColumnMapping> mappings) {
@@ -70,7 +70,7 @@ struct Span {
   double end_s = 0.0;
 };
 
-/// Errors: the files have no time in common.
+/// Checks that the files overlap in time. Errors: they do not.
 Status check_spans(const std::vector<Span>& spans) {
   if (spans.empty()) return {};
   const auto last = std::max_element(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
@@ -81,8 +81,8 @@ Status check_spans(const std::vector<Span>& spans) {
   if (last->begin_s <= first->end_s) return {};
   return input_error(
       ErrorCode::kWrongOrder, last->file->path,
-      fmt::format("begins at {:.9g} s, after {} has ended at {:.9g} s: files that are joined have "
-                  "one clock",
+      fmt::format("begins at {:.9g} s, after {} has ended at {:.9g} s: files that are joined must "
+                  "share one clock; correct the times, or give each file as a log of its own",
                   last->begin_s, first->file->path, first->end_s));
 }
 
@@ -92,11 +92,11 @@ void note_zero_starts(const std::vector<Span>& spans, std::vector<CsvNote>& note
       std::all_of(spans.begin(), spans.end(), [](const Span& span) { return span.begin_s == 0.0; });
   if (!all_at_zero) return;
   notes.push_back({0, "one-clock",
-                   "the time of every file begins at exactly 0: they are taken to have one clock; "
-                   "where each counts from its own first row they are shifted"});
+                   "the times of all files begin at exactly 0 and are used as times of one clock: "
+                   "if each file counts from its own first row, its signals are shifted in time"});
 }
 
-/// Converts the rows of a table in which the column has a value to a topic.
+/// Returns a column of a table as a topic, with the rows that have a value.
 Topic topic_of(const CsvTable& table, const std::string& column, std::size_t place) {
   Topic topic{.name = column, .columns = {place}, .values = {{}}};
   const std::vector<bool>& present = table.present(column);
@@ -109,19 +109,19 @@ Topic topic_of(const CsvTable& table, const std::string& column, std::size_t pla
   return topic;
 }
 
-/// Errors: a time outside 64-bit nanoseconds since 1970, which last until 2262.
+/// Errors: a time that does not fit into 64-bit nanoseconds (beyond the year 2255 in clock time).
 Status check_time(const CsvTable& table) {
   constexpr double kMost_s = 9e9;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (std::abs(table.column(kTimeName)[row] + table.clock_s()) > kMost_s) {
       return input_error(ErrorCode::kOutOfRange, table.place(row, kTimeName),
-                         "this time cannot be in seconds");
+                         "too large for a time in seconds; convert it with a mapping of t_s");
     }
   }
   return {};
 }
 
-/// Adds the requested columns of one file.
+/// Adds the names of one file's columns, and the values of the requested ones.
 Status add_file(const File& file, const std::map<std::string, int>& counts,
                 const TimeMappings& times, const Wanted& wanted, CsvTopics& topics,
                 std::vector<Span>& spans) {

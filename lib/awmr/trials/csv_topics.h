@@ -1,4 +1,4 @@
-/// Signals from several tables with one topic each. Private to this folder.
+/// Reads a directory of CSV files, one topic per file, as signals. Private to this folder.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,16 @@
 
 namespace awmr {
 
-/// Signals read from several tables, and the mappings that gave their times.
+/// Signals of several CSV files.
 struct CsvTopics {
   Signals signals = {};
-  std::vector<std::size_t> mapped = {};
+  std::vector<std::size_t> mapped = {};  ///< indices of the mappings that gave a file's t_s
 };
 
-/// Names a column `FILE.COLUMN`, without the file's extension, or by its own name if no other file
-/// has it. Each file has a time column, t_s or one that replaces it, and all share one clock.
-/// Errors: as read_csv(); the files have no time in common.
+/// A signal is named `FILE.COLUMN` (FILE without extension), and also `COLUMN` if no other file has
+/// that column. Each file needs a time column (t_s, a mapping of it, or one that find_time()
+/// accepts). All files must use the same clock. Errors: as read_csv(); the files do not overlap in
+/// time.
 Result<CsvTopics> read_csv_topics(std::span<const std::filesystem::path> paths,
                                   std::span<const ColumnMapping> mappings, const Wanted& wanted);
 

@@ -18,7 +18,8 @@ constexpr std::string_view kRecordSync("\xA3\x95", 2);
 constexpr std::uint8_t kFormatType = 128;
 constexpr std::size_t kFormatBytes = 89;
 
-/// FMTU: TimeUS, type, units, multipliers; the unit '#' marks the number of an instance.
+/// Evaluates an FMTU record (TimeUS, type, units, multipliers): the unit '#' marks the field of a
+/// record type that has the number of the sensor.
 void mark_instance(std::string_view record, const dataflash::Format& fmtu,
                    dataflash::Formats& formats) {
   std::optional<std::uint8_t> type;
@@ -34,8 +35,8 @@ void mark_instance(std::string_view record, const dataflash::Format& fmtu,
   if (found->second.fields[mark].kind->bytes == 1) found->second.instance = mark;
 }
 
-/// Calls `take(type, record, offset)` for every record of a known format and returns the number of
-/// bytes skipped. `take` may add formats.
+/// Calls `take(type, record, offset)` for every record of a known format. `take` may add formats.
+/// Returns the number of bytes skipped.
 template <class Take>
 Result<std::size_t> for_each_record(std::string_view bytes, const dataflash::Formats& formats,
                                     const Take& take) {
@@ -69,14 +70,14 @@ std::uint8_t instance_in(const dataflash::Format& format, std::string_view recor
   return static_cast<std::uint8_t>(record[format.fields[*format.instance].offset]);
 }
 
-/// A topic: record type and instance.
+/// Key of a topic: record type, and number of the sensor.
 using TopicKey = std::pair<std::uint8_t, std::uint8_t>;
 
-/// Result of the first pass over the file: formats, and topics with records.
+/// Result of the first passes over the file.
 struct Contents {
   dataflash::Formats formats = {};
-  std::map<TopicKey, std::size_t> topics = {};  ///< number of records
-  std::size_t skipped = 0;
+  std::map<TopicKey, std::size_t> topics = {};  ///< number of records by topic
+  std::size_t skipped = 0;                      ///< bytes that belong to no record
 };
 
 Result<Contents> contents_of(std::string_view bytes, const std::string& file) {
@@ -115,8 +116,8 @@ Result<Contents> contents_of(std::string_view bytes, const std::string& file) {
 
 /// A topic and its requested fields.
 struct Listed {
-  std::size_t topic = 0;                        ///< in Signals::topics
-  std::vector<const dataflash::Field*> wanted;  ///< in column order
+  std::size_t topic = 0;                        ///< index in Signals::topics
+  std::vector<const dataflash::Field*> wanted;  ///< in the order of Topic::columns
 };
 
 std::map<TopicKey, Listed> list_topics(const Contents& contents, const Wanted& wanted,
@@ -178,7 +179,7 @@ Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
     const auto time_ns = time_of(format, record);
     if (!time_ns) {
       return input_error(ErrorCode::kBrokenFile, file,
-                         fmt::format("byte {}: a record of {} has no time that can be", offset,
+                         fmt::format("byte {}: a record of {} has an invalid time", offset,
                                      printable(format.name)));
     }
     Topic& topic = signals.topics[entry->second.topic];

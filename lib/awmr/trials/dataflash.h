@@ -1,9 +1,9 @@
-/// ArduPilot DataFlash logs (`.bin`): self-describing records. Private to this folder.
+/// Reads ArduPilot DataFlash logs (`.bin`). Private to this folder.
 ///
-/// Every record begins with A3 95 and its type. An FMT record defines the length, the fields and
-/// their names for a type. Signals are named `NAME.FIELD`, or `NAME[2].FIELD` if FMTU marks a field
-/// as the instance number of similar sensors. Texts are omitted. c, C, e, E are in hundredths, L in
-/// 1e-7 degrees, as the format defines.
+/// Every record begins with the bytes A3 95 and its type. An FMT record defines the length and the
+/// fields of one type. Signals are named `NAME.FIELD`. If an FMTU record marks a field as the
+/// instance number of similar sensors, signals are named `NAME[2].FIELD`. Text fields are omitted.
+/// Numbers are scaled by their format character: c, C, e, E are hundredths, L is 1e-7 degrees.
 #pragma once
 
 #include <string>
@@ -15,10 +15,10 @@ namespace awmr {
 
 bool is_dataflash(std::string_view bytes);
 
-/// Returns the header of the file and the values of the requested signals. Bytes between records (a
-/// lost write) and a file that ends inside a record are skipped and noted. Errors: an FMT record
-/// with a wrong length or number of names, an unknown field, or a definition that contradicts an
-/// earlier one of its type; too many signals.
+/// Returns the names of all signals, and the values of the requested ones. Bytes between records
+/// (from a lost write) and an incomplete last record are skipped and noted. Errors: an FMT record
+/// with a wrong length, a wrong number of names or an unknown format character, or one that
+/// contradicts an earlier FMT record of its type; too many signals.
 Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
                                const Wanted& wanted);
 

@@ -1,5 +1,5 @@
-/// Record formats (FMT) of an ArduPilot DataFlash log and the kinds of their fields. Private to
-/// this folder. [ArduPilot, libraries/AP_Logger/LogStructure.h]
+/// Parses the format definitions (FMT records) of an ArduPilot DataFlash log. Private to this
+/// folder. [ArduPilot, libraries/AP_Logger/LogStructure.h]
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,14 @@
 
 namespace awmr::dataflash {
 
-/// two for synchronisation and one for the type
+/// Two bytes for synchronisation, one for the type.
 inline constexpr std::size_t kRecordHeaderBytes = 3;
 
-/// Field kind, by its character in the format.
+/// Number type of a field, as the format names it by a character.
 struct FieldKind {
   char character;
   std::size_t bytes;
-  double scale;  ///< 0: a text
+  double scale;  ///< value = stored number times this; 0: the field is text or an array
 };
 /// A named field of a record.
 struct Field {
@@ -36,8 +36,8 @@ struct Format {
   std::string name;
   std::size_t bytes = 0;  ///< size of a record, with its header
   std::vector<Field> fields = {};
-  std::optional<std::size_t> time = {};      ///< index in `fields`: TimeUS or TimeMS
-  std::optional<std::size_t> instance = {};  ///< index in `fields`: instance number
+  std::optional<std::size_t> time = {};      ///< index in `fields` of TimeUS or TimeMS
+  std::optional<std::size_t> instance = {};  ///< index in `fields` of the sensor's number
 };
 
 /// Formats by the type in the record header.

@@ -86,7 +86,8 @@ std::optional<std::string> binary_format(const Cells& cells) {
 /// Formats by the name at the beginning of a line.
 using NamedFormats = std::map<std::string, dataflash::Format, std::less<>>;
 
-/// FMTU: TimeUS, type, units, multipliers; the unit '#' marks the number of an instance.
+/// Evaluates an FMTU line (TimeUS, type, units, multipliers): the unit '#' marks the field of a
+/// record type that has the number of the sensor.
 void mark_instance_by_units(const Cells& cells, NamedFormats& formats) {
   constexpr std::size_t kType = 2, kUnits = 3;
   const auto type = cells.size() > kUnits ? number_of<std::uint8_t>(cells[kType]) : std::nullopt;
@@ -98,7 +99,7 @@ void mark_instance_by_units(const Cells& cells, NamedFormats& formats) {
   }
 }
 
-/// True if there is one value per field; a text at the end may contain commas.
+/// True if the line has one value per field. If the last field is text, it may contain commas.
 bool has_its_fields(const Cells& cells, const dataflash::Format& format) {
   const std::size_t values = cells.size() - 1;
   if (values == format.fields.size()) return true;
@@ -121,7 +122,8 @@ tl::unexpected<Error> error_at(const std::string& file, int line, const std::str
 Status define(const Cells& cells, const std::string& file, int line, NamedFormats& formats) {
   const std::optional<std::string> record = binary_format(cells);
   if (!record) {
-    return error_at(file, line, "no format: expected FMT, type, length, name, kinds, names");
+    return error_at(file, line,
+                    "invalid format line: expected FMT, type, length, name, format, field names");
   }
   auto format = dataflash::format_of(*record);
   if (!format) return error_at(file, line, format.error());
@@ -131,10 +133,10 @@ Status define(const Cells& cells, const std::string& file, int line, NamedFormat
                   fmt::format("a second, different format of {}", printable(known->second.name)));
 }
 
-/// A topic: name and instance.
+/// Key of a topic: name, and number of the sensor.
 using TextTopic = std::pair<std::string, std::uint8_t>;
 
-/// Empty if the instance is not a number.
+/// The topic of a line; empty if its sensor number is not a number.
 std::optional<TextTopic> topic_of_line(const Cells& cells, const dataflash::Format& format) {
   if (!format.instance) return TextTopic{format.name, std::uint8_t{0}};
   const auto instance = number_of<std::uint8_t>(cells[1 + *format.instance]);
@@ -142,10 +144,10 @@ std::optional<TextTopic> topic_of_line(const Cells& cells, const dataflash::Form
   return TextTopic{format.name, *instance};
 }
 
-/// Result of the first pass over the file.
+/// Result of the first passes over the file.
 struct TextContents {
   NamedFormats formats = {};
-  std::map<TextTopic, std::size_t> topics = {};  ///< number of records
+  std::map<TextTopic, std::size_t> topics = {};  ///< number of records by topic
   std::size_t lines = 0, skipped = 0;
 };
 
@@ -173,8 +175,8 @@ Result<TextContents> text_contents(std::string_view bytes, const std::string& fi
 
 /// A topic and its requested fields.
 struct ListedText {
-  std::size_t topic = 0;            ///< in Signals::topics
-  std::vector<std::size_t> fields;  ///< in column order
+  std::size_t topic = 0;            ///< index in Signals::topics
+  std::vector<std::size_t> fields;  ///< indices in Format::fields, in the order of Topic::columns
 };
 
 std::map<TextTopic, ListedText> list_text_topics(const TextContents& contents, const Wanted& wanted,
@@ -200,7 +202,7 @@ std::map<TextTopic, ListedText> list_text_topics(const TextContents& contents, c
   return listed;
 }
 
-/// Time in ns; empty if invalid.
+/// Time of a line, ns; empty if invalid.
 std::optional<std::int64_t> time_of_line(const Cells& cells, const dataflash::Format& format) {
   const bool in_us = format.fields[*format.time].name == "TimeUS";
   const std::int64_t unit_ns = in_us ? 1'000 : 1'000'000;
@@ -216,7 +218,7 @@ Status take_line(const Cells& cells, int line, const std::string& file,
   const auto time_ns = time_of_line(cells, format);
   if (!time_ns) {
     return error_at(file, line,
-                    fmt::format("a record of {} has no time that can be", printable(format.name)));
+                    fmt::format("a record of {} has an invalid time", printable(format.name)));
   }
   topic.time_ns.push_back(*time_ns);
   for (std::size_t i = 0; i < listed.fields.size(); ++i) {
@@ -268,7 +270,7 @@ Result<Signals> read_dataflash_text(std::string_view bytes, const std::string& f
   }));
   if (contents.skipped > 0) {
     signals.notes.push_back({0, "log-damaged",
-                             fmt::format("{} of {} lines are of no known format and are skipped",
+                             fmt::format("{} of {} lines have no known format and are skipped",
                                          contents.skipped, contents.lines)});
   }
   return signals;

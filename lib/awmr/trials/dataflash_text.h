@@ -1,10 +1,11 @@
-/// ArduPilot DataFlash logs as text (`.log`), one record per line, as exported by ground stations.
-/// Private to this folder.
+/// Reads ArduPilot DataFlash logs in their text form (`.log`), as ground stations export them: one
+/// record per line. Private to this folder.
 ///
 ///     FMT, 129, 31, ATT, QffBB, TimeUS,Roll,Yaw,NSats,I
 ///     ATT, 1000000, 0.5, 91.25, 8, 0
 ///
-/// Signals are named as in the binary format (dataflash.h). The values are already scaled.
+/// Signals have the same names as those of the binary format (dataflash.h). The values in the file
+/// are already scaled.
 #pragma once
 
 #include <string>

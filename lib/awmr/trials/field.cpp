@@ -26,7 +26,7 @@ const std::vector<CsvColumn>& field_columns() {
   return columns;
 }
 
-/// Errors: a mapping of a column that does not exist.
+/// Errors: a mapping to a column that a field record does not have.
 Status check_names(const std::vector<ColumnMapping>& mappings) {
   std::vector<Fault> faults;
   for (const ColumnMapping& mapping : mappings) {
@@ -36,7 +36,7 @@ Status check_names(const std::vector<ColumnMapping>& mappings) {
     if (is_known) continue;
     faults.push_back({ErrorCode::kUnknownName,
                       fmt::format("{} {}", option_text("column"), mapping.name),
-                      "no such column; a record of the field has t_s, field_ahead, field_left and "
+                      "unknown column; a field record has t_s, field_ahead, field_left and "
                       "yaw_rate_radps"});
   }
   if (!faults.empty()) return input_errors(std::move(faults));

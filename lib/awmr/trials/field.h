@@ -1,4 +1,4 @@
-/// Magnetic-field record of a turning vehicle.
+/// Reads the magnetometer record of a turning vehicle, for the calibration of its compass.
 #pragma once
 
 #include <filesystem>
@@ -10,18 +10,18 @@
 
 namespace awmr {
 
-/// Values by row, at least 30.
+/// One record of at least 30 rows. Each vector has one value per row.
 struct FieldRecord {
   std::string file;
   std::vector<double> t_s = {};
-  std::vector<double> ahead = {};           ///< in any unit, the same as `left`
-  std::vector<double> left = {};            ///< to the left
-  std::vector<double> yaw_rate_radps = {};  ///< left positive; empty: not recorded
+  std::vector<double> ahead = {};           ///< forward field component, any unit
+  std::vector<double> left = {};            ///< leftward field component, same unit
+  std::vector<double> yaw_rate_radps = {};  ///< rad/s, left positive; empty: not recorded
 };
 
-/// Reads the columns t_s, field_ahead, field_left and, optionally, yaw_rate_radps. Errors: as
-/// read_csv(); time that does not rise; fewer than 30 rows; a mapping of another column, or an
-/// unused mapping.
+/// Reads the columns t_s, field_ahead, field_left and, if present, yaw_rate_radps. Errors: as
+/// read_csv(); time that does not rise; fewer than 30 rows; a mapping to a column that is not one
+/// of these four; an unused mapping.
 Result<FieldRecord> read_field(const std::filesystem::path& path,
                                const std::vector<ColumnMapping>& mappings);
 

@@ -57,7 +57,7 @@ FileSample sample_of_columns(std::vector<std::string> names,
   return sample;
 }
 
-/// Sample of tables with one topic each: columns by their own name if no other file has it.
+/// Sample of a directory of tables; a column is named `FILE.COLUMN`.
 Result<FileSample> sample_of_tables(const std::vector<fs::path>& paths) {
   FileSample all;
   for (const fs::path& path : paths) {

@@ -11,6 +11,7 @@
 namespace awmr {
 namespace {
 
+/// A scale by its value at full power.
 struct FullScale {
   double end;
   std::string_view words;
@@ -20,18 +21,18 @@ constexpr std::array<FullScale, 5> kFullScales{{{100.0, "percent"},
                                                 {1000.0, "per mille"},
                                                 {1023.0, "10-bit PWM counts"},
                                                 {4095.0, "12-bit PWM counts"}}};
-constexpr double kEndOfScale = 0.005;    // of the end of the scale, which full power reaches
-constexpr double kLeastShare = 0.2;      // fraction of full power that a whole campaign reaches
-constexpr double kPlainlyBeyond = 1.05;  // of the limit: below, forces are over a smaller F_max
+constexpr double kEndOfScale = 0.005;    // relative tolerance for "the force is at full power"
+constexpr double kLeastShare = 0.2;      // fraction of full power that every vehicle's trials reach
+constexpr double kPlainlyBeyond = 1.05;  // times the limit: up to this, F_max may be too small
 
 constexpr ForceUnit kMicroseconds{
-    "microseconds of a servo pulse (F' = (us - 1500)/500 where 1500 is standstill and 2000 full "
+    "microseconds of a servo pulse (F' = (us - 1500)/500 if 1500 is standstill and 2000 full "
     "power)",
     1.0 / 500.0, -3.0};
 constexpr ForceUnit kNewtons{"newtons (to be divided by F_max, the largest force of one motor)"};
 constexpr ForceUnit kVolts{"volts (to be divided by the voltage of full power)"};
 constexpr ForceUnit kUnknownForce{
-    "no unit that is known (F' is the force over F_max of one motor)"};
+    "an unknown unit (F' is the force divided by F_max of one motor)"};
 constexpr Interval kVoltRange{2.0, 60.0};
 constexpr Interval kAcceleration_mps2{0.1, 30.0};
 
@@ -48,7 +49,7 @@ bool may_be_newtons(double largest, const Vehicle& vehicle) {
   return implausible_values(vehicle).empty() && kAcceleration_mps2.contains(pushed_mps2);
 }
 
-/// Returns the possible scales of the largest force; only one if the force reaches its end.
+/// Returns the scales that the largest force may have; exactly one if the force is at full power.
 std::vector<ForceUnit> scales_of(double largest) {
   std::vector<ForceUnit> found;
   for (const FullScale& scale : kFullScales) {
@@ -83,8 +84,8 @@ ForceUnits force_units(const ForceSpan& span, const Vehicle& vehicle) {
   const double limit = limit_of(vehicle);
   if (is_share_of_f_max(span)) {
     return {{{"shares of the vehicle's largest force", vehicle.wheel_force.hi}},
-            fmt::format("raise wheel_force in vehicle.json to {:.4g} where the motors were driven "
-                        "so hard, or, of a table of shares of wheel_force",
+            fmt::format("raise wheel_force in vehicle.json to {:.4g} if the motors were driven "
+                        "so hard; if the column has shares of wheel_force",
                         std::min(1.0, span.largest))};
   }
   const ForceUnit over_smaller{
@@ -126,7 +127,7 @@ ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>
                          const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();
   const ForceSpan of_one{thrust.least / n, thrust.largest / n};
-  // Values up to n are n F' beyond the vehicle's stated limit.
+  // Values up to n are a sum n F' that exceeds n F'max, not another unit.
   const bool is_sum = is_share_of_f_max(of_one);
   ForceUnits units;
   if (wheels && !is_sum) {

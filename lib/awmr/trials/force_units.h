@@ -1,14 +1,16 @@
-/// Likely units of forces beyond a vehicle's limit. Private to this folder.
+/// Guesses the unit of wheel forces that exceed the vehicle's limit F'max (`wheel_force`). Private
+/// to this folder.
 ///
-///     up to 1                               F' itself: the vehicle's wheel_force is too narrow
-///     900 to 2200, none below               microseconds of a servo pulse: F' = (us - 1500)/500
-///     100, 255, 1000, 1023, 4095, to 0.5 %  percent, PWM counts, per mille at full power
-///     20 to 100 % of one of these           possibly that scale: all such scales are listed
-///     n F/m of 0.1 to 30 m/s^2              possibly newtons: a plausible acceleration
-///     2 to 60                               possibly volts
+///     largest force in the files           likely unit
+///     up to 1                              F' itself: `wheel_force` of vehicle.json is too narrow
+///     900 to 2200, no value below 900      microseconds of a servo pulse: F' = (us - 1500)/500
+///     100, 255, 1000, 1023, 4095 +-0.5 %   percent, PWM counts or per mille, at full power
+///     20 to 100 % of one of these          possibly that scale: all such scales are listed
+///     n F/m of 0.1 to 30 m/s^2             possibly newtons: n wheels then accelerate plausibly
+///     2 to 60                              possibly volts
 ///
-/// Only full power identifies the unit for certain. The largest force in all tables of a vehicle
-/// therefore decides the unit of every column.
+/// Only a force at full power identifies the unit for certain. The largest force in all tables of a
+/// vehicle therefore decides the unit of every force column.
 #pragma once
 
 #include <optional>
@@ -22,60 +24,61 @@
 
 namespace awmr {
 
-/// Forces beyond a limit only by rounding are within it.
+/// A force up to this factor times the limit counts as within it: the excess may be rounding.
 inline constexpr double kForceRounding = 1.01;
 
 /// Range of a servo's or a motor driver's pulses, us.
 inline constexpr Interval kPulse_us{900.0, 2200.0};
 
-/// Range of single-wheel forces, as in files.
+/// Range of the forces of one wheel, in the unit of the file.
 struct ForceSpan {
-  double least = 0.0;    ///< signed
-  double largest = 0.0;  ///< of the magnitudes
+  double least = 0.0;    ///< smallest value, with its sign
+  double largest = 0.0;  ///< largest magnitude
 };
 
-/// True for values that can be F', even if beyond the vehicle's limit: at most 1.
+/// True if no magnitude exceeds 1, so that the values can be F' even if they exceed F'max.
 bool is_share_of_f_max(const ForceSpan& span);
-/// Range that covers both.
+/// Range that covers both ranges.
 ForceSpan joined(const ForceSpan& a, const ForceSpan& b);
 
-/// A possible unit of the values. F' = factor value + offset.
+/// A possible unit. F' = factor times the value in the file, plus offset.
 struct ForceUnit {
-  std::string_view words;  ///< "8-bit PWM counts"
-  double factor = 0.0;     ///< 0: unknown, as for newtons; `words` says what to divide by
+  std::string_view words;  ///< name of the unit: "8-bit PWM counts"
+  double factor = 0.0;     ///< 0: unknown, as for newtons; `words` then names the divisor
   double offset = 0.0;
 };
 
-/// Possible units of forces beyond F'max, the most likely first. Precondition: span.largest >
-/// F'max.
+/// Possible units of forces beyond F'max.
 struct ForceUnits {
-  std::vector<ForceUnit> units;  ///< not empty; one if certain
-  std::string remedy = {};       ///< change of vehicle.json, in addition to a mapping; may be empty
+  std::vector<ForceUnit> units;  ///< most likely first; never empty; exactly one if certain
+  std::string remedy = {};       ///< change of vehicle.json to offer with the mapping, or empty
 
   bool is_clear() const { return units.size() == 1; }
 };
+/// Precondition: span.largest > F'max.
 ForceUnits force_units(const ForceSpan& span, const Vehicle& vehicle);
 
-/// "the forces look like percent or 8-bit PWM counts".
+/// Text for messages: "the forces look like percent or 8-bit PWM counts".
 std::string words_of(const ForceUnits& units);
 
-/// Mappings that convert a column of single-wheel forces to F'; none for a unit with unknown
-/// factor.
+/// Mappings that convert `column`, the force of one wheel, to F'. Units with an unknown factor have
+/// none.
 std::vector<UnitFix> force_unit_fixes(const ForceUnits& units, std::string_view column);
 
-/// Possible units of a tau_speed beyond n F'max, and the mappings to n F'. A column may contain one
-/// wheel's force or the sum of n, so each possible reading is listed.
+/// Possible units of a tau_speed above n F'max (n driven wheels), and the mappings that convert the
+/// column to n F'. The column may contain the force of one wheel or the sum of n wheels, so there
+/// is a mapping for each.
 struct ThrustUnits {
   ForceUnits units;
   std::vector<UnitFix> unit_fixes;
 };
-/// `thrust`: range of the column tau_speed. `wheels`: range of the other tables' forces beyond
-/// F'max, which then decides the unit.
+/// `thrust`: range of the column tau_speed. `wheels`: range of the other tables' wheel forces if
+/// they exceed F'max; they then decide the unit.
 ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>& wheels,
                          const Vehicle& vehicle);
 
-/// "map it by --column 'A' (percent) or by ...", with the remedy. Ends without a full stop, so that
-/// ", or take it as it is" can follow.
+/// Advice for messages: `units.remedy`, then "map it with --column 'A' (percent) or with ...". Has
+/// no full stop, so that ", or accept it with --as-is" can follow.
 std::string remedy_of(const ForceUnits& units, std::span<const UnitFix> unit_fixes,
                       std::span<const ColumnMapping> mappings);
 

@@ -10,20 +10,21 @@
 namespace awmr {
 namespace {
 
-/// A jump exceeds this multiple of the 95 % quantile of the change between two readings.
+/// A jump exceeds this multiple of the usual change between two readings, the 95 % quantile.
 constexpr double kTimes = 10.0;
 constexpr double kQuantile = 0.95;
-/// A smaller jump is a corrected fix, not a new run.
+/// Smallest jump of the position, in vehicle lengths. A smaller one may be a corrected fix of the
+/// receiver.
 constexpr double kVehicleLengths = 4.0;
 constexpr double kLeastTurn_rad = 1.0;
 constexpr std::size_t kFewest = 20;
 
 /// Change from one reading of a signal to the next.
 struct Move {
-  std::size_t from = 0;  ///< rows
-  std::size_t to = 0;
-  double span_s = 0.0;
-  double size = 0.0;
+  std::size_t from = 0;  ///< row of the first reading
+  std::size_t to = 0;    ///< row of the second reading
+  double span_s = 0.0;   ///< time between them
+  double size = 0.0;     ///< magnitude of the change
 };
 
 /// `size(a, b)`: distance between the readings of two rows.
@@ -39,7 +40,7 @@ std::vector<Move> moves_between(const DrivingLog& log, const std::vector<std::si
   return moves;
 }
 
-/// 95 % quantile of the change per second.
+/// Usual change per second: the 95 % quantile over all moves.
 double common_rate(const std::vector<Move>& moves) {
   std::vector<double> rates;
   for (const Move& move : moves) rates.push_back(move.size / move.span_s);
@@ -48,7 +49,8 @@ double common_rate(const std::vector<Move>& moves) {
   return rates[static_cast<std::size_t>(place)];
 }
 
-/// The first change that is too large for the vehicle and after which the signal does not return.
+/// The first jump: a change that is too large for the vehicle, and after which the signal does not
+/// return. `least`: smallest jump.
 std::optional<Move> jump_in(const std::vector<Move>& moves, double least, const Size& size) {
   if (moves.size() < kFewest) return std::nullopt;
   const double rate = common_rate(moves);
@@ -75,7 +77,7 @@ std::vector<std::size_t> rows_with(const DrivingLog& log, std::initializer_list<
   return rows;
 }
 
-/// Rows at exactly (0, 0) on one side of a jump, where a receiver without a fix writes zeros.
+/// Detects a jump from or to the position (0, 0), which a receiver without a fix writes.
 std::optional<Contradiction> zero_fix(const DrivingLog& log, const Move& jump) {
   const std::vector<double>& x = log[LogChannel::kX]->value;
   const std::vector<double>& y = log[LogChannel::kY]->value;
@@ -86,9 +88,9 @@ std::optional<Contradiction> zero_fix(const DrivingLog& log, const Move& jump) {
   for (std::size_t row = 0; row < log.rows(); ++row) rows += is_zero(row) ? 1U : 0U;
   if (!is_zero(zero) || rows < kFewestZeros) return std::nullopt;
   return Contradiction{"x_m",
-                       fmt::format("x_m and y_m are both exactly 0 in {} rows (line {}), {:.3g} m "
-                                   "from the next reading: a receiver without a fix. Leave these "
-                                   "cells empty",
+                       fmt::format("x_m and y_m are both exactly 0 in {} rows (such as line {}), "
+                                   "{:.3g} m from the next reading: a receiver without a fix. "
+                                   "Leave these cells empty",
                                    rows, log.line[zero], jump.size),
                        ""};
 }
@@ -98,7 +100,7 @@ Contradiction described(const DrivingLog& log, const Move& jump, std::string col
   return {std::move(column),
           fmt::format(
               "it jumps by {} between lines {} and {}, within {:.3g} s: this looks like two runs "
-              "in one file; give each run its number in a column run, or a file of its own",
+              "in one file; number the runs in a column run, or give each run a file of its own",
               how_far, log.line[jump.from], log.line[jump.to], jump.span_s),
           ""};
 }
@@ -117,7 +119,7 @@ std::optional<Contradiction> jump_contradiction(const Evidence& evidence) {
     const auto jump = jump_in(moves, kVehicleLengths * evidence.vehicle.length_m, size);
     if (jump) {
       if (auto zeros = zero_fix(log, *jump)) return zeros;
-      return described(log, *jump, "x_m", fmt::format("{:.3g} m with y_m", jump->size));
+      return described(log, *jump, "x_m", fmt::format("{:.3g} m, y_m included,", jump->size));
     }
   }
   if (!evidence.has(LogChannel::kHeading)) return std::nullopt;
@@ -133,7 +135,7 @@ std::optional<Contradiction> jump_contradiction(const Evidence& evidence) {
         fmt::format(
             "it jumps by {:.3g} deg between lines {} and {}, within {:.3g} s: the course of a "
             "GPS while the vehicle rolls backward, or two runs in one file; leave the cells "
-            "of backward motion empty, or give each run its number in a column run",
+            "of backward motion empty, or number the runs in a column run",
             degrees(jump->size), log.line[jump->from], log.line[jump->to], jump->span_s),
         ""};
   }

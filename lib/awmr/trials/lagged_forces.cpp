@@ -6,14 +6,14 @@
 namespace awmr {
 namespace {
 
-/// Largest time before the first, or after the last requested row at which commands are read.
+/// Largest delay of the commands, in either direction.
 constexpr double kLongestDelay_s = 1.0;
-constexpr double kForgotten = 40.0;  // time constants: exp(-40) is 4e-18
+constexpr double kForgotten = 40.0;  // in time constants; exp(-40) = 4e-18 is below rounding
 
-/// exp(-h/T) and its derivative by T.
+/// Decay of a force difference over a time h.
 struct Decay {
-  double left_over;
-  double by_lag;
+  double left_over;  ///< exp(-h/T)
+  double by_lag;     ///< its derivative with respect to T, 1/s
 };
 Decay decay(double h_s, double lag_s) {
   if (!(lag_s > 0.0)) return {0.0, 0.0};
@@ -53,7 +53,7 @@ LaggedForces::Side LaggedForces::side(const std::vector<double>& command, std::s
 
 LaggedForces::Value LaggedForces::at(const Side& side, const std::vector<double>& command,
                                      double t_s) const {
-  // The end of a step equals the begin of a row, up to rounding.
+  // The end of an integration step is the time of a row only up to rounding.
   constexpr double kRounding_s = 1e-9;
   const auto first = log_->t_s.begin() + static_cast<std::ptrdiff_t>(first_row_);
   const auto last = first + static_cast<std::ptrdiff_t>(side.force.size());

@@ -1,4 +1,4 @@
-/// Wheel forces of motors with a first-order lag, from the commands of a log.
+/// Computes the wheel forces of motors with a first-order lag from the commands of a log.
 #pragma once
 
 #include <cstddef>
@@ -8,46 +8,46 @@
 
 namespace awmr {
 
-/// Forces F' of motors with the time constant T, with their derivatives by T. For a constant
-/// command c:
+/// Forces F' of motors with the time constant T (`lag_s`), and their derivatives with respect to T.
+/// For a constant command c:
 ///
 ///     T dF'/dt = c - F',   F'(t + h) = c + (F'(t) - c) exp(-h/T)
 ///     mean over [t, t + h] = mean of c - (T/h) (F'(t + h) - F'(t))
 ///
-/// F' starts at c so many time constants before the requested rows that earlier commands have less
-/// effect than rounding, or at the first row of the log. With T = 0, F' = c.
+/// The integration starts with F' = c, 40 T and the longest delay before the requested rows, or at
+/// the log's first row. Commands before that have less effect than rounding. With T = 0, F' = c.
 class LaggedForces {
  public:
-  /// For the rows [begin, end) of the log, and delays of up to a second in either direction. The
-  /// log must outlive it.
+  /// Covers the rows [begin, end) of the log, and command delays from -1 to 1 s. The log must
+  /// outlive this object.
   LaggedForces(const DrivingLog& log, std::size_t begin, std::size_t end, double lag_s);
 
-  /// The mean over a span, and its derivatives.
+  /// Mean force over a time span, and its derivatives with respect to T and to the delay, 1/s.
   struct Mean {
     SideForces<double> force;
     SideForces<double> by_lag;
     SideForces<double> by_delay;
   };
-  /// Over [t, t + h], if the commands reach the motors with the latency `delay_s`. `signals`: of
-  /// the same log.
+  /// Computes the mean over [t, t + h] if the commands reach the motors `delay_s` after they were
+  /// logged. `signals`: those of the same log.
   Mean mean(const LogSignals& signals, double t_s, double h_s, double delay_s) const;
 
  private:
   struct Side {
-    std::vector<double> force;   ///< by row, as the row begins
-    std::vector<double> by_lag;  ///< by row
+    std::vector<double> force;   ///< F' at the time of each row
+    std::vector<double> by_lag;  ///< its derivative with respect to T, 1/s
   };
   struct Value {
     double force;
     double by_lag;
   };
   Side side(const std::vector<double>& command, std::size_t end) const;
-  /// At `t_s`, before a command that begins at this time.
+  /// Returns the force at `t_s`. A command that changes at this time has no effect yet.
   Value at(const Side& side, const std::vector<double>& command, double t_s) const;
 
   const DrivingLog* log_;
   double lag_s_;
-  std::size_t first_row_;  ///< first row of the two vectors below
+  std::size_t first_row_;  ///< row of the log at which left_ and right_ begin
   Side left_;
   Side right_;
 };

@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-/// Returns the value; if there is none, adds the faults.
+/// Returns the value of `read`. If it failed, adds its faults to `faults` and returns empty.
 template <class Read>
 std::optional<Read> keep(Result<Read> read, std::vector<Fault>& faults) {
   if (read) return std::move(*read);
@@ -22,7 +22,8 @@ std::optional<Read> keep(Result<Read> read, std::vector<Fault>& faults) {
   return std::nullopt;
 }
 
-/// Curves of several files are combined; stop times must be in one file.
+/// Adds the content of one coast-down file. Curves of several files are combined; stop times must
+/// all be in one file.
 void add_coastdown(const std::filesystem::path& path, CoastdownSet set, TrialData& data,
                    std::vector<Fault>& faults) {
   if (const auto* curves = std::get_if<std::vector<CoastCurve>>(&set)) {
@@ -45,7 +46,7 @@ void join(std::optional<TrialSet<Row>>& all, TrialSet<Row> found) {
   }
 }
 
-/// Adds the rows found in logs to those of a file; their findings name the log.
+/// Adds the steady runs of the logs to the surge and turning rows.
 void add_steady_runs(Trials& trials) {
   for (const DrivingLog& log : trials.data.logs) {
     SteadyRuns runs = steady_runs(log, trials.vehicle, {}, trials.findings);
@@ -54,7 +55,7 @@ void add_steady_runs(Trials& trials) {
   }
 }
 
-/// Adds the consistent runs of one file.
+/// Checks the logs of one file for consistency and adds them.
 void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
               const TrialOptions& options, Trials& trials, std::vector<Fault>& faults) {
   for (DrivingLog& log : logs) {
@@ -81,7 +82,8 @@ bool is_same_recording(const DrivingLog& a, const DrivingLog& b) {
   return is_same;
 }
 
-/// Finds duplicates: a recording that is given twice would narrow intervals by sqrt(2).
+/// Adds a fault for each recording that was given twice, because it would narrow intervals by
+/// sqrt(2).
 void check_repeated_logs(const std::vector<DrivingLog>& logs, std::vector<Fault>& faults) {
   for (std::size_t i = 0; i < logs.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
@@ -118,8 +120,8 @@ std::vector<std::filesystem::path> paths_of(const TrialFiles& files) {
   return paths;
 }
 
-/// Reads the tables, then checks each for consistency with itself, the vehicle and the other
-/// tables.
+/// Reads the surge, turning and coast-down files, and checks the consistency of each with the
+/// vehicle and the other tables.
 void read_tables(const TrialFiles& files, const TrialOptions& options, Trials& trials,
                  std::vector<Fault>& faults) {
   auto& [vehicle, data, findings] = trials;
@@ -145,7 +147,7 @@ void read_tables(const TrialFiles& files, const TrialOptions& options, Trials& t
   warn_of_slow_coasts(data, findings);
 }
 
-/// Sorted by name, so that results do not depend on the order in which the files were given.
+/// Sorts the paths by file name, so that results do not depend on the order of the options.
 std::vector<std::filesystem::path> in_order_of_names(std::vector<std::filesystem::path> paths) {
   std::sort(paths.begin(), paths.end(), [](const auto& a, const auto& b) {
     return std::pair(a.filename(), a) < std::pair(b.filename(), b);
@@ -160,7 +162,7 @@ Status check(const TrialFiles& files) {
   }
   if (files.steady_from_logs && files.logs.empty()) {
     return input_error(ErrorCode::kMissing, "",
-                       "steady stretches of logs were requested, but there is no log");
+                       "steady parts of logs were requested, but no log was given; add a log");
   }
   return {};
 }

@@ -17,25 +17,27 @@ namespace awmr {
 /// Trial files to read.
 struct TrialFiles {
   Vehicle vehicle;
-  /// Runs at constant thrust with straight wheels: identify a1, b1.
+  /// Table of runs at constant thrust with straight wheels, from which a1 and b1 are identified.
   std::optional<std::filesystem::path> surge = {};
-  /// Runs at constant thrust and steering: identify a3, b3.
+  /// Table of runs at constant thrust and steering, from which a3 and b3 are identified.
   std::optional<std::filesystem::path> turning = {};
-  /// Motors off: identify m', I'z. Any number of files with curves, one with stop times.
+  /// Coast-downs (motors off), from which m' and I'z are identified: any number of files with
+  /// curves, at most one with stop times.
   std::vector<std::filesystem::path> coastdowns = {};
   /// Driving logs: commands and measurements by time.
   std::vector<std::filesystem::path> logs = {};
-  /// Adds steady stretches of the logs to the surge and turning rows. For use when there is a log
-  /// but no table runs.
+  /// True: adds the steady parts of the logs to the surge and turning rows (steady.h). For vehicles
+  /// with a log but without surge and turning tables.
   bool steady_from_logs = false;
-  /// Column names, and which of two values of one quantity to use; for every file.
+  /// Options for reading every file, such as column mappings.
   TrialOptions options = {};
 };
 
-/// Reads and combines the files. Errors (input): no file; as read_surge(), read_turning(),
-/// read_coastdown() and read_log(), with the faults of all files; tables and logs that contradict
-/// themselves or the vehicle (table_consistency.h, log_consistency.h); a second file of stop times;
-/// steady stretches requested without a log; an unknown or unused mapping.
+/// Reads and combines the files. Reports the errors of all files at once. Errors (input): no file;
+/// as read_surge(), read_turning(), read_coastdown() and read_logs(); tables and logs that
+/// contradict themselves or the vehicle (table_consistency.h, log_consistency.h); a recording given
+/// twice; a second file of stop times; steady_from_logs without a log; an unknown or unused
+/// mapping.
 Result<Trials> load_trials(const TrialFiles& files);
 
 }  // namespace awmr

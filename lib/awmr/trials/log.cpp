@@ -22,7 +22,8 @@
 namespace awmr {
 namespace {
 
-/// Values of a column that is requested once; with a single run they are moved out of the table.
+/// Returns the values of a column in `rows`, times `scale`. If these are all rows of the table, the
+/// values are moved out of it, so each column may be requested once.
 std::vector<double> values_of(TrialReader& reader, RowSpan rows, std::string_view column,
                               double scale) {
   const std::span<const double> cells = reader.table().column(column);
@@ -35,7 +36,7 @@ std::vector<double> values_of(TrialReader& reader, RowSpan rows, std::string_vie
   return values;
 }
 
-/// Rows with a value in the column, counted from the first row of the run.
+/// Indices of the rows with a value in the column, counted from the first row of the run.
 std::vector<std::size_t> rows_present(const TrialReader& reader, RowSpan rows,
                                       std::string_view column) {
   const std::vector<bool>& present = reader.table().present(column);
@@ -46,7 +47,7 @@ std::vector<std::size_t> rows_present(const TrialReader& reader, RowSpan rows,
   return found;
 }
 
-/// Adds whole turns so that no step exceeds half a turn.
+/// Adds whole turns, so that no change from row to row exceeds half a turn.
 void unwrap(std::vector<double>& angle_rad) {
   const double turn = 2.0 * pi<double>();
   double turns = 0.0;
@@ -65,18 +66,20 @@ void check_log_columns(TrialReader& reader, bool has_steering) {
                         "no steering: add a column steering_cmd_deg or steering_deg");
   }
   if (reader.has("latitude_deg") != reader.has("longitude_deg")) {
-    reader.header_fault(ErrorCode::kMissing, "latitude_deg and longitude_deg go together");
+    reader.header_fault(ErrorCode::kMissing,
+                        "latitude_deg and longitude_deg belong together: add the other one");
   }
   if (reader.has("latitude_deg") && (reader.has("x_m") || reader.has("y_m"))) {
     reader.header_fault(ErrorCode::kConflict,
-                        "a position twice: give x_m and y_m, or latitude_deg and longitude_deg");
+                        "two positions: give x_m and y_m, or latitude_deg and longitude_deg");
   }
   const auto has = [&](const char* column) { return reader.has(column); };
   if (!has("x_m") && !has("y_m") && !has("heading_deg") && !has("speed_mps") && !has("sway_mps") &&
       !has("yaw_rate_radps") && !has("latitude_deg")) {
     reader.header_fault(
         ErrorCode::kMissing,
-        "nothing measured: add any of x_m, y_m, heading_deg, speed_mps, sway_mps, yaw_rate_radps");
+        "no measurement: add at least one of x_m, y_m, heading_deg, speed_mps, sway_mps, "
+        "yaw_rate_radps");
   }
 }
 
@@ -93,7 +96,8 @@ std::vector<RowSpan> runs_of(const TrialReader& reader) {
   return runs;
 }
 
-/// Without a command the model uses the steering angle: the run begins where it is known.
+/// For a log with steering_deg and no steering_cmd_deg: removes the rows before the first angle,
+/// because the angle is the model's input.
 RowSpan from_known_steering(const TrialReader& reader, RowSpan run) {
   if (reader.has("steering_cmd_deg") || !reader.has("steering_deg")) return run;
   const std::vector<std::size_t> known = rows_present(reader, run, "steering_deg");
@@ -101,7 +105,7 @@ RowSpan from_known_steering(const TrialReader& reader, RowSpan run) {
   return run;
 }
 
-/// The parts of a run that the options use.
+/// The parts of a run whose times the options use.
 std::vector<RowSpan> used_parts(const TrialReader& reader, RowSpan run,
                                 const TrialOptions& options) {
   const std::span<const double> t_s = reader.table().column("t_s");
@@ -121,7 +125,7 @@ std::vector<RowSpan> used_parts(const TrialReader& reader, RowSpan run,
   return parts;
 }
 
-/// Replaces the runs by their parts that the options use.
+/// Replaces the runs by the parts whose times the options use.
 void keep_used(TrialReader& reader, const TrialOptions& options, std::vector<RowSpan>& runs) {
   std::vector<RowSpan> parts;
   for (const RowSpan run : runs) {
@@ -131,7 +135,7 @@ void keep_used(TrialReader& reader, const TrialOptions& options, std::vector<Row
     const std::span<const double> t_s = reader.table().column("t_s");
     const auto [first, last] = std::ranges::minmax(t_s);
     reader.header_fault(ErrorCode::kTooFewData,
-                        fmt::format("no row is used: t_s goes from {} to {} s; correct --from, "
+                        fmt::format("no row is left: t_s goes from {} to {} s; correct --from, "
                                     "--until or --exclude",
                                     first, last));
   }
@@ -164,7 +168,8 @@ void check_time(TrialReader& reader, RowSpan run) {
   }
 }
 
-/// East and north of the first row, in the library's local tangent plane.
+/// Converts latitude and longitude to x (east) and y (north) of the first row, in its local tangent
+/// plane.
 void add_geographic(TrialReader& reader, RowSpan rows, DrivingLog& log,
                     std::vector<Finding>& findings) {
   const std::vector<double> latitude = values_of(reader, rows, "latitude_deg", 1.0);
@@ -212,8 +217,8 @@ double DrivingLog::median_step_s() const {
   std::vector<double> steps;
   for (std::size_t i = 1; i < t_s.size(); ++i) steps.push_back(t_s[i] - t_s[i - 1]);
   if (!joined) return median(std::move(steps));
-  // Rows of two signals may come in close pairs. In a time-weighted median the short steps count
-  // little.
+  // The rows of two signals may come in close pairs, whose short steps count little if weighted
+  // with their length.
   std::sort(steps.begin(), steps.end());
   double left_s = 0.5 * (t_s.back() - t_s.front());
   for (const double step_s : steps) {
@@ -224,7 +229,7 @@ double DrivingLog::median_step_s() const {
 }
 
 bool has_force_difference(const DrivingLog& log) {
-  constexpr double kMuch = 0.01;  // of the largest force
+  constexpr double kMuch = 0.01;  // F', a fraction of F_max
   for (std::size_t i = 0; i < log.rows(); ++i) {
     if (std::abs(log.force_right[i] - log.force_left[i]) > kMuch) return true;
   }
@@ -271,8 +276,8 @@ DrivingLog commands_of(TrialReader& reader, RowSpan rows) {
   return log;
 }
 
-/// Returns the channels that are not measurements and adds a finding for each. Repeated values are
-/// counted too, which does not affect the result.
+/// Returns the channels with one constant value that are not measurements (constant_channels.h),
+/// and adds a finding for each.
 std::vector<LogChannel> find_unmeasured(const TrialReader& reader, std::vector<Finding>& findings) {
   const CsvTable& table = reader.table();
   const auto values = [&](std::string_view column) -> std::optional<std::span<const double>> {
@@ -286,13 +291,13 @@ std::vector<LogChannel> find_unmeasured(const TrialReader& reader, std::vector<F
         {finding_file(table), 0, Severity::kWarning, "constant-channel",
          fmt::format("{} is {:g} in every row while other channels move: not a measurement, set "
                      "aside{}",
-                     column, one.value, is_turn ? "; a straight drive shows nothing of yaw" : "")});
+                     column, one.value, is_turn ? "; to identify yaw, record turns" : "")});
     unmeasured.push_back(one.channel);
   }
   return unmeasured;
 }
 
-/// By row: the last reading of the speed; before the first one, the first. Empty without speed.
+/// Last measured speed, by row; before the first measurement, that one. Empty without speeds.
 std::vector<double> last_speeds(const TrialReader& reader, RowSpan rows) {
   if (!reader.has("speed_mps")) return {};
   const std::vector<std::size_t> present = rows_present(reader, rows, "speed_mps");
@@ -307,8 +312,8 @@ std::vector<double> last_speeds(const TrialReader& reader, RowSpan rows) {
   return speeds;
 }
 
-/// Removes invalid heading readings at rest from `present`, and replaces their values by that of
-/// the next valid row. Adds a finding.
+/// Removes rows with an invalid heading at rest (course_at_rest.h) from `present`, and replaces the
+/// headings there by the next valid one. Adds the finding `course-at-rest`.
 void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> speed_mps,
                               std::vector<double>& heading_rad, std::vector<std::size_t>& present,
                               std::vector<Finding>& findings) {
@@ -324,8 +329,8 @@ void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> spe
   findings.push_back(
       {log.file, log.line[found.rows.front()], Severity::kWarning, "course-at-rest",
        fmt::format(
-           "heading_deg: {} readings at rest (below {:.2g} m/s) jump by up to {:.0f} deg, as of a "
-           "GPS, which measures the course: set aside",
+           "heading_deg: {} readings at rest (below {:.2g} m/s) jump by up to {:.0f} deg, as the "
+           "course of a GPS does: these readings are set aside",
            found.rows.size(), found.rest_mps, degrees(found.jump_rad))});
 }
 

@@ -11,7 +11,7 @@
 
 namespace awmr {
 
-/// Quantities that a log may contain: those of State.
+/// Quantities that a log may contain. They are the components of State.
 enum class LogChannel { kX, kY, kHeading, kSpeed, kSway, kYawRate, kSteering };
 inline constexpr std::size_t kChannelCount = 7;
 inline constexpr std::array<LogChannel, kChannelCount> kChannels{
@@ -22,34 +22,34 @@ inline constexpr std::array<LogChannel, kChannelCount> kChannels{
 struct ChannelInfo {
   std::string_view column;  ///< CSV name: "heading_deg"
   std::string_view name;    ///< SI name: "heading_rad"
-  std::string_view unit;    ///< of the SI value: "rad"
+  std::string_view unit;    ///< unit of the SI value: "rad"
   double to_si = 1.0;       ///< SI value = column value times this
 };
 const ChannelInfo& info(LogChannel channel);
 
-/// A measured channel. A sensor slower than the log repeats its last value: only rows with a new
-/// value count as measured. Of a coarse sensor every row counts. Spikes, stuck and saturated
-/// readings do not count: see channel_quality.h.
+/// A measured channel. A row is "fresh" if its value is a measurement. A sensor that is slower than
+/// the log repeats its last value: repeated values are not fresh. A sensor with coarse resolution
+/// is fresh in every row. Spikes, stuck and saturated values are not fresh (channel_quality.h).
 struct Measured {
   std::vector<double> value;  ///< by row, SI; heading unwrapped
-  std::vector<bool> fresh;    ///< by row
+  std::vector<bool> fresh;    ///< by row: the value is a measurement
   int fresh_count = 0;        ///< number of fresh rows
-  bool held = false;          ///< slower than the log: repeats are excluded
-  double quantum = 0.0;       ///< step of a coarse sensor, SI; 0: not detected
+  bool held = false;          ///< true: the sensor is slower than the log
+  double quantum = 0.0;       ///< resolution of a coarse sensor, SI; 0: not detected
 };
 
 /// One log. Every vector has one entry per row.
 struct DrivingLog {
   std::string file;
   std::vector<int> line;            ///< line in the file
-  std::vector<std::size_t> mapped;  ///< indices of the TrialOptions' mappings that were used
-  bool joined = false;              ///< combined from signals with their own times: rows are uneven
+  std::vector<std::size_t> mapped;  ///< indices of the mappings in TrialOptions that were used
+  bool joined = false;              ///< joined from signals of different rates: unequal time steps
   bool is_geographic = false;       ///< x_m is east and y_m north, from latitude and longitude
   std::vector<double> t_s;          ///< s, strictly rising
   std::vector<double> force_left;   ///< F'L of each left wheel, over F_max, forward positive
   std::vector<double> force_right;  ///< F'R of each right wheel, over F_max, forward positive
-  /// d_ro, rad, left positive: the servo's command. Absent if only its angle was logged, which then
-  /// is the input of the model.
+  /// d_ro, command of the steering servo, rad, left positive. Absent if only the steering angle d_r
+  /// was logged; d_r is then the input of the model.
   std::optional<std::vector<double>> steering_command_rad;
   std::array<std::optional<Measured>, kChannelCount> measured;
 
@@ -60,24 +60,24 @@ struct DrivingLog {
   std::optional<Measured>& operator[](LogChannel c) {
     return measured[static_cast<std::size_t>(c)];
   }
-  /// Median step between rows; of a joined log the time-weighted median.
+  /// Median time step between rows, s. In a joined log each step is weighted with its length.
   double median_step_s() const;
   /// Steering input of the model, rad, left positive: the servo's command d_ro, or its angle d_r if
   /// only that was logged.
   const std::vector<double>& driving_steering_rad() const;
-  /// The source column of the steering input.
+  /// Name of the column from which the steering input was read.
   std::string_view steering_column() const {
     return steering_command_rad ? "steering_cmd_deg" : "steering_deg";
   }
 };
 
-/// Whether the commanded left and right forces differ by more than 1 % of F_max in any row.
+/// True if the commanded left and right forces differ by more than 1 % of F_max in any row.
 bool has_force_difference(const DrivingLog& log);
 
-/// Whether the steering input, command or angle, changes by more than 1 mrad.
+/// True if the steering input (command or angle) changes by more than 1 mrad.
 bool has_steering_changes(const DrivingLog& log);
 
-/// Rows further apart than this many median steps are a gap, in which the commands are unknown.
+/// A time step of more than this many median steps is a gap. The commands in a gap are unknown.
 inline constexpr double kGapSteps = 10.0;
 
 }  // namespace awmr

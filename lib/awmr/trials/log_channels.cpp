@@ -40,7 +40,7 @@ void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQualit
   }
   if (quality.saturated > 0) {
     warn(0, "saturated-channel",
-         fmt::format("{} reads {:.4g} in {} rows and never beyond: the end of its range "
+         fmt::format("{} is {:.4g} in {} rows and never beyond: the end of the sensor's range "
                      "(saturated); these rows are set aside, and readings near it are biased",
                      about.column, quality.saturated_at / about.to_si, quality.saturated));
   }
@@ -52,7 +52,8 @@ void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQualit
   }
 }
 
-/// The command that affects a channel: thrust for speeds, turning for the rest.
+/// The command that moves a channel, in any scale: the turning command for heading and yaw rate,
+/// else the thrust.
 std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
   const bool turning = channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
   std::vector<double> activity(log.rows());
@@ -73,8 +74,8 @@ std::vector<double> picked(const std::vector<double>& values,
   return some;
 }
 
-/// Channel quality of the readings in `rows`, mapped to the rows of the log. A row without a
-/// reading does not count as measured.
+/// Channel quality by row of the log, from the readings in `rows`. The other rows have no reading
+/// and are not measurements.
 ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel channel,
                           const DrivingLog& log, const std::vector<double>& values) {
   const std::vector<double> activity = activity_for(channel, log);
@@ -110,7 +111,7 @@ void join_position(DrivingLog& log) {
   for (std::size_t i = 1; i < log.rows(); ++i) {
     const bool new_x = x.value[i] != x.value[i - 1];
     const bool new_y = y.value[i] != y.value[i - 1];
-    // A new value that does not count was excluded; its partner is excluded with it.
+    // If the new value of one was set aside as a spike or saturated, the other is set aside too.
     const bool set_aside = (new_x && !x.fresh[i]) || (new_y && !y.fresh[i]);
     x.fresh[i] = y.fresh[i] = (new_x || new_y) && !set_aside;
   }
@@ -124,7 +125,8 @@ void note_held(const DrivingLog& log, std::vector<Finding>& findings) {
     if (!log[channel] || !log[channel]->held) continue;
     findings.push_back(
         {log.file, 0, Severity::kNote, "held-samples",
-         fmt::format("{} repeats its value between updates: the {} new values ({:.3g} Hz) are used",
+         fmt::format("{} repeats its value between updates: only the {} new values ({:.3g} Hz) are "
+                     "used",
                      info(channel).column, log[channel]->fresh_count,
                      log[channel]->fresh_count / duration_s)});
   }
@@ -148,8 +150,8 @@ void note_stale_command(std::string_view column, const DrivingLog& log,
   findings.push_back(
       {log.file, 0, Severity::kWarning, "command-held",
        fmt::format(
-           "{} is not renewed for {:.3g} s from {:.4g} s on: its last value is "
-           "used until then; cut the log there if the vehicle stops by itself without commands",
+           "{} has no new value for {:.3g} s from {:.4g} s on, and its last value is used for that "
+           "time; leave this part out if the vehicle stops by itself without commands",
            column, longest_s, since_s)});
 }
 
@@ -159,8 +161,8 @@ void note_gaps(const DrivingLog& log, std::vector<Finding>& findings) {
     const double step_s = log.t_s[i] - log.t_s[i - 1];
     if (step_s <= longest_s) continue;
     findings.push_back({log.file, log.line[i], Severity::kNote, "log-gap",
-                        fmt::format("nothing was logged for {:.3g} s before this row: what was "
-                                    "commanded then is unknown, and the fit restarts here",
+                        fmt::format("nothing was logged for {:.3g} s before this row: the commands "
+                                    "of that time are unknown, and the fit restarts here",
                                     step_s)});
   }
 }

@@ -1,5 +1,5 @@
-/// Detects which values of a log are measurements, and reports problems of channels and commands.
-/// Private to this folder.
+/// Decides which values of a log count as measurements, and reports problems of its channels and
+/// commands. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -13,25 +13,26 @@ namespace awmr {
 /// Minimum number of rows of a log.
 inline constexpr std::size_t kShortestLog = 10;
 
-/// Builds a channel from its values by row, SI; `rows` are those with a reading. The log's times
-/// and commands must be set. Findings: `spikes`, `stuck-sensor`, `saturated-channel`,
-/// `quantised-samples`.
+/// Builds a channel. `values`: one per row, SI. `rows`: the rows in which the file has a value.
+/// Precondition: the log has its times and commands. Findings: `spikes`, `stuck-sensor`,
+/// `saturated-channel`, `quantised-samples`.
 Measured measured_of(LogChannel channel, const DrivingLog& log,
                      const std::vector<std::size_t>& rows, std::vector<double> values,
                      std::vector<Finding>& findings);
 
-/// A receiver updates x and y together, so if only one of them repeats, both readings are new.
+/// Marks x and y of a row as new readings if at least one of them changed, because a receiver
+/// updates both together. Only for positions slower than the log.
 void join_position(DrivingLog& log);
 
-/// Adds finding `held-samples`: channels slower than the log.
+/// Adds the note `held-samples` for each channel that is slower than the log.
 void note_held(const DrivingLog& log, std::vector<Finding>& findings);
 
-/// Adds finding `command-held`: a command with values only in `rows` that was not renewed for long
-/// and may have ended.
+/// Adds the warning `command-held` if a command was not renewed for a second or more and for ten
+/// times its usual interval: it may have ended. `rows`: the rows in which the file has a value.
 void note_stale_command(std::string_view column, const DrivingLog& log,
                         const std::vector<std::size_t>& rows, std::vector<Finding>& findings);
 
-/// Adds finding `log-gap`: no rows for a long time.
+/// Adds the note `log-gap` for each gap (kGapSteps) between rows.
 void note_gaps(const DrivingLog& log, std::vector<Finding>& findings);
 
 }  // namespace awmr

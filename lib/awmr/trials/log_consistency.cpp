@@ -16,10 +16,10 @@ std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& 
   const Evidence evidence = evidence_of(log, vehicle, mappings);
   if (auto rest = rest_contradiction(evidence)) return {*std::move(rest)};
   std::vector<Contradiction> found = unit_contradictions(evidence);
-  // With a wrong time unit the signs of rates are unreliable.
+  // With a wrong unit of time, windows of one second have no meaning, so no sign can be checked.
   if (!found.empty() && found.front().column == "t_s") return found;
   for (Contradiction& one : sign_contradictions(evidence)) found.push_back(std::move(one));
-  // Positions in a wrong unit jump as well.
+  // Positions in a wrong unit also seem to jump, so jumps are checked last.
   if (found.empty()) {
     if (auto jump = jump_contradiction(evidence)) found.push_back(*std::move(jump));
   }
@@ -65,9 +65,9 @@ Status check_consistency(const DrivingLog& log, const std::string& place, const 
     }
     const bool says_more = !one.remedy.empty() || one.mapping.empty();
     const std::string remedy =
-        says_more ? one.remedy : "map it by " + option_text("column '" + one.mapping + "'");
+        says_more ? one.remedy : "map it with " + option_text("column '" + one.mapping + "'");
     faults.push_back({ErrorCode::kContradiction, place,
-                      fmt::format("{}: {}; {}{}take it {}", one.column, one.message, remedy,
+                      fmt::format("{}: {}; {}{}accept it with {}", one.column, one.message, remedy,
                                   remedy.empty() ? "" : ", or ", option_text("as-is"))});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
@@ -81,7 +81,7 @@ Status check_consistency(const DrivingLog& log, const std::string& place, const 
         {log.file, 0, Severity::kWarning, "gyro-bias",
          fmt::format(
              "yaw_rate_radps differs by {:.3g} +- {:.2g} rad/s from the rate of the heading: "
-             "a gyro bias; it is estimated with the rest ({})",
+             "a gyro bias; the fit estimates this bias, as with {}",
              bias->bias_radps, bias->std_error_radps, option_text("fit bias.yaw_rate_radps"))});
   }
   return {};

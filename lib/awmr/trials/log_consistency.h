@@ -1,19 +1,18 @@
-/// Checks a driving log for wrong units, signs and sides before anything is fitted, by comparing
-/// the channels with each other, the commands and the vehicle.
+/// Checks a driving log for wrong units and signs and for swapped sides, before anything is fitted.
+/// The channels are compared with each other, with the commands and with the vehicle file.
 ///
-/// Robust ratios over windows of a second need no model of the vehicle:
+/// Compared over windows of one second, without a model of the vehicle:
 ///
 ///     change of heading      with   integral of the yaw rate
 ///     distance of positions  with   integral of the speed
 ///     course of positions    with   heading, or the integral of the yaw rate
 ///     yaw rate               with   tau_steering and tau_diff of the commands (allocation.h)
-///     sign of the speed      with   rearward thrust that accelerates the vehicle
-///     change of a reading    with   usual change between two readings: two runs in one file
-///     curvature r/u          with   tan(d_r)/l_f: a vehicle cannot turn far more sharply than its
-///                                   front axle points
+///     sign of the speed      with   sign of the thrust
+///     change of a reading    with   its usual change: a jump means two runs in one file
+///     curvature r/u          with   tan(d_r)/l_f, which it cannot exceed by much
 ///
-/// A vehicle that never moves is refused first. A ratio near 57.3, 3.6, 1000 or -1 identifies the
-/// wrong unit or sign. If any of several columns can be wrong, all are named.
+/// A ratio near 57.3, 3.6, 1000 or -1 identifies the wrong unit or sign. If one of several columns
+/// must be wrong, all of them are named. A log in which the vehicle never moves is refused.
 #pragma once
 
 #include <optional>
@@ -27,36 +26,38 @@
 
 namespace awmr {
 
-/// A column whose values contradict its name, and the mapping that would correct it.
+/// A column with a wrong unit or sign.
 struct Contradiction {
   std::string column;       ///< "yaw_rate_radps"
   std::string message;      ///< the comparison, its result, the likely cause
-  std::string mapping;      ///< `NAME=SOURCE*FACTOR`, a column mapping, or none
-  std::string remedy = {};  ///< what to do if the mapping alone does not suffice; else empty
+  std::string mapping;      ///< column mapping that corrects it, `NAME=SOURCE*FACTOR`; may be empty
+  std::string remedy = {};  ///< advice that replaces the mapping's; may be empty
 };
 
-/// Empty if all channels agree. `mappings`: those with which the log was read, so that the remedy
-/// refers to the file's own column. Comparisons with a weak signal (a straight drive, a vehicle at
-/// rest, fewer than 10 windows) are skipped.
+/// Returns the columns with a wrong unit or sign; empty if all channels agree. `mappings`: those
+/// with which the log was read, so that a correction names the file's own column. A comparison is
+/// skipped if its signals are weak: a straight drive, a vehicle at rest, fewer than 10 windows.
 std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& vehicle,
                                           std::span<const ColumnMapping> mappings);
 
-/// Refuses such a log. Errors (input): each contradiction at `place`, the log as its user named it,
-/// with the mapping that corrects it. With `options.as_is` they are findings (`log-contradiction`,
-/// a warning) instead. A gyro bias of five standard errors and more is a finding (`gyro-bias`), and
-/// so are those of calibration_checks.h.
+/// Checks a log by contradictions(). Errors (input): each contradiction, with the mapping that
+/// corrects it. `place` names the log in errors. With `options.as_is`, contradictions are warnings
+/// (`log-contradiction`) instead. For a log without contradictions, adds the findings of
+/// calibration_checks.h and `gyro-bias` (a significant gyro_bias()).
 Status check_consistency(const DrivingLog& log, const std::string& place, const Vehicle& vehicle,
                          const TrialOptions& options, std::vector<Finding>& findings);
 
-/// Constant offset of the yaw rate from the heading's rate, if both were measured and agree.
+/// Bias of the yaw rate: measured yaw rate minus rate of change of the heading.
 struct GyroBias {
   double bias_radps = 0.0;
   double std_error_radps = 0.0;
-  /// True for a bias of at least five standard errors.
+  /// True if the bias exceeds five standard errors.
   bool significant() const;
 };
+/// Estimates the bias by the median over windows of one second. Empty if heading or yaw rate was
+/// not measured, or with fewer than 10 windows.
 std::optional<GyroBias> gyro_bias(const DrivingLog& log);
-/// True if the log shows a significant bias.
+/// True if gyro_bias() is significant.
 bool has_gyro_bias(const DrivingLog& log);
 
 }  // namespace awmr

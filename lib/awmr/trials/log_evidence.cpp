@@ -13,10 +13,10 @@
 namespace awmr {
 namespace {
 
-/// Approximate response time: commands are averaged this much earlier.
+/// Approximate time from a command to the vehicle's response.
 constexpr double kResponse_s = 0.2;
-/// Adds the commands effective in the window: averaged over the same length, earlier by
-/// kResponse_s.
+/// Adds the mean commands that act in the window: those logged kResponse_s earlier. A log with the
+/// steering angle and no command is used without this delay.
 void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow& window,
                   EvidenceWindow& sums) {
   const double delay_s = log.steering_command_rad ? kResponse_s : 0.0;
@@ -38,7 +38,8 @@ void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow
   }
 }
 
-/// Heading by row; without one the integral of the yaw rate, which begins at 0. Empty without both.
+/// Heading by row; without a heading channel the integral of the yaw rate, from 0. Empty if both
+/// channels are missing.
 std::vector<double> headings_of(const DrivingLog& log) {
   if (const auto& heading = log[LogChannel::kHeading]) return heading->value;
   const auto& rate = log[LogChannel::kYawRate];
@@ -86,9 +87,10 @@ bool has_readings(const DrivingLog& log, std::size_t row) {
       });
 }
 
-/// Moves the windows so that they begin and end with readings: a change between two held values of
-/// a slow sensor belongs to another time. An end moves forward into the next window, or back if
-/// there is none. Windows whose length then doubles or halves are dropped.
+/// Moves the windows so that they begin and end at rows with new readings. (Between two repeated
+/// values of a slow sensor, the change belongs to another time.) An end moves forward into the next
+/// window, or back if no reading follows there. A window that loses more than half its rows is
+/// dropped.
 std::vector<LogWindow> between_readings(const std::vector<LogWindow>& windows) {
   std::vector<LogWindow> moved;
   for (std::size_t i = 0; i < windows.size(); ++i) {
@@ -108,8 +110,8 @@ std::vector<LogWindow> between_readings(const std::vector<LogWindow>& windows) {
   return moved;
 }
 
-/// Inserts two windows that overlap both neighbours between consecutive windows; none if there are
-/// enough windows.
+/// Returns two more windows between every two consecutive windows, which overlap both. Empty if
+/// there are twenty windows or more.
 std::vector<LogWindow> windows_between(const std::vector<LogWindow>& windows) {
   constexpr std::size_t kEnough = 20;
   constexpr std::size_t kParts = 3;
@@ -172,11 +174,12 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
   const double determinant = ss * dd - sd * sd;
   const bool steering_only = dd < 1e-6 * ss;
   const bool sides_only = ss < 1e-6 * dd;
-  // A controller that combines steering and differential forces makes only one moment observable.
-  // Beyond a correlation of 0.9 the shares would fit the neglected effects, mainly inertia.
+  // A controller in combined mode makes the two moments proportional, so they cannot be separated.
+  // Above a correlation of 0.9, the coefficients would fit neglected effects, mainly inertia.
   const bool apart = determinant > 0.19 * ss * dd && !steering_only && !sides_only;
   if (n < 10.0 || rr <= 0.0) return {};
-  constexpr double kSignificant = 5.0;  // standard errors
+  constexpr double kSignificant = 5.0;  // smallest significant coefficient, in standard errors
+  // The coefficient if it is significant, else 0.
   const auto shown = [&](double coefficient, double variance_factor, double explained) {
     const double noise = std::max(0.0, rr - explained) / std::max(1.0, n - 2.0);
     return std::abs(coefficient) > kSignificant * std::sqrt(noise * variance_factor) ? coefficient
@@ -185,8 +188,8 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
   if (steering_only) return {shown(sr / ss, 1.0 / ss, sr * sr / ss), 0};
   if (sides_only) return {0.0, shown(dr / dd, 1.0 / dd, dr * dr / dd)};
   if (!apart) {
-    // Moments that nearly cancel do not turn the vehicle. The one that opposes the rate has the
-    // wrong sign.
+    // Moments of opposite sign and nearly equal size would not turn the vehicle. If it turns, one
+    // of the two has the wrong sign: the one that opposes the yaw rate.
     constexpr double kNearlyEqual = 4.0;  // bound on the ratio of their squares
     const bool cancel = sd < 0.0 && ss < kNearlyEqual * dd && dd < kNearlyEqual * ss;
     if (sd < 0.0 && !cancel) return {};
@@ -200,7 +203,8 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
 
 namespace {
 
-/// The source of a column times a factor, plus an offset.
+/// EXPRESSION for a column: the file's column from which it was read, times a factor, plus an
+/// offset.
 std::string scaled_source(std::span<const ColumnMapping> mappings, std::string_view column,
                           double factor, double offset) {
   ColumnMapping used{std::string(column), std::string(column)};

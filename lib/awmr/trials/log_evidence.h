@@ -1,4 +1,5 @@
-/// Per-window sums of a log's signals, for the checks of units and signs. Private to this folder.
+/// Sums of a log's signals over windows of one second, from which the units and signs of its
+/// columns are checked. Private to this folder.
 #pragma once
 
 #include <array>
@@ -13,49 +14,49 @@
 
 namespace awmr {
 
-/// Window length: long enough to average the noise, short enough to turn by less than a circle.
+/// Window length: averages the noise, and a vehicle turns by less than a circle in it.
 inline constexpr double kEvidenceWindow_s = 1.0;
 
-/// Sums of the signals over one window, in which noise averages out.
+/// Sums of the signals over one window; 0 for channels that the log lacks.
 struct EvidenceWindow {
-  double turned_rad = 0.0;   ///< change of heading; without one, of the integrated yaw rate
+  double turned_rad = 0.0;   ///< change of heading; without a heading, the same as rate_rad
   double rate_rad = 0.0;     ///< integral of the yaw rate
   double moved_m = 0.0;      ///< distance between first and last position
-  double course_rad = 0.0;   ///< its direction; of a vehicle that drives backwards, the opposite
-  double heading_rad = 0.0;  ///< in the middle of the window, as turned_rad
+  double course_rad = 0.0;   ///< direction from first to last position, reversed if driven_m < 0
+  double heading_rad = 0.0;  ///< heading (or integrated yaw rate) in the middle of the window
   double driven_m = 0.0;     ///< integral of the speed
-  bool has_stuck_speed = false;  ///< all readings of the speed are the same and not 0
+  bool has_stuck_speed = false;  ///< all speeds are the same and not 0
   double thrust = 0.0;           ///< mean of F'L + F'R
-  double steering_rad = 0.0;     ///< mean command
+  double steering_rad = 0.0;     ///< mean steering input
   double tau_steering_m = 0.0;   ///< l_f (F'L + F'R) sin d_r, as in allocation.h
   double tau_diff_m = 0.0;       ///< d (F'R - F'L)(cos d_r + 1), as in allocation.h
-  double span_s = 0.0;
+  double span_s = 0.0;           ///< length of the window
 };
 
-/// A log with its windows and the mappings with which it was read: the input of every comparison.
+/// Input of every check of a log: the log, its vehicle and its windows.
 struct Evidence {
   const DrivingLog& log;
   const Vehicle& vehicle;
-  std::span<const ColumnMapping> mappings;
-  std::vector<EvidenceWindow> windows;  ///< consecutive, without overlap
-  /// Windows for medians, which need twenty. In a shorter log they overlap by two thirds, so that
-  /// ten seconds suffice to detect a wrong unit.
+  std::span<const ColumnMapping> mappings;  ///< those with which the log was read
+  std::vector<EvidenceWindow> windows;      ///< consecutive, without overlap
+  /// Windows for robust_ratio(), which needs twenty. A log of fewer than twenty windows also has
+  /// windows that overlap by two thirds here, so that ten seconds suffice to detect a wrong unit.
   std::vector<EvidenceWindow> overlapping;
 
   bool has(LogChannel channel) const { return log[channel].has_value(); }
 };
 
-/// Builds windows of kEvidenceWindow_s.
+/// Divides a log into windows of kEvidenceWindow_s and computes their sums.
 Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
                      std::span<const ColumnMapping> mappings);
 
-/// Consecutive windows of about this length, each beginning and ending with a reading.
+/// Consecutive windows of about this length. Each begins and ends at a row with a new reading.
 std::vector<LogWindow> evidence_rows(const DrivingLog& log, double length_s);
 
-/// The integral of a channel over a window, by trapezoids.
+/// The integral of a channel over a window (trapezoidal rule).
 double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& window);
 
-/// Returns one field of every window.
+/// Returns member(window) of every window.
 template <class Member>
 std::vector<double> series(const std::vector<EvidenceWindow>& windows, Member member) {
   std::vector<double> values;
@@ -64,16 +65,19 @@ std::vector<double> series(const std::vector<EvidenceWindow>& windows, Member me
   return values;
 }
 
-/// Partial regression of a rate on the two moments; 0 for a moment without significant share.
+/// Regression of the yaw rate on the two yaw moments: rate = steering tau_steering + sides
+/// tau_diff, 1/(m s). A coefficient below five standard errors is 0.
 struct MomentShares {
   double steering = 0.0;
   double sides = 0.0;
 };
 
+/// `rate(window)`: change of heading or integral of the yaw rate over the window, rad.
 MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
                            double (*rate)(const EvidenceWindow&));
 
-/// `NAME="SOURCE"*FACTOR+OFFSET`, where SOURCE is the column from which NAME was read.
+/// Text of the mapping `NAME="SOURCE"*FACTOR+OFFSET`, where NAME is `column` and SOURCE the file's
+/// column from which it was read.
 std::string scaled_mapping(std::span<const ColumnMapping> mappings, std::string_view column,
                            double factor, double offset = 0.0);
 std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor,
@@ -81,13 +85,14 @@ std::string scaled_mapping(const Evidence& evidence, std::string_view column, do
 /// The two mappings that swap the force columns.
 std::array<std::string, 2> swapped_mappings(const Evidence& evidence);
 
-/// Detects a vehicle that never moves, for which channels cannot be compared.
+/// Detects a vehicle that never moves: its channels cannot be compared.
 std::optional<Contradiction> rest_contradiction(const Evidence& evidence);
-/// Units: time, forces, steering angle, yaw rate against heading, speed against positions.
+/// Checks the units of time, forces, steering angle, yaw rate and speed.
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence);
-/// Detects a jump of the position, or without it of the heading, to another place.
+/// Detects a jump of the position or of the heading, as at the seam of two runs in one file.
 std::optional<Contradiction> jump_contradiction(const Evidence& evidence);
-/// Checks signs and sides: steering, forces, yaw rate, heading, y, direction of motion.
+/// Checks the signs of steering, forces, yaw rate, heading, y and speed, and whether left and right
+/// forces are swapped.
 std::vector<Contradiction> sign_contradictions(const Evidence& evidence);
 
 }  // namespace awmr

@@ -7,7 +7,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Errors (input): an entry is not a regular file.
+/// The entries with this extension. Errors (input): one of them is not a regular file.
 Result<std::vector<fs::path>> with_extension(const std::vector<fs::path>& entries,
                                              const std::string& extension) {
   std::vector<fs::path> paths;
@@ -30,8 +30,8 @@ Result<std::vector<fs::path>> files_of(const fs::path& path) {
     if (!paths.empty()) return paths;
   }
   return input_error(ErrorCode::kMissing, path.string(),
-                     "a log in a directory is a bag (.db3) or tables (.csv) with a topic each; "
-                     "there is neither");
+                     "this directory has neither a bag (.db3) nor tables (.csv, one topic each); "
+                     "give a directory with one of them, or a file");
 }
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// Files of a trial.
+/// Lists the files that form one log.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,8 @@
 
 namespace awmr {
 
-/// Returns the path itself, or for a directory its files sorted by name, which are joined into one
-/// log: the bags (`.db3`) if there are any, else the tables (`.csv`). Errors: a directory without
-/// either.
+/// Returns `path` itself if it is a file. For a directory, returns its bags (`.db3`) if there are
+/// any, else its tables (`.csv`), sorted by name. Errors: a directory without either.
 Result<std::vector<std::filesystem::path>> files_of(const std::filesystem::path& path);
 
 }  // namespace awmr

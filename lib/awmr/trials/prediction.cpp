@@ -12,12 +12,12 @@
 namespace awmr {
 namespace {
 
-/// Error sums over the samples of a channel.
+/// Sums over the measurements y of a channel.
 struct Sums {
-  double one_step = 0.0;      ///< squared errors
-  double long_horizon = 0.0;  ///< squared errors
-  double measured = 0.0;
-  double squares = 0.0;  ///< sum of y^2 of the measurements
+  double one_step = 0.0;      ///< squared errors of the one-step prediction
+  double long_horizon = 0.0;  ///< squared errors of the long-horizon prediction
+  double measured = 0.0;      ///< y
+  double squares = 0.0;       ///< y^2
   int count = 0;
   PredictedSeries series = {};
 };
@@ -30,7 +30,7 @@ struct Predictor {
   double step_s;
   double delay_s;
   std::optional<LaggedForces> lagged;
-  std::size_t series_step;  ///< every n-th reading of a channel is in its series; 0: none
+  std::size_t series_step;  ///< every n-th measurement is kept in the series; 0: no series
 };
 
 Predictor predictor(const DrivingLog& log, const Plant<double>& plant,
@@ -51,8 +51,8 @@ void run(const Predictor& model, std::size_t begin, std::size_t end, const State
                  model.lagged ? &*model.lagged : nullptr);
 }
 
-/// Predicts the next row from the measurements in this row, with the rest of the state from the
-/// long-horizon run.
+/// Predicts the next row from this row, and adds the squared errors. Components of the state that
+/// this row does not measure come from the long-horizon prediction, `state`.
 void add_one_step(const Predictor& model, std::size_t row, State<double> state, ChannelSums& sums) {
   const DrivingLog& log = *model.signals.log;
   each_measurement(log, row, [&](LogChannel channel, double measured) {
@@ -91,7 +91,7 @@ void add_window(const Predictor& model, const LogWindow& window, ChannelSums& su
       });
 }
 
-/// sum y^2 - n (mean y)^2
+/// Sum of squares about the mean: sum y^2 - n (mean y)^2.
 double about_mean(const Sums& sums) {
   const double n = sums.count;
   const double mean = sums.measured / n;

@@ -1,4 +1,4 @@
-/// Errors of a model's prediction of a log from its commands.
+/// Predicts the channels of a driving log from its commands with a model, and computes the errors.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@ namespace awmr {
 
 /// Prediction error of one channel.
 struct PredictionError {
-  double nrmse = 0.0;  ///< root mean square error divided by the channel's standard deviation
+  double nrmse = 0.0;  ///< rmse divided by the standard deviation of the measurements
   double r2 = 0.0;     ///< 1 - sum of squared errors / sum of squares about the mean
-  double rmse = 0.0;   ///< SI
+  double rmse = 0.0;   ///< root mean square error, SI
 };
 
-/// Readings of a channel and their predictions from the commands.
+/// Measurements of a channel over time, and their predictions.
 struct PredictedSeries {
   std::vector<double> t_s = {};        ///< rising
   std::vector<double> measured = {};   ///< SI
@@ -25,23 +25,22 @@ struct PredictedSeries {
 
 struct ChannelPrediction {
   LogChannel channel = LogChannel::kX;
-  int samples = 0;
-  PredictionError one_step;      ///< from one measured row to the next
-  PredictionError long_horizon;  ///< from the commands alone, over windows of `horizon_s`
-  PredictedSeries series = {};   ///< long-horizon series, if requested
+  int samples = 0;               ///< number of measurements
+  PredictionError one_step;      ///< prediction of each row from the measurements of the row before
+  PredictionError long_horizon;  ///< prediction of a whole window from its initial state
+  PredictedSeries series = {};   ///< long-horizon prediction; empty unless requested
 };
 
 struct PredictionOptions {
-  double horizon_s = 10.0;   ///< the length of a window, each from its own measured initial state
-  double delay_s = 0.0;      ///< from a command to its effect
-  double motor_lag_s = 0.0;  ///< the time constant of the motors, >= 0
-  /// Maximum number of readings of a channel in its series, of which every n-th is kept; 0: no
-  /// series.
+  double horizon_s = 10.0;   ///< maximum length of a window, s; each begins at a measured state
+  double delay_s = 0.0;      ///< latency from a command to its effect, s
+  double motor_lag_s = 0.0;  ///< time constant of the motors, s, >= 0
+  /// Maximum length of a series; of a longer one every n-th measurement is kept. 0: no series.
   std::size_t most_in_series = 0;
 };
 
-/// Errors by channel, in the order of kChannels. A constant channel (a log at rest) has no NRMSE
-/// and is omitted.
+/// Returns the errors by channel, in the order of kChannels. Omits channels without measurements
+/// and constant channels, whose standard deviation is 0.
 std::vector<ChannelPrediction> predict_log(const DrivingLog& log, const Plant<double>& plant,
                                            const PredictionOptions& options);
 

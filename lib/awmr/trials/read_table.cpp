@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Converts signals with their own times to a table.
+/// Converts signals of different rates to a table.
 Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
                                   std::span<const CsvColumn> columns,
                                   std::span<const ColumnMapping> mappings) {
@@ -41,7 +41,7 @@ Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
   return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
 }
 
-/// Table of columns from a file without lines.
+/// Builds a table from columns that were read from a file without text lines.
 Result<CsvTable> table_of_columns(std::vector<std::string> header,
                                   std::vector<std::vector<double>> values,
                                   std::vector<CsvNote> notes, const std::string& file,
@@ -58,7 +58,7 @@ Result<CsvTable> table_of_columns(std::vector<std::string> header,
   return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
 }
 
-/// Table of an on-board log.
+/// Table of a log of the emitted firmware (`.awl`).
 Result<CsvTable> table_of_awl(std::string_view bytes, const std::string& file,
                               std::span<const CsvColumn> columns,
                               std::span<const ColumnMapping> mappings) {
@@ -71,7 +71,7 @@ Result<CsvTable> table_of_awl(std::string_view bytes, const std::string& file,
                           columns, mappings);
 }
 
-/// Table of SysId's tests.
+/// Table of a SysId record.
 Result<CsvTable> table_of_sysid(std::string_view bytes, const std::string& file,
                                 std::span<const CsvColumn> columns,
                                 std::span<const ColumnMapping> mappings) {
@@ -80,7 +80,8 @@ Result<CsvTable> table_of_sysid(std::string_view bytes, const std::string& file,
                           columns, mappings);
 }
 
-/// Appends the next file of a bag: its topics continue.
+/// Appends the signals of the next file of a split bag. Messages of a known topic are appended to
+/// it.
 void append(Signals part, Signals& all) {
   std::vector<std::size_t> places;
   for (const std::string& name : part.header) {

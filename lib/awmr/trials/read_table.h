@@ -13,13 +13,14 @@
 
 namespace awmr {
 
-/// Reads the signals of a binary file; empty if its format has no signals.
+/// Reads a file of a flight controller or of ROS 2 as signals. Empty if `bytes` are of no such
+/// format.
 std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::string& file,
                                             const Wanted& wanted);
 
-/// The first bytes determine the format: ULog, DataFlash, ROS 2 bag in SQLite, the emitted
-/// firmware's log, SysId's JSON, else text. The files of a directory are joined by time. Errors: as
-/// read_csv(); those of the formats.
+/// Reads the requested columns. The first bytes determine the format: ULog, DataFlash, ROS 2 bag in
+/// SQLite, log of the emitted firmware (`.awl`), SysId's JSON, else CSV. The files of a directory
+/// are joined by time. Errors: as read_csv() and the readers of these formats.
 Result<CsvTable> read_table(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                             const TrialOptions& options);
 Result<CsvTable> read_table(const std::filesystem::path& path, TrialKind kind,

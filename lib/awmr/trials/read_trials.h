@@ -1,4 +1,5 @@
-/// Reads trial CSVs as typed trials in SI units, with findings. The README lists the columns.
+/// Reads the files of surge, turning and coast-down trials and of driving logs, as typed rows in SI
+/// units. apps/awmr/COMMANDS.md lists the columns.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +17,8 @@
 
 namespace awmr {
 
-/// Value to use if a row contains a speed or yaw rate both printed and timed.
+/// Value to use if a row gives a speed or yaw rate twice: printed, and timed (distance or turns
+/// over elapsed time).
 enum class Preference { kPrinted, kTimed };
 inline constexpr NameTable<Preference, 2> kPreferenceNames{
     {{"printed", Preference::kPrinted}, {"timed", Preference::kTimed}}};
@@ -24,22 +26,23 @@ inline constexpr NameTable<Preference, 2> kPreferenceNames{
 struct TrialOptions {
   std::vector<ColumnMapping> columns;
   Preference preference = Preference::kPrinted;
-  /// Accept trials that contradict themselves or the vehicle (log_consistency.h,
-  /// table_consistency.h), with a warning. For unusual vehicles.
+  /// True: trials that contradict themselves or the vehicle are accepted with a warning
+  /// (log_consistency.h, table_consistency.h). For unusual vehicles.
   bool as_is = false;
-  /// False: the vehicle has no steering, and a log without a steering column has straight wheels.
+  /// False: the vehicle has no steering, so a log needs no steering column.
   bool has_steering = true;
   /// Number of driven wheels n: tau_speed = n F' of a surge row.
   int driven_wheels = 4;
-  /// Times that are used of each log, s, as in its t_s.
+  /// Part of each log to use, by its t_s, s.
   Interval used_s{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
-  /// Times that are not. The log before and after them is read as two runs.
+  /// Parts of each log to leave out, by its t_s, s. What is before and after becomes two runs.
   std::vector<Interval> excluded_s = {};
 };
 
-/// Findings: `speed-mismatch`, `yaw-rate-mismatch`, `tau-turn-mismatch`, `steering-stop`,
-/// `rows-set-aside`. Errors: as read_csv; missing column combinations; negative speed, time or
-/// distance; a curve whose time does not rise or that is too short.
+/// Read one table. Findings: `speed-mismatch`, `tau-speed-mismatch`, `yaw-rate-mismatch`,
+/// `tau-turn-mismatch`, `steering-stop`, `turned-by-sides`, `rows-set-aside`, `repeated-rows`.
+/// Errors: as read_csv(); columns that are needed together are missing; a negative speed, time or
+/// distance; a coast-down curve with fewer than three rows or time that does not rise.
 Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
                                       const TrialOptions& options, std::vector<Finding>& findings);
 Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, const Vehicle& vehicle,
@@ -48,16 +51,16 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
 Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const TrialOptions& options,
                                     std::vector<Finding>& findings);
 
-/// Columns: t_s, force_left, force_right, steering_cmd_deg or steering_deg (for a vehicle with
-/// steering), and any of the channels. latitude_deg and longitude_deg may replace x_m and y_m
-/// (local tangent plane at the first row that is used). Findings: `held-samples`, `log-gap`, and those of
-/// channel_quality.h. Errors: as read_csv; time that does not rise; no measurement; fewer than 10
-/// rows; more than one run.
+/// Reads a driving log with one run. Columns: t_s, force_left, force_right, and at least one
+/// channel of log.h. A vehicle with steering also needs steering_cmd_deg or steering_deg.
+/// latitude_deg and longitude_deg may replace x_m and y_m (local tangent plane at the first row
+/// used). Findings: those of log_channels.h, `constant-channel`, `course-at-rest`. Errors: as
+/// read_csv(); time that does not rise; no channel; fewer than 10 rows; more than one run.
 Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,
                             std::vector<Finding>& findings);
 
-/// Like read_log() for a file with one or several runs, separated by a column `run`: one log per
-/// run.
+/// As read_log(), for a file with one or more runs, which a column `run` numbers. Returns one log
+/// per run.
 Result<std::vector<DrivingLog>> read_logs(const std::filesystem::path& path,
                                           const TrialOptions& options,
                                           std::vector<Finding>& findings);

@@ -25,7 +25,7 @@ bool is_blank(std::string_view line) {
   return first == std::string_view::npos || line[first] == '#';
 }
 
-/// Text of a comment without its marks; other lines unchanged.
+/// Text of a comment without '#' and blanks before it; other lines unchanged.
 std::string_view without_marks(std::string_view line) {
   return line.substr(std::min(line.find_first_not_of("# \t"), line.size()));
 }
@@ -40,7 +40,7 @@ bool is_number(const CsvCell& cell, char delimiter) {
          (delimiter != ',' && number_with_comma(cell, commas).has_value());
 }
 
-/// Cells of one line; none if its quotes are unbalanced.
+/// Cells of one line; empty if its quotes are unbalanced.
 std::vector<CsvCell> cells_of(std::string_view line, char delimiter) {
   CsvScanner scanner(line);
   scanner.set_delimiter(delimiter);
@@ -49,7 +49,7 @@ std::vector<CsvCell> cells_of(std::string_view line, char delimiter) {
   return cells;
 }
 
-/// Parses a line as a header: it must name a column of a log.
+/// Parses a line as a header; empty if it does not name a column of a log.
 std::optional<Recording::Header> header_of(std::string_view line,
                                            std::span<const ColumnMapping> mappings) {
   const std::span<const CsvColumn> columns = columns_of(TrialKind::kLog);
@@ -103,8 +103,8 @@ void Recording::take(const std::string& line) {
   put(line);
 }
 
-/// True if the line itself is the header. Names after a '#' become the header if the first row
-/// below has as many cells.
+/// Looks for the header in a line; true if the line itself is the header. Names in a comment become
+/// the header at the first row below it with as many cells.
 bool Recording::find_header(const std::string& line) {
   const std::optional<Header> header = header_of(without_marks(line), mappings_);
   if (is_blank(line)) {
@@ -122,7 +122,7 @@ bool Recording::find_header(const std::string& line) {
   return false;
 }
 
-/// Lines before the header become comments.
+/// Turns the lines before the header into comments.
 void Recording::put_before_aside() {
   const std::string before = std::exchange(text_, {});
   lines_ = 0;
@@ -143,11 +143,12 @@ std::string Recording::damage_of(const std::string& line) {
   if (std::any_of(line.begin(), line.end(), is_control)) return "it has control characters";
   const std::vector<CsvCell> cells = cells_of(line, header_.delimiter);
   if (cells.size() != header_.names.size()) {
-    return fmt::format("it has {} cells, the header {}", cells.size(), header_.names.size());
+    return fmt::format("it has {} cells, but the header has {}", cells.size(),
+                       header_.names.size());
   }
   const auto same = [](const CsvCell& cell, const std::string& name) { return cell.text == name; };
   if (std::equal(cells.begin(), cells.end(), header_.names.begin(), same)) {
-    return "it repeats the header: the recorder may have restarted";
+    return "it repeats the header: the board may have restarted";
   }
   if (is_number_.empty()) {
     for (const CsvCell& cell : cells) is_number_.push_back(is_number(cell, header_.delimiter));
@@ -155,7 +156,7 @@ std::string Recording::damage_of(const std::string& line) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::string_view text = cells[i].text;
     if (!is_number_[i] || is_number(cells[i], header_.delimiter)) continue;
-    // Words such as "nan" are intended by the recorder and left to the reader.
+    // A word such as "nan" was written on purpose; the reader of the log decides.
     if (std::any_of(text.begin(), text.end(), is_digit)) {
       return fmt::format("its cell {} is \"{}\", which is not a number", header_.names[i],
                          shortened(text, 40));

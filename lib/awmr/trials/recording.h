@@ -1,5 +1,4 @@
-/// Collects a driving log from a stream: bytes in pieces of any size -> the text of a log in whole
-/// lines.
+/// Collects a driving log from a stream of bytes, such as a serial port, as text in complete lines.
 #pragma once
 
 #include <cstddef>
@@ -12,19 +11,19 @@
 
 namespace awmr {
 
-/// Maximum line length in bytes; a longer line is damaged.
+/// Maximum line length in bytes; a longer line counts as damaged.
 inline constexpr std::size_t kMaxRecordedLine = std::size_t{1} << 16U;
-/// Maximum recording size in bytes: some two million rows.
+/// Maximum size of a recording in bytes: about two million rows.
 inline constexpr std::size_t kMaxRecording = std::size_t{1} << 28U;
 
-/// A serial line loses bytes. A board prints text before its header and repeats the header after a
-/// restart. Such a line stays in the text at its place, as a comment: nothing is lost, line numbers
-/// match the stream, and the rest is an ordinary log.
+/// The recorded text of one stream. Damaged lines (a serial port loses bytes) and other text (a
+/// board prints messages, and its header again after a restart) are "set aside": the text keeps
+/// such a line at its place, as a comment. Line numbers therefore match the stream.
 ///
-/// Once the header is known (the first line that names a column of a log), these are set aside:
-///   lines with more or fewer cells than the header, or a repeated header
-///   lines with a cell that has digits but is not a number, where the first row had a number
-///   lines with control characters, too long, or without an end
+/// The header is the first line that names a column of a log. After it, these lines are set aside:
+///   - lines with more or fewer cells than the header, and repetitions of the header;
+///   - lines with a cell that has digits but is not a number, if the first row has a number there;
+///   - lines with control characters, lines that are too long, and a last line without line end.
 /// A number that lost a digit cannot be detected.
 class Recording {
  public:
@@ -33,24 +32,27 @@ class Recording {
     char delimiter = ',';
   };
 
-  /// `mappings`: those with which the log will be read, so that a header with other names is
-  /// recognised. `most_bytes`: limit of the text.
+  /// `mappings`: those with which the log will be read. They make a header with other column names
+  /// recognisable. `most_bytes`: maximum size of the text.
   explicit Recording(std::vector<ColumnMapping> mappings = {},
                      std::size_t most_bytes = kMaxRecording);
 
-  /// Adds the next piece of the stream. Data beyond the limit are dropped; see full().
+  /// Adds the next piece of the stream. Bytes beyond the limit are dropped, and full() becomes
+  /// true.
   void add(std::string_view bytes);
-  /// Ends the stream. A last line without an end may be cut inside a number and is set aside.
+  /// Ends the stream. A last line without line end is set aside: it may be cut inside a number.
   void finish();
 
-  /// The complete lines.
+  /// The complete lines so far.
   const std::string& text() const { return text_; }
-  /// Lines after the header, without those set aside, comments and empty lines.
+  /// Number of rows of data: without lines set aside, comments and empty lines.
   std::size_t rows() const { return rows_; }
   bool has_header() const { return !header_.names.empty(); }
+  /// Number of lines set aside.
   std::size_t set_aside() const { return set_aside_; }
   bool full() const { return full_; }
-  /// Reports the lines set aside, with reasons, for `file`: `lines-set-aside`, or nothing.
+  /// Returns the finding `lines-set-aside` with its place in `file`; empty if no line was set
+  /// aside.
   std::vector<Finding> findings(const std::string& file) const;
 
  private:
@@ -70,8 +72,8 @@ class Recording {
   bool after_return_ = false;  ///< the last byte was a carriage return, which ended its line
   bool full_ = false;
   Header header_ = {};
-  Header commented_ = {};             ///< last header candidate after a '#', above the first row
-  std::vector<bool> is_number_ = {};  ///< by column, in the first row
+  Header commented_ = {};             ///< last comment above the first row that may be the header
+  std::vector<bool> is_number_ = {};  ///< by column: the first row has a number
   int lines_ = 0;                     ///< lines in text_
   std::size_t rows_ = 0;
   std::size_t set_aside_ = 0;

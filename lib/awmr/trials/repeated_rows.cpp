@@ -13,22 +13,22 @@
 namespace awmr {
 namespace {
 
-/// Significance level: P(k or more) below which repeats are reported.
+/// Repeats are reported if P(k or more) is at most this.
 constexpr double kChance = 0.01;
-/// Minimum number of differences within equal settings to estimate the scatter of runs.
+/// Minimum degrees of freedom for an estimate of the scatter from rows with equal settings.
 constexpr int kFewestDifferences = 3;
-/// A reading with more digits was computed, so they do not show its resolution.
+/// A reading written to more than six digits was computed, so its last place is not its resolution.
 constexpr double kComputed = 1e-6;
 
-/// p of the header; a = q/(2 s).
+/// Probability p that two readings are the same by chance; a = q/(2 s) (repeated_rows.h).
 double chance_of_same(double q, double s) {
   const double a = q / (2.0 * s);
-  // The difference of the two terms cancels for small a: a/sqrt(pi) to within a^3/10.
+  // For small a the two terms cancel; then p = a/sqrt(pi) to within a^3/10.
   if (a < 1e-3) return a / std::sqrt(pi<double>());
   return std::erf(a) - (1.0 - std::exp(-a * a)) / (a * std::sqrt(pi<double>()));
 }
 
-/// P(k or more) of a Poisson number of mean L, k > L: an upper bound for the repeats.
+/// Probability of k or more for a Poisson variable with mean `expected`; 1 if k <= `expected`.
 double chance_of_so_many(double expected, int k) {
   if (k <= expected) return 1.0;
   // The first term is L^k e^-L / k!; each next one is L/(k+1), L/(k+2), ... times the previous.
@@ -41,13 +41,14 @@ double chance_of_so_many(double expected, int k) {
   return sum;
 }
 
-/// Runs with equal settings, with their readings in order.
+/// Runs with equal settings: their rows in order, and the reading of each.
 struct LikeRuns {
   std::vector<std::size_t> rows;
   std::vector<double> readings;
 };
 
-/// The first of the rule's columns that has a value in all rows.
+/// The column to compare: `timed` if it has a value in all rows, else `printed` if that has one;
+/// else none.
 std::optional<std::string_view> reading_of(const TrialReader& reader,
                                            const std::vector<std::size_t>& rows,
                                            const RepeatRule& rule) {
@@ -77,8 +78,8 @@ std::vector<LikeRuns> like_runs(const TrialReader& reader, const std::vector<std
   return found;
 }
 
-/// Relative standard deviation of runs with equal settings, from distinct readings; empty if there
-/// are too few.
+/// Relative standard deviation of the readings of runs with equal settings, repeated readings
+/// counted once. Empty if there are too few.
 std::optional<double> scatter_seen(const std::vector<LikeRuns>& groups) {
   double squares = 0.0;
   int differences = 0;
@@ -94,7 +95,8 @@ std::optional<double> scatter_seen(const std::vector<LikeRuns>& groups) {
   return std::sqrt(squares / differences);
 }
 
-/// q: resolution of the reading. For a computed one, the smallest difference between any two.
+/// Resolution q of the readings: one unit in their last decimal place; for computed readings the
+/// smallest difference between two.
 double resolution_of(const TrialReader& reader, std::string_view reading,
                      const std::vector<LikeRuns>& groups) {
   std::set<double> values;
@@ -136,9 +138,9 @@ void find_repeated_rows(const TrialReader& reader, const std::vector<std::size_t
   std::ranges::sort(repeated);
   findings.push_back(reader.finding(
       repeated.front(), Severity::kWarning, "repeated-rows",
-      fmt::format("{} of {} rows repeat an earlier row to the last digit of {} ({}), where runs "
-                  "read to {:.2g} would by chance in {:.2g}: copies narrow every interval as if "
-                  "they had been driven; delete those that were not",
+      fmt::format("{} of {} rows repeat an earlier row to the last digit of {} ({}); of runs "
+                  "read to {:.2g}, {:.2g} rows would repeat by chance. Copies make every interval "
+                  "too narrow: delete rows that are not runs of their own",
                   repeated.size(), rows.size(), *reading, lines_of(reader, repeated), resolution,
                   expected)));
 }

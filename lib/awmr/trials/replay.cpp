@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kShortestWindow = 3;
 
-/// The first measured value at or after `begin`, with its row.
+/// First row of the window, from row `from` on, with a measurement of the channel; empty if none.
 std::optional<std::size_t> first_fresh(const LogWindow& window, LogChannel channel,
                                        std::size_t from) {
   const auto& measured = (*window.log)[channel];
@@ -23,7 +23,8 @@ std::optional<std::size_t> first_fresh(const LogWindow& window, LogChannel chann
   return std::nullopt;
 }
 
-/// Slope of a channel over about the first fifth of a second of the window.
+/// Slope of a channel between its first measurement in the window and the first one 0.2 s or more
+/// later.
 std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
   const auto first = first_fresh(window, channel, window.begin);
   if (!first) return std::nullopt;
@@ -52,8 +53,8 @@ std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s) {
   for (std::size_t row = 1; row <= log.rows(); ++row) {
     if (row == log.rows() || log.t_s[row] - log.t_s[row - 1] > gap_s) {
       piece_end = row;
-      // Equal parts, so that no short remainder is left. A time in nanoseconds has more parts than
-      // rows.
+      // Equal parts leave no short remainder. A log with its time in a wrong unit (nanoseconds)
+      // would need more parts than it has rows.
       const double span_s = log.t_s[piece_end - 1] - log.t_s[begin];
       const double most = static_cast<double>(piece_end - begin);
       const auto parts =
@@ -123,14 +124,14 @@ State<double> measured_initial_state(const LogWindow& window) {
 
 namespace {
 
-/// Largest speed, m/s or rad/s, below which a resistance can be replaced by its chord
-/// (rest_speed()); logs do not resolve it.
+/// Speed, m/s or rad/s, below which a resistance may be replaced by a straight line through the
+/// origin (rest_speed()), because logs do not resolve slower motion.
 constexpr double kChordSpeed = 0.01;
 
-/// Longest step, s, that resolves a resistance without Coulomb friction:
-///   h <= inertia w/(max(1, beta) g(w))   at kChordSpeed and at the steady speed under `force`,
-/// where g(w)/w is largest for beta < 1 and beta > 1. The Runge-Kutta method is stable up to 2.78
-/// times it.
+/// Longest step h, s, that resolves a resistance g(w) without its Coulomb friction:
+///   h <= inertia w/(max(1, beta) g(w))
+/// w is kChordSpeed and the steady speed under `force`: g(w)/w is largest at the first for beta <
+/// 1, at the second for beta > 1. The Runge-Kutta method is stable up to 2.78 times this step.
 double resistance_step_s(Resistance<double> law, double inertia, double force) {
   law.coulomb = 0.0;
   double step_s = std::numeric_limits<double>::infinity();
@@ -163,16 +164,15 @@ Result<void> check_replay(const Plant<double>& plant, const std::string& file) {
   const bool sway = step_s == 0.25 * (plant.mass_norm / plant.sway_alpha);
   const std::string what =
       servo    ? fmt::format("steering.time_constant_s is {:g} s", plant.steering_time_constant_s)
-      : motors ? fmt::format("motors of back_emf_s_per_m {:g} brake within {:g} s",
+      : motors ? fmt::format("the motors' back_emf_s_per_m {:g} brakes within {:g} s",
                              plant.back_emf_s_per_m, 1.0 / braking)
       : sway   ? fmt::format("m'/sway_alpha is {:g}/{:g} s", plant.mass_norm, plant.sway_alpha)
-               : fmt::format("resistance brings m' {:g} or I'z {:g} to rest within {:g} s",
+               : fmt::format("the resistance brings m' {:g} or I'z {:g} to rest within {:g} s",
                              plant.mass_norm, plant.inertia_norm, 4.0 * step_s);
   return input_error(
       ErrorCode::kOutOfRange, file,
-      fmt::format("{}, too fast to be followed through a log, whose motion is "
-                  "computed in steps of a quarter of it; {:g} s or more can be: check "
-                  "the vehicle's numbers and the units of its trials",
+      fmt::format("{}, too fast to be followed through a log (the limit is {:g} s): check the "
+                  "vehicle's values and the units of its trials",
                   what, 4.0 * kShortestReplayStep_s));
 }
 

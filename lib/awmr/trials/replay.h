@@ -1,5 +1,5 @@
-/// Simulates the model with a log's commands. Templates on the scalar: double for predictions,
-/// ceres::Jet for derivatives.
+/// Simulates the model with the commands of a log ("replays" the log). Templates on the scalar type
+/// T: double for predictions, ceres::Jet for derivatives.
 #pragma once
 
 #include <algorithm>
@@ -24,17 +24,17 @@ struct LogWindow {
   std::size_t end = 0;
 };
 
-/// Splits the log at its gaps and into pieces of at most `longest_s`; pieces shorter than 3 rows
-/// are dropped.
+/// Splits the log at its gaps, and each part into equal windows of at most `longest_s`. Windows of
+/// fewer than 3 rows are dropped.
 std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s);
 
-/// Division of a span into equal steps, none longer than `longest_step_s` (up to rounding).
+/// Number of equal steps that divide a time span so that none is longer than `longest_step_s`.
 inline int steps_in(double span_s, double longest_step_s) {
   return std::max(1, static_cast<int>(std::ceil(span_s / longest_step_s - 1e-9)));
 }
 
-/// Mean force over [t, t + h] of motors with lag. Motors with back-EMF are off as soon as their
-/// command, here the mean `command` after the delay, is 0.
+/// Mean force over [t, t + h] of motors with lag. `command`: mean command over the same time, after
+/// the delay. Motors with back-EMF have force 0 where the command is 0, without lag.
 template <class T>
 SideForces<T> lagged_force(const LaggedForces& lagged, const LogSignals& signals, double t_s,
                            double h_s, const T* delay_s, const SideForces<T>& command,
@@ -50,9 +50,11 @@ SideForces<T> lagged_force(const LaggedForces& lagged, const LogSignals& signals
           side(mean.force.right, mean.by_delay.right, command.right)};
 }
 
-/// Calls visit(row, state) at every row of [begin, end), starting at `state`. Integrates in steps
-/// of at most `longest_step_s` by step(state, h_s, force, steering_rad). `delay_s` null: no delay.
-/// `lagged` null: motors without lag. A logged angle is used as it is: no lag.
+/// Simulates the rows [begin, end) from the initial `state`, and calls visit(row, state) at each
+/// row. `step(state, h_s, force, steering_rad)` returns the state after one integration step, which
+/// is at most `longest_step_s` long. `delay_s`: latency of the commands, null for none. `lagged`:
+/// forces of motors with lag, null for motors without. A logged steering angle is used as the
+/// actual angle, without delay.
 template <class T, class Visit, class Step>
 void replay_rows(const LogSignals& signals, std::size_t begin, std::size_t end,
                  const Plant<T>& plant, const T* delay_s, double longest_step_s, State<T> state,
@@ -91,14 +93,16 @@ void replay_rows(const LogSignals& signals, std::size_t begin, std::size_t end,
   }
 }
 
-/// A logged angle is not limited to the stop.
+/// Removes the steering stop (limit 10 rad) if the log has the steering angle and no command: the
+/// logged angle is used unchanged, even beyond the stop.
 template <class T>
 Plant<T> without_stop_of_logged_angle(Plant<T> plant, const DrivingLog& log) {
   if (!log.steering_command_rad) plant.steering_max_rad = T(10.0);
   return plant;
 }
 
-/// replay_rows() of the 3-DOF model. `plant`: from resolved_beside_friction().
+/// replay_rows() with the 3-DOF model. Precondition: `plant` is a result of
+/// resolved_beside_friction().
 template <class T, class Visit>
 void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant<T> plant,
             const T* delay_s, double longest_step_s, State<T> state, Visit visit,
@@ -114,8 +118,9 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
               });
 }
 
-/// replay_rows() of the four-wheel model, from resolved_at_rest_on_tyres(). False: the tyres are
-/// too stiff for any step, and the states are invalid from there on.
+/// replay_rows() with the four-wheel model. Precondition: `vehicle` is a result of
+/// resolved_at_rest_on_tyres(). Returns false if the tyres became too stiff for any step; the
+/// states from then on are invalid.
 template <class Visit>
 bool replay(const LogSignals& signals, std::size_t begin, std::size_t end,
             FourWheels<double> vehicle, double longest_step_s, const State<double>& state,
@@ -133,9 +138,10 @@ bool replay(const LogSignals& signals, std::size_t begin, std::size_t end,
   return resolution.resolved;
 }
 
-/// State at delay_s >= 0 before the last of `states`, the states at the rows from `begin` on. It is
-/// reached by Runge-Kutta steps from the row before, whose length carries the derivative with
-/// respect to the delay. Before the first row its rates are extrapolated.
+/// Returns the state `delay_s` >= 0 before the last of `states`, which are the states at the rows
+/// from `begin` on. Integrates from the last row before that time, by Runge-Kutta steps whose
+/// length carries the derivative with respect to the delay. For a time before row `begin`,
+/// extrapolates with the rates at that row.
 template <class T>
 State<T> earlier_state(const LogSignals& signals, std::size_t begin,
                        const std::vector<State<T>>& states, Plant<T> plant, const T& delay_s,
@@ -187,7 +193,7 @@ constexpr T State<T>::*component_of(LogChannel channel) {
   return &State<T>::steering_rad;
 }
 
-/// Predicted reading of a channel of the log in this state.
+/// The component of the state that the channel measures.
 template <class T>
 T& channel_of(State<T>& s, LogChannel channel) {
   return s.*component_of<T>(channel);
@@ -197,8 +203,8 @@ const T& channel_of(const State<T>& s, LogChannel channel) {
   return s.*component_of<T>(channel);
 }
 
-/// True if a row has a new value of a channel to compare with the model. A steering angle used as
-/// input, because no servo command was logged, is not a measurement.
+/// True if the row has a measurement of the channel to compare with the model. A steering angle
+/// that is the model's input, because no servo command was logged, does not count.
 bool is_measurement(const DrivingLog& log, LogChannel channel, std::size_t row);
 
 /// Calls visit(channel, value) for each measurement in a row.
@@ -209,22 +215,22 @@ void each_measurement(const DrivingLog& log, std::size_t row, Visit visit) {
   }
 }
 
-/// Initial state of a window from its measurements: the first value of each channel. Missing
-/// channels are derived from others (yaw rate from heading, heading and speed from position), else
-/// 0.
+/// Initial state of a window: the first measurement of each channel. A missing channel is derived
+/// from others (yaw rate from heading, heading and speed from position), else it is 0.
 State<double> measured_initial_state(const LogWindow& window);
 
-/// Longest step of replay() for this plant, s: a quarter of its shortest constant time constant,
-/// which is that of the servo, of sway or of back-EMF braking. A Runge-Kutta step of that length
-/// errs by 3e-5 of an excursion in each time constant.
+/// Longest step of replay() that is accurate for this plant, s: a quarter of the shortest time
+/// constant of servo, sway and back-EMF braking, and no longer than the resistances of surge and
+/// yaw allow. With a quarter of a time constant, Runge-Kutta decays are accurate to 3e-5 per time
+/// constant.
 double replay_step_s(const Plant<double>& plant);
 
-/// Shortest useful step: no log shows effects shorter than 0.4 ms, and smaller steps would take too
-/// long.
+/// Shortest permitted step. Its time constant, 0.4 ms, is shorter than any effect in a log; smaller
+/// steps would take too long.
 inline constexpr double kShortestReplayStep_s = 1e-4;
 
-/// Errors (input): a time constant of the plant requires steps below kShortestReplayStep_s, so that
-/// a log cannot be replayed. The fault names it, in the file `file`.
+/// Checks that a log can be replayed with this plant. Errors (input): a time constant requires
+/// steps below kShortestReplayStep_s. The fault names that time constant; its place is `file`.
 Result<void> check_replay(const Plant<double>& plant, const std::string& file);
 
 }  // namespace awmr

@@ -36,10 +36,10 @@ std::vector<WindowMoments> moments_of(const DrivingLog& log, LogChannel channel)
   return all;
 }
 
-/// True if a channel is only noise about one value: the means of the windows scatter no more than
-/// the readings within them (F = n var(means)/mean var within).
+/// True if a channel is only noise about one value. Analysis of variance: F = n var(means of the
+/// windows)/mean variance within a window, with n readings per window, is at most kMostF.
 bool is_noise_alone(const std::vector<WindowMoments>& windows) {
-  constexpr double kMostF = 5.0;  // correlated noise gives more than 1, motion more than 100
+  constexpr double kMostF = 5.0;  // F is above 1 for correlated noise, above 100 for motion
   const auto n = static_cast<double>(windows.size());
   double mean = 0.0, within = 0.0, readings = 0.0, between = 0.0;
   for (const WindowMoments& w : windows) {
@@ -51,10 +51,9 @@ bool is_noise_alone(const std::vector<WindowMoments>& windows) {
   return readings * between <= kMostF * within;
 }
 
-/// True if the value of a constant speed means rest: 0 within its error, or slower than any vehicle
-/// of this length drives.
+/// True if the mean speed is 0 within its error, or slower than any vehicle of this length drives.
 bool is_about_zero(const std::vector<WindowMoments>& windows, double length_m) {
-  constexpr double kFroude = 0.005;  // u over sqrt(g length)
+  constexpr double kFroude = 0.005;  // Froude number u/sqrt(g length) of the slowest driving
   double sum = 0.0, count = 0.0, variance = 0.0;
   for (const WindowMoments& w : windows) {
     sum += w.mean * w.count;
@@ -82,7 +81,7 @@ std::optional<Contradiction> rest_contradiction(const Evidence& evidence) {
     if (column.empty()) column = info(channel).column;
   }
   if (!shows_motion) return std::nullopt;
-  return Contradiction{column, "the vehicle never moves: every channel holds noise about one value",
+  return Contradiction{column, "the vehicle never moves: every channel is noise about one value",
                        "", "record a log in which it drives"};
 }
 

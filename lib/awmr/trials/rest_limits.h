@@ -1,5 +1,5 @@
-/// Thresholds below which a vehicle is at rest: simulators and filters may write 3.9e-312 for 0. No
-/// supported vehicle moves so slowly. Private to this folder.
+/// Thresholds below which a speed, yaw rate or force counts as 0. Simulators and filters may write
+/// 3.9e-312 for 0. No supported vehicle moves so slowly. Private to this folder.
 #pragma once
 
 #include <cmath>
@@ -8,8 +8,9 @@ namespace awmr {
 
 inline constexpr double kRestSpeed_mps = 1e-6;
 inline constexpr double kRestRate_radps = 1e-6;
-inline constexpr double kRestForce = 1e-6;  ///< over F_max
+inline constexpr double kRestForce = 1e-6;  ///< F', force over F_max
 
+/// True if the magnitude of `value` is below `limit`.
 inline bool is_rest(double value, double limit) { return std::abs(value) < limit; }
 
 }  // namespace awmr

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kFewestPairs = 10;
 constexpr double kLargestSpread = 0.6;
-/// Distances and turns of a window below this count as rest.
+/// Pairs with a smaller |x| are skipped: the vehicle is at rest.
 constexpr double kSmallest = 1e-9;
 
 }  // namespace

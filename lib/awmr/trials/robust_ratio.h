@@ -1,4 +1,5 @@
-/// Medians, and the ratio of two signals by medians, which tolerates a tenth of outliers.
+/// Median, median absolute deviation, and the ratio of two signals by medians, which tolerates
+/// about 10 % outliers.
 #pragma once
 
 #include <optional>
@@ -7,23 +8,22 @@
 
 namespace awmr {
 
-/// Precondition: not empty. For an even number of values the upper of the two middle ones.
+/// Median; for an even number of values the upper of the two middle ones. Precondition: not empty.
 double median(std::vector<double> values);
 
 /// Median of |value - middle|, where `middle` is the median of the values. Precondition: not empty.
 double median_absolute_deviation(std::span<const double> values, double middle);
-/// Ratio of the standard deviation to the median absolute deviation of normal values.
+/// Standard deviation over median absolute deviation, for a normal distribution.
 inline constexpr double kStdPerMad = 1.4826;
 
 struct RobustRatio {
   double ratio = 0.0;
-  double spread = 0.0;  ///< median absolute deviation of the ratios over |ratio|
+  double spread = 0.0;  ///< median absolute deviation of the pairs' y/x, divided by |ratio|
   int pairs = 0;        ///< number of pairs used
 };
 
-/// Median of y/x over the half of the pairs with the larger |x|. Empty with fewer than 10 such
-/// pairs, or if the ratios scatter by more than 0.6 of their size: the signals are then not
-/// proportional.
+/// Median of y/x over the half of the pairs with the larger |x|. Empty if there are fewer than 10
+/// such pairs, or if `spread` would exceed 0.6: the two signals are then not proportional.
 std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<const double> y);
 
 }  // namespace awmr

@@ -13,7 +13,7 @@ enum class Part { kHeader, kText, kFloat32, kFloat64, kSkipped9, kSkipped36 };
 
 struct Piece {
   Part part;
-  std::string_view name;  ///< for numbers
+  std::string_view name;  ///< name of a number; empty for other parts
 };
 
 struct MessageType {
@@ -52,7 +52,7 @@ std::vector<Piece> odometry() {
           {Part::kSkipped36, ""}};
 }
 
-/// From the public message definitions. Covariances are skipped.
+/// Supported types, as in the public message definitions. Covariances are skipped.
 const std::array<MessageType, 7>& types() {
   static const std::array<MessageType, 7> kTypes{
       {{"std_msgs/msg/Float32", {{Part::kFloat32, "data"}}},

@@ -1,4 +1,5 @@
-/// Numbers in ROS 2 messages of the usual types. Private to this folder.
+/// Decodes the numbers in ROS 2 messages of the types that FORMATS.md lists. Private to this
+/// folder.
 #pragma once
 
 #include <optional>
@@ -8,12 +9,13 @@
 
 namespace awmr {
 
-/// Names of the numbers in a message of this type (`nav_msgs/msg/Odometry`), in order; empty for an
-/// unsupported type.
+/// Names of the numbers in a message of this type (such as `nav_msgs/msg/Odometry`), in the order
+/// of the message. Empty for an unsupported type.
 std::optional<std::vector<std::string>> ros_fields(std::string_view type);
 
-/// Values of a CDR message (plain, either byte order), in the order of ros_fields(). Empty if the
-/// message is too short or not of that form. Precondition: the type is supported.
+/// Values in a message, in the order of ros_fields(). `cdr`: the message in plain CDR (the
+/// serialisation of ROS 2), of either byte order. Empty if the message is too short or is not plain
+/// CDR. Precondition: the type is supported.
 std::optional<std::vector<double>> ros_values(std::string_view type, std::string_view cdr);
 
 }  // namespace awmr

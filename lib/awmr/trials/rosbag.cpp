@@ -24,10 +24,10 @@ using Statement = std::unique_ptr<sqlite3_stmt, FinishStatement>;
 
 tl::unexpected<Error> wrong(const std::string& file, std::string_view what) {
   return input_error(ErrorCode::kBrokenFile, file,
-                     fmt::format("this is no bag of ROS 2 that can be read: {}", what));
+                     fmt::format("this is not a readable bag of ROS 2: {}", what));
 }
 
-/// Opens the bytes as an in-memory database, so that its content cannot access any file.
+/// Opens the bytes as a database in memory, so that SQL in the bag cannot access any file.
 Result<Database> open(std::string_view bytes, const std::string& file) {
   sqlite3* handle = nullptr;
   const int opened = sqlite3_open(":memory:", &handle);
@@ -40,7 +40,8 @@ Result<Database> open(std::string_view bytes, const std::string& file) {
   auto* copy = static_cast<unsigned char*>(sqlite3_malloc64(bytes.size()));
   if (copy == nullptr) return program_fault("no memory for the bag");
   std::copy(bytes.begin(), bytes.end(), copy);
-  // An in-memory database has no write-ahead log; bytes 18 and 19 give the journal mode.
+  // Bytes 18 and 19 give the journal mode; 2 is a write-ahead log, which a database in memory
+  // lacks.
   if (bytes.size() > 19 && copy[18] == 2 && copy[19] == 2) copy[18] = copy[19] = 1;
   const auto size = static_cast<sqlite3_int64>(bytes.size());
   // SQLite frees the copy even if this fails.
@@ -96,7 +97,8 @@ Result<std::vector<BagTopic>> topics_of(sqlite3* database, const std::string& fi
   return topics;
 }
 
-/// Adds the names of a topic's signals to the header; returns the indices of the requested numbers.
+/// Adds a topic and the names of its signals. Returns which numbers of its messages are requested,
+/// as indices into `fields`.
 std::vector<std::size_t> list(const BagTopic& bag, const std::vector<std::string>& fields,
                               const Wanted& wanted, Signals& signals) {
   Topic& topic = signals.topics.emplace_back(Topic{.name = bag.name});
@@ -122,7 +124,7 @@ Status read_messages(sqlite3* database, const BagTopic& bag,
     const auto values = ros_values(bag.type, data == nullptr ? "" : std::string_view(data, size));
     if (!values) {
       return input_error(ErrorCode::kBrokenFile, file,
-                         fmt::format("message {} of /{}: its {} bytes are no {} in CDR",
+                         fmt::format("message {} of /{}: its {} bytes are not a {} in CDR",
                                      topic.time_ns.size() + 1, printable(shortened(bag.name, 100)),
                                      size, printable(shortened(bag.type, 100))));
     }
@@ -156,11 +158,11 @@ Result<Signals> read_rosbag(std::string_view bytes, const std::string& file, con
     AWMR_RETURN_IF_ERROR(read_messages(database.get(), bag, numbers, file, signals.topics.back()));
   }
   if (!unread.empty()) {
-    signals.notes.push_back(
-        {0, "topics-unread",
-         "topics of types that are not read: " + printable(shortened(unread, 500))});
+    signals.notes.push_back({0, "topics-unread",
+                             "these topics are not read, because their types are not supported: " +
+                                 printable(shortened(unread, 500))});
   }
-  signals.notes.push_back({0, "bag-time", "the time is the bag's: when each message was received"});
+  signals.notes.push_back({0, "bag-time", "t_s is the time at which the bag received a message"});
   return signals;
 }
 

@@ -1,7 +1,8 @@
-/// ROS 2 bags in SQLite (`.db3`). Private to this folder.
+/// Reads ROS 2 bags in SQLite (`.db3`). Private to this folder.
 ///
 /// Signals are named `TOPIC.FIELD`, the topic without its first '/': `odom.twist.twist.linear.x`.
-/// The time is the bag's receive time: one clock for all topics.
+/// The time of a message is when the recorder received it, because that clock is common to all
+/// topics.
 #pragma once
 
 #include <string>
@@ -13,8 +14,9 @@ namespace awmr {
 
 bool is_rosbag(std::string_view bytes);
 
-/// Returns the header of the bag and the values of the requested signals. Topics of unsupported
-/// types are noted. Errors: not a bag; a message that does not match its type or is not in CDR.
+/// Returns the names of all signals, and the values of the requested ones. Topics of unsupported
+/// types are skipped and noted. Errors: not a bag; a message that does not match its type or is not
+/// in CDR (the serialisation of ROS 2).
 Result<Signals> read_rosbag(std::string_view bytes, const std::string& file, const Wanted& wanted);
 
 }  // namespace awmr

@@ -20,23 +20,23 @@ namespace {
 enum class Signed { kSteering, kSides, kYawRate, kHeading, kY };
 constexpr std::size_t kSignedCount = 5;
 
-/// Two columns that agree (+1) or contradict each other (-1).
+/// Observed relation of the signs of two columns.
 struct SignRelation {
   Signed a;
   Signed b;
-  int sign;
+  int sign;  ///< +1: they agree; -1: one of the two is wrong
 };
 
 /// Relation of positions and heading.
 struct CourseRelation {
   int sign =
       0;  ///< +1: positions move along the heading; -1: along its mirror image; 0: undetermined
-  double offset_rad = 0.0;  ///< mean of the course less the heading or its mirror image
+  double offset_rad = 0.0;  ///< mean angle from the heading or its mirror image to the course
 };
 
 CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
-  // In a turn at constant rate the chord is parallel to the heading in its middle, unless it nears
-  // a full circle.
+  // On a circular arc, the chord is parallel to the heading in the middle of the arc. Arcs near a
+  // full circle are skipped, because their chord is short.
   constexpr double kFurthestTurn_rad = 2.5;
   if (windows.empty()) return {};
   std::vector<double> moved;
@@ -51,10 +51,10 @@ CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
     headings += std::polar(1.0, 2.0 * w.heading_rad);
     n += 1.0;
   }
-  // On a straight drive the two cannot be distinguished.
+  // On a straight drive, the heading and its mirror image cannot be distinguished.
   if (n < 10.0 || std::abs(headings) / n > 0.95) return {};
-  // Scatter of the angles, 0 to 1. With the right sign only noise scatters, with the wrong sign
-  // twice the headings too.
+  // Scatter of the angles, 0 to 1. With the right sign it is that of noise; with the wrong sign,
+  // twice the heading is added to every angle.
   constexpr double kMostNoise = 0.3;
   const auto holds = [n](double one, double other) {
     const double of_one = 1.0 - one / n;
@@ -65,8 +65,9 @@ CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
   return {};
 }
 
-/// The same sign for the integrated yaw rate, which begins anywhere and drifts: by parts of a
-/// minute. 0 if parts contradict each other.
+/// The sign of course_relation() for logs without a heading: the integrated yaw rate replaces it.
+/// Because that drifts, each minute is evaluated separately. 0 if two minutes contradict each
+/// other.
 int turning_sign(std::span<const EvidenceWindow> windows) {
   constexpr std::size_t kPart = 60;
   int sign = 0;
@@ -114,8 +115,8 @@ std::vector<SignRelation> sign_relations(const Evidence& evidence) {
 
 unsigned bit(Signed column) { return 1U << static_cast<unsigned>(column); }
 
-/// Smallest sets of columns for which a sign change makes all relations agree. `fixed`: columns
-/// whose sign is known.
+/// Smallest sets of columns (as bits) whose change of sign makes all relations agree. `fixed`:
+/// columns whose sign is known to be right.
 std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations, unsigned fixed) {
   std::vector<unsigned> best;
   std::size_t least = kSignedCount + 1;
@@ -134,11 +135,11 @@ std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations,
   return best;
 }
 
-/// Offset that a heading needs with its sign changed, a multiple of 90 deg: a compass counts from
-/// north, where x may be east. 0 if no positions show it.
+/// Offset to add to the heading after its change of sign, deg, a multiple of 90: a compass counts
+/// from north, and x may be east. 0 if the positions show no such offset.
 double mirrored_heading_deg(const Evidence& evidence) {
   constexpr double kQuarter_deg = 90.0;
-  constexpr double kClose_deg = 20.0;  // declination, sideslip
+  constexpr double kClose_deg = 20.0;  // tolerance for declination and sideslip
   if (!evidence.has(LogChannel::kX) || !evidence.has(LogChannel::kY)) return 0.0;
   const CourseRelation course = course_relation(evidence.overlapping);
   if (course.sign != -1) return 0.0;
@@ -156,19 +157,19 @@ Contradiction sign_contradiction(const Evidence& evidence, Signed which) {
     case Signed::kSides: {
       const auto [left, right] = swapped_mappings(evidence);
       return {"force_left",
-              "the vehicle turns towards the side that pushes harder: force_left and force_right "
-              "look swapped",
+              "the vehicle turns towards the side with the larger force: force_left and "
+              "force_right look swapped",
               left,
-              fmt::format("map them by {} {}", option_text("column '" + left + "'"),
+              fmt::format("map them with {} {}", option_text("column '" + left + "'"),
                           option_text("column '" + right + "'"))};
     }
     case Signed::kYawRate:
       return {"yaw_rate_radps",
-              "its sign is against the other channels: positive is counter-clockwise",
+              "its sign contradicts the other channels: positive is counter-clockwise",
               scaled_mapping(evidence, "yaw_rate_radps", -1.0)};
     case Signed::kHeading:
       return {"heading_deg",
-              "its sign is against the other channels: positive is counter-clockwise (a compass "
+              "its sign contradicts the other channels: positive is counter-clockwise (a compass "
               "counts clockwise)",
               scaled_mapping(evidence, "heading_deg", -1.0, mirrored_heading_deg(evidence))};
     case Signed::kY:
@@ -183,7 +184,7 @@ Contradiction sign_contradiction(const Evidence& evidence, Signed which) {
       scaled_mapping(evidence, "y_m", -1.0)};
 }
 
-/// "a or b or c".
+/// Joins the column names: "a or b or c".
 std::string alternatives(const std::vector<Contradiction>& columns) {
   std::string text;
   for (const Contradiction& one : columns) {
@@ -193,7 +194,7 @@ std::string alternatives(const std::vector<Contradiction>& columns) {
 }
 
 std::vector<Contradiction> check_signs(const Evidence& evidence) {
-  // East and north of latitudes and longitudes cannot be mirrored.
+  // Positions from latitude and longitude have the right sign.
   const unsigned fixed = evidence.log.is_geographic ? bit(Signed::kY) : 0U;
   const std::vector<unsigned> solutions = smallest_flips(sign_relations(evidence), fixed);
   if (solutions.empty() || solutions.front() == 0U) return {};
@@ -207,12 +208,12 @@ std::vector<Contradiction> check_signs(const Evidence& evidence) {
   if (solutions.size() == 1) return found;
   const std::string columns = alternatives(found);
   for (Contradiction& one : found) {
-    one.message += fmt::format(" (correct only one of {}: either explains it)", columns);
+    one.message += fmt::format(" (correct only one of {}: each alone explains it)", columns);
   }
   return found;
 }
 
-/// Forward thrust with backward motion.
+/// Detects a speed with the wrong sign: negative while the thrust is forward.
 std::optional<Contradiction> check_direction(const Evidence& evidence) {
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
   const auto ratio = robust_ratio(
@@ -220,15 +221,16 @@ std::optional<Contradiction> check_direction(const Evidence& evidence) {
       series(evidence.overlapping, [](const EvidenceWindow& w) { return w.driven_m; }));
   if (!ratio || ratio->ratio > 0.0) return std::nullopt;
   return Contradiction{"speed_mps",
-                       "the speed is negative where both forces push forward: speed or forces have "
+                       "the speed is negative while both forces are positive: speed or forces have "
                        "the wrong sign",
                        scaled_mapping(evidence, "speed_mps", -1.0)};
 }
 
-/// Detects one side with the wrong sign: the vehicle's speed follows the difference of the logged
-/// forces, and not their sum. Shares of sum v^2 that a proportional law explains:
+/// Detects a side whose force has the wrong sign: the speed v is then proportional to the
+/// difference of the logged forces instead of their sum. Compares the fraction of sum v^2 that each
+/// explains:
 ///
-///     R^2 = (sum v s)^2 / (sum v^2 sum s^2)   for s = F'L + F'R and s = F'R - F'L
+///     R^2 = (sum v s)^2 / (sum v^2 sum s^2)   for s = F'L + F'R and for s = F'R - F'L
 std::optional<Contradiction> check_one_side(const Evidence& evidence) {
   constexpr double kExplains = 0.5;
   constexpr double kMoreThanSum = 3.0;
@@ -254,16 +256,16 @@ std::optional<Contradiction> check_one_side(const Evidence& evidence) {
   const std::string column = vd > 0.0 ? "force_left" : "force_right";
   return Contradiction{
       column,
-      fmt::format("the speed follows force_right - force_left (R^2 {:.2f}) and not "
+      fmt::format("the speed is proportional to force_right - force_left (R^2 {:.2f}) instead of "
                   "their sum ({:.2f}): this side has the wrong sign; forward is "
-                  "positive on both",
+                  "positive on both sides",
                   of_difference, share(vs, ss)),
       scaled_mapping(evidence, column, -1.0)};
 }
 
-/// Largest speed gain, m/s, during spans of rearward thrust: the rise of quarter-second means above
-/// the smallest earlier mean of the span. The first half second is excluded because motors and
-/// sensors may lag.
+/// Speed gained during rearward thrust, m/s, summed over all spans of it. In each span, the largest
+/// rise of a mean over 0.25 s above the smallest earlier one. The first half second of a span does
+/// not count, because motors and sensors may lag.
 double gathered_backwards_mps(const DrivingLog& log) {
   constexpr double kPushes = 0.1;  // fraction of the largest thrust
   constexpr double kLag_s = 0.5;
@@ -292,8 +294,8 @@ double gathered_backwards_mps(const DrivingLog& log) {
   return gathered;
 }
 
-/// Detects an unsigned speed: it is never negative although rearward thrust increases it. Rearward
-/// thrust brakes a vehicle that drives forward, whatever its resistance.
+/// Detects a speed without sign: it is never negative, and rearward thrust increases it. (Rearward
+/// thrust would slow down a vehicle that drives forward.)
 std::optional<Contradiction> check_unsigned(const Evidence& evidence) {
   constexpr double kNegative = 0.05;  // fraction of the largest speed
   constexpr double kMuch = 0.15;
@@ -305,9 +307,9 @@ std::optional<Contradiction> check_unsigned(const Evidence& evidence) {
   return Contradiction{
       "speed_mps",
       fmt::format(
-          "it is never negative, though the vehicle gains {:.3g} m/s while its wheels push "
-          "backwards: the sensor measures no direction. Add the sign to the speed, leave the "
-          "column out where positions are measured, or record forward driving only",
+          "it is never negative, although the vehicle gains {:.3g} m/s during rearward thrust: the "
+          "sensor does not measure the direction. Add the sign to the speed, leave the column out "
+          "if positions are measured, or record forward driving only",
           gathered_mps),
       ""};
 }
@@ -315,7 +317,8 @@ std::optional<Contradiction> check_unsigned(const Evidence& evidence) {
 }  // namespace
 
 std::vector<Contradiction> sign_contradictions(const Evidence& evidence) {
-  // With one side reversed, thrust and moment are exchanged: no other sign can be compared.
+  // If one side has the wrong sign, thrust and yaw moment are exchanged: no other sign can be
+  // checked.
   if (auto one_side = check_one_side(evidence)) return {*std::move(one_side)};
   std::vector<Contradiction> found;
   if (auto is_unsigned = check_unsigned(evidence)) found.push_back(*is_unsigned);

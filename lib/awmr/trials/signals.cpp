@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// Errors: as join().
+/// Checks the times and values of a topic. Errors: as join().
 Status check(const Topic& topic, const Signals& signals, const std::string& file) {
   std::vector<Fault> faults;
   const auto fault = [&](ErrorCode code, std::size_t message, std::string text) {
@@ -24,8 +24,8 @@ Status check(const Topic& topic, const Signals& signals, const std::string& file
   for (std::size_t i = 1; i < topic.time_ns.size(); ++i) {
     if (topic.time_ns[i] > topic.time_ns[i - 1]) continue;
     fault(ErrorCode::kWrongOrder, i,
-          fmt::format("its time is {:.3g} s after that of the message before; time must increase "
-                      "within a topic: cut the file where the time restarts",
+          fmt::format("its time changes by {:.3g} s from the message before; time must increase "
+                      "within a topic: split the file where the time restarts",
                       1e-9 * (static_cast<double>(topic.time_ns[i]) -
                               static_cast<double>(topic.time_ns[i - 1]))));
     break;
@@ -74,7 +74,7 @@ void note_missing(const Topic& topic, const Signals& signals, std::vector<CsvNot
     if (missing == 0) continue;
     notes.push_back(
         {0, "missing-values",
-         fmt::format("{} is NaN in {} of {} messages: they have no value of it",
+         fmt::format("{} is NaN in {} of {} messages, which count as messages without this value",
                      signals.header[topic.columns[c]], missing, topic.values[c].size())});
   }
 }

@@ -1,5 +1,5 @@
-/// Signals with their own times, as logged by flight controllers and robots, and their conversion
-/// to one table. Private to this folder.
+/// Signals of different rates, as flight controllers and ROS 2 log them, and their conversion to
+/// one table. Private to this folder.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,31 @@
 
 namespace awmr {
 
-/// Messages of one topic, in file order.
+/// Messages of one topic, in file order, with the fields that were requested.
 struct Topic {
   std::string name;
-  std::vector<std::int64_t> time_ns = {};
-  std::vector<std::size_t> columns = {};         ///< indices into the header
-  std::vector<std::vector<double>> values = {};  ///< by column, then by message
+  std::vector<std::int64_t> time_ns = {};        ///< by message
+  std::vector<std::size_t> columns = {};         ///< requested signals: indices in Signals::header
+  std::vector<std::vector<double>> values = {};  ///< by requested signal, then by message
 };
 
-/// Signals of a file: the names of all, `TOPIC.FIELD`, and the values of the requested ones.
+/// Signals of a file.
 struct Signals {
-  std::vector<std::string> header = {};
-  std::vector<Topic> topics = {};
+  std::vector<std::string> header = {};  ///< names of all signals: `TOPIC.FIELD`
+  std::vector<Topic> topics = {};        ///< with the values of the requested signals
   std::vector<CsvNote> notes = {};
 };
 
-/// True if a signal's values are requested.
+/// Function that returns true if the values of a signal are requested.
 using Wanted = std::function<bool(const std::string& name)>;
 
 /// Maximum number of signals per file.
 inline constexpr std::size_t kMostSignals = 200'000;
 
-/// Creates one row for every time at which some topic has a message. Each value is in its own row
-/// only. The first column is t_s, counted from the first row. NaN means no value, as in uORB, and
-/// is noted. Errors: no messages; the time of a topic does not rise; an infinite value.
+/// Converts signals to a table with one row for every time at which a topic has a message. A row
+/// has values of that message only; nothing is interpolated. The first column is t_s, counted from
+/// the first row. NaN means "no value", as in uORB, and is noted. Errors: time that does not
+/// rise within a topic; an infinite value.
 Result<RawTable> join(Signals signals, const std::string& file);
 
 }  // namespace awmr

@@ -17,13 +17,13 @@ struct Stretch {
   std::size_t end = 0;
 };
 
-/// The measured angle, or else the commanded one.
+/// Steering angle by row, rad: measured, or commanded if it was not measured.
 const std::vector<double>& steering_angle_of(const DrivingLog& log) {
   return log[LogChannel::kSteering] ? log[LogChannel::kSteering]->value : *log.steering_command_rad;
 }
 
 std::vector<Stretch> constant_commands(const DrivingLog& log, double same) {
-  // Uses the command to find changes: the noise of the angle would end every stretch.
+  // The command shows where the steering changes; a measured angle changes in every row by noise.
   const std::vector<double>& steering = log.driving_steering_rad();
   const double gap_s = kGapSteps * log.median_step_s();
   std::vector<Stretch> stretches;
@@ -43,7 +43,8 @@ std::vector<Stretch> constant_commands(const DrivingLog& log, double same) {
   return stretches;
 }
 
-/// Straight-line fit of a rate: mean, rise from end to end, and their errors.
+/// Straight line fitted to a rate over a stretch: its mean, its rise from end to end, and their
+/// standard errors.
 struct Line {
   int count = 0;
   double mean = 0.0;
@@ -88,7 +89,8 @@ bool is_steady(const Line& line, double drift) {
          std::abs(line.rise) <= 3.0 * line.rise_error;
 }
 
-/// Shortens the stretch to its steady part; empty if there is none.
+/// Shortens `stretch` to its steady part (SteadyRule) and returns the line fitted there; empty if
+/// there is no steady part.
 std::optional<Line> steady_rest(const DrivingLog& log, const Measured& rate, const SteadyRule& rule,
                                 Stretch& stretch) {
   for (double from_s = log.t_s[stretch.begin] + rule.settling_s;; from_s += rule.later_s) {
@@ -116,9 +118,9 @@ struct SteadyRun {
   SideForces<double> sides{};
 };
 
-/// Returns the run in a stretch of constant commands, or nothing if it gives no resistance: never
-/// steady, at rest, or turning against its command. With steering also: driven backward or with
-/// unequal left and right forces. Without steering the force difference turns the vehicle.
+/// Returns the steady run in a stretch of constant commands. Empty if the vehicle is never steady
+/// there, rests, or turns against its command. A vehicle with steering must also be driven forward
+/// with equal forces left and right.
 std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicle,
                                     const SteadyRule& rule, Stretch stretch) {
   const double left = mean_of(log.force_left, stretch);
@@ -131,7 +133,7 @@ std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicl
   if (!rate || (!by_sides && (!(left > 0.0) || uneven))) return std::nullopt;
   const auto line = steady_rest(log, *rate, rule, stretch);
   if (!line) return std::nullopt;
-  // At rest within the scatter, so no information for a resistance curve.
+  // The mean rate is 0 within its error: the vehicle may be at rest.
   if (!(std::abs(line->mean) > 3.0 * line->mean_error) || line->mean == 0.0) return std::nullopt;
   const double left_turn = by_sides ? right - left : steering_rad;
   if (turning ? line->mean * left_turn < 0.0 : line->mean < 0.0) return std::nullopt;
@@ -142,7 +144,7 @@ std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicl
                    {left, right}};
 }
 
-/// Turning row of a vehicle without steering.
+/// Turning row of a run without steering.
 TurningRow sides_turning_row(const SteadyRun& run, const Vehicle& vehicle) {
   const auto [least, most] = std::minmax(run.sides.left, run.sides.right);
   return {.line = run.segment.line,

@@ -19,7 +19,7 @@ const Rate kSpeed{.printed_column = "speed_mps",
 void check_surge_columns(TrialReader& reader) {
   if (!reader.has("tau_speed") && !reader.has("wheel_force")) {
     reader.header_fault(ErrorCode::kMissing,
-                        "no thrust: add a column tau_speed, or wheel_force (tau_speed = 4 F')");
+                        "no thrust: add a column tau_speed, or wheel_force (F' of one wheel)");
   }
   if (!reader.has("speed_mps") && !(reader.has("distance_m") && reader.has("elapsed_s"))) {
     reader.header_fault(ErrorCode::kMissing,
@@ -27,13 +27,13 @@ void check_surge_columns(TrialReader& reader) {
   }
 }
 
-/// tau_speed as printed, else computed from the force of one wheel.
+/// tau_speed as in the file, else computed from the force of one wheel.
 double tau_speed_of(TrialReader& reader, std::size_t row, int driven_wheels,
                     std::vector<Finding>& findings) {
   const auto printed = reader.non_negative(row, "tau_speed");
   const auto wheel_force = reader.non_negative(row, "wheel_force");
   if (!wheel_force) return *printed;
-  // tau_speed = (F'L + F'R)(cos d_r + 1) = 4 F' at d_r = 0, and 2 F' by two wheels     [paper (41)]
+  // tau_speed = (F'L + F'R)(cos d_r + 1) = 4 F' at d_r = 0; 2 F' by two wheels         [paper (41)]
   const double from_wheels = driven_wheels * *wheel_force;
   if (!printed) return from_wheels;
   const double tolerance = reader.rounding_error(*printed, "tau_speed") +
@@ -41,7 +41,7 @@ double tau_speed_of(TrialReader& reader, std::size_t row, int driven_wheels,
   if (std::abs(*printed - from_wheels) > tolerance) {
     findings.push_back(
         reader.finding(row, Severity::kWarning, "tau-speed-mismatch",
-                       fmt::format("tau_speed is {}, but {} x wheel_force {} makes {:.4g}; the "
+                       fmt::format("tau_speed is {}, but {} x wheel_force {} is {:.4g}; the "
                                    "printed value {} is used",
                                    *printed, driven_wheels, *wheel_force, from_wheels, *printed)));
   }
@@ -78,7 +78,7 @@ Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   set.set_aside = static_cast<int>(set_aside.size());
   note_rows_set_aside(reader, set_aside,
-                      "at rest or without thrust, a run shows nothing of tau_speed = a1 u^b1",
+                      "a run at rest or without thrust does not determine tau_speed = a1 u^b1",
                       findings);
   find_repeated_rows(
       reader, kept,

@@ -30,15 +30,16 @@ constexpr std::array<SysIdLength, 3> kSysIdLengths{
 
 enum class SysIdUnit { kNone, kDegrees, kMetres };
 
-/// A number of a row: its index, name and unit.
+/// A number of a row that is read.
 struct SysIdField {
   std::size_t index;
   std::string_view name;
   SysIdUnit unit = SysIdUnit::kNone;
 };
 
+/// Format of a row.
 struct SysIdRow {
-  std::size_t numbers;  ///< numbers per row
+  std::size_t numbers;  ///< count of numbers in a row
   std::vector<SysIdField> fields;
   bool is_drivetrain;
 };
@@ -78,7 +79,7 @@ const SysIdRow& simple_form() {
   return kForm;
 }
 
-/// Parses a document and collects its faults.
+/// Reads a SysId document and collects its faults.
 class SysIdReader {
  public:
   SysIdReader(const Json& document, std::string file)
@@ -122,8 +123,7 @@ const SysIdRow* SysIdReader::find_form() {
   const std::string test = text_at("test").value_or("");
   if (test == "Arm" || test == "Elevator") {
     fault(ErrorCode::kWrongFile, "/test",
-          fmt::format("\"{}\" is no drive: this log has no vehicle's motion; give a log of the "
-                      "test Drivetrain",
+          fmt::format("the test \"{}\" does not drive the robot; give a log of the test Drivetrain",
                       test));
     return nullptr;
   }
@@ -139,7 +139,7 @@ const SysIdRow* SysIdReader::find_form() {
     return nullptr;
   }
   fault(ErrorCode::kMissing, "/slow-forward",
-        "no test has a row; record slow-forward, slow-backward, fast-forward and "
+        "no test has rows; record slow-forward, slow-backward, fast-forward and "
         "fast-backward");
   return nullptr;
 }
@@ -149,9 +149,8 @@ double SysIdReader::read_metres_per_rotation() {
   const auto unit = std::ranges::find(kSysIdLengths, units, &SysIdLength::name);
   if (unit == kSysIdLengths.end()) {
     fault(ErrorCode::kUnknownName, "/units",
-          fmt::format("\"{}\" is not a unit of length, and the wheel's circumference is not in "
-                      "this file; set "
-                      "units to \"Meters\" and unitsPerRotation to the circumference in metres",
+          fmt::format("\"{}\" is not a unit of length; set units to \"Meters\" and "
+                      "unitsPerRotation to the wheel's circumference in metres",
                       units));
     return 1.0;
   }
@@ -161,7 +160,7 @@ double SysIdReader::read_metres_per_rotation() {
   const double metres = is_positive ? factor->get<double>() * unit->metres : 0.0;
   if (metres > 0.0 && std::isfinite(metres)) return metres;
   fault(ErrorCode::kOutOfRange, "/unitsPerRotation",
-        fmt::format("expected a number above 0: the wheel's circumference, {}", units));
+        fmt::format("expected a number above 0: the wheel's circumference in {}", units));
   return 1.0;
 }
 
@@ -209,7 +208,7 @@ void SysIdReader::read_run(std::string_view test, const SysIdRow& form) {
                                                                 : 1.0;
       const double value = row[field.index].get<double>() * factor;
       if (!std::isfinite(value))
-        fault(ErrorCode::kOutOfRange, pointer, "out of range in metres or degrees");
+        fault(ErrorCode::kOutOfRange, pointer, "too large after conversion to metres or degrees");
       log_.columns[i + 2].push_back(value);
     }
   }
@@ -219,9 +218,9 @@ void SysIdReader::read_run(std::string_view test, const SysIdRow& form) {
   tests_.emplace_back(test);
 }
 
-/// Some robot programs record magnitudes. If a run drives a side backward but its voltage is never
-/// negative, the voltage sign is inverted. SysId itself gives every voltage the sign of its
-/// velocity.
+/// Makes the voltages of a side negative if the side turned backward and no voltage is negative:
+/// some robot programs record voltages without sign. (SysId itself gives every voltage the sign of
+/// its velocity.)
 void SysIdReader::correct_voltage_signs(std::size_t begin, const SysIdRow& form,
                                         std::string_view test) {
   const auto values_of = [&](std::string_view name) -> std::vector<double>& {
@@ -252,7 +251,7 @@ void SysIdReader::correct_voltage_signs(std::size_t begin, const SysIdRow& form,
   if (is_mirrored) unsigned_tests_.emplace_back(test);
 }
 
-/// Speed u of a drivetrain: the mean of its sides.
+/// Adds the column speed_mps of a drivetrain: the mean of its left and right speeds.
 void SysIdReader::add_speed() {
   const auto values_of = [&](std::string_view name) -> const std::vector<double>& {
     const auto found = std::ranges::find(log_.header, name);
@@ -279,8 +278,8 @@ Result<SysIdLog> SysIdReader::read() {
   if (!faults_.empty()) return input_errors(std::move(faults_));
   if (form->is_drivetrain) add_speed();
   std::string message = fmt::format(
-      "SysId record: runs {}; {:.6g} m per rotation; {} in volts, to be divided by the voltage of "
-      "full power",
+      "SysId record: runs {}; {:.6g} m per rotation; {} in volts: divide by the voltage of full "
+      "power to get F'",
       fmt::join(tests_, ", "), metres_,
       form->is_drivetrain ? "left_volts and right_volts are" : "volts is");
   if (!unsigned_tests_.empty()) {

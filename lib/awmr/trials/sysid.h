@@ -1,15 +1,16 @@
-/// JSON recorded by WPILib's SysId during a robot's characterization tests. Private to this folder.
+/// Reads the JSON that WPILib's SysId records in a robot's characterization tests. Private to this folder.
 ///
 ///     {"sysid": true, "test": "Drivetrain", "units": "Meters", "unitsPerRotation": 0.4788,
 ///      "slow-forward": [[t, left V, right V, left rot, right rot, left rot/s, right rot/s, rad, rad/s], ...],
 ///      "slow-backward": ..., "fast-forward": ..., "fast-backward": ...}
 ///
-/// Each test is a run. Positions and velocities are in rotations and become metres by unitsPerRotation and
-/// units.               [wpilibsuite/sysid, docs/data-collection.md and AnalysisManager.cpp]
-/// Rows by test:
+/// Each test ("slow-forward", ...) becomes a run. The file has positions and velocities in rotations; they are
+/// converted to metres with unitsPerRotation and units.
+///                      [wpilibsuite/sysid, docs/data-collection.md and AnalysisManager.cpp]
+/// Numbers in a row, by the value of "test":
 ///     Drivetrain, Drivetrain (Angular)    the nine numbers above
 ///     Simple, General Mechanism           t, V, rotations, rotations/s
-///     of frc-characterization             t, battery V, autospeed, left V, right V, left and right rotations,
+///     frc-characterization (older tool)   t, battery V, autospeed, left V, right V, left and right rotations,
 ///                                         left and right rotations/s, rad
 #pragma once
 
@@ -22,11 +23,11 @@
 
 namespace awmr {
 
-/// All tests in sequence. `t_s` begins at 0 in each run.
+/// All tests one after the other. `t_s` begins at 0 in each run.
 struct SysIdLog {
   std::vector<std::string> header = {};  ///< run, t_s, left_volts, ..., in SI units and degrees
-  std::vector<std::vector<double>> columns = {};  ///< by name
-  std::vector<CsvNote> notes = {};                ///< `sysid-log`
+  std::vector<std::vector<double>> columns = {};  ///< by column, then by row
+  std::vector<CsvNote> notes = {};                ///< one: `sysid-log`
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
@@ -34,8 +35,8 @@ struct SysIdLog {
 /// True if the first bytes are those of a SysId record.
 bool is_sysid(std::string_view bytes);
 
-/// Errors: JSON that is not such a record; a mechanism that does not drive; units that are not
-/// lengths; no rows; rows of another size; a time that does not rise.
+/// Errors: JSON that is not a SysId record; a mechanism that does not drive the robot (elevator, arm); units
+/// that are not lengths; no rows; rows with a wrong number of values; a time that does not rise.
 Result<SysIdLog> read_sysid(std::string_view bytes, const std::string& file);
 
 }  // namespace awmr

@@ -16,7 +16,7 @@
 namespace awmr {
 namespace {
 
-/// A table with the names for its findings, and the treatment of contradictions.
+/// A table that is checked, and the lists to which its findings and faults are added.
 struct Table {
   const std::filesystem::path& path;
   const std::string& file;
@@ -24,14 +24,15 @@ struct Table {
   std::vector<Finding>& findings;
   std::vector<Fault>& faults;
 
-  /// Reports a contradiction. `remedy`: "map it by ..."; may be empty.
+  /// Reports a contradiction as a fault, or with `as_is` as a finding. `remedy`: "map it with ...",
+  /// or empty.
   void report(int line, const std::string& message, const std::string& remedy) const {
     if (options.as_is) {
       findings.push_back({file, line, Severity::kWarning, "table-contradiction", message});
       return;
     }
     faults.push_back({ErrorCode::kContradiction, fmt::format("{}:{}", path.string(), line),
-                      fmt::format("{}; {}{}take it {}", message, remedy,
+                      fmt::format("{}; {}{}accept it with {}", message, remedy,
                                   remedy.empty() ? "" : ", or ", option_text("as-is"))});
   }
   void report(const std::optional<WrongUnit>& wrong) const {
@@ -41,15 +42,16 @@ struct Table {
   }
 };
 
-/// The first row whose force exceeds the vehicle's limit, and the range of all rows' forces.
+/// The first row whose force exceeds the vehicle's limit (null if none), and the range of the
+/// forces of all rows.
 template <class Row>
 struct Beyond {
   const Row* first = nullptr;
   ForceSpan span{std::numeric_limits<double>::infinity(), 0.0};
 };
 
-/// `force` is a member of Row, or a function of it that returns the range of its forces. Zero
-/// forces are ignored because they do not depend on the unit.
+/// `force(row)` returns the range of the row's forces. Forces of 0 are ignored: they are 0 in any
+/// unit.
 template <class Row, class Force>
 Beyond<Row> beyond(const std::vector<Row>& rows, Force force, double limit) {
   Beyond<Row> found;
@@ -77,12 +79,12 @@ double side_limit(const Vehicle& vehicle) {
   return std::max(vehicle.wheel_force.hi, -vehicle.wheel_force.lo);
 }
 
-/// Single-wheel forces in another unit, over all tables of a vehicle.
+/// Range of the wheel forces that have another unit than F', over all tables of a vehicle.
 struct FolderForces {
   std::optional<ForceSpan> wheels = {};
 
-  /// Range that decides the unit of a column: that of all columns, unless the column itself
-  /// contains F' beyond the vehicle's limit.
+  /// Range that decides the unit of a column with the range `own`: that of all tables, or `own` if
+  /// its forces can be F'.
   ForceSpan with(const ForceSpan& own) const {
     return is_share_of_f_max(own) || !wheels ? own : *wheels;
   }
@@ -113,7 +115,7 @@ std::string limits_text(const Interval& force) {
   return fmt::format("wheel_force [{:g}, {:g}] of the vehicle", force.lo, force.hi);
 }
 
-/// Differential turns have one force per side.
+/// Checks the forces of differential turns.
 void check_sides(const Table& table, const std::vector<TurningRow>& rows, const Tables& tables) {
   const auto [first, span] = beyond(rows, side_forces, side_limit(tables.vehicle));
   if (first == nullptr) return;
@@ -139,7 +141,8 @@ void check_wheel_force(const Table& table, const std::vector<TurningRow>& rows,
       remedy_of(units, force_unit_fixes(units, "wheel_force"), table.options.columns));
 }
 
-/// tau_speed = 4 F' with the wheels straight                                        [paper (41)]
+/// Checks the tau_speed of surge runs against n F'max, n = 4 driven wheels:
+///   tau_speed = 4 F' with the wheels straight                                      [paper (41)]
 void check_thrust(const Table& table, const TrialSet<SurgeRow>& surge, const Tables& tables) {
   const Vehicle& vehicle = tables.vehicle;
   const int wheels = vehicle.driven_wheels();
@@ -167,10 +170,11 @@ void check_thrust(const Table& table, const TrialSet<SurgeRow>& surge, const Tab
       remedy_of(found.units, found.unit_fixes, table.options.columns));
 }
 
-/// Detects angles in radians, which are small compared with the stop in degrees. False if detected.
+/// Reports steering angles that are probably in radians: all below 2 % of the stop, which is in
+/// degrees. Returns false if reported.
 bool check_steering(const Table& table, const std::vector<TurningRow>& rows,
                     const Vehicle& vehicle) {
-  constexpr double kSmall = 0.02;  // fraction of the stop: a degree expressed in radians
+  constexpr double kSmall = 0.02;  // fraction of the stop; 1 deg is 0.0175 rad
   if (rows.empty()) return true;
   const double steepest_deg =
       degrees(std::ranges::max_element(rows, {}, &TurningRow::steering_rad)->steering_rad);
@@ -189,8 +193,8 @@ double fastest_run_mps(const TrialSet<SurgeRow>& surge) {
   return std::ranges::max_element(surge.rows, {}, &SurgeRow::speed_mps)->speed_mps;
 }
 
-/// A vehicle coasts from a speed to which it was driven. If no run was nearly as fast, the speed is
-/// in another unit or the resistance is extrapolated.
+/// Adds the warning `coast-beyond-surge` if a coast-down begins much faster than every surge run:
+/// its speed is in another unit, or its resistance is extrapolated.
 void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
                          const std::optional<TrialSet<SurgeRow>>& surge) {
   constexpr double kFar = 1.5;
@@ -200,7 +204,7 @@ void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
   table.findings.push_back(
       {table.file, line, Severity::kWarning, "coast-beyond-surge",
        fmt::format("a coast-down begins at {:.3g} m/s, {:.2g} times the fastest surge run "
-                   "({:.3g} m/s): m' rests on a resistance that no run measured, or the speed is "
+                   "({:.3g} m/s): m' depends on a resistance that no run measured, or the speed is "
                    "in another unit (km/h are 3.6 times m/s)",
                    fastest_mps, fastest_mps / driven_mps, driven_mps)});
 }

@@ -19,11 +19,11 @@
 namespace awmr {
 namespace {
 
-/// A wrong unit: its factor on the ratio of two columns, and which column has it.
+/// A wrong unit of a column.
 struct TableUnit {
-  double times;
-  std::string_view column;
-  double factor;
+  double times;             ///< ratio of printed to timed value with this unit
+  std::string_view column;  ///< column to correct
+  double factor;            ///< the correction
   std::string_view words;
 };
 
@@ -44,7 +44,7 @@ constexpr double kUsualLengthsPerSecond = 20.0;
 constexpr double kSlowTable_radps = 0.01;  // minimum for the fastest turn of a table
 constexpr Interval kMeanDeceleration_mps2{0.01, 20.0};
 
-/// The unit whose factor matches all ratios within a tenth; none for ratios that scatter.
+/// The unit whose factor agrees with all ratios within 10 %; null if there is none.
 template <std::size_t N>
 const TableUnit* unit_of(const std::vector<double>& ratios, const std::array<TableUnit, N>& units) {
   for (const TableUnit& unit : units) {
@@ -56,12 +56,14 @@ const TableUnit* unit_of(const std::vector<double>& ratios, const std::array<Tab
   return nullptr;
 }
 
+/// A correction that makes values smaller, and its reason.
 struct Smaller {
   double factor;
   std::string_view words;
 };
 
-/// Selects hundredths or thousandths, whichever brings the fastest run nearer to common values.
+/// Selects the correction by 1/100 or by 1/1000, whichever brings the fastest run nearer to three
+/// vehicle lengths per second, a common value.
 Smaller smaller_unit(double lengths_per_second, Smaller hundredth, Smaller thousandth) {
   constexpr double kCommon = 3.0;
   const auto apart = [&](const Smaller& unit) {
@@ -70,7 +72,7 @@ Smaller smaller_unit(double lengths_per_second, Smaller hundredth, Smaller thous
   return apart(hundredth) <= apart(thousandth) ? hundredth : thousandth;
 }
 
-/// False for a vehicle with implausible dimensions, which cannot be used to check speeds.
+/// True if the vehicle's dimensions are plausible, so that speeds can be compared with its length.
 bool tells_lengths(const Vehicle& vehicle) { return implausible_values(vehicle).empty(); }
 
 template <class Row>
@@ -100,9 +102,10 @@ std::vector<double> printed_over_timed(const std::vector<TurningRow>& rows) {
   return ratios;
 }
 
-/// Upper bound of the vehicle's speed from its surge runs, if its resistance grows at least with
-/// the square root of the speed: tau_speed/tau_run = (u/u_run)^b, b >= 1/2. Empty if the runs used
-/// less than half of the force, because friction at rest then dominates.
+/// Upper bound of the vehicle's speed at full thrust, from its fastest surge run. Assumes that the
+/// resistance grows at least with the square root of the speed: tau_speed/tau_run = (u/u_run)^b,
+/// b >= 1/2. Empty if that run used less than half of the full thrust, because static friction then
+/// dominates.
 std::optional<double> top_speed_mps(const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle) {
   constexpr double kRoom = 1.3;
@@ -113,7 +116,7 @@ std::optional<double> top_speed_mps(const std::optional<TrialSet<SurgeRow>>& sur
   return kRoom * fastest_run->speed_mps / std::min(1.0, share * share);
 }
 
-/// Unit that reduces a speed below the vehicle's top speed.
+/// The first correction that brings a speed below the vehicle's top speed.
 Smaller unit_below(double speed_mps, double top_mps) {
   constexpr Smaller kUnits[] = {{1.0 / 3.6, "the speed looks like km/h"},
                                 {1e-2, "the speed looks like cm/s"},
@@ -124,13 +127,13 @@ Smaller unit_below(double speed_mps, double top_mps) {
   return kUnits[2];
 }
 
-/// Builds the result for a single likely unit, with its factor as the mapping.
+/// Builds the result for a column with one likely unit, which `factor` corrects.
 WrongUnit wrong(int line, std::string message, std::string_view column, double factor) {
   return {line, std::move(message), {{"", column, factor}}};
 }
 
 std::string lengths_text(double speed_mps, const Vehicle& vehicle) {
-  return fmt::format("the fastest run does {:.3g} m/s, {:.3g} times the vehicle's length a second",
+  return fmt::format("the fastest run reaches {:.3g} m/s, {:.3g} vehicle lengths per second",
                      speed_mps, speed_mps / vehicle.length_m);
 }
 
@@ -143,8 +146,8 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehic
   const double speed_mps = fastest(surge.rows, &SurgeRow::speed_mps);
   const double lengths = speed_mps / vehicle.length_m;
   if (const TableUnit* unit = unit_of(ratios, kTableSpeedUnits)) {
-    // A factor of 1000 may be either; if the speed is usual for this vehicle's length, the time is
-    // wrong.
+    // A factor of 1000 means mm/s or milliseconds. If the printed speed is usual for the vehicle's
+    // length, the time is wrong.
     const bool is_time = unit->times == 1000.0 && lengths <= kUsualLengthsPerSecond;
     if (is_time) unit = &kTableSpeedUnits[4];
     return wrong(first.line,
@@ -179,20 +182,20 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning) {
                  unit->column, unit->factor);
   }
   const double rate_radps = fastest(turning.rows, &TurningRow::yaw_rate_radps);
-  const std::string described = fmt::format("the fastest turn does {:.3g} rad/s", rate_radps);
+  const std::string described = fmt::format("the fastest turn is {:.3g} rad/s", rate_radps);
   if (rate_radps >= kSlowTable_radps || ratios.empty()) return std::nullopt;
   return wrong(first.line, described + ": the time looks like milliseconds", "elapsed_s", 1e-3);
 }
 
 namespace {
 
-/// Evidence on the units in a file of coast-downs, and its columns.
+/// The quantities of a coast-down file from which its units are checked.
 struct Coasts {
-  int line;
-  double fastest_mps;
-  Interval deceleration_mps2;  ///< means of the gentlest and the hardest stop
-  const char* speed;
-  const char* time;
+  int line;                    ///< first line of data
+  double fastest_mps;          ///< highest initial speed
+  Interval deceleration_mps2;  ///< mean deceleration of the gentlest and of the hardest stop
+  const char* speed;           ///< name of the speed column
+  const char* time;            ///< name of the time column
 };
 
 void include(double value, Interval& range) {
@@ -214,23 +217,23 @@ std::optional<WrongUnit> wrong_unit(const Coasts& coasts,
   if (top_mps && coasts.fastest_mps > *top_mps) {
     const auto [factor, words] = unit_below(coasts.fastest_mps, *top_mps);
     return wrong(coasts.line,
-                 fmt::format("a coast-down begins at {:.3g} m/s, where the surge runs let the "
-                             "vehicle do {:.3g} m/s at the most: {}",
+                 fmt::format("a coast-down begins at {:.3g} m/s, but by its surge runs the vehicle "
+                             "reaches at most {:.3g} m/s: {}",
                              coasts.fastest_mps, *top_mps, words),
                  coasts.speed, factor);
   }
   const auto [gentlest_mps2, hardest_mps2] = coasts.deceleration_mps2;
   if (hardest_mps2 < kMeanDeceleration_mps2.lo) {
     return wrong(coasts.line,
-                 fmt::format("the hardest stop loses {:.3g} m/s^2: the time looks like "
-                             "milliseconds",
+                 fmt::format("the hardest stop decelerates with only {:.3g} m/s^2: the time looks "
+                             "like milliseconds",
                              hardest_mps2),
                  coasts.time, 1e-3);
   }
   if (gentlest_mps2 > kMeanDeceleration_mps2.hi) {
     return wrong(coasts.line,
-                 fmt::format("every stop loses {:.3g} m/s^2 or more, which no tyre gives: the "
-                             "time looks like minutes",
+                 fmt::format("every stop decelerates with {:.3g} m/s^2 or more, beyond the grip of "
+                             "any tyre: the time looks like minutes",
                              gentlest_mps2),
                  coasts.time, 60.0);
   }
@@ -264,7 +267,7 @@ std::optional<WrongUnit> wrong_unit(const std::vector<CoastCurve>& curves,
     fastest_mps = std::max(fastest_mps, most);
     include((most - least) / (curve.t_s.back() - curve.t_s.front()), deceleration_mps2);
   }
-  // Curves that do not fall are set aside elsewhere.
+  // Curves whose speed does not fall are set aside by the fit.
   if (!(deceleration_mps2.hi > 0.0)) return std::nullopt;
   const bool of_bins = curves.front().of_bins;
   return wrong_unit({curves.front().line, fastest_mps, deceleration_mps2,

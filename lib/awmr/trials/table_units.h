@@ -1,11 +1,13 @@
-/// Checks the units of tables of runs by plausible speeds and times. Private to this folder.
+/// Detects wrong units in tables of runs by comparing speeds and times with plausible ranges.
+/// Private to this folder.
 ///
+///     quantity                                  expected range
 ///     speed_mps over distance_m/elapsed_s       1; 3.6, 1000, 0.01, ... identify a unit
 ///     yaw_rate_radps over 2 pi turns/elapsed_s  1; 57.3, 1000 identify a unit
 ///     fastest run over the vehicle's length     0.02 to 100 1/s: from a crawl to a racing model car
 ///     fastest turn                              0.01 rad/s and more; upper limit: turn_evidence.h
 ///     hardest coast-down, mean deceleration     0.01 m/s^2 and more: that of the best bearings
-///     gentlest coast-down, the same             20 m/s^2 and less: locked wheels on racing tyres
+///     gentlest coast-down, mean deceleration    20 m/s^2 and less: locked wheels on racing tyres
 #pragma once
 
 #include <optional>
@@ -22,14 +24,15 @@ namespace awmr {
 struct WrongUnit {
   int line = 0;                     ///< line of the first affected row
   std::string message;              ///< the comparison, its result, the likely units
-  std::vector<UnitFix> unit_fixes;  ///< the most likely first; empty if no mapping corrects it
-  std::string remedy = {};          ///< what to do if there is no mapping
+  std::vector<UnitFix> unit_fixes;  ///< corrections, most likely first; empty: no known one
+  std::string remedy = {};          ///< what to do if `unit_fixes` is empty
 };
 
-/// The first column whose values are implausible for its unit; empty if there is none.
+/// Returns the first column with values that are implausible in its unit; empty if there is none.
 std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehicle& vehicle);
 std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning);
-/// `surge`: runs of the same vehicle, which give the speed that it can reach.
+/// `surge`: runs of the same vehicle. Their fastest run limits the speed at which a coast-down can
+/// begin.
 std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle);

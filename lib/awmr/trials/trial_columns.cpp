@@ -26,8 +26,8 @@ const CsvColumn kSurgeColumns[] = {{"tau_speed", false},
                                    {"distance_m", false},
                                    {"elapsed_s", false}};
 
-// A run leaves cells empty that its kind lacks or that were not measured; turning.cpp defines what
-// each kind requires.
+// A row may leave cells empty. turning.cpp checks which columns a steered and a differential turn
+// need.
 const CsvColumn kTurningColumns[] = {{"steering_deg", true},
                                      {"wheel_force", false, EmptyCells::kOptional},
                                      {"force_left", false, EmptyCells::kOptional},
@@ -37,7 +37,7 @@ const CsvColumn kTurningColumns[] = {{"steering_deg", true},
                                      {"elapsed_s", false, EmptyCells::kOptional},
                                      {"tau_turn", false, EmptyCells::kOptional}};
 
-/// For a vehicle without steering.
+/// Columns of a turning table of a vehicle without steering.
 const CsvColumn kSidesTurningColumns[] = {
     {"force_left", true, EmptyCells::kOptional},      {"force_right", true, EmptyCells::kOptional},
     {"yaw_rate_radps", false, EmptyCells::kOptional}, {"turns", false, EmptyCells::kOptional},
@@ -95,8 +95,8 @@ struct Header {
   std::vector<std::string> names;
 };
 
-/// Names in a file's header; for a directory of tables also without the table's name. Empty if the
-/// header cannot be determined, as when it is in a comment.
+/// Names in a file's header; for a directory of tables, also without the table's name. Empty if the
+/// header is unknown: unreadable file, or numbers in place of names.
 std::optional<Header> header_of(const std::filesystem::path& path) {
   const auto sample = sample_of(path);
   if (!sample) return std::nullopt;
@@ -121,7 +121,7 @@ std::vector<Header> headers_of(std::span<const std::filesystem::path> files) {
   return headers;
 }
 
-/// "; did you mean NAME?", or the list of names.
+/// Text for a message: "; did you mean NAME?", or the list of names if none is similar.
 std::string nearest_of(const std::string& name, const std::vector<std::string>& names) {
   const std::string near = nearest(name, names);
   return near.empty()
@@ -129,7 +129,7 @@ std::string nearest_of(const std::string& name, const std::vector<std::string>& 
              : fmt::format("; did you mean \"{}\"?", near);
 }
 
-/// Syntax error of a mapping's formula; empty if it is valid.
+/// Text with the syntax error of a mapping's formula; empty if the formula is valid.
 std::string why_no_formula(const ColumnMapping& mapping) {
   const auto formula = ColumnExpression::parse(mapping.expression);
   if (mapping.expression.empty() || formula) return "";
@@ -158,7 +158,7 @@ std::optional<std::string> unusable(const ColumnMapping& mapping,
                      nearest_of(*missing, names), why_no_formula(mapping));
 }
 
-/// True for required columns: the reader of the file reports their absence.
+/// True if a kind of trial requires this column; its reader then reports a missing column.
 bool is_required(const std::string& column) {
   for (const TrialKind kind : values_in(kTrialKindNames)) {
     for (const CsvColumn& c : columns_of(kind)) {
@@ -168,7 +168,7 @@ bool is_required(const std::string& column) {
   return false;
 }
 
-/// The trials that have a column.
+/// Lists the kinds of trial that have this column.
 std::string trials_with(const std::string& column) {
   std::vector<std::string_view> kinds;
   for (const TrialKind kind : values_in(kTrialKindNames)) {
@@ -181,11 +181,11 @@ std::string trials_with(const std::string& column) {
   return fmt::format("{}", fmt::join(kinds, ", "));
 }
 
-/// Reason why no file that could use a mapping did.
+/// Reason why a mapping is unused although a file has its columns.
 std::string why_unused(const ColumnMapping& mapping) {
   return fmt::format(
-      "no file with the columns of this formula needs {}, which is a column of: {}; correct the "
-      "formula or leave it out{}",
+      "no file with the columns of this formula needs {}, which is a column of {} trials; correct "
+      "the formula or remove it{}",
       mapping.name, trials_with(mapping.name), why_no_formula(mapping));
 }
 

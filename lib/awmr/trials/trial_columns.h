@@ -1,4 +1,4 @@
-/// Columns of each kind of trial, and mappings to them.
+/// Columns that each kind of trial file can have, and checks of the mappings to them.
 #pragma once
 
 #include <filesystem>
@@ -12,23 +12,26 @@
 
 namespace awmr {
 
-/// Columns read from a file of this kind; the README lists them.
+/// Columns read from a file of this kind.
 std::span<const CsvColumn> columns_of(TrialKind kind);
-/// Columns of a turning table for this vehicle: without steering each side has its own force.
+/// Columns of a turning table of this vehicle. A vehicle without steering has a force column for
+/// each side.
 std::span<const CsvColumn> turning_columns(const Vehicle& vehicle);
 
-/// Appends the vehicle's mappings to those of the options, and disables steering if the vehicle has
-/// none. Errors: as parse_column(); a mapping of a column that no trial has, with the closest name.
+/// Returns the options with the mappings of the vehicle file appended, and with `has_steering` and
+/// `driven_wheels` of the vehicle. Errors: as parse_column(); a mapping of a column that no trial
+/// has (the message suggests the closest name).
 Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& vehicle);
 
-/// Errors: a mapping that none of the files used, with the reason: no file has its file name, none
-/// has its source columns (with the closest name), or none needs its column. `used` are indices
-/// into the options' mappings. The vehicle's mappings may be unused.
+/// Checks that every mapping of the options was used by a file. `used`: indices of the mappings
+/// that were used. Mappings from the vehicle file may be unused. Errors: an unused mapping, with
+/// the reason: no file has its file name, no file has its source columns (the message suggests the
+/// closest name), or no file needs its column.
 Status check_mappings(const TrialOptions& options, std::span<const std::size_t> used,
                       std::span<const std::filesystem::path> files);
 
-/// Mappings that none of the files can use. Reported when a file could not be read, because a
-/// misspelt mapping is a frequent cause.
+/// Faults for the mappings that none of the files can use. Reported if a file could not be read,
+/// because a misspelt mapping is a frequent cause.
 std::vector<Fault> unusable_mappings(const TrialOptions& options,
                                      std::span<const std::filesystem::path> files);
 

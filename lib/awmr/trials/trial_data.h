@@ -11,7 +11,7 @@
 
 namespace awmr {
 
-/// Kinds that were not given are absent or empty.
+/// Trials by kind. A kind of which no file was given is absent or empty.
 struct TrialData {
   std::optional<TrialSet<SurgeRow>> surge = {};
   std::optional<TrialSet<TurningRow>> turning = {};
@@ -20,7 +20,7 @@ struct TrialData {
   std::vector<DrivingLog> logs = {};
 };
 
-/// Trials with the findings of their readers.
+/// The trials of a vehicle, and the findings from reading them.
 struct Trials {
   Vehicle vehicle;
   TrialData data;

@@ -57,9 +57,9 @@ Finding mismatch(const TrialReader& reader, std::size_t row, const Rate& rate, d
   return reader.finding(
       row, Severity::kWarning, rate.code,
       fmt::format(
-          "{} is {}, but {} {} in elapsed_s {} make {:.4g}: {:.2g} apart, where rounding and "
-          "timing explain {:.2g}; the {} value {:.4g} is used (a fit with its error on time uses "
-          "elapsed_s unchanged)",
+          "{} is {}, but {} {} in elapsed_s {} gives {:.4g}: they differ by {:.2g}, and rounding "
+          "and timing explain only {:.2g}; the {} value {:.4g} is used (a fit with errors on the "
+          "time uses elapsed_s unchanged)",
           rate.printed_column, printed, rate.amount_column, amount, elapsed_s, timed,
           std::abs(printed - timed), tolerance, use_printed ? "printed" : "timed",
           use_printed ? printed : timed));
@@ -78,12 +78,11 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
   if (!counted) return RateInRow{printed.value_or(0.0), {}, {}};
 
   if (*elapsed_s == 0.0) {
-    // A row at rest may have a time of 0, a row with motion may not. The amount counts only if no
-    // printed value shows a vehicle at rest.
+    // elapsed_s may be 0 only in a row at rest: the printed rate is 0 or, without one, the amount.
     const double motion = printed.value_or(*amount);
     if (motion != 0.0) {
       reader.fault(ErrorCode::kOutOfRange, row, "elapsed_s",
-                   fmt::format("elapsed_s is 0 in a row that moves ({} {}); give the time it took",
+                   fmt::format("elapsed_s is 0 in a row with motion ({} {}); give the elapsed time",
                                printed ? rate.printed_column : rate.amount_column, motion));
       return std::nullopt;
     }
@@ -92,7 +91,8 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
   const double timed = rate.per_amount * *amount / *elapsed_s;
   if (!std::isfinite(timed) || (timed == 0.0 && *amount > 0.0)) {
     reader.fault(ErrorCode::kOutOfRange, row, "elapsed_s",
-                 fmt::format("{} {} in elapsed_s {} make {}: no vehicle moves like this",
+                 fmt::format("{} {} in elapsed_s {} gives the rate {}, which is impossible; "
+                             "correct one of the two",
                              rate.amount_column, *amount, *elapsed_s, timed));
     return std::nullopt;
   }

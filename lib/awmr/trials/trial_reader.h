@@ -1,4 +1,5 @@
-/// Common to the readers of the three trial files. Private to this folder.
+/// Helpers that the readers of trial files (surge.cpp, turning.cpp, coastdown.cpp, log.cpp) share.
+/// Private to this folder.
 #pragma once
 
 #include <optional>
@@ -11,7 +12,7 @@
 
 namespace awmr {
 
-/// Cells of one file, and the faults found in them.
+/// Access to the cells of one file by row and column. Collects the faults found in them.
 class TrialReader {
  public:
   TrialReader(CsvTable table, const TrialOptions& options)
@@ -21,9 +22,9 @@ class TrialReader {
   bool has(std::string_view column) const { return table_.has(column); }
   /// Same as CsvTable::take().
   std::vector<double> take(std::string_view column) { return table_.take(column); }
-  /// Returns the cell; empty if the file has no such column or the row leaves it empty.
+  /// Returns the value of a cell; empty if the file has no such column or the cell is empty.
   std::optional<double> cell(std::size_t row, std::string_view column) const;
-  /// Like cell(); a negative value is a fault.
+  /// As cell(), and adds a fault if the value is negative.
   std::optional<double> non_negative(std::size_t row, std::string_view column);
 
   void fault(ErrorCode code, std::size_t row, std::string_view column, std::string message);
@@ -41,33 +42,37 @@ class TrialReader {
   std::vector<Fault> faults_;
 };
 
-/// A quantity printed in `printed_column` and timed as `amount` over `elapsed_s` in the same row.
+/// A speed or yaw rate that a row can give as a printed value, as a timed value, or both. Timed
+/// value: `per_amount` times the cell of `amount_column` over the cell of `elapsed_s`.
 struct Rate {
   std::string_view printed_column;  ///< "speed_mps"
   std::string_view amount_column;   ///< "distance_m", "turns"
-  double per_amount = 1.0;          ///< 2 pi rad in a turn
-  std::string code;                 ///< code of the finding if the two disagree
+  double per_amount = 1.0;          ///< 1 for a distance, 2 pi rad for turns
+  std::string code;                 ///< code of the finding if the two values disagree
 };
 
+/// The rate of one row, and the amount and time from which it was timed.
 struct RateInRow {
-  double used = 0.0;
-  std::optional<double> amount;  ///< only if the row was timed: elapsed_s > 0
-  std::optional<double> elapsed_s;
+  double used = 0.0;                ///< printed or timed value, as preferred; m/s or rad/s, >= 0
+  std::optional<double> amount;     ///< m or turns; absent unless elapsed_s > 0
+  std::optional<double> elapsed_s;  ///< s; absent unless > 0
 };
 
-/// Returns the rate of a row, as magnitudes. Adds a finding if its two values disagree, and a fault
-/// if a value is negative or motion takes no time. Empty on a fault.
+/// Returns the rate of a row; empty on a fault. Adds a finding if the printed and the timed value
+/// disagree (agreement.h). Adds a fault if a value is negative, or if a moving row has elapsed_s 0.
 std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rate& rate,
                                  std::optional<double> printed, Preference preference,
                                  std::vector<Finding>& findings);
 
-/// Adds the table's notes on its detected format to the findings.
+/// Adds the notes of the table (how its format and columns were interpreted) to the findings.
 void note_format(const TrialReader& reader, std::vector<Finding>& findings);
 
-/// "line 4", "lines 4, 7, 9" for the table's rows, not empty; beyond twelve "... and 3 more".
+/// Lists the lines of these rows in the file: "line 4", "lines 4, 7, 9". Names at most twelve
+/// lines, then the number of the others: "... and 3 more". Precondition: `rows` is not empty.
 std::string lines_of(const TrialReader& reader, std::span<const std::size_t> rows);
 
-/// Adds the note that reports which rows were set aside.
+/// Adds the note `rows-set-aside` with the lines of `rows` and the reason `why`; nothing if `rows`
+/// is empty.
 void note_rows_set_aside(const TrialReader& reader, std::span<const std::size_t> rows,
                          std::string_view why, std::vector<Finding>& findings);
 

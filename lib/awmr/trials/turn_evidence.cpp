@@ -19,25 +19,26 @@
 namespace awmr {
 namespace {
 
-/// Bounds as multiples of the rate of rolling wheels: 3 for a steered vehicle that drifts or also
-/// steers its rear wheels; 4 for differential turns, where u is interpolated twice.
+/// Largest accepted yaw rate over that of rolling wheels: 3 for a steered turn (the vehicle may
+/// drift or also steer its rear wheels), 4 for a differential turn (u is interpolated twice).
 constexpr double kMostSteered = 3.0;
 constexpr double kMostBySides = 4.0;
-/// Below this the vehicle has not turned: even with a wheelbase of five times l_f and the worst
-/// understeer, the ratio of a real turn is several times larger.
+/// Smallest accepted ratio of a table's fastest steered turn. Even with a wheelbase of five times
+/// l_f and strong understeer, a real turn has a ratio several times larger.
 constexpr double kLeastSteered = 0.01;
 constexpr double kMostAcceleration_mps2 = 60.0;
 constexpr double kFastestTurn_radps = 25.0;
 
-/// Range of the shares in the right unit.
+/// Ratios to rolling wheels that are usual in the right unit. A unit is suggested only if it brings
+/// the fastest turn into this range.
 constexpr Interval kPossibleShare{0.03, 2.5};
 constexpr double kPossibleAcceleration_mps2 = 15.0;
 
-/// A unit that makes a rate too large by a factor.
+/// A wrong unit of a yaw rate.
 struct RateUnit {
-  double times;
-  std::string_view column;
-  double factor;
+  double times;             ///< value in this unit over value in rad/s
+  std::string_view column;  ///< column to correct
+  double factor;            ///< the correction
   std::string_view words;
 };
 constexpr std::array<RateUnit, 4> kPrintedUnits{
@@ -53,15 +54,15 @@ constexpr std::array<RateUnit, 4> kTimedUnits{
      {6.283185, "turns", 1.0 / 6.283185, "turns in radians"},
      {1e-3, "elapsed_s", 1e-3, "a time in milliseconds"}}};
 
-/// Evaluation of one row: its fraction of the possible rate, and the text for the message.
+/// Yaw rate of one row compared with a limit.
 struct TurnShare {
   const TurningRow* row;
-  double share;           ///< fraction of the rolling rate, or of the acceleration that grip allows
-  std::string described;  ///< "that is more than ..."
+  double share;           ///< yaw rate over the limit
+  std::string described;  ///< the comparison as text, for messages
 };
 
-/// Speed u over tau_speed: piecewise linear through the origin and the surge runs, never
-/// decreasing.
+/// Speed u as a function of tau_speed: piecewise linear through the origin and the surge runs,
+/// never decreasing.
 class SpeedCurve {
  public:
   explicit SpeedCurve(const std::vector<SurgeRow>& rows) {
@@ -70,8 +71,9 @@ class SpeedCurve {
     double most = 0.0;
     for (auto& [tau, speed] : points_) most = speed = std::max(most, speed);
   }
-  /// Odd in tau. Beyond the runs u grows with the square of tau_speed, as resistance grows at least
-  /// with the square root of the speed. Empty beyond 1.5 times the hardest run.
+  /// Odd in tau. Above the largest tau_speed of the runs, u grows with its square: an upper bound,
+  /// because resistance grows at least with the square root of the speed. Empty above 1.5 times the
+  /// largest tau_speed.
   std::optional<double> at(double tau) const {
     if (tau < 0.0) {
       const auto forwards = at(-tau);
@@ -102,6 +104,7 @@ double largest_force(const TurningRow& row) {
   return std::max(std::abs(row.sides->left), std::abs(row.sides->right));
 }
 
+/// Largest wheel force of all rows.
 template <class Rows>
 double hardest(const Rows& rows) {
   double most = 0.0;
@@ -109,7 +112,8 @@ double hardest(const Rows& rows) {
   return most;
 }
 
-/// Speed curve from the surge runs; empty if their units or those of the forces are unreliable.
+/// Speed curve from the surge runs; empty if a unit of the surge runs is wrong, or if surge and
+/// turning runs have different units of force.
 std::optional<SpeedCurve> speed_curve(const TrialSet<TurningRow>& turning,
                                       const std::optional<TrialSet<SurgeRow>>& surge,
                                       const Vehicle& vehicle) {
@@ -119,7 +123,7 @@ std::optional<SpeedCurve> speed_curve(const TrialSet<TurningRow>& turning,
   for (const SurgeRow& row : surge->rows) thrust = std::max(thrust, row.tau_speed);
   const bool surge_beyond = thrust > vehicle.driven_wheels() * limit;
   const bool turns_beyond = std::max(hardest(turning.rows), hardest(turning.by_sides)) > limit;
-  // Equal wrong units in both, such as PWM counts, work as well as F'.
+  // The same wrong unit in both tables, such as PWM counts, works as well as F'.
   const bool is_same =
       surge_beyond == turns_beyond && (!surge_beyond || surge->force_column == "wheel_force");
   return is_same ? std::optional<SpeedCurve>(surge->rows) : std::nullopt;
@@ -130,24 +134,25 @@ std::string turn_text(const TurningRow& row) {
     return fmt::format("{:.3g} rad/s with {:.3g} deg of steering", row.yaw_rate_radps,
                        degrees(row.steering_rad));
   }
-  return fmt::format("{:.3g} rad/s with {:.3g} between left and right", row.yaw_rate_radps,
+  return fmt::format("{:.3g} rad/s with a force difference of {:.3g}", row.yaw_rate_radps,
                      row.sides->right - row.sides->left);
 }
 
-/// r over u tan(d_r)/l_f.
+/// Yaw rate r of a steered turn over that of rolling wheels, u tan(d_r)/l_f. Empty if u is unknown.
 std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& speed,
                                        const Vehicle& vehicle) {
   const auto u = speed.at(vehicle.driven_wheels() * row.wheel_force);
   if (!u || !(*u > 0.0) || row.steering_rad == 0.0) return std::nullopt;
   const double most = *u * std::tan(row.steering_rad) / vehicle.front_axle_m;
   return TurnShare{&row, row.yaw_rate_radps / most,
-                   fmt::format("where {:.3g} m/s by the surge runs make {:.3g} rad/s at the most "
-                               "(u tan(steering)/front_axle_m)",
+                   fmt::format("while rolling wheels at the {:.3g} m/s of the surge runs turn at "
+                               "{:.3g} rad/s (u tan(steering)/front_axle_m)",
                                *u, most)};
 }
 
-/// r over (u(n F'R) - u(n F'L))/(2 d). Runs that scatter may make the curve flat, so the slope used
-/// is at least half of that to the origin.
+/// Yaw rate r of a differential turn over that of rolling wheels, (u(n F'R) - u(n F'L))/(2 d).
+/// Empty if a speed u is unknown. Scatter of the surge runs may make their curve flat between the
+/// two forces. Its slope there counts as at least half the mean slope from the origin.
 std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& speed,
                                     const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();
@@ -160,28 +165,28 @@ std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& spe
   if (!(difference > 0.0)) return std::nullopt;
   const double most = difference / (2.0 * vehicle.half_track_m);
   return TurnShare{&row, row.yaw_rate_radps / most,
-                   fmt::format("where sides that roll {:.3g} m/s apart by the surge runs make "
-                               "{:.3g} rad/s at the most (over 2 half_track_m)",
+                   fmt::format("while rolling wheels, which by the surge runs differ by {:.3g} m/s "
+                               "between left and right, turn at {:.3g} rad/s (over 2 half_track_m)",
                                difference, most)};
 }
 
-/// r over the rate at which the smallest circle uses all of the grip.
+/// r over the yaw rate at which the centripetal acceleration on the smallest circle reaches its
+/// limit.
 TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
   const double radius_m = vehicle.front_axle_m / std::tan(row.steering_rad);
   const double most = std::sqrt(kMostAcceleration_mps2 / radius_m);
   return {&row, row.yaw_rate_radps / most,
-          fmt::format("which pulls outwards with {:.3g} m/s^2, where grip allows {:g} at the most "
-                      "(r^2 front_axle_m/tan(steering))",
+          fmt::format("a lateral acceleration of {:.3g} m/s^2 or more, while grip allows at most "
+                      "{:g} (r^2 front_axle_m/tan(steering))",
                       row.yaw_rate_radps * row.yaw_rate_radps * radius_m, kMostAcceleration_mps2)};
 }
 
-/// One criterion for all rows.
+/// One limit, with the rows compared with it.
 struct TurnCriterion {
   std::vector<TurnShare> shares;
-  double most;   ///< maximum possible share
-  double least;  ///< minimum of the largest share; 0: no minimum
-  /// Range of shares in the right unit.
-  Interval possible;
+  double most;        ///< largest accepted share
+  double least;       ///< smallest accepted share of the fastest row; 0: none
+  Interval possible;  ///< shares that are usual in the right unit
 };
 
 std::vector<TurnCriterion> criteria_of(const TrialSet<TurningRow>& turning,
@@ -203,15 +208,15 @@ std::vector<TurnCriterion> criteria_of(const TrialSet<TurningRow>& turning,
         circle.shares.push_back(grip_share(row, vehicle));
       }
       any.shares.push_back({&row, row.yaw_rate_radps / kFastestTurn_radps,
-                            fmt::format("more than {:g} rad/s", kFastestTurn_radps)});
+                            fmt::format("faster than {:g} rad/s", kFastestTurn_radps)});
     }
   }
-  // A vehicle with implausible dimensions cannot be used to check turns.
+  // If the vehicle's dimensions are implausible, only the limit without dimensions applies.
   if (!implausible_values(vehicle).empty()) return {std::move(any)};
   return {std::move(steered), std::move(by_sides), std::move(circle), std::move(any)};
 }
 
-/// Units that bring a share into the possible range.
+/// Corrections of the unit that bring a share into the usual range.
 std::vector<UnitFix> turn_unit_fixes(double share, const Interval& possible, bool is_printed) {
   const bool is_fast = share > possible.hi;
   std::vector<UnitFix> found;
@@ -229,13 +234,13 @@ WrongUnit wrong_column(const TurnShare& worst, const TurnCriterion& criterion, b
                                             turn_text(*worst.row), worst.described);
   if (unit_fixes.empty()) {
     return {
-        line, described, {}, "correct the yaw rates, or the values that they are compared with"};
+        line, described, {}, "correct the yaw rates, or the values with which they are compared"};
   }
   const std::string_view what = is_printed ? "the yaw rates look like" : "this looks like";
   return {line, fmt::format("{}: {} {}", described, what, words_of(unit_fixes)), unit_fixes};
 }
 
-/// Rows far from all others are wrong themselves.
+/// Reports the rows that exceed the limit although most rows do not.
 WrongUnit wrong_rows(const std::vector<TurnShare>& shares, double most) {
   std::vector<int> lines;
   for (const TurnShare& one : shares) {
@@ -244,13 +249,13 @@ WrongUnit wrong_rows(const std::vector<TurnShare>& shares, double most) {
   std::ranges::sort(lines);
   const TurnShare& worst = shares.back();
   return {lines.front(),
-          fmt::format("line {} turns at {}, {}; most rows do not", worst.row->line,
+          fmt::format("line {} turns at {}, {}; most rows are within this limit", worst.row->line,
                       turn_text(*worst.row), worst.described),
           {},
           fmt::format("correct line{} {}", lines.size() == 1 ? "" : "s", fmt::join(lines, ", "))};
 }
 
-/// Returns the column or the rows that violate a criterion.
+/// Returns the column or the rows that violate a criterion; empty if none does.
 std::optional<WrongUnit> wrong_by(TurnCriterion criterion, bool is_printed) {
   constexpr double kApart = 10.0;
   std::vector<TurnShare>& shares = criterion.shares;

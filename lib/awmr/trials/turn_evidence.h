@@ -1,18 +1,20 @@
-/// Checks that turns are not faster than rolling wheels and grip allow. Private to this folder.
+/// Checks that the yaw rates of a turning table are possible with rolling wheels and with the grip
+/// of tyres. Detects yaw rates in a wrong unit. Private to this folder.
 ///
-/// Wheels roll no faster than straight ahead with the same force, u of the surge runs, and the
-/// wheelbase is longer than l_f:
+/// Limit by rolling. u(tau) is the speed of the surge runs at thrust tau: in a turn, wheels roll no
+/// faster than straight ahead with the same force. The wheelbase is longer than l_f, so
 ///
-///     by steering   r <= u tan(d_r)/l_f                  side slip: a factor far below 57
-///     differential  r <= (u(n F'R) - u(n F'L))/(2 d)
+///     by steering   r <= u(n F') tan(d_r)/l_f            three times that is accepted (drifting)
+///     differential  r <= (u(n F'R) - u(n F'L))/(2 d)     four times that is accepted
 ///
-/// The limit by grip needs no surge run. With speed v = r R and R >= l_f/tan(d_r):
+/// Limit by grip, which needs no surge runs. The turning radius R is at least l_f/tan(d_r), so the
+/// centripetal acceleration a = r^2 R is at least r^2 l_f/tan(d_r):
 ///
-///     by steering   r^2 l_f/tan(d_r) = a <= 60 m/s^2     6 g: twice that of a spinning model car
-///     any           r <= 25 rad/s                        four turns a second
+///     by steering   r^2 l_f/tan(d_r) <= 60 m/s^2         6 g, twice that of a spinning model car
+///     any           r <= 25 rad/s                        four turns per second
 ///
-/// The fastest row is checked. If it exceeds the median of the rows by a factor of ten and the
-/// median is possible, the row is wrong, not the column.
+/// The fastest row is compared with the limit. A row that is ten times as fast as the median row is
+/// reported as a wrong row if the median is possible. Otherwise the unit of the column is reported.
 #pragma once
 
 #include <optional>
@@ -23,8 +25,8 @@
 
 namespace awmr {
 
-/// Empty if the turns are possible; else the violated limit, with the likely units of the source
-/// column of the yaw rates. `surge`: runs of the same vehicle.
+/// Returns the limit that the turns violate and the likely units of the yaw rates; empty if the
+/// turns are possible. `surge`: surge runs of the same vehicle, if there are any.
 std::optional<WrongUnit> wrong_turn(const TrialSet<TurningRow>& turning,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle);

@@ -21,7 +21,7 @@ const Rate kTurningRate{.printed_column = "yaw_rate_radps",
                         .per_amount = 2.0 * pi<double>(),
                         .code = "yaw-rate-mismatch"};
 
-/// l_f and the steering angle are known to about 1 %; F' is set exactly.
+/// Relative error of the computed tau_turn: l_f and the steering angle are known to about 1 %.
 constexpr double kGeometryError = 0.01;
 
 void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
@@ -40,21 +40,21 @@ void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
   }
 }
 
-/// Cause of the turn in a row, as given in the file.
+/// What turns the vehicle in a row of the file: steering, or a force difference.
 struct Turn {
-  double left = 0.0;        ///< sign of the left-right term: positive in a turn to the left
+  double left = 0.0;        ///< steering_deg or F'R - F'L: positive in a turn to the left
   std::string in_words;     ///< "steering_deg 5", for messages
   double computed_m = 0.0;  ///< tau_turn computed from the forces, m, >= 0
-  std::string equation;     ///< equation used
-  std::string parameter;    ///< vehicle parameter used: "front_axle_m"
-  double length_m = 0.0;    ///< the parameter's value
+  std::string equation;     ///< equation of computed_m, for messages
+  std::string parameter;    ///< vehicle parameter in the equation: "front_axle_m"
+  double length_m = 0.0;    ///< value of this parameter
   // Values stored in the row.
   double steering_rad = 0.0;
   double wheel_force = 0.0;
   std::optional<SideForces<double>> sides = {};
 };
 
-/// Adds a fault if the sign is not that of the turn; counted turns have no sign.
+/// Adds a fault if `value` has not the sign of the turn.
 void check_side(TrialReader& reader, std::size_t row, const char* column, double value,
                 const Turn& turn) {
   if (value * turn.left >= 0.0) return;
@@ -64,7 +64,7 @@ void check_side(TrialReader& reader, std::size_t row, const char* column, double
                            value, turn.in_words));
 }
 
-/// Magnitude of the yaw rate.
+/// Magnitude of yaw_rate_radps in the row; empty without a value.
 std::optional<double> printed_yaw_rate(TrialReader& reader, std::size_t row, const Turn& turn) {
   const auto rate = reader.cell(row, "yaw_rate_radps");
   if (!rate) return std::nullopt;
@@ -81,8 +81,8 @@ void check_stop(const TrialReader& reader, std::size_t row, const Vehicle& vehic
                   steering_deg, vehicle.steering_max_deg)));
 }
 
-/// tau_turn as printed, else as computed. The paper heads its column N m; over F_max, as in all of
-/// awmr, it is in m.
+/// Magnitude of tau_turn, m: the value in the file, else the computed one. (The paper's table gives
+/// the unit N m; divided by F_max, as everywhere in awmr, the unit is m.)
 double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
                    std::vector<Finding>& findings) {
   const auto cell = reader.cell(row, "tau_turn");
@@ -99,14 +99,14 @@ double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
     findings.push_back(reader.finding(
         row, Severity::kWarning, "tau-turn-mismatch",
         fmt::format(
-            "tau_turn is {}, but {} with {} {} makes {:.4g}; the printed value {} is used{}",
+            "tau_turn is {}, but {} with {} {} gives {:.4g}; the printed value {} is used{}",
             printed, turn.equation, turn.parameter, turn.length_m, turn.computed_m, printed,
             implied)));
   }
   return printed;
 }
 
-/// A steered turn:
+/// Reads a steered turn:
 ///   tau_turn = 2 l_f F' sin d_r                                                       [paper (62)]
 /// Empty on a fault.
 std::optional<Turn> by_steering(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
@@ -128,7 +128,7 @@ std::optional<Turn> by_steering(TrialReader& reader, std::size_t row, const Vehi
               .wheel_force = wheel_force};
 }
 
-/// A differential turn, with straight wheels:
+/// Reads a differential turn, with straight wheels:
 ///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
 Turn by_sides(const TrialReader& reader, std::size_t row, const Vehicle& vehicle) {
   const double left = *reader.cell(row, "force_left");
@@ -157,11 +157,12 @@ void check_mean(TrialReader& reader, std::size_t row, double left, double right)
                            *mean, left, right, computed));
 }
 
-/// F' of a steered run without force_left and force_right; a fault if it is empty or negative.
+/// Reads wheel_force of a steered run that has no force_left and force_right. Adds a fault if the
+/// cell is empty or negative.
 std::optional<double> wheel_force_of(TrialReader& reader, std::size_t row) {
   if (!reader.has("wheel_force")) {
     reader.fault(ErrorCode::kMissing, row, "force_left",
-                 "no force: give both sides', or a column wheel_force");
+                 "no force: give force_left and force_right, or add a column wheel_force");
     return std::nullopt;
   }
   const auto force = reader.non_negative(row, "wheel_force");
@@ -172,7 +173,7 @@ std::optional<double> wheel_force_of(TrialReader& reader, std::size_t row) {
   return force;
 }
 
-/// Adds a fault for a row without any rate of turn.
+/// True if the row has a yaw rate, printed or timed; else adds a fault.
 bool has_rate(TrialReader& reader, std::size_t row) {
   if (reader.cell(row, "yaw_rate_radps")) return true;
   if (reader.cell(row, "turns") && reader.cell(row, "elapsed_s")) return true;
@@ -181,8 +182,8 @@ bool has_rate(TrialReader& reader, std::size_t row) {
   return false;
 }
 
-/// A run of a vehicle with steering: a steered turn or, with straight wheels, a differential one.
-/// Empty on a fault.
+/// Reads a run of a vehicle with steering: a steered turn or, with straight wheels, a differential
+/// one. Empty on a fault.
 std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
                                          const Vehicle& vehicle) {
   const auto left = reader.cell(row, "force_left");
@@ -217,8 +218,8 @@ std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
   return std::nullopt;
 }
 
-/// A run of a vehicle without steering. Empty on a fault; check_sides_given() reports rows without
-/// forces.
+/// Reads a run of a vehicle without steering. Empty if a cell is missing; check_sides_given()
+/// reports missing forces.
 std::optional<Turn> by_sides_alone(TrialReader& reader, std::size_t row, const Vehicle& vehicle) {
   if (!reader.cell(row, "force_left") || !reader.cell(row, "force_right")) return std::nullopt;
   if (!has_rate(reader, row)) return std::nullopt;
@@ -241,8 +242,8 @@ void check_sides_given(TrialReader& reader) {
                            without.size(), reader.table().rows(), lines_of(reader, without)));
 }
 
-/// The row with its moment and its yaw rate, both magnitudes: g3 is odd, so a turn to the right is
-/// mirrored to the left.
+/// Reads one row. Moment and yaw rate are magnitudes: a turn to the right is stored as its mirror
+/// image, because g3 is odd. Empty on a fault.
 std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
                                    Preference preference, std::vector<Finding>& findings) {
   const auto turn = vehicle.has_steering() ? by_steering_or_sides(reader, row, vehicle)
@@ -263,7 +264,8 @@ std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const V
                     .sides = turn->sides};
 }
 
-/// If a vehicle with steering has only differential turns in its table, g3 is fitted to these.
+/// If the table of a vehicle with steering has only differential turns, moves them to `rows`, so
+/// that g3 is fitted to them. Adds the warning `turned-by-sides`.
 void take_sides_alone(TrialSet<TurningRow>& set, std::vector<Finding>& findings) {
   if (!set.rows.empty() || set.by_sides.empty()) return;
   set.rows = std::exchange(set.by_sides, {});
@@ -312,7 +314,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   }
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   if (set.rows.empty()) {
-    // Without steered turns the static tyre moment cannot be separated from the resistance.
+    // The moment that the standing tyres hold is only evaluated if there are turns to compare with.
     set.standing.clear();
     set_aside.insert(set_aside.end(), standing.begin(), standing.end());
     std::sort(set_aside.begin(), set_aside.end());
@@ -320,7 +322,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   take_sides_alone(set, findings);
   set.set_aside = static_cast<int>(set_aside.size());
   note_rows_set_aside(reader, set_aside,
-                      "without yaw moment or yaw rate, a run shows nothing of tau_turn = a3 r^b3",
+                      "a run without yaw moment or yaw rate does not determine tau_turn = a3 r^b3",
                       findings);
   find_repeated_rows(reader, kept,
                      {.settings = {"steering_deg", "wheel_force", "force_left", "force_right",

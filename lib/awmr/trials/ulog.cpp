@@ -16,15 +16,15 @@ namespace {
 constexpr std::string_view kMagic("\x55\x4C\x6F\x67\x01\x12\x35", 7);
 constexpr std::size_t kFileHeaderBytes = 16;
 
-/// A topic with messages in the file.
+/// A topic that the file announces.
 struct Subscription {
-  std::size_t needed = 0;
+  std::size_t needed = 0;                       ///< minimum size of a message, bytes
   std::optional<std::size_t> time_offset = {};  ///< offset of `timestamp`; empty: not a time series
-  std::vector<ulog::Leaf> wanted = {};
-  std::size_t topic = 0;  ///< index in Signals::topics
+  std::vector<ulog::Leaf> wanted = {};          ///< requested numbers
+  std::size_t topic = 0;                        ///< index in Signals::topics
 };
 
-/// Parser state.
+/// State of the parser.
 struct Reading {
   const std::string& file;
   const Wanted& wanted;
@@ -38,13 +38,13 @@ tl::unexpected<Error> wrong(const Reading& reading, std::size_t offset, std::str
                      fmt::format("byte {}: {}", offset, what));
 }
 
-/// Message 'A': instance, id, name.
+/// Reads a message 'A', which announces a topic: instance, id, name.
 Status subscribe(ByteReader message, std::size_t offset, Reading& reading) {
   const auto instance = message.number<std::uint8_t>();
   const auto id = message.number<std::uint16_t>();
   const auto name = message.take(message.left());
   if (!instance || !id || name->empty())
-    return wrong(reading, offset, "a subscription is too short");
+    return wrong(reading, offset, "the message that announces a topic is too short");
   const std::string topic =
       std::string(*name) + (*instance == 0 ? std::string() : fmt::format("[{}]", *instance));
   auto layout = ulog::layout_of(*name, reading.formats);
@@ -73,13 +73,13 @@ Status subscribe(ByteReader message, std::size_t offset, Reading& reading) {
   return {};
 }
 
-/// Message 'D': id, fields.
+/// Reads a message 'D', the data of a topic: id, fields.
 Status take_data(std::string_view message, std::size_t offset, Reading& reading) {
   ByteReader reader(message);
   const auto id = reader.number<std::uint16_t>();
   const auto found = id ? reading.subscriptions.find(*id) : reading.subscriptions.end();
   if (found == reading.subscriptions.end()) {
-    return wrong(reading, offset, "a message is of a topic that was not announced");
+    return wrong(reading, offset, "a message belongs to a topic that was not announced");
   }
   const Subscription& subscription = found->second;
   if (subscription.wanted.empty()) return {};
@@ -87,12 +87,12 @@ Status take_data(std::string_view message, std::size_t offset, Reading& reading)
   Topic& topic = reading.signals.topics[subscription.topic];
   if (fields.size() < subscription.needed) {
     return wrong(reading, offset,
-                 fmt::format("a message of {} has {} bytes, its format {}", ulog::shown(topic.name),
-                             fields.size(), subscription.needed));
+                 fmt::format("a message of {} has {} bytes; its format has {}",
+                             ulog::shown(topic.name), fields.size(), subscription.needed));
   }
   const auto time_us = number_in<std::uint64_t>(fields.substr(*subscription.time_offset));
   if (time_us > static_cast<std::uint64_t>(INT64_MAX / 1000)) {
-    return wrong(reading, offset, fmt::format("the time {} us cannot be", time_us));
+    return wrong(reading, offset, fmt::format("the time {} us is too large", time_us));
   }
   topic.time_ns.push_back(static_cast<std::int64_t>(time_us) * 1000);
   for (std::size_t i = 0; i < subscription.wanted.size(); ++i) {
@@ -102,7 +102,8 @@ Status take_data(std::string_view message, std::size_t offset, Reading& reading)
   return {};
 }
 
-/// Message 'B': required flags, and the offsets of data appended after a crash.
+/// Reads a message 'B': flags that a reader must know, and offsets of data that were appended after
+/// a crash. Returns the offsets.
 Result<std::vector<std::uint64_t>> flags_of(std::string_view message, std::size_t offset,
                                             const Reading& reading) {
   constexpr std::size_t kFlagBytes = 40;
@@ -111,7 +112,8 @@ Result<std::vector<std::uint64_t>> flags_of(std::string_view message, std::size_
   const bool known = (static_cast<unsigned char>(incompatible[0]) & 0xFEU) == 0 &&
                      incompatible.substr(1) == std::string(7, '\0');
   if (!known)
-    return wrong(reading, offset, "the file is of a newer kind of ULog than is known here");
+    return wrong(reading, offset,
+                 "the file uses a feature of ULog that is not supported; export it as CSV");
   std::vector<std::uint64_t> appended;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto at = number_in<std::uint64_t>(message.substr(16 + 8 * i));

@@ -1,8 +1,7 @@
-/// PX4 ULog (`.ulg`): self-describing messages of uORB topics. Private to this folder.
+/// Reads PX4 logs in ULog format (`.ulg`), version 1. Private to this folder.
 ///
-/// Follows the public description of the format, version 1: header, definitions (flags, formats),
-/// subscriptions and data. Signals are named `TOPIC.FIELD`, `TOPIC[2].FIELD` for further instances,
-/// `TOPIC.FIELD[3]` for arrays, `TOPIC.PART.FIELD` for nested types. Texts are omitted.
+/// Signals are named `TOPIC.FIELD`, `TOPIC[2].FIELD` for further instances of a topic,
+/// `TOPIC.FIELD[3]` for arrays, `TOPIC.PART.FIELD` for nested types. Text fields are omitted.
 #pragma once
 
 #include <string>
@@ -14,10 +13,10 @@ namespace awmr {
 
 bool is_ulog(std::string_view bytes);
 
-/// Returns the header of the file and the values of the requested signals. A file that ends inside
+/// Returns the names of all signals, and the values of the requested ones. A file that ends inside
 /// a message (power loss) is read up to there, with a note. Errors: unknown flags; a format that is
-/// malformed, unknown, endless or larger than a message; a message that is shorter than its format
-/// or has no topic; too many signals.
+/// malformed, unknown, nested too deep or larger than a message; a message that is shorter than its
+/// format or has no topic; too many signals.
 Result<Signals> read_ulog(std::string_view bytes, const std::string& file, const Wanted& wanted);
 
 }  // namespace awmr

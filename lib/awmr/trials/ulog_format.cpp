@@ -65,14 +65,14 @@ std::optional<Field> field_of(std::string_view text) {
   return field;
 }
 
-/// Adds the numbers of a format, with `prefix` before their names; limited by the size of a
-/// message.
+/// Adds the numbers of a format to the layout, with `prefix` before their names. Errors: as
+/// layout_of().
 tl::expected<void, std::string> lay_out(std::string_view format, const std::string& prefix,
                                         int depth, const Formats& formats, Layout& layout) {
   const auto found = formats.find(format);
   if (found == formats.end() || depth > kDeepest) {
     return tl::unexpected(fmt::format("\"{}\" is {}", shown(format),
-                                      depth > kDeepest ? "an endless format" : "no known type"));
+                                      depth > kDeepest ? "nested too deep" : "an unknown type"));
   }
   for (const Field& field : found->second) {
     const auto basic = value_in(kBasicNames, std::string_view(field.type));
@@ -130,7 +130,7 @@ std::string shown(std::string_view text) { return printable(shortened(text, 60))
 tl::expected<void, std::string> add_format(std::string_view text, Formats& formats) {
   const std::size_t colon = text.find(':');
   if (colon == std::string_view::npos || colon == 0) {
-    return tl::unexpected(fmt::format("\"{}\" is no format", shown(text)));
+    return tl::unexpected(fmt::format("\"{}\" is not a format", shown(text)));
   }
   std::vector<Field> fields;
   std::string_view rest = text.substr(colon + 1);
@@ -139,7 +139,7 @@ tl::expected<void, std::string> add_format(std::string_view text, Formats& forma
     rest.remove_prefix(std::min(one.size() + 1, rest.size()));
     if (one.empty()) continue;
     auto field = field_of(one);
-    if (!field) return tl::unexpected(fmt::format("\"{}\" is no field of a format", shown(one)));
+    if (!field) return tl::unexpected(fmt::format("\"{}\" is not a field of a format", shown(one)));
     fields.push_back(*std::move(field));
   }
   if (fields.empty()) return tl::unexpected(fmt::format("\"{}\" has no fields", shown(text)));

@@ -1,5 +1,5 @@
-/// Message formats of a PX4 ULog and the offsets of their numbers. Private to this folder. [PX4,
-/// ULog file format]
+/// Parses the message formats of a PX4 ULog, and finds the offsets of the numbers in a message.
+/// Private to this folder. [PX4, ULog file format]
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace awmr::ulog {
 
-inline constexpr std::size_t kLongestMessage = 65535;  ///< its size is a 16-bit number
+inline constexpr std::size_t kLongestMessage = 65535;  ///< bytes; the size is a 16-bit number
 
 /// Basic types.
 enum class Basic { kI8, kU8, kI16, kU16, kI32, kU32, kI64, kU64, kFloat, kDouble, kBool, kChar };
@@ -25,9 +25,9 @@ struct Field {
 };
 using Formats = std::map<std::string, std::vector<Field>, std::less<>>;
 
-/// A number in a message.
+/// A number in a message, possibly within nested types.
 struct Leaf {
-  std::string name;
+  std::string name;  ///< "position[2]", "pose.x"
   Basic type = Basic::kU8;
   std::size_t offset = 0;
 };
@@ -35,8 +35,8 @@ struct Leaf {
 /// Layout of a topic's message.
 struct Layout {
   std::vector<Leaf> leaves = {};
-  std::size_t bytes = 0;   ///< all fields
-  std::size_t needed = 0;  ///< without the trailing padding, which is not logged
+  std::size_t bytes = 0;   ///< size of all fields
+  std::size_t needed = 0;  ///< size without the padding at the end, which is not logged
 };
 
 /// Returns the number of this type at the beginning of the bytes.
@@ -45,11 +45,12 @@ double value_in(std::string_view bytes, Basic type);
 /// Sanitises a name from a file for a message.
 std::string shown(std::string_view text);
 
-/// Adds `vehicle_odometry:uint64_t timestamp;float[3] position;`. Errors: an invalid format.
+/// Parses a format such as `vehicle_odometry:uint64_t timestamp;float[3] position;` and adds it to
+/// `formats`. Errors: an invalid format.
 tl::expected<void, std::string> add_format(std::string_view text, Formats& formats);
 
-/// Offsets of the numbers in a topic's messages. Errors: an unknown type, endless nesting, more
-/// bytes than a message can have.
+/// Returns the layout of messages of this format. Errors: an unknown type; types nested more than
+/// eight deep; more bytes than a message can have.
 tl::expected<Layout, std::string> layout_of(std::string_view format, const Formats& formats);
 
 }  // namespace awmr::ulog

@@ -15,17 +15,18 @@
 namespace awmr {
 namespace {
 
-/// Ratios within this range are calibration, slip or noise; beyond it a unit is wrong.
+/// A ratio of two channels within this range is due to calibration, slip or noise; outside it, a
+/// unit is wrong.
 constexpr double kLowestAgreement = 0.6;
 constexpr double kHighestAgreement = 1.6;
 
-/// Factor caused by a wrong unit, and the unit's name.
+/// A unit that a channel may have by mistake.
 struct UnitFactor {
-  double factor;
+  double factor;  ///< ratio of the two compared channels with this unit
   std::string_view words;
 };
 
-/// The known factor nearest to `ratio` (by its logarithm, within 20 %), if any.
+/// The unit whose factor is nearest to `ratio`; empty if none is within 20 %.
 template <std::size_t N>
 std::optional<UnitFactor> known_factor(double ratio, const std::array<UnitFactor, N>& factors) {
   std::optional<UnitFactor> best;
@@ -40,7 +41,7 @@ std::optional<UnitFactor> known_factor(double ratio, const std::array<UnitFactor
   return best;
 }
 
-/// Contradiction for a time in another unit, from the row interval over the sample time.
+/// Contradiction that names `unit` as the unit of t_s.
 Contradiction time_in(const UnitFactor& unit, const Evidence& evidence) {
   const double step_s = evidence.log.median_step_s();
   const double sample_time_s = evidence.vehicle.sample_time_s;
@@ -60,7 +61,8 @@ std::optional<Contradiction> check_time(const Evidence& evidence) {
     if (ratio < 0.3 * unit.factor || ratio > 30.0 * unit.factor) continue;
     return time_in(unit, evidence);
   }
-  // Assumes that no log has both 1000 rows per second and 20 times the rate of the controller.
+  // Times below 1 ms between rows that are also below a twentieth of the sample time are no
+  // seconds.
   constexpr double kFastest_s = 1e-3;
   constexpr double kOften = 0.05;
   if (step_s >= kFastest_s || ratio >= kOften) return std::nullopt;
@@ -87,9 +89,9 @@ std::optional<Contradiction> check_force(const Evidence& evidence, std::string_v
       "vehicle: ",
       worst, limit.lo, limit.hi);
   if (of_both.largest <= std::max(limit.hi, -limit.lo) * kForceRounding) {
-    // The magnitude is allowed in the other direction, so the unit is not wrong.
+    // The vehicle permits this magnitude in the other direction, so the unit is right.
     return Contradiction{
-        std::string(column), beyond + "the other way the vehicle has such a force", "",
+        std::string(column), beyond + "the vehicle permits it only in the other direction", "",
         fmt::format("widen wheel_force in vehicle.json to {:.4g}, or correct the signs", worst)};
   }
   const ForceUnits units = force_units(of_both, evidence.vehicle);
@@ -102,7 +104,8 @@ std::optional<Contradiction> check_force(const Evidence& evidence, std::string_v
                        remedy_of(units, unit_fixes, evidence.mappings)};
 }
 
-/// Range of both sides; 0 in a servo-pulse column means no reading.
+/// Range of the forces of both sides, without zeros: 0 in a column of servo pulses means no
+/// reading.
 ForceSpan force_span(const DrivingLog& log) {
   ForceSpan span{std::numeric_limits<double>::infinity(), 0.0};
   for (const auto* values : {&log.force_left, &log.force_right}) {
@@ -123,8 +126,8 @@ std::vector<Contradiction> check_forces(const Evidence& evidence) {
   return found;
 }
 
-/// True if all headings lie within one turn counted in radians, +-3.15 or 0 to 6.3. A vehicle that
-/// turns by less than 6 deg in the whole log has no yaw information anyway.
+/// True if the values of the heading column span at most 6.4, so that they may be radians within
+/// one turn. (If they are degrees, the vehicle hardly turns in the whole log.)
 bool heading_spans_radians(const DrivingLog& log) {
   double least = 360.0;
   double most = -360.0;
@@ -136,9 +139,9 @@ bool heading_spans_radians(const DrivingLog& log) {
   return most - least < 2.0 * pi<double>() + 0.1;
 }
 
-/// Typical yaw rate while turning: the median of the upper half. Below kSlowTurn, read as deg/s, it
-/// would hardly count as turning.
+/// If turning_rate() is below this, the yaw rate is not in deg/s: 2 deg/s would hardly be a turn.
 constexpr double kSlowTurn = 2.0;
+/// Typical yaw rate while turning: the 75 % quantile over windows, in the unit of the column.
 double turning_rate(const Evidence& evidence) {
   std::vector<double> rates = series(evidence.windows, [](const EvidenceWindow& w) {
     return w.span_s > 0.0 ? std::abs(w.rate_rad) / w.span_s : 0.0;
@@ -156,7 +159,7 @@ std::vector<double> centred(std::vector<double> values) {
   return values;
 }
 
-/// 95 % quantile of the magnitude of the readings, so that spikes do not matter.
+/// 95 % quantile of the magnitude of the measurements, which spikes do not affect.
 double usual_largest(const Measured& channel) {
   std::vector<double> sizes;
   for (std::size_t row = 0; row < channel.value.size(); ++row) {
@@ -179,11 +182,11 @@ std::optional<Contradiction> check_rates(const Evidence& evidence) {
   if (!ratio) return std::nullopt;
   const double size = std::abs(ratio->ratio);
   if (agree(size)) return std::nullopt;
-  // A large gyro bias looks like a wrong unit until it is subtracted.
+  // A large gyro bias also changes the ratio, but not after subtraction of the medians.
   const auto without_bias = robust_ratio(centred(rate), centred(turned));
   if (without_bias && agree(without_bias->ratio)) return std::nullopt;
   const double degree = 180.0 / pi<double>();
-  // Factors by which to multiply the yaw rate.
+  // Factors that convert the column to rad/s.
   static constexpr std::array<UnitFactor, 5> kUnits{
       {{57.29578, "rad/s, converted from deg/s once too often"},
        {1.0 / 57.29578, "degrees per second"},
@@ -192,7 +195,7 @@ std::optional<Contradiction> check_rates(const Evidence& evidence) {
        {1e-3, "mrad/s"}}};
   const auto unit = known_factor(size, kUnits);
   const std::string compared =
-      fmt::format("the heading turns {:.4g} times the integral of the yaw rate", size);
+      fmt::format("the heading changes by {:.4g} times the integral of the yaw rate", size);
   if (unit && unit->factor == 1.0 / 57.29578) {
     if (heading_spans_radians(evidence.log) || turning_rate(evidence) < kSlowTurn) {
       return Contradiction{"heading_deg", compared + ": the heading looks like radians",
@@ -207,13 +210,13 @@ std::optional<Contradiction> check_rates(const Evidence& evidence) {
                          compared + fmt::format(": the yaw rate looks like {}", unit->words),
                          scaled_mapping(evidence, "yaw_rate_radps", unit->factor)};
   }
-  return Contradiction{"yaw_rate_radps", compared + ", which is the factor of no unit", "",
+  return Contradiction{"yaw_rate_radps", compared + ", which no known unit explains", "",
                        "compare the units of yaw_rate_radps, heading_deg and t_s with the sensors' "
                        "data sheets"};
 }
 
-/// Ratio of the yaw rate to that of rolling wheels at this steering angle, u tan(d)/(2 l_f), over
-/// windows with equal forces on both sides.
+/// Ratio of the yaw rate to that of rolling wheels, u tan(d)/(2 l_f) (d: steering angle, 2 l_f:
+/// about the wheelbase), in windows with about equal forces on both sides.
 std::optional<double> rate_over_rolling(const Evidence& evidence) {
   constexpr double kLittle = 0.1;  // fraction of the steering moment
   if (!evidence.has(LogChannel::kSpeed) || !evidence.vehicle.has_steering()) return std::nullopt;
@@ -230,13 +233,14 @@ std::optional<double> rate_over_rolling(const Evidence& evidence) {
   return std::abs(ratio->ratio);
 }
 
-/// Detects a rate beyond any wheeled vehicle, for logs without a heading.
+/// Detects a yaw rate in deg/s in logs without a heading: it is too large for a wheeled vehicle, or
+/// for its steering angle and speed.
 std::optional<Contradiction> check_rate_alone(const Evidence& evidence) {
   constexpr double kLargest_radps = 25.0;  // as for turning tables
   if (!evidence.has(LogChannel::kYawRate) || evidence.has(LogChannel::kHeading)) return {};
   const double rate_radps = usual_largest(*evidence.log[LogChannel::kYawRate]);
-  // Sliding changes the rate relative to rolling wheels, but not by this factor. Degrees for
-  // radians give 57.
+  // Sliding wheels turn the vehicle less or more than rolling ones, but not by this factor. deg/s
+  // instead of rad/s give a factor of 57.
   constexpr double kMostSlide = 14.0;
   if (rate_radps <= kLargest_radps) {
     const auto ratio = rate_over_rolling(evidence);
@@ -244,8 +248,8 @@ std::optional<Contradiction> check_rate_alone(const Evidence& evidence) {
     return Contradiction{
         "yaw_rate_radps",
         fmt::format(
-            "is {:.3g} times what the steering angle makes at this speed, u tan(d)/(2 l_f): "
-            "it looks like degrees per second",
+            "is {:.3g} times the yaw rate of rolling wheels at this speed and steering angle, "
+            "u tan(d)/(2 l_f): it looks like degrees per second",
             *ratio),
         scaled_mapping(evidence, "yaw_rate_radps", pi<double>() / 180.0)};
   }
@@ -256,8 +260,9 @@ std::optional<Contradiction> check_rate_alone(const Evidence& evidence) {
                        scaled_mapping(evidence, "yaw_rate_radps", pi<double>() / 180.0)};
 }
 
-/// Describes a speed that is the angular rate of a wheel: the radius that converts it to metres per
-/// second, if plausible for this vehicle.
+/// Text for a speed that may be the angular rate of a wheel (rpm or rad/s), with the wheel radius
+/// that this implies; empty if no radius is plausible for this vehicle. `ratio`: m/s per unit of
+/// the column.
 std::string words_of_wheel(double ratio, const Vehicle& vehicle) {
   constexpr double kSmallestRadius_m = 0.01;
   const double rpm_radius_m = ratio * 60.0 / (2.0 * pi<double>());
@@ -266,17 +271,20 @@ std::string words_of_wheel(double ratio, const Vehicle& vehicle) {
   };
   std::string words;
   if (fits(rpm_radius_m))
-    words += fmt::format("; as rpm of a wheel its radius is {:.3g} m", rpm_radius_m);
-  if (fits(ratio)) words += fmt::format("; as rad/s of a wheel its radius is {:.3g} m", ratio);
+    words += fmt::format("; if it is rpm of a wheel, the wheel radius is {:.3g} m", rpm_radius_m);
+  if (fits(ratio))
+    words += fmt::format("; if it is rad/s of a wheel, the wheel radius is {:.3g} m", ratio);
   return words;
 }
 
-/// Noise variance of a position reading along one axis, from the second differences of x and y over
-/// consecutive readings, which white noise makes exponential:
+/// Noise variance sigma^2 of a position measurement along one axis, m^2. Estimated from the second
+/// differences d2x, d2y of consecutive measurements. For white noise, d2x^2 + d2y^2 is
+/// exponentially distributed:
 ///
-///     E (d2x^2 + d2y^2) = 12 sigma^2,   lower quartile = 12 sigma^2 ln(4/3)
+///     mean = 12 sigma^2,   lower quartile = 12 sigma^2 ln(4/3)
 ///
-/// The quartile, because an acceleration only adds to them. 0 with fewer than three readings.
+/// The lower quartile is used, because acceleration of the vehicle only increases the sum. Returns
+/// 0 with fewer than three measurements.
 double position_variance_m2(const DrivingLog& log) {
   const Measured& x = *log[LogChannel::kX];
   const Measured& y = *log[LogChannel::kY];
@@ -297,17 +305,17 @@ double position_variance_m2(const DrivingLog& log) {
   return *quartile / (12.0 * std::log(4.0 / 3.0));
 }
 
-/// Compares the distance between the ends of the windows with the integral of the speed. The noise
-/// of the two positions makes the distance longer, E moved^2 = true^2 + 4 sigma^2, and is
-/// subtracted. Empty if the motion in the half of the windows with the longer distances is not
-/// clearly above that noise.
+/// Ratio of the distance between the ends of the windows to the integral of the speed. The noise of
+/// the two positions makes the distance longer, E moved^2 = true^2 + 4 sigma^2; 4 sigma^2 is
+/// subtracted. Empty if the usual distance in the faster half of the windows is below twice that of
+/// noise alone.
 std::optional<RobustRatio> moved_over_driven(const Evidence& evidence) {
-  constexpr double kClear = 4.0;  // twice as far as noise alone
+  constexpr double kClear = 4.0;  // ratio of the squares
   const double noise_m2 = 4.0 * position_variance_m2(evidence.log);
   std::vector<double> driven;
   std::vector<double> moved;
   for (const EvidenceWindow& w : evidence.overlapping) {
-    if (w.has_stuck_speed) continue;  // a stuck sensor has no unit
+    if (w.has_stuck_speed) continue;  // a stuck value shows no unit
     driven.push_back(std::abs(w.driven_m));
     moved.push_back(std::sqrt(std::max(0.0, w.moved_m * w.moved_m - noise_m2)));
   }
@@ -337,7 +345,7 @@ std::optional<Contradiction> check_speed(const Evidence& evidence) {
   static constexpr std::array<UnitFactor, 4> kPositionUnits{
       {{1e3, "mm"}, {100.0, "cm"}, {1.0 / 0.0254, "inches"}, {1.0 / 0.3048, "feet"}}};
   const std::string compared =
-      fmt::format("the positions move {:.4g} times the integral of the speed", ratio->ratio);
+      fmt::format("the positions move by {:.4g} times the integral of the speed", ratio->ratio);
   if (const auto unit = known_factor(ratio->ratio, kPositionUnits)) {
     return Contradiction{"x_m", compared + fmt::format(": the positions look like {}", unit->words),
                          scaled_mapping(evidence, "x_m", 1.0 / unit->factor) + "' and column '" +
@@ -348,15 +356,16 @@ std::optional<Contradiction> check_speed(const Evidence& evidence) {
                          compared + fmt::format(": the speed looks like {}", unit->words),
                          scaled_mapping(evidence, "speed_mps", unit->factor)};
   }
-  return Contradiction{"speed_mps",
-                       compared + ", which is the factor of no unit" +
-                           words_of_wheel(ratio->ratio, evidence.vehicle),
-                       "",
-                       "compare the units of speed_mps, x_m, y_m and t_s with the sensors' data "
-                       "sheets"};
+  return Contradiction{
+      "speed_mps",
+      compared + ", which no known unit explains" + words_of_wheel(ratio->ratio, evidence.vehicle),
+      "",
+      "compare the units of speed_mps, x_m, y_m and t_s with the sensors' data "
+      "sheets"};
 }
 
-/// Detects a speed beyond any wheeled vehicle of this length, for logs without positions.
+/// Detects a speed that is too large for a wheeled vehicle of this length, in logs without
+/// positions.
 std::optional<Contradiction> check_speed_alone(const Evidence& evidence) {
   constexpr double kLargest_mps = 100.0;
   constexpr double kLargestLengthsPerSecond = 100.0;  // as for surge tables
@@ -368,18 +377,19 @@ std::optional<Contradiction> check_speed_alone(const Evidence& evidence) {
   return Contradiction{
       "speed_mps",
       fmt::format(
-          "reaches {:.4g} m/s, implausible beyond {:.4g} m/s for a wheeled vehicle of length {:g} "
-          "m: it looks like rpm of a wheel or motor, cm/s or mm/s",
+          "reaches {:.4g} m/s; above {:.4g} m/s is implausible for a wheeled vehicle of length "
+          "{:g} m: it looks like rpm of a wheel or motor, cm/s or mm/s",
           speed_mps, limit_mps, length_m),
       "",
-      fmt::format("map cm/s by {}, mm/s by {}, rpm by the factor 2 pi RADIUS_M/(60 GEAR_RATIO)",
+      fmt::format("map cm/s with {}, mm/s with {}, rpm with the factor 2 pi RADIUS_M/(60 "
+                  "GEAR_RATIO)",
                   option_text("column '" + scaled_mapping(evidence, "speed_mps", 0.01) + "'"),
                   option_text("column '" + scaled_mapping(evidence, "speed_mps", 1e-3) + "'"))};
 }
 
-/// Sharpness of the turn over what the front axle allows: (r/u)/(tan d_r/l_f), at most about 1 for
-/// a vehicle with front-axle steering. The angle is multiplied by `factor`. Windows in which the
-/// sides would then turn the vehicle more than its steering are skipped.
+/// Curvature of the path over that of the steering angle: (r/u)/(tan(factor d_r)/l_f). It is at
+/// most about 1 if `factor` converts the logged angle to rad. Windows in which the force difference
+/// turns the vehicle more than its steering are skipped.
 std::optional<double> sharpness(const Evidence& evidence, double factor) {
   const bool heading = evidence.has(LogChannel::kHeading);
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
@@ -405,17 +415,17 @@ double largest_steering_deg(const DrivingLog& log) {
   return largest_deg;
 }
 
-/// Detects servo commands given instead of an angle: an angle about 90 deg, a pulse length, a
-/// fraction of the stop.
+/// Detects a servo command in place of the steering angle: a servo angle about 90 or 180 deg, a
+/// pulse length in us, or percent of the stop.
 std::optional<Contradiction> check_servo(const Evidence& evidence, const std::string& column) {
   const std::vector<double>& angle_rad = evidence.log.driving_steering_rad();
   const auto [low_rad, high_rad] = std::ranges::minmax_element(angle_rad);
   const double low = degrees(*low_rad);
   const double high = degrees(*high_rad);
   const double stop_deg = evidence.vehicle.steering_max_deg;
-  const std::string reads =
-      fmt::format("reads {:.4g} to {:.4g} deg, where the stop is at {:g} deg", low, high, stop_deg);
-  // Allowance for calibration and trim: both ends slightly beyond the stop.
+  const std::string reads = fmt::format(
+      "goes from {:.4g} to {:.4g} deg, while the stop is at {:g} deg", low, high, stop_deg);
+  // Calibration and trim may move both ends slightly beyond the stop.
   constexpr double kBeyondStop = 1.2;
   for (const double centre : {90.0, 180.0}) {
     if (low < centre - kBeyondStop * stop_deg || high > centre + kBeyondStop * stop_deg) continue;
@@ -461,19 +471,19 @@ std::optional<Contradiction> check_steering_unit(const Evidence& evidence) {
     return Contradiction{
         column,
         fmt::format(
-            "reaches {:.4g} deg, where the stop is at {:g} deg: it looks like counts of a servo",
+            "reaches {:.4g} deg, while the stop is at {:g} deg: it looks like counts of a servo",
             largest_deg, stop_deg),
         "",
         fmt::format(
-            "map it by {}",
+            "map it with {}",
             option_text(fmt::format("column '{}=(COUNTS - CENTRE)*DEGREES_PER_COUNT'", column)))};
   }
-  // Radians read as degrees make the stop itself 1.7 % of its value.
+  // An angle in radians is at most 1.7 % of the stop in degrees.
   if (largest_deg > 0.025 * stop_deg) return std::nullopt;
   const double degree = 180.0 / pi<double>();
-  // If the angle is in radians, the vehicle turns no more sharply than its axle points; read as
-  // degrees, 57 times more. A steering moment turns it about as well as the same moment of a force
-  // difference.
+  // Angles in radians that are read as degrees make the vehicle seem to turn 57 times as sharply as
+  // its wheels point. Without a speed, the yaw rates per moment of steering and of a force
+  // difference are compared: they are about the same in the right unit.
   constexpr double kImpossible = 8.0;
   const MomentShares shares = moment_shares(
       evidence.windows, evidence.has(LogChannel::kHeading)
@@ -486,8 +496,8 @@ std::optional<Contradiction> check_steering_unit(const Evidence& evidence) {
   if (times < kImpossible) return std::nullopt;
   return Contradiction{
       column,
-      fmt::format("the vehicle turns {:.3g} times as sharply as its front wheels allow; their "
-                  "largest angle is {:.3g} % of the stop: the angle looks like radians",
+      fmt::format("the vehicle turns {:.3g} times as sharply as this steering angle allows, and "
+                  "the largest angle is {:.3g} % of the stop: the angle looks like radians",
                   times, 100.0 * largest_deg / stop_deg),
       scaled_mapping(evidence, column, degree)};
 }
@@ -496,7 +506,7 @@ std::optional<Contradiction> check_steering_unit(const Evidence& evidence) {
 
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence) {
   std::vector<Contradiction> found = check_forces(evidence);
-  // Windows of a second are meaningless while the time unit is wrong.
+  // With a wrong unit of time, windows of one second have no meaning.
   if (auto time = check_time(evidence)) {
     found.insert(found.begin(), *time);
     return found;

@@ -14,7 +14,7 @@ std::string mapped_by(std::span<const UnitFix> unit_fixes, std::span<const Colum
     const std::string option = option_text(
         "column '" + scaled_mapping(mappings, unit_fix.column, unit_fix.factor, unit_fix.offset) +
         "'");
-    text += fmt::format("{}by {}", text.empty() ? "map it " : " or ", option);
+    text += fmt::format("{}with {}", text.empty() ? "map it " : " or ", option);
     if (in_doubt || unit_fixes.size() > 1) text += fmt::format(" ({})", unit_fix.words);
   }
   return text;

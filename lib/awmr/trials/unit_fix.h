@@ -1,4 +1,4 @@
-/// Mappings that correct a column in a wrong unit. Private to this folder.
+/// Column mappings that correct a wrong unit, and their text for messages. Private to this folder.
 #pragma once
 
 #include <span>
@@ -10,22 +10,24 @@
 
 namespace awmr {
 
-/// Likely content of a column, and its conversion to the expected unit: value times `factor`, plus
+/// Likely unit of a column. Value in the expected unit = value in the file times `factor` plus
 /// `offset`.
 struct UnitFix {
-  std::string words;        ///< "8-bit PWM counts"
-  std::string_view column;  ///< "wheel_force"
+  std::string words;        ///< likely unit: "8-bit PWM counts"
+  std::string_view column;  ///< awmr's column: "wheel_force"
   double factor = 1.0;
   double offset = 0.0;
 };
 
-/// "map it by --column 'A'"; if there are several, or other units without a known mapping
-/// (`in_doubt`), "(percent) or by --column 'B' (PWM counts)". Empty without any. `mappings` are
-/// those with which the table was read.
+/// Advice for messages: "map it with --column 'A'", or for several corrections "map it with
+/// --column 'A' (percent) or with --column 'B' (PWM counts)". Empty for no corrections. `in_doubt`:
+/// other units without a known factor are also possible, so a single correction is named too.
+/// `mappings`: those with which the table was read.
 std::string mapped_by(std::span<const UnitFix> unit_fixes, std::span<const ColumnMapping> mappings,
                       bool in_doubt = false);
 
-/// "percent", "percent or 8-bit PWM counts", "percent, volts or newtons".
+/// Joins the units for messages: "percent", "percent or 8-bit PWM counts", "percent, volts or
+/// newtons".
 std::string words_of(std::span<const UnitFix> unit_fixes);
 
 }  // namespace awmr
