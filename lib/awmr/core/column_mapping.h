@@ -9,16 +9,17 @@
 
 namespace awmr {
 
-/// Gives column `name` from a file. The header of the file decides how; the first that applies:
+/// Gives column `name` from a file. The header of the file decides in which way; the first that
+/// applies:
 ///   1. `expression` is exactly the name of a column: that column;
 ///   2. the header has `source`: that column times `scale` plus `offset`;
 ///   3. `expression` is a formula over columns of the header.
 struct ColumnMapping {
   std::string name;
-  std::string source;  ///< empty: 2 does not apply
+  std::string source;  ///< empty: way 2 does not apply
   double scale = 1.0;
   double offset = 0.0;
-  std::string expression = {};  ///< text after the '='; empty: only 2 applies
+  std::string expression = {};  ///< text after the '='; empty: only way 2 applies
   std::string file = {};        ///< name or path of the file for which it is; empty: every file
   bool standing = false;        ///< from the vehicle file: lowest priority, and may be unused
 };

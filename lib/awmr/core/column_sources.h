@@ -13,7 +13,6 @@
 
 namespace awmr {
 
-/// Source of one requested column.
 struct ColumnSource {
   CsvColumn column;                              ///< the requested column
   std::vector<std::size_t> indices;              ///< columns of the header from which it is made
@@ -24,7 +23,6 @@ struct ColumnSource {
   std::optional<TimeColumn> time = {};  ///< set if find_time() found t_s
 };
 
-/// A fault of a header.
 struct HeaderFault {
   ErrorCode code;
   std::optional<std::size_t> cell;  ///< index of the faulty cell; none: the whole header

@@ -98,7 +98,6 @@ std::string why_not_a_number(std::string_view text, std::size_t read) {
   return found;
 }
 
-/// Parses a number whose minus sign is U+2212.
 std::optional<double> number_with_minus_sign(std::string_view text) {
   std::string ascii(text);
   std::size_t at = ascii.find(kMinusSign);

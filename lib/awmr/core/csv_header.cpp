@@ -140,7 +140,6 @@ bool is_above_rows(CsvScanner scanner, const Delimiter& chosen) {
   return row.size() == names.size() && has_number(row, chosen.character);
 }
 
-/// Skips the lines above the header for which is_mark() is true.
 void skip_marks(CsvScanner& scanner, CsvHeader& header) {
   while (is_mark(scanner.peek_line())) {
     scanner.skip_line();

@@ -131,7 +131,6 @@ Status check_read_back(const fs::path& path, std::string_view bytes, const ReadB
       path.string(), first.place, first.message));
 }
 
-/// Kind of file system entry at a path.
 enum class PathKind { kNothing, kFile, kDirectory, kOther };
 
 Result<PathKind> kind_of(const fs::path& path) {

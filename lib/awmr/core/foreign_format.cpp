@@ -40,7 +40,6 @@ std::string_view format_of(std::string_view line) {
   return {};
 }
 
-/// Splits a line at spaces and tabs.
 std::vector<std::string_view> words_in(std::string_view line) {
   std::vector<std::string_view> words;
   for (std::size_t begin = 0; (begin = line.find_first_not_of(" \t", begin)) != line.npos;) {

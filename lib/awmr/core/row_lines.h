@@ -18,7 +18,6 @@ class RowLines {
     const Run& run = *(next - 1);
     return run.line + static_cast<int>(row - run.row);
   }
-  /// Adds a row.
   void push_back(int line) { append(line, 1); }
   /// Adds `rows` rows on consecutive lines.
   void append(int first_line, std::size_t rows) {

@@ -15,7 +15,6 @@
 namespace awmr {
 namespace {
 
-/// Maximum number of shards of a job.
 constexpr long kMaxShards = 1'000'000;
 
 /// The keys of shard.json that all kinds have, which precede the payload.

@@ -101,7 +101,6 @@ CourseWindow course_window(const DrivingLog& log, const LogWindow& window, doubl
   return sums;
 }
 
-/// Fit of the displacement.
 struct CourseFit {
   Complex factor;          ///< k = s exp(i phi)
   double std_error = 0.0;  ///< of the real and the imaginary part of k

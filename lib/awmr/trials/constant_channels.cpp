@@ -7,7 +7,6 @@
 namespace awmr {
 namespace {
 
-/// Threshold above which a channel shows motion.
 struct MotionLimit {
   std::string_view column;
   double least;      ///< threshold in the column's unit

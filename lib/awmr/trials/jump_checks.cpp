@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// A jump exceeds this multiple of the usual change between two readings, the 95 % quantile.
+/// A jump exceeds kTimes times the usual change between two readings (the quantile kQuantile).
 constexpr double kTimes = 10.0;
 constexpr double kQuantile = 0.95;
 /// Smallest jump of the position, in vehicle lengths. A smaller one may be a corrected fix of the
@@ -19,7 +19,6 @@ constexpr double kVehicleLengths = 4.0;
 constexpr double kLeastTurn_rad = 1.0;
 constexpr std::size_t kFewest = 20;
 
-/// Change from one reading of a signal to the next.
 struct Move {
   std::size_t from = 0;  ///< row of the first reading
   std::size_t to = 0;    ///< row of the second reading

@@ -26,7 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Converts signals of different rates to a table.
 Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
                                   std::span<const CsvColumn> columns,
                                   std::span<const ColumnMapping> mappings) {
@@ -71,7 +70,6 @@ Result<CsvTable> table_of_awl(std::string_view bytes, const std::string& file,
                           columns, mappings);
 }
 
-/// Table of a SysId record.
 Result<CsvTable> table_of_sysid(std::string_view bytes, const std::string& file,
                                 std::span<const CsvColumn> columns,
                                 std::span<const ColumnMapping> mappings) {

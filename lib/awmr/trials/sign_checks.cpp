@@ -27,7 +27,6 @@ struct SignRelation {
   int sign;  ///< +1: they agree; -1: one of the two is wrong
 };
 
-/// Relation of positions and heading.
 struct CourseRelation {
   int sign =
       0;  ///< +1: positions move along the heading; -1: along its mirror image; 0: undetermined

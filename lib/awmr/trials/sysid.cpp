@@ -79,7 +79,6 @@ const SysIdRow& simple_form() {
   return kForm;
 }
 
-/// Reads a SysId document and collects its faults.
 class SysIdReader {
  public:
   SysIdReader(const Json& document, std::string file)

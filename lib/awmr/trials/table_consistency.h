@@ -13,8 +13,8 @@ namespace awmr {
 /// The tables of one vehicle that the check of another table also uses.
 struct Tables {
   const Vehicle& vehicle;
-  const std::optional<TrialSet<SurgeRow>>& surge;      ///< limits the speed; decides the force unit
-  const std::optional<TrialSet<TurningRow>>& turning;  ///< decides the force unit
+  const std::optional<TrialSet<SurgeRow>>& surge;      ///< for the top speed and the unit of force
+  const std::optional<TrialSet<TurningRow>>& turning;  ///< for the unit of force
 };
 
 /// Checks one table. Faults, each with the first such row and the mapping that would correct it:

@@ -20,7 +20,6 @@
 
 namespace awmr {
 
-/// A column in a wrong unit.
 struct WrongUnit {
   int line = 0;                     ///< line of the first affected row
   std::string message;              ///< the comparison, its result, the likely units

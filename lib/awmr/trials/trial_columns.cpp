@@ -67,7 +67,6 @@ const CsvColumn kLogColumns[] = {{"t_s", true},
                                  {"longitude_deg", false, EmptyCells::kAbsent},
                                  {"run", false}};
 
-/// All columns of all trials, without duplicates.
 std::vector<std::string> all_columns() {
   std::set<std::string> names;
   for (const TrialKind kind : values_in(kTrialKindNames)) {
@@ -89,7 +88,6 @@ std::string place_of(const ColumnMapping& mapping) {
   return fmt::format("column mapping \"{}\"", shortened(text_of(mapping), 100));
 }
 
-/// A file and the names in its header.
 struct Header {
   std::string path;
   std::vector<std::string> names;

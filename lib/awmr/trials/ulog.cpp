@@ -24,7 +24,6 @@ struct Subscription {
   std::size_t topic = 0;                        ///< index in Signals::topics
 };
 
-/// State of the parser.
 struct Reading {
   const std::string& file;
   const Wanted& wanted;
