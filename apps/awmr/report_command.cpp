@@ -63,7 +63,7 @@ void add_report(CLI::App& app, Session& session) {
       "awmr report out --figures figures", [command] { return execute(*command); });
   add_directory(*sub, "DIR", command->directory, "Directory that `awmr run` filled")->required();
   add_directory(*sub, "--figures", command->figures,
-                "Also write the main figures there: one CSV per figure, and plot.py, which draws "
+                "Also write all figures there: one CSV per figure, and plot.py, which draws "
                 "them as SVG and "
                 "PDF by matplotlib");
 }

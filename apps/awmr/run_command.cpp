@@ -98,8 +98,9 @@ Result<Trials> read_trials(const Project& project) {
                       .options = project.trials});
 }
 
-/// Returns every input file. Errors, detected before the first step and before anything is written:
-/// an invalid file, two scenarios with the same run names, an output that is an input.
+/// Returns every input file. Errors, before anything is written: an invalid file, an implausible
+/// vehicle, two scenarios with the same run names, an output that is an input or that awmr did not
+/// write.
 Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Project& project) {
   TuneConfig tune;
   std::vector<Fault> faults;

@@ -172,9 +172,10 @@ void bind_trials(py::module_& module) {
                              "steering_rad, wheel_force (over F_max), yaw_rate_radps (rad/s), ...")
       .def_property_readonly("coastdown", stop_times_of, "initial_speed_mps (m/s), stop_time_s (s)")
       .def_property_readonly("curves", curves_of, "list of coast-down curves: t_s (s), speed_mps")
-      .def_property_readonly("logs", logs_of,
-                             "list of logs: t_s (s), force_left, force_right (over F_max), "
-                             "steering_cmd_rad, and the channels, NaN where not measured");
+      .def_property_readonly(
+          "logs", logs_of,
+          "list of logs: t_s (s), force_left, force_right (over F_max); if logged, "
+          "steering_cmd_rad and the channels, NaN in rows without a reading");
   module.def(
       "load_trials", load, py::arg("vehicle"), py::kw_only(), py::arg("surge") = py::none(),
       py::arg("turning") = py::none(), py::arg("coastdown") = std::monostate{},

@@ -177,7 +177,7 @@ std::string in_words(const Change& change) {
   return {};
 }
 
-/// "; differential completes 0 of 1 on the four-wheel plant": modes that complete no run under a
+/// "; differential completed 0 of 1 on the four-wheel plant": modes that complete no run under a
 /// change.
 std::string incomplete_in_words(const std::vector<Change>& changes) {
   std::string text;

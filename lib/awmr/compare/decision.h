@@ -68,7 +68,8 @@ Decision decide(const ScenarioRows& scenario, const std::vector<PairedDifference
 std::string decision_text(const Decision& decision);
 
 /// Verdict on a scenario in one sentence: the best mode, how far the others are behind, and how
-/// robust the result is. A mode that loses rank 1 under a change is called "ahead", not "best".
+/// robust the result is. A single mode of rank 1 that loses it with another plant, weights or gains
+/// is called "ahead here", not "best".
 std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking,
                        const std::optional<Decision>& decision,
                        const std::vector<PairedDifference>& differences,

@@ -122,8 +122,8 @@ void autopilot_step(Autopilot<G, P>& a, const AutopilotInput& in, AutopilotOutpu
   if (is_directed) detail::predict_direction(a, in.times.now_ms);
   if (P::kIsDirected) a.direction.tau_speed = 0.0F;
   out.fault = detail::check_input(a, in);
-  // Direction and position are also estimated while the command time-out is the only fault, as
-  // before a drive.
+  // The command time-out alone, which is normal before a drive, does not stop the estimates of
+  // direction and position.
   const bool is_sensed = (out.fault & static_cast<uint8_t>(~kFaultCommandTimeout)) == 0;
   if (is_directed && is_sensed) detail::read_speed(a, in);
   typename P::Positioning& positioning = part_of<typename P::Positioning>(a);

@@ -1,7 +1,7 @@
 /// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
 ///
-/// The speed law needs a signed speed. With |u| as its input, the law would accelerate a vehicle
-/// that rolls backward, without limit if m' mu_s/eps_s > g1(u)/u. The sign is that of a predicted
+/// The speed law needs a signed speed. With |u| as its input and a wanted speed of 0, the law would
+/// accelerate a vehicle that rolls backward while m' mu_s sat(u/eps_s) > g1(u). The sign is that of a predicted
 /// speed u, computed from the commanded force by the identified model:
 ///   m' u_dot = tau_speed - g1(u)
 /// The sensor corrects the magnitude of the prediction; the displacement along the heading verifies
@@ -132,9 +132,9 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
 }
 
 /// True if the speed law, with |u| as its input, would accelerate a vehicle that rolls backward at
-/// the speed u. At u_ref = 0, within the boundary layer, the law commands -m' mu_s/eps_s |u|, which
-/// pushes such a vehicle on. This force exceeds the resistance if
-///   m' mu_s/eps_s > g1(u)/u
+/// the speed u. At u_ref = 0 the law commands -m' mu_s sat(|u|/eps_s), which pushes such a vehicle
+/// on. This force exceeds the resistance if
+///   m' mu_s sat(u/eps_s) > g1(u)
 template <class T, class G>
 bool runs_away_unsigned(const G& surge, const T& mass_norm, const SpeedGains<T>& gains,
                         const T& speed_mps) {

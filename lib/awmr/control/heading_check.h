@@ -34,8 +34,8 @@ class FrozenCheck {
   bool is_frozen_ = false;
 };
 
-/// Measures the zero-rate offset of a gyroscope during one second. If the vehicle turned in this
-/// second, the measurement starts again.
+/// Measures the zero-rate offset of a gyroscope over 100 readings. It starts again if their spread
+/// or mean, or the change of the compass heading, is too large for a vehicle at rest.
 class GyroCalibration {
  public:
   /// Processes the word of one sample. `heading_rad` is the compass heading, valid if `has_heading`.

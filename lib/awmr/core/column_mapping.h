@@ -9,8 +9,7 @@
 
 namespace awmr {
 
-/// Gives column `name` from a file. The header of the file decides in which way; the first that
-/// applies:
+/// Gives column `name` from a file, in the first of these ways that the file's header allows:
 ///   1. `expression` is exactly the name of a column: that column;
 ///   2. the header has `source`: that column times `scale` plus `offset`;
 ///   3. `expression` is a formula over columns of the header.

@@ -131,8 +131,8 @@ T settled(const T& speed) {
   return select(abs(speed) < T(1e-150), T(0.0), speed);
 }
 
-/// Integrates the state by `substeps` steps of h seconds at constant commands, in the lanes of
-/// `requested`. If the motion is not resolved, the state is unchanged.
+/// Integrates the lanes of `requested` by `substeps` steps of h seconds at constant commands. A lane
+/// whose motion is not resolved keeps its state.
 template <class Body, class T, class Rates>
 void integrate(const Body& body, const T& h, const T& substeps, const Rates& rates,
                const Mask<T>& requested, State<T>& state, Resolution<T>& resolution) {

@@ -130,8 +130,9 @@ TyreForces<T> tyre_forces(const FourWheels<T>& p, const State<T>& s, const Wheel
   return made;
 }
 
-/// Power dissipated by the sliding tyres, over F_max, m/s, >= 0:
-///   P = -sum of F'y s
+/// Power dissipated by tyres that slide sideways at the speeds s_i (side_speeds()), over F_max, m/s,
+/// >= 0:
+///   P = -sum of F'y_i s_i
 template <class T, class Forces>
 T tyre_power_mps(const FourWheels<T>& p, const State<T>& s, const Forces& f) {
   const WheelForces<T> y = tyre_forces(p, s, by_wheel(p.body, f)).across;

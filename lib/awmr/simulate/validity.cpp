@@ -220,11 +220,11 @@ std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,
     return Finding{
         file, 0, Severity::kWarning, "unsigned-speed-runs-away",
         fmt::format(
-            "m' mu_s/eps_s = {:.3g} s/m is above g1(u)/u = {:.3g} s/m at {:.3g} m/s: with a "
-            "speed sensor without a sign (GPS), the vehicle can drive backward without end. Set "
+            "m' mu_s sat(u/eps_s) = {:.3g} is above g1(u) = {:.3g} at {:.3g} m/s: with a "
+            "speed sensor without a sign (GPS), the vehicle can drive backward by itself. Set "
             "speed_unsigned in the sketch, as the examples do",
-            plant.mass_norm * gains.speed.mu / gains.speed.epsilon, plant.surge(u_mps) / u_mps,
-            u_mps)};
+            plant.mass_norm * gains.speed.mu * std::min(u_mps / gains.speed.epsilon, 1.0),
+            plant.surge(u_mps), u_mps)};
   }
   return {};
 }

@@ -29,7 +29,7 @@ std::optional<Finding> missing_intervals(const Model& model);
 std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model);
 
 /// Warning `unsigned-speed-runs-away`: with a speed sensor without a sign, such as a GPS, the speed
-/// law would accelerate a vehicle that rolls backward. This is so if m' mu_s/eps_s > g1(u)/u at a
+/// law would accelerate a vehicle that rolls backward. This is so if m' mu_s sat(u/eps_s) > g1(u) at a
 /// speed that the vehicle can reach. `file`: the file of the gains.
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,
                                               const Gains<double>& gains, double force_max,

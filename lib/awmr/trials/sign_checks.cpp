@@ -183,11 +183,18 @@ Contradiction sign_contradiction(const Evidence& evidence, Signed which) {
       scaled_mapping(evidence, "y_m", -1.0)};
 }
 
-/// Joins the column names: "a or b or c".
-std::string alternatives(const std::vector<Contradiction>& columns) {
+/// The columns of each solution: "a, or b and c".
+std::string alternatives(const Evidence& evidence, const std::vector<unsigned>& solutions) {
   std::string text;
-  for (const Contradiction& one : columns) {
-    text += fmt::format("{}{}", text.empty() ? "" : " or ", one.column);
+  for (const unsigned flips : solutions) {
+    text += text.empty() ? "" : ", or ";
+    const char* joint = "";
+    for (std::size_t s = 0; s < kSignedCount; ++s) {
+      const auto column = static_cast<Signed>(s);
+      if ((flips & bit(column)) == 0U) continue;
+      text += joint + sign_contradiction(evidence, column).column;
+      joint = " and ";
+    }
   }
   return text;
 }
@@ -205,9 +212,9 @@ std::vector<Contradiction> check_signs(const Evidence& evidence) {
     if (blamed) found.push_back(sign_contradiction(evidence, column));
   }
   if (solutions.size() == 1) return found;
-  const std::string columns = alternatives(found);
+  const std::string columns = alternatives(evidence, solutions);
   for (Contradiction& one : found) {
-    one.message += fmt::format(" (correct only one of {}: each alone explains it)", columns);
+    one.message += fmt::format(" (correct only {}: each explains it)", columns);
   }
   return found;
 }

@@ -110,9 +110,7 @@ Result<std::vector<std::uint64_t>> flags_of(std::string_view message, std::size_
   std::string_view incompatible = message.substr(8, 8);
   const bool known = (static_cast<unsigned char>(incompatible[0]) & 0xFEU) == 0 &&
                      incompatible.substr(1) == std::string(7, '\0');
-  if (!known)
-    return wrong(reading, offset,
-                 "the file uses a feature of ULog that is not supported; export it as CSV");
+  if (!known) return wrong(reading, offset, "unsupported feature of ULog; export the log as CSV");
   std::vector<std::uint64_t> appended;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto at = number_in<std::uint64_t>(message.substr(16 + 8 * i));

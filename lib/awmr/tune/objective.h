@@ -14,8 +14,8 @@
 /// over modes and scenarios. Each soft goal adds max(0, q - 1) in each of its modes, q the quantile
 /// of its excess (goals.h).
 ///
-/// Geometric means, because the best gains then do not depend on the baseline. In a sum of ratios, a
-/// metric that is large with the baseline would hardly count.
+/// Geometric means, because the baseline then affects only which vehicles are the worst ones and the
+/// weight of soft goals. In a sum of ratios, a metric that is large with the baseline would hardly count.
 #pragma once
 
 #include <array>

@@ -220,7 +220,7 @@ Claim best_modes(const ModeRuns& points, const ModeRuns& path) {
     return is_best(runs, mode, finish_s) && is_best(runs, mode, cross_track_m);
   };
   const YawMode combined = YawMode::kCombined;
-  const bool way = best_for(points, combined) && best_for(path, combined);
+  const bool at_waypoints = best_for(points, combined), along_line = best_for(path, combined);
   const bool speed = is_best(points, YawMode::kDifferential, drop_mps) &&
                      is_best(path, YawMode::kDifferential, drop_mps);
   const auto figure = [](const ModeRuns& runs) {
@@ -228,21 +228,25 @@ Claim best_modes(const ModeRuns& points, const ModeRuns& path) {
                        by_mode(runs, "s", finish_s), by_mode(runs, "m", cross_track_m),
                        by_mode(runs, "m/s", drop_mps));
   };
+  const auto place = [](bool best) {
+    return fmt::format("{} {:.0f} % of the best", best ? "within" : "not within",
+                       100.0 * kAsGoodShare);
+  };
   const bool differential_close = is_best(points, YawMode::kDifferential, cross_track_m) &&
                                   is_best(path, YawMode::kDifferential, cross_track_m);
   return {.id = "C12",
           .statement = "combined is best for waypoints and paths, differential for speed",
-          .reproduced = way && speed,
+          .reproduced = at_waypoints && along_line && speed,
           .figure = "waypoints: " + figure(points) + "; polyline: " + figure(path),
           .tolerance = fmt::format("combined within {0:.0f} % of the least finishing time and "
                                    "cross-track RMS on both paths, differential within {0:.0f} % "
                                    "of the least speed drop on both",
                                    100.0 * kAsGoodShare),
           .why = fmt::format(
-              "combined is {} for the path{}; differential is {} for the speed. `awmr compare` "
-              "gives intervals",
-              way ? "best or as good" : "not best",
-              !way && differential_close ? ": differential keeps closer to it" : "",
+              "combined is {} on waypoints and {} on the polyline{}; differential is {} for the "
+              "speed. `awmr compare` gives intervals",
+              place(at_waypoints), place(along_line),
+              differential_close ? ", differential within it of the least cross-track RMS" : "",
               speed ? "best" : "not best: its forces make the whole turn and saturate first")};
 }
 

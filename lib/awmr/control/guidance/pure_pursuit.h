@@ -44,8 +44,8 @@ bool is_passed(const PurePursuit<T>& law, const AlongSegment<T>& s, const T& /*c
   return !(goal_along_m(law, s) < s.length_m);
 }
 
-/// Distance from the current or the previous segment's line, whichever is nearer: the vehicle is
-/// still on the previous segment when the goal has passed the corner.
+/// Signed distance, left positive, from the line of the current or of the previous segment, whichever
+/// is nearer: when the goal has passed the corner, the vehicle is still on the previous segment.
 template <class T>
 T distance_off_m(const Polyline<T, PurePursuit<T>>& line, int segment,
                  const Position<T>& position_m, const AlongSegment<T>& s) {

@@ -90,8 +90,8 @@ using CoastCost = ceres::AutoDiffCostFunction<CoastResidual, ceres::DYNAMIC, 1, 
 constexpr double kLongestStep_s = 2e-3;
 
 /// Finds the plateau before motors-off. It ends at the last sample within 4 standard deviations of
-/// the mean of the samples before it. The standard deviation is that of the second differences,
-/// which are small for a smooth curve.
+/// the mean of the samples before it. The standard deviation of a sample's noise is the RMS of the
+/// second differences, which are small for a smooth curve, over sqrt(6).
 CoastInitialState initial_state_of(const CoastCurve& curve) {
   const std::vector<double>& u = curve.speed_mps;
   double squares = 0.0;

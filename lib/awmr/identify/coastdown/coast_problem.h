@@ -22,7 +22,7 @@ struct CoastInitialState {
 
 /// Residuals u(t) - measured of every sample, run after run. Parameters: the surge law (ln a, b, c,
 /// q), ln m' and each run's (u0, t0). The surge law is constant unless its blocks are set variable.
-/// Not movable, because the problem has pointers to its members and to `curves`.
+/// Not movable, because the problem has pointers to its members. `curves` must outlive it.
 class CoastProblem {
  public:
   /// `terms_free`: true if c or q will be fitted. The curve is then integrated numerically, because

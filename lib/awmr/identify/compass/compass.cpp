@@ -166,8 +166,8 @@ double turned_by_gyro_rad(const FieldRecord& record) {
   return turned;
 }
 
-/// Compares the angle `turned` of the compass with that of the gyroscope. Errors (refused): the
-/// angles have opposite signs or differ by more than kTurnTolerance.
+/// Compares the angle `turned` by the compass with that of the gyroscope. Without a yaw rate it adds
+/// a note. Errors (refused): opposite signs, or a difference above kTurnTolerance times |turned|.
 Status check_turn(const FieldRecord& record, double turned, std::vector<Finding>& findings) {
   if (record.yaw_rate_radps.empty()) {
     findings.push_back({record.file, 0, Severity::kNote, "turn-not-checked",

@@ -257,8 +257,8 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
 
 namespace {
 
-/// Adds Coulomb friction c to the rate of one speed w: w_dot -= s c/inertia, with the sign s of the
-/// motion and m' or I'z as inertia.
+/// Adds Coulomb friction c to the rate of one speed w and to its derivatives: w_dot -= s c/inertia,
+/// with the sign s of the motion. The inertia is m' or I'z.
 template <double DrivenSlopes::*kRate>
 void brake(double way, double friction, double per_inertia, ParameterId coulomb,
            ParameterId inertia, double& rate, LinearRates& out) {

@@ -79,7 +79,7 @@ struct DelayedCommand {
 /// Integrates the state and its derivatives step by step.
 class LinearStepper {
  public:
-  /// `columns`: number of columns; 0 for the state alone. `command_columns`: columns_of() of the
+  /// `columns`: number of derivatives; 0: the state alone is computed. `command_columns`: columns_of() of the
   /// command path. `longest_step_s`: as for LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
                 const std::vector<ParameterColumn>& parameters,

@@ -24,8 +24,8 @@ double log_misfit(const FamilyCandidate& candidate) {
   return std::sqrt(rows->residuals.squaredNorm() / static_cast<double>(rows->residuals.size()));
 }
 
-/// Deviation of a run's time from the prediction by a fit of the other runs' times, in standard
-/// deviations. Infinite if the runs were not timed.
+/// Deviation of a run's time from a fit to the times of the other runs, in standard deviations.
+/// Infinite if the runs were not timed or the fit fails.
 double deviations_in_time(const Subject& subject, std::size_t point, const SteadyFit& of_others) {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   auto all = by_time({.points = subject.points, .beta_range = subject.beta_range});

@@ -62,7 +62,7 @@ class Imu {
   void note_moment(float tau_turn_m) { moment_m_ = tau_turn_m; }
 
   /* Call in the step: integrates the gyroscope and corrects it by the magnetometer (time constant 2 s).
-     The first second at rest calibrates the gyroscope. */
+     The first 100 readings at rest calibrate the gyroscope. */
   void read(float dt_s) {
     const uint32_t now_ms = millis();
     const bool has_field = read_field(now_ms);
