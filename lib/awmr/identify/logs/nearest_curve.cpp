@@ -1,13 +1,13 @@
 #include "awmr/identify/logs/nearest_curve.h"
 
-#include <Eigen/Dense>
 #include <limits>
+
+#include "awmr/core/linear_algebra.h"
 
 namespace awmr {
 namespace {
 
 constexpr Eigen::Index kSpeeds = 12;
-using Values = Eigen::Matrix<double, kSpeeds, 1>;
 
 struct Nearest {
   Resistance<double> curve{};
@@ -16,14 +16,14 @@ struct Nearest {
 
 /// Least-squares curve for a given beta, with or without a quadratic term. The constant is free, or
 /// fixed at `least`.
-Nearest fitted(const Values& speed, const Values& force, double beta, bool quadratic,
-               bool free_constant, double least) {
-  Eigen::Matrix<double, kSpeeds, Eigen::Dynamic> columns(kSpeeds, 1 + quadratic + free_constant);
+Nearest fitted(const Eigen::VectorXd& speed, const Eigen::VectorXd& force, double beta,
+               bool quadratic, bool free_constant, double least) {
+  Eigen::MatrixXd columns(kSpeeds, 1 + quadratic + free_constant);
   columns.col(0) = speed.array().pow(beta);
   if (quadratic) columns.col(1) = speed.array().square();
   if (free_constant) columns.col(1 + quadratic).setOnes();
-  const Values wanted = force.array() - (free_constant ? 0.0 : least);
-  const Eigen::VectorXd x = columns.colPivHouseholderQr().solve(wanted);
+  const Eigen::VectorXd wanted = force.array() - (free_constant ? 0.0 : least);
+  const Eigen::VectorXd x = PivotedQr(columns).solve(wanted);
   const double constant = free_constant ? x(1 + quadratic) : least;
   const bool possible = x(0) > 0.0 && constant >= least && (!quadratic || x(1) >= 0.0);
   if (!possible) return {};
@@ -39,8 +39,8 @@ Resistance<double> nearest_curve(const Resistance<double>& curve, const FamilyTe
   constexpr double kLeastBeta = 0.2;
   constexpr double kBetaStep = 0.1;
   constexpr int kBetas = 24;  // number of exponents to try, up to 2.5
-  const Values speed = Values::LinSpaced(fastest / kSpeeds, fastest);
-  const Values force = speed.unaryExpr([&](double w) { return curve.at(w); });
+  const Eigen::VectorXd speed = Eigen::VectorXd::LinSpaced(kSpeeds, fastest / kSpeeds, fastest);
+  const Eigen::VectorXd force = speed.unaryExpr([&](double w) { return curve.at(w); });
   const bool constant = terms.coulomb || terms.dead_zone;
   const double least = constant ? kLeastShare * curve.at(0.5 * fastest) : 0.0;
   Nearest best;
