@@ -71,8 +71,16 @@ Position<float> hostile_point(Random& random, const Position<float>& vehicle_m) 
   return {vehicle_m.x_m + off(), vehicle_m.y_m + off()};
 }
 
+/// A new fix, mostly up to 2 s old, else of any time; or no new fix.
+void receive_fix(AutopilotInput& in, Random& random) {
+  in.position_is_fix = 1;
+  const std::uint32_t kind = random.bits() % 8;
+  if (kind < 2) return;
+  in.fix_ms = kind == 2 ? random.bits() : in.times.now_ms - random.bits() % 2000;
+}
+
 /// Redraws a few of the numbers of `best`; sometimes all.
-Attack changed(const Attack& best, const SafetyLimits& limits, Random& random) {
+Attack changed(const Attack& best, const SafetyLimits& limits, bool has_fixes, Random& random) {
   Attack attack = best;
   const std::uint32_t changes = random.bits() % 8 == 0 ? kFields : 1 + random.bits() % 3;
   for (std::uint32_t i = 0; i < changes; ++i) {
@@ -85,6 +93,7 @@ Attack changed(const Attack& best, const SafetyLimits& limits, Random& random) {
       point = hostile_point(random, attack.input.position_m);
     }
   }
+  if (has_fixes) receive_fix(attack.input, random);
   return attack;
 }
 
@@ -123,7 +132,8 @@ Result<unsigned> tried(Executor& chip, Executor& host, const Attack& attack, Hos
 }  // namespace
 
 Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
-                        const Mission& mission, std::size_t steps, const Progress& progress) {
+                        const Mission& mission, const HostileSearch& search,
+                        const Progress& progress) {
   Hostile found;
   // All steps have time 0. The first one, after the jump of the time, is not counted. Its invalid
   // mode raises a fault, which resets the memory of earlier motion on chip and host.
@@ -132,7 +142,7 @@ Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limi
   AWMR_RETURN_IF_ERROR(chip.step(first));
   AWMR_RETURN_IF_ERROR(host.step(first));
   constexpr std::uint8_t kModes = static_cast<std::uint8_t>(YawMode::kCombined) + 1;
-  const std::size_t steps_per_mode = (steps + kModes - 1) / kModes;
+  const std::size_t steps_per_mode = (search.steps + kModes - 1) / kModes;
   for (std::uint8_t mode = 0; mode < kModes; ++mode) {
     Random random(1, mode);
     Attack best;
@@ -145,7 +155,7 @@ Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limi
     }
     unsigned most = 0;
     for (std::size_t i = 0; i < steps_per_mode; ++i) {
-      const Attack attack = changed(best, limits, random);
+      const Attack attack = changed(best, limits, search.has_fixes, random);
       AWMR_ASSIGN_OR_RETURN(const unsigned cycles, tried(chip, host, attack, found));
       if (progress) progress(mode * steps_per_mode + i + 1, kModes * steps_per_mode);
       if (cycles < most) continue;

@@ -161,9 +161,10 @@ Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Input
   watch.doing("searching for the longest step");
   const auto host = host_executor(in.parameters, in.setup.mission);
   if (const auto started = host->start(); !started) return tl::unexpected(started.error());
-  AWMR_ASSIGN_OR_RETURN(const Hostile hostile,
-                        provoke(chip, *host, in.parameters.block.safety, in.setup.mission,
-                                options.hostile_steps, watch.progress));
+  AWMR_ASSIGN_OR_RETURN(
+      const Hostile hostile,
+      provoke(chip, *host, in.parameters.block.safety, in.setup.mission,
+              {options.hostile_steps, estimates_position(in.setup.scenario)}, watch.progress));
   return std::optional(hostile);
 }
 

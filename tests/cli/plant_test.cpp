@@ -205,7 +205,7 @@ TEST_F(PlantOption, RefusesWhatHasNoMeaningOnTyresByName) {
                                " -o " + path("comparison")));
   EXPECT_EQ(break_even.exit_code, 2);
   EXPECT_THAT(break_even.err, HasSubstr("--break-even"));
-  EXPECT_THAT(break_even.err, HasSubstr("tyres"));
+  EXPECT_THAT(break_even.err, HasSubstr("[conflict]"));
 }
 
 }  // namespace
