@@ -18,9 +18,10 @@ struct Adequacy {
   bool withdraws_intervals = false;  ///< the model error is so large that the intervals are invalid
 };
 
-/// Reports `model-inadequate` for every channel whose residuals show a model error. If the speed is
-/// one of these channels and `try_families` is set, also fits the other families of surge
-/// resistance.
+/// Reports `model-inadequate` for every channel of the fit `chosen` whose residuals show a model
+/// error (ChannelNoise::of_the_model()). If the speed is one of these channels and `try_families`
+/// is true, also fits the other families of surge resistance. `power_law`: options of a fit of
+/// power laws.
 Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         const FamilyFit& chosen, bool try_families);
 

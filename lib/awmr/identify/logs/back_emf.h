@@ -2,7 +2,8 @@
 ///
 /// While the motors drive, back-EMF cannot be separated from a linear resistance. Straight ahead,
 ///     m' du/dt = 4 (F' - k_e u) - g1(u)
-/// With the motors off only g1 acts. Logs for k_e therefore need driving and coasting.
+/// (F': force of a motor at rest, over F_max; k_e in s/m.) With the motors off only g1 acts. Logs
+/// for k_e therefore need driving and coasting.
 #pragma once
 
 #include <string>
@@ -16,7 +17,7 @@ namespace awmr {
 /// at least a second in all, within 3 s of driving.
 std::string why_no_back_emf(const std::vector<DrivingLog>& logs);
 
-/// Returns the options with k_e free. Sets an initial guess of k_e if there is none.
+/// Returns the options with k_e free, and with an initial guess of k_e if there was none.
 LogFitOptions with_back_emf(LogFitOptions options);
 
 /// True if k_e is free in a fit with these options.

@@ -83,8 +83,8 @@ Heterogeneity heterogeneity(const ByLog& by_log) {
 }
 
 /// Raises the standard error of quantity `i` of the common fit to `std_error`, which comes from
-/// `logs` logs, and sets the interval. Keeps a larger standard error: the common fit already
-/// includes the scatter of rows that one value does not describe.
+/// `logs` logs, and sets the interval. Keeps the standard error of the common fit if that is
+/// larger, because it includes the scatter between parts of the logs.
 void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   const Eigen::Index row = eigen_index(i);
   const double by = std::max(1.0, std_error / std::sqrt(fit.covariance(row, row)));
@@ -141,9 +141,10 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
   return disagreements;
 }
 
-/// The term outside the common fit whose score tests differ most between the logs, if by more than
-/// three standard errors. The standard errors are by the noise model, because the blocks of one log
-/// have the same command error and do not show it as scatter.
+/// The term outside the common fit whose score tests differ most between the logs; empty if no term
+/// differs by more than three standard errors (root mean square). The standard errors are those by
+/// the noise model: all blocks of one log have the same command error, so their scatter does not
+/// show it.
 std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>& logs,
                                                    const LogFitOptions& options,
                                                    const LogFit& common) {

@@ -1,5 +1,5 @@
-/// Test whether several logs, or the halves of one log, agree on the parameters. Private to
-/// identify/.
+/// Test whether several logs, or the two halves of one log, agree on the fitted quantities. Private
+/// to identify/.
 #pragma once
 
 #include <optional>
@@ -18,14 +18,14 @@ struct LogDisagreement {
   std::vector<std::string> files;  ///< logs that determine the quantity on their own
   std::vector<double> values;      ///< value by each of these logs
   bool withdraws = false;          ///< true: all intervals of the common fit are invalid
-  bool refuses = false;            ///< true: the widened interval is too wide, so it is refused
+  bool refuses = false;            ///< true: refused, because the widened interval is too wide
 };
 
 /// Result of compare_logs().
 struct LogComparison {
   std::vector<LogDisagreement> disagreements;
   /// For a single log: set if its halves agree, but a fit of the first half does not predict the
-  /// last fifth.
+  /// last fifth of the log.
   std::optional<HeldOut> missed;
 };
 
@@ -37,14 +37,15 @@ struct LogComparison {
 ///
 /// with the variance tau^2 between logs. The logs disagree if p < 0.001 (Bonferroni over all
 /// quantities). The standard error of the common fit is then raised to at least that of the mean
-/// over such logs, and the interval covers that mean, not an individual log. A quantity whose
-/// standard error then exceeds kUnknown large changes is refused. Biases may differ between logs.
+/// over such logs, and the interval covers that mean, not an individual log. A quantity is refused
+/// if its standard error then exceeds kUnknown large changes (identifiability.h). Sensor biases are
+/// not compared, because they may differ between logs.
 ///
-/// A delay or command error that the common fit lacks can differ between logs, for example a trim
-/// that was changed between two of them. The term whose score tests differ most between the logs is
-/// therefore fitted too. If the logs disagree on this term, or on a trim or imbalance of the common
-/// fit, all intervals of the common fit are invalid, because the other quantities absorb the
-/// effect.
+/// The common fit may lack a delay or command error that differs between the logs, for example a
+/// trim that was changed between two logs. Of these terms, the one whose score tests differ most
+/// between the logs is therefore fitted to each log too. If the logs disagree on this term, or on a
+/// trim or imbalance of the common fit, all intervals of the common fit are invalid, because the
+/// other quantities absorb the effect.
 ///
 /// A single log of 20 s or more is split: a fit of its first half predicts its second half and its
 /// last fifth (held_out.h). If both are predicted (p > 0.05), there is no disagreement. Otherwise

@@ -36,9 +36,10 @@ std::int64_t numbers_integrated(const LogProblem& problem) {
 }
 
 /// Evaluates all windows in parallel at each new point, before Ceres requests the first window.
-/// Derivatives are always computed, because they take little more time than the residuals. If the
-/// cost falls beyond the bound of a coordinate at its bound, the derivatives by the coordinate are
-/// set to 0, which fixes it; a step cut at the bound would be wrong for the other coordinates.
+/// Derivatives are always computed, because they take little more time than the residuals. A
+/// coordinate at its bound is fixed, by setting its derivatives to 0, if the cost would decrease
+/// beyond the bound. (Ceres would cut the step at the bound, which is wrong for the other
+/// coordinates.)
 class Evaluator : public ceres::EvaluationCallback {
  public:
   Evaluator(const LogProblem& problem, const SearchPoint& point)

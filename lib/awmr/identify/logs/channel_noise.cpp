@@ -73,8 +73,8 @@ Likelihood likelihood(std::span<const ErrorSeries> series, const ChannelNoise& n
   return {n * std::log(factor) + log_variances, factor};
 }
 
-/// Noise model with a total variance of 1, of which the drift has the share e^x/(1 + e^x), x:
-/// logit.
+/// Noise model with a total variance of 1. The drift has the share e^x/(1 + e^x) of it, with x =
+/// `logit`.
 ChannelNoise unit_noise(double logit, double correlation_s) {
   const double share = 1.0 / (1.0 + std::exp(-logit));
   return {.white_std = std::sqrt(1.0 - share),
@@ -83,8 +83,8 @@ ChannelNoise unit_noise(double logit, double correlation_s) {
 }
 
 /// Selects the errors from which a channel's noise is estimated: all, or about kEnough if there are
-/// more than 2 kEnough. They are in whole windows spread over the logs, and determine the standard
-/// deviations to 1 %.
+/// more than 2 kEnough. The selected errors are whole windows spread over the logs. kEnough errors
+/// determine the standard deviations to 1 %.
 std::vector<ErrorSeries> some_of(std::span<const ErrorSeries> series) {
   constexpr std::size_t kEnough = 20'000;
   std::size_t total = 0;
@@ -177,8 +177,8 @@ struct SecondOrder {
   }
 };
 
-/// Bounds of the search for a second-order drift: a share of the variance from 0.2 % to nearly all,
-/// periods of oscillation from two sample intervals to two windows.
+/// Bounds of the search for a second-order drift: share of the variance from 0.25 % to nearly all,
+/// period of oscillation from two sample intervals to two windows, damping from 0.02 to 20.
 struct SecondOrderRange {
   SecondOrder lowest;
   SecondOrder highest;

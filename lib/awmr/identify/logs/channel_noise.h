@@ -26,9 +26,9 @@ struct ChannelNoise {
   double correlation_s = 0.0;    ///< tau, or decay time of a second-order drift; 0 without a drift
   double frequency_radps = 0.0;  ///< omega of a second-order drift; 0: first order
   double damping = 0.0;          ///< zeta of a second-order drift, > 0
-  double sensor_std = 0.0;  ///< noise of the signal itself by sensor_noise(), without a model, SI
-  int count = 0;            ///< number of samples
-  double cost = 0.0;        ///< -2 ln L of the channel's errors, up to a constant
+  double sensor_std = 0.0;       ///< white noise by sensor_noise(), from the readings only, SI
+  int count = 0;                 ///< number of samples
+  double cost = 0.0;             ///< -2 ln L of the channel's errors, up to a constant
 
   double std() const { return std::hypot(white_std, drift_std); }
   bool second_order() const { return frequency_radps > 0.0; }
@@ -37,12 +37,14 @@ struct ChannelNoise {
   /// True if the drift is above half of the sensor noise and lasts half a second or more. It is
   /// then a model error or a sensor drift.
   bool of_the_model() const { return drift_std > 0.5 * sensor_std && correlation_s >= 0.5; }
-  /// True if such a drift is above 2.5 times the sensor noise: the model is inadequate.
+  /// True if of_the_model() and the drift is above 2.5 times the sensor noise: the model is
+  /// inadequate.
   bool overwhelms_sensor() const {
     constexpr double kMany = 2.5;
     return of_the_model() && drift_std > kMany * sensor_std;
   }
-  /// True if a missing term of the model may have caused the drift.
+  /// True if the drift is above a quarter of the sensor noise and lasts over 0.2 s: a term that the
+  /// model lacks may have caused it.
   bool has_slow_drift() const { return drift_std > 0.25 * sensor_std && correlation_s > 0.2; }
 };
 
@@ -73,8 +75,8 @@ double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
 
 /// Maximum-likelihood noise model of these errors. It has a first-order drift if this lowers -2 ln
 /// L by more than 10, and a second-order drift if this lowers -2 ln L by another 10. `free_share`:
-/// degrees of freedom of the errors per error, in (0, 1]. The search begins at `before`, whose
-/// sensor_std is kept.
+/// degrees of freedom of the fit over the number of errors, in (0, 1]. `before`: noise model of the
+/// round before; its sensor_std and count are kept, and a second-order drift is searched from it.
 ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_share,
                              const ChannelNoise& before);
 

@@ -52,8 +52,8 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
                                : "more likely by a dead time than by motor lag")};
 }
 
-/// Reports motor lag, dead time or late time stamps of the commands. Without these, reports an
-/// equal latency of two or more motion channels, which indicates a common cause in the commands.
+/// Reports motor lag, dead time or late time stamps of the commands. Without these, reports if all
+/// measured channels (two or more) have a latency, which indicates a common cause in the commands.
 std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWhy =
       "actuator lag, command latency or a slew-rate limit. m', I'z and the sway resistance may be "

@@ -9,7 +9,7 @@
 namespace awmr {
 
 struct CrossValidation {
-  std::vector<LeaveOneOut> leave_one_out;  ///< values of a fit without the log, by log
+  std::vector<LeaveOneOut> leave_one_out;  ///< by log: values of the fit without this log
   std::vector<Finding> findings;           ///< `held-out-log` with the prediction errors, by log
 };
 

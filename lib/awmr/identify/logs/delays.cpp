@@ -22,7 +22,8 @@ bool has_delay(const std::vector<FreeQuantity>& quantities, LogChannel channel) 
   });
 }
 
-/// True if the servo's time constant is free. Without a steering delay it would absorb a dead time.
+/// True if the servo's time constant is free. If no steering delay is fitted, this time constant
+/// absorbs a dead time of the servo.
 bool frees_servo(const std::vector<FreeQuantity>& quantities) {
   return std::ranges::any_of(
       quantities, [](const FreeQuantity& q) { return q.is(ParameterId::kSteeringTimeConstant); });
@@ -158,7 +159,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   for (const auto& [channel, found_s] : filters) {
     consider(tried(settled, {{sensor_lag_of(channel), found_s}}, loss), kLikelierFilter);
   }
-  // If the drift had absorbed a large model error, one round can be too few to lower AIC.
+  // One round can be too few to lower AIC if the drift had absorbed a large effect of the term.
   return best ? std::move(best) : std::move(strongest);
 }
 

@@ -16,9 +16,9 @@ namespace awmr {
 ///   - a force imbalance, if left and right forces differ.
 std::vector<FreeQuantity> further_terms(const LogProblem& problem);
 
-/// Adds such terms one at a time. Score tests select candidates, and one round of a fit ranks them.
-/// The best candidate is kept if its final fit lowers AIC by more than 10. (Without these terms,
-/// latency of the speed, for example, would bias the mass upwards.)
+/// Adds such terms one at a time to the fit `settled`. Score tests select candidates, and one round
+/// of settle_noise() ranks them. The best candidate is kept if its final fit lowers AIC by more
+/// than 10. (Without these terms, latency of the speed, for example, would bias the mass upwards.)
 ///   - The delay of the commands is negative if their time stamps are late.
 ///   - A motor lag is tried in place of the command delay and in addition to it, unless the vehicle
 ///     file gives the lag. A filter is tried in place of a delay of the speed or the yaw rate.

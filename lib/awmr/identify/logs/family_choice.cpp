@@ -60,8 +60,8 @@ FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, F
   return result;
 }
 
-/// Options that start other families at the optimum of `inner`. Terms outside these families, and
-/// terms that are 0 there, get the initial values of `power_law`.
+/// Options that start the families `surge` and `yaw` at the optimum of `inner`. Terms that these
+/// families lack, and terms that are 0 in `inner`, get the initial values of `power_law`.
 LogFitOptions without_terms(const LogFitOptions& power_law, const FamilyFit& inner, Family surge,
                             Family yaw) {
   LogFitOptions options = from_optimum(power_law, inner);
@@ -183,15 +183,14 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
   const double gain = aic_lead(alternative.fit, best.fit);
   const auto [apart, name] = largest_difference(best.fit, alternative.fit);
   if (!alternative.fit.usable || !(gain > 0.0) || !(apart > kApart)) return std::nullopt;
-  return Finding{
-      file, 0, Severity::kWarning, "family-undecided",
-      fmt::format(
-          "these logs do not decide between {} and {} (AIC lower by {:.1f}, not significant). With "
-          "the latter, {} changes by {:.1f} standard errors. The intervals are valid for {} only; "
-          "record a log with more different speeds",
-          families_in_words(best.surge, best.yaw),
-          families_in_words(alternative.surge, alternative.yaw), gain, name, apart,
-          families_in_words(best.surge, best.yaw))};
+  return Finding{file, 0, Severity::kWarning, "family-undecided",
+                 fmt::format("these logs do not decide between {} and {}: the AIC of the latter is "
+                             "lower by {:.1f}, which is not significant, but {} changes by {:.1f} "
+                             "standard errors. The intervals are valid for {} only; record a log "
+                             "with more different speeds",
+                             families_in_words(best.surge, best.yaw),
+                             families_in_words(alternative.surge, alternative.yaw), gain, name,
+                             apart, families_in_words(best.surge, best.yaw))};
 }
 
 Finding not_compared(const std::string& file, const FamilyFit& first) {
@@ -282,10 +281,10 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
   if (aic_lead(own.fit, best.fit) > 0.0) best = std::move(own);
 }
 
-/// Returns the families of an axis to compare again, and removes them from `others`. `winner` was
-/// selected on this axis first; `best` includes the later improvements by the other axis and by
-/// delays. A family has to be compared again if it lost to `winner` by less than these
-/// improvements.
+/// Returns the families of one axis (yaw if `of_yaw`, else surge) to compare again, and removes
+/// them from `others`. `winner`: the fit first selected on this axis. `best`: the fit after the
+/// other axis and the delays were selected too. A family is compared again if it lost to `winner`
+/// by less than `best` has improved on `winner`.
 std::vector<Contender> close_losers(const LogFit& winner, bool of_yaw, const FamilyFit& best,
                                     std::vector<FamilyFit>& others) {
   const double improved = aic_lead(best.fit, winner);
@@ -383,7 +382,7 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
   const auto [first_surge, first_yaw] = std::pair(first.surge, first.yaw);
   BestFamily result;
   result.best = std::move(first);
-  // Axis (true: yaw) and fit of the first comparison, before delays are searched again.
+  // Axis (true: yaw) and best fit of the first comparison, before delays are searched again.
   std::optional<std::pair<bool, LogFit>> first_winner;
   const auto contest_axis = [&](bool of_yaw, const std::vector<Contender>& others) {
     const auto before = std::pair(result.best.surge, result.best.yaw);

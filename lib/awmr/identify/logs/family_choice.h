@@ -20,8 +20,8 @@ struct FamilyFit {
 /// True if the limit of effort or of time is reached, so that no further model is to be fitted.
 bool is_over(const LogFitOptions& options);
 
-/// Returns the options for a fit that starts only at the optimum of `fit` and has the delays and
-/// command errors of `fit`, without a search for others and without candidate terms.
+/// Returns the options for a fit that starts only at the optimum of `fit`. It has the delays and
+/// command errors of `fit`, searches no others and tests no candidate terms.
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
 /// Fits the logs under the families `surge` and `yaw`. `power_law`: options of a fit of power laws.
@@ -40,11 +40,11 @@ FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& alternative);
 
-/// Options of the comparison of families.
+/// Options of best_family().
 struct FamilyContest {
   bool surge = true;  ///< compares all families of surge resistance; false: power law
   bool yaw = false;   ///< compares all families of yaw resistance; false: power law
-  double lead = 0.0;  ///< a family replaces the power law if its AIC is lower by more than this
+  double lead = 0.0;  ///< a family replaces `first` if its AIC is lower by more than this
   /// True: fits other families only if a score test or correlated errors suggest a missing term.
   bool only_suspects = true;
 };
@@ -62,7 +62,7 @@ struct BestFamily {
 std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference);
 
-/// Number of other families that best_family() will fit if it does not reach the limit.
+/// Number of other families that best_family() fits at least if it does not reach the limit.
 std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
                             const FamilyContest& contest);
 
@@ -72,8 +72,8 @@ std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& fir
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest);
 
-/// Describes two families: "coulomb-linear" if yaw has a power law, else "power, yaw
-/// coulomb-linear".
+/// Names the surge family, and the yaw family unless that is the power law: "coulomb-linear",
+/// "power, yaw coulomb-linear".
 std::string families_in_words(Family surge, Family yaw);
 
 }  // namespace awmr

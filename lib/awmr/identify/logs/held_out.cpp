@@ -80,8 +80,8 @@ FitEvidence scaled_evidence(const std::vector<WindowSums>& sums, const Eigen::Ve
   return {h(c, c) - by_bias * h(b, c), s(c) - by_bias * s(b)};
 }
 
-/// Change d of the compared coordinates, each divided by its large change. `directions`: number of
-/// directions that the rows determine.
+/// Change d of the compared coordinates, each divided by its large change, with its covariance.
+/// `directions`: number of directions that the rows determine.
 struct Change {
   Eigen::VectorXd size;
   Eigen::MatrixXd covariance;

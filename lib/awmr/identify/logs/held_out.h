@@ -21,7 +21,7 @@ struct LogPart {
 struct HeldOut {
   std::string rows;      ///< name of the tested rows: "the last fifth of log.csv"
   double p_value = 1.0;  ///< p of the hypothesis that the fit's values describe these rows too
-  std::string quantity;  ///< the quantity with the largest change, in standard errors
+  std::string quantity;  ///< the quantity with the largest change over its standard error
   double by_fit = 0.0;   ///< value of that quantity by the fit
   double by_rows = 0.0;  ///< value of that quantity by the tested rows
 };
@@ -36,8 +36,9 @@ struct HeldOut {
 /// standard errors were widened. d is restricted to the directions that the rows determine
 /// (identifiability.h). Quantities at an end of their range are fixed.
 ///
-/// The noise is that of the fit, because noise estimated from the tested rows would absorb a change
-/// of the vehicle as sensor drift. Empty if the rows determine nothing or cannot be replayed.
+/// The noise levels are those of the fit, because noise estimated from the tested rows would take a
+/// change of the vehicle for sensor drift. Returns nothing if the rows determine no direction or
+/// cannot be simulated.
 std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOptions options);
 
 /// A delay or command error that a fit does not contain, with its score test (score_test.h).

@@ -26,8 +26,8 @@ struct Identifiability {
   std::vector<std::string> why_not;        ///< by quantity: why it is refused; empty if identified
   int rank = 0;                            ///< number of directions that the logs determine
   double condition_number = 0.0;  ///< of the Jacobian by coordinates in units of large changes
-  /// By quantity: factor >= 1 on the standard error, because parts of the logs scatter more than
-  /// the noise model predicts.
+  /// By quantity: factor by which the standard error was multiplied, >= 1. Above 1, parts of the
+  /// logs scatter more than the noise model predicts.
   std::vector<double> factor;
 
   /// Largest of the factors.
@@ -42,9 +42,9 @@ struct Identifiability {
 ///
 /// The parts are blocks of some seconds. With three or more logs the parts are also whole logs, if
 /// these scatter significantly more (5 %), as with a model error that differs between logs. A
-/// quantity is refused if its standard error exceeds kUnknown large changes. It is also refused if
-/// it contributes a tenth or more to the squared length of a direction (eigenvector of H) that the
-/// logs do not determine.
+/// quantity is refused if its standard error exceeds kUnknown large changes (half of that for the
+/// sway resistance). It is also refused if it contributes a tenth or more to the squared length of
+/// a direction (eigenvector of H) that the logs do not determine.
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities);
 

@@ -7,9 +7,9 @@
 
 namespace awmr {
 
-/// Refuses I'z if no distribution of the vehicle's mass can give I'z/m'. If m' may be the wrong one
-/// of the two (for example by a wrong unit of the speed), also withdraws all intervals and reports
-/// `inertia-mismatch`.
+/// Refuses I'z if no distribution of mass within the vehicle's size gives the fitted I'z/m', or if
+/// no command turns the vehicle. If m' may be wrong instead (for example by a wrong unit of the
+/// speed), also withdraws all intervals and reports `inertia-mismatch`.
 void check_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, const Model& model,
                    LogStage& stage);
 

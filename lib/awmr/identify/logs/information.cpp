@@ -15,8 +15,8 @@ Eigen::MatrixXd compensation(const WindowSums& window, Eigen::Index n) {
   return solve_ldlt(window.products.block(n, n, k, k), window.products.block(n, 0, k, n));
 }
 
-/// Score g_t - J_t^T J_s (J_s^T J_s)^-1 g_s. `gradient`: g_t and g_s. `by_initial`: J_t^T J_s
-/// (J_s^T J_s)^-1 of the window.
+/// Score g_t - J_t^T J_s (J_s^T J_s)^-1 g_s (information.h). `gradient`: g_t, then g_s.
+/// `by_initial`: J_t^T J_s (J_s^T J_s)^-1 of the window.
 Eigen::VectorXd score(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& by_initial) {
   const Eigen::Index n = by_initial.rows();
   return gradient.head(n) - by_initial * gradient.segment(n, by_initial.cols());

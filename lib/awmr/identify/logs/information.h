@@ -32,8 +32,8 @@ struct Scores {
 Scores scores_of(const std::vector<FitWindow>& windows, const std::vector<WindowSums>& sums,
                  Eigen::Index n);
 
-/// Length of nearly independent blocks, s: five times the longest correlation time, at least 1 s,
-/// at most a window.
+/// Length of nearly independent blocks of a log, s: five times the longest correlation time, at
+/// least 1 s, at most kWindow_s.
 double block_length_s(const NoiseLevels& noise);
 
 /// AIC of a fit under its own noise: -2 ln L + 2 (n + number of noise parameters), up to a constant

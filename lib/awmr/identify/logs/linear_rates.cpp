@@ -75,7 +75,7 @@ void add_resistance(const ResistanceSlopes& g, double per_inertia, ParameterId a
 /// A vector over (u, v, r), or a row of a 3 x 3 matrix.
 using Vector3 = std::array<double, 3>;
 
-/// Adds share a b^T to the matrix `to`.
+/// Adds share times a b^T to the matrix `to`.
 void add_product(double share, const Vector3& a, const Vector3& b, std::array<Vector3, 3>& to) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) to[i][j] += share * a[i] * b[j];

@@ -2,7 +2,7 @@
 /// identify/.
 ///
 /// The equations are those of model/dynamics.h for left and right wheel forces. They are
-/// differentiated by hand, which takes a tenth of the time of automatic differentiation. A test
+/// differentiated by hand, because automatic differentiation takes ten times as long. A test
 /// compares the results of both.
 #pragma once
 
@@ -25,8 +25,8 @@ struct ResistanceSlopes {
   double by_quadratic = 0.0;
 };
 
-/// Resistance with derivatives. Below the law's rest_speed the curve is replaced by a chord through
-/// 0, which is precomputed.
+/// Resistance with derivatives. Below the law's rest_speed the curve is replaced by a straight line
+/// through 0, which is precomputed.
 class LinearResistance {
  public:
   explicit LinearResistance(const Resistance<double>& law);
@@ -34,8 +34,9 @@ class LinearResistance {
   ///
   ///     g = c + alpha e^(beta L) + q w^2,   dg/dw = (alpha beta e^(beta L))/|w| + 2 q |w|
   ///
-  /// All results but by_speed have the sign of w. Below rest_speed they are those at rest_speed
-  /// times w/rest_speed. rest_speed depends on the step length and has no derivative.
+  /// All results but by_speed have the sign of w. Below rest_speed, they are the results at
+  /// rest_speed times w/rest_speed, and by_speed is g(rest_speed)/rest_speed. rest_speed depends
+  /// only on the step length, so it has no derivative.
   ResistanceSlopes operator()(double speed) const;
 
  private:
@@ -47,8 +48,8 @@ class LinearResistance {
 /// Plant with precomputed reciprocals, for repeated evaluation of its rates. linear_rates()
 /// excludes Coulomb friction; add_friction() adds it.
 struct LinearPlant {
-  /// `by_back_emf`: true computes the derivatives by k_e even if k_e is 0. `longest_step_s`:
-  /// longest Runge-Kutta step to come; 0 if all steps are short enough for sway.
+  /// `by_back_emf`: true: computes the derivatives by k_e even if k_e is 0. `longest_step_s`:
+  /// longest Runge-Kutta step that will be used; 0: all steps are short enough for sway.
   explicit LinearPlant(const Plant<double>& p, bool by_back_emf = false,
                        double longest_step_s = 0.0)
       : plant(without_friction(p)),
@@ -67,8 +68,8 @@ struct LinearPlant {
   double per_mass;
   double per_inertia;
   double per_lag;
-  /// Factor on v_dot, <= 1. It slows sway that is faster than the steps, so that v reaches the same
-  /// steady value in about one step.
+  /// Factor on v_dot, <= 1. Below 1 if sway is faster than the steps resolve: v then reaches the
+  /// same steady value in about one step.
   double sway_pace;
   bool has_back_emf;
 };
@@ -90,7 +91,7 @@ struct StateSlopes {
   double steering_steering;
 };
 
-/// Partial derivatives of u_dot, v_dot, r_dot and the steering rate by one number.
+/// Partial derivatives of u_dot, v_dot, r_dot and the steering rate by one parameter or force.
 struct DrivenSlopes {
   double u = 0.0;
   double v = 0.0;
@@ -109,7 +110,7 @@ struct LinearRates {
 };
 
 /// Computes the rates at the state `s`. `out` must be LinearRates{} before the first call, because
-/// entries that are always 0 are not written.
+/// the function does not write entries that are always 0.
 void linear_rates(const LinearPlant& p, const State<double>& s, const HeldCommand& command,
                   LinearRates& out);
 

@@ -22,7 +22,7 @@ struct LogFit {
   Eigen::MatrixXd covariance;        ///< of the coordinates; large variance if not identifiable
   std::vector<std::string> why_not;  ///< by quantity: why it is refused; empty if identified
   NoiseLevels noise;
-  ErrorsByChannel errors;  ///< model + bias - measured at the optimum, not whitened
+  ErrorsByChannel errors;  ///< model + bias - measured at the optimum, SI, not whitened
   /// By candidate term of the options: estimated decrease of -2 ln L if the term were free.
   std::vector<double> suspect_gain;
   double widened = 1.0;    ///< see Identifiability::widened()
@@ -30,9 +30,9 @@ struct LogFit {
   bool usable = false;     ///< true if the search converged
 };
 
-/// Fits the logs. Precondition: an initial guess for every parameter. Without measurements or free
-/// quantities, or if all searches fail, the fit is not usable and has no quantities; its report
-/// states the reason.
+/// Fits the logs. Precondition: an initial guess for every parameter. The fit is not usable and has
+/// no quantities if nothing is measured or free, if there are fewer readings than unknowns, or if
+/// all searches fail. Its report then states the reason.
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
 /// Returns the options with the delays and command errors of `fit` as the free terms, starting at

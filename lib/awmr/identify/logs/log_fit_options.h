@@ -40,14 +40,14 @@ struct LogFitOptions {
   /// Empty if other trials gave all initial guesses; one search then suffices.
   std::vector<ParameterId> guessed;
   std::vector<ParameterId> free;
-  /// Terms of resistance families, and back-EMF, that are fixed at 0. The fit computes a score test
-  /// of each.
+  /// Terms of resistance families, and back-EMF, that are fixed at 0 in this fit. A score test of
+  /// each estimates how much it would improve the fit.
   std::vector<ParameterId> candidate_terms;
   /// Free delays, lags and command errors. A motor lag from the vehicle file is fixed and not
   /// listed.
   std::vector<FreeTerm> terms;
   std::vector<LogChannel> biases;  ///< channels whose constant offset is free
-  bool finds_delays = true;        ///< true: the fit searches for further such terms (delays.h)
+  bool finds_delays = true;        ///< true: searches for further delays and errors (delays.h)
   /// Time interval of the fitted rows, s. Earlier commands still act on them through delays and
   /// lags. Absent: all rows.
   std::optional<Interval> only_s;

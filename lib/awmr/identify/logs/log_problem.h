@@ -43,23 +43,24 @@ struct SearchPoint {
   std::vector<double> initial_states;  ///< by window, then by component
 };
 
-/// Longest integration step at these coordinates, s. Like replay_step_s(), but does not resolve
-/// sway within a row of the log (see LinearPlant::sway_pace), nor a servo with a time constant
-/// below 1/16 of the row spacing.
+/// Longest integration step at these coordinates, s: that of replay_step_s(), but sway and servo
+/// shorten it to no less than 1/4 and 1/8 of the row spacing. (LinearPlant::sway_pace slows sway
+/// that is faster.)
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates);
 
 /// Builds the problem at the initial guess, with the noise by sensor_noise() and without weights of
-/// a robust loss. The logs must outlive it.
+/// a robust loss. The logs must outlive the problem.
 LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
 /// Combines the coordinates with the measured initial state of every window.
 SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates);
 
-/// Factor on the integration step in searches that only rank initial guesses or models.
+/// Factor on the longest integration step in rough searches: those that only rank initial guesses
+/// or models, and the first round of settle_noise().
 inline constexpr double kRoughStep = 2.0;
 
-/// Errors, or sums, of every window, computed in parallel. The result does not depend on the number
-/// of threads. `block_s`: length of the blocks, see sums_of().
+/// Compute the errors, or the sums, of every window in parallel. The result does not depend on the
+/// number of threads. `block_s`: length of the blocks, see sums_of().
 std::vector<WindowErrors> errors_at(const LogProblem& problem, const SearchPoint& point);
 std::vector<WindowSums> sums_at(const LogProblem& problem, const SearchPoint& point,
                                 double block_s = 0.0);

@@ -256,8 +256,9 @@ std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs) {
   return logs;
 }
 
-/// True if the column of steering commands contains measured angles: the servo of the fit `first`
-/// has practically no lag, and a fit that uses the column as the angle is significantly better.
+/// True if the column of steering commands contains measured angles: the servo's time constant in
+/// the fit `first` is below half a row, and a fit that uses the column as the angle is
+/// significantly better.
 bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                           const FamilyFit& first, const IdentifyOptions& options) {
   constexpr double kOfRow = 0.5;

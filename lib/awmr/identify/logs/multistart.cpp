@@ -35,9 +35,9 @@ LogProblem rough_problem(const LogProblem& problem) {
   return rough;
 }
 
-/// Random initial guess. Each parameter in `guessed` is multiplied by a factor in [e^-2, e^2]; an
-/// exponent is drawn from [0.3, 1.3]; terms of a family do not change. Uses one random number per
-/// quantity, changed or not.
+/// Random initial guess. Each parameter in `guessed` is multiplied by a factor in [e^-2, e^2]. An
+/// exponent is drawn from [0.3, 1.3], within its range. Terms of a family do not change. Uses one
+/// random number per quantity, changed or not.
 std::vector<double> drawn(const LogProblem& problem, const std::vector<ParameterId>& guessed,
                           Random& random) {
   std::vector<double> coordinates = problem.initial;

@@ -16,7 +16,7 @@ struct Multistart {
   std::vector<SearchStart> starts;
 };
 
-/// Returns the initial guess alone if other trials gave all of it and `also_from` is empty.
+/// Returns only the initial guess if other trials gave all of it and `also_from` is empty.
 /// Otherwise runs rough searches from the initial guess and from each guess in `also_from`. If a
 /// part of the guess is only an order of magnitude, also searches from random guesses. The searches
 /// use short parts of some windows, because over a long part the effect of a wrong guess

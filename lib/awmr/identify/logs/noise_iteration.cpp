@@ -73,8 +73,8 @@ NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErro
   return levels;
 }
 
-/// Largest change of the noise: of a standard deviation relative to that of its channel, or of the
-/// correlation time of a relevant drift relative to itself.
+/// Largest change of the noise: of a standard deviation, relative to that of its channel; or a
+/// tenth of the relative change of a correlation time, for drifts above a tenth of the noise.
 double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
   double change = 0.0;
   for (const auto& [channel, noise] : after) {

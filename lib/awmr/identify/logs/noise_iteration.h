@@ -11,16 +11,16 @@ struct NoiseIteration {
   SearchPoint point;
 };
 
-/// Collects the raw errors by channel. Under a robust loss large errors are clipped, so that
-/// outliers do not increase the noise.
+/// Collects the raw errors by channel. Under a robust loss, errors are clipped at three robust
+/// standard deviations, so that outliers do not increase the noise.
 ErrorsByChannel errors_by_channel(const LogProblem& problem,
                                   const std::vector<WindowErrors>& errors, Loss loss);
 
 /// Default maximum of rounds in settle_noise().
 inline constexpr int kNoiseRounds = 6;
 /// Fits the coordinates and estimates the noise from the residuals in turn, until no noise level
-/// changes by more than 1 %, at most `rounds` times. A single round, used to rank models,
-/// integrates with longer steps.
+/// changes by more than 1 %, at most `rounds` times. The first round integrates with longer steps
+/// (kRoughStep). Fits that only rank models have one round.
 NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss,
                             int rounds = kNoiseRounds);
 

@@ -31,7 +31,8 @@ class ProductSums {
   Eigen::VectorXd gradient_;  ///< J^T r at the last call
 };
 
-/// Small equivalent of the rows for least squares: [R z; 0 rest] has the same M^T M, R triangular.
+/// Small equivalent of the rows for least squares: [R z; 0 rest] has the same M^T M. R is
+/// triangular up to a permutation of its columns.
 struct Triangle {
   Eigen::MatrixXd r;
   Eigen::VectorXd z;

@@ -35,7 +35,7 @@ struct FreeQuantity {
       LogChannel::kX;  ///< of kSensorDelay (kX: x and y together), kSensorLag, kBias
   Scale scale = Scale::kLinear;
   /// Large change: change of the coordinate that is large for this quantity. 1 for a logarithm (a
-  /// factor e) or an exponent. Priors and limits of identifiability are relative to it.
+  /// factor e) or an exponent. Priors and limits of identifiability are multiples of it.
   double large_change = 1.0;
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
@@ -74,7 +74,7 @@ FreeQuantity sensor_lag_of(LogChannel channel);
 /// Latency of a channel, s.
 FreeQuantity sensor_delay_of(LogChannel channel);
 
-/// A free delay, lag or command error with its initial guess.
+/// A free delay, lag or command error with its initial guess, as a coordinate.
 struct FreeTerm {
   FreeQuantity quantity;
   double begin;
@@ -82,7 +82,7 @@ struct FreeTerm {
 
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind);
 
-/// Free quantities of a fit in the order of FreeQuantity::Kind.
+/// Free quantities of a fit, in the order of FreeQuantity::Kind.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);
 
 /// By quantity: coordinate of the initial guess; 0 for a bias.

@@ -32,8 +32,9 @@ struct Unpacked {
   }
 };
 
-/// Raises the servo's time constant to what Runge-Kutta steps of h seconds resolve. Otherwise a
-/// search for a time constant near 0 would end where the integration diverges.
+/// Raises the servo's time constant to h/2, which Runge-Kutta steps of h seconds resolve, and drops
+/// its derivative. Otherwise a search for a time constant near 0 would end where the integration
+/// diverges.
 void slow_servo(double h, std::vector<ParameterColumn>& parameters, Plant<double>& plant) {
   if (!(plant.steering_time_constant_s < 0.5 * h)) return;
   plant.steering_time_constant_s = 0.5 * h;

@@ -1,8 +1,8 @@
 /// Residuals of one window of a log, with derivatives. Private to identify/.
 ///
 /// The model is simulated with the logged commands and compared with all measurements. Correlated
-/// errors of a channel are whitened. The Jacobian J has a row per sample. Only J^T J is stored, so
-/// that memory does not grow with the samples.
+/// errors of a channel are whitened. The Jacobian J has a row per sample. J is not stored, only J^T
+/// J, so that memory does not grow with the number of samples.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@ namespace awmr {
 /// Data shared by all windows of a fit.
 struct LogModel {
   Vehicle vehicle;
-  ParameterValues<double> held;  ///< values of all parameters; free ones are replaced in a fit
+  ParameterValues<double> held;  ///< values of all parameters; the coordinates replace free ones
   std::vector<FreeQuantity> quantities;
   std::vector<InitialComponent> initial;
   NoiseLevels noise;

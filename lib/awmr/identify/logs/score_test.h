@@ -29,8 +29,8 @@ struct ScoreTest {
 std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& point,
                                   const std::vector<FreeQuantity>& candidates);
 
-/// Returns the problem with the drift of every channel replaced by white noise, at the same total
-/// variance, so that the model has to explain the drift.
+/// Returns the problem with the drift of every channel replaced by white noise of the same total
+/// variance, so that slow errors count against the model.
 LogProblem with_white_noise(LogProblem problem);
 
 /// A problem with further free quantities, and its point.

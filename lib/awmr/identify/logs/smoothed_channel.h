@@ -9,14 +9,15 @@
 namespace awmr {
 
 /// Output y of a filter T dy/dt = u - y with the input u and the time constant T, and its
-/// derivatives by column. With u linear between rows h apart, e = exp(-h/T) and q = (T/h)(1 - e),
+/// derivatives by the columns of the fit (linear_replay.h). With u linear between rows h apart, e =
+/// exp(-h/T) and q = (T/h)(1 - e),
 ///
 ///     y(t + h) = u(t + h) - q (u(t + h) - u(t)) + e (y(t) - u(t))
 ///
 /// y starts at the first reading of the window. The effect of that reading's noise decays with T.
 class SmoothedChannel {
  public:
-  /// `first`: first reading of the window. `columns`: number of columns; 0 for no derivatives.
+  /// `first`: first reading of the window. `columns`: number of derivatives; 0: only y is computed.
   SmoothedChannel(LogChannel channel, const DelayColumn& lag, double first, std::size_t columns)
       : channel_(channel), lag_(lag), y_(first), by_column_(columns, 0.0) {}
 

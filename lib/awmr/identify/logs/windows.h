@@ -46,7 +46,7 @@ std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
 /// state.
 std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s);
 
-/// A component of the initial state that is free in every window.
+/// A component of the initial state that is fitted in every window.
 struct InitialComponent {
   LogChannel channel;  ///< names the component
   double prior_std;  ///< standard deviation of the weak prior about the measured initial state, SI
