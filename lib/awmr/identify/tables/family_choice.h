@@ -35,9 +35,10 @@ bool all_timed(const std::vector<SteadyPoint>& points);
 /// The requested error model; if none was requested, time if all runs were timed, else speed.
 ErrorModel wanted_noise(const Subject& subject, const SubjectOptions& options);
 
-/// With `options.side_by_side`, fits the power law under every error model, and the other families
-/// under the error model `wanted`. Otherwise fits only what can be selected. Skips families with
-/// more parameters than runs. `line`: log-linear fit of the power law, used as initial guess.
+/// With `options.side_by_side`, fits the power law under the error models force, speed, time (if
+/// all runs were timed) and `wanted`, and the other families under `wanted`. Otherwise fits only
+/// the families that can be selected, under `wanted`. Skips families with more parameters than
+/// runs. `line`: log-linear fit of the power law, used as initial guess.
 std::vector<FamilyCandidate> fit_candidates(const Subject& subject, const SubjectOptions& options,
                                             ErrorModel wanted, const SteadyFit& line);
 

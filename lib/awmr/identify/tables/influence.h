@@ -9,14 +9,15 @@
 namespace awmr {
 
 struct Influence {
-  std::vector<LeaveOneOut> without;  ///< by run; excludes runs without which there is no curve
+  std::vector<LeaveOneOut> without;  ///< by run; excludes runs without which the fit fails
   std::vector<Finding> findings;     ///< `influential-row`: a parameter changes by a standard error
 };
 
 /// Fits the curve without each run in turn: by log-linear least squares if `log_linear`, else by
 /// the method of `problem`, starting at the optimum `fit` of all runs. Above kExactRows rows, each
-/// fit is one Gauss-Newton step from `fit`. That is exact for log-linear fits, and not available
-/// for a robust loss. Precondition: at least two degrees of freedom, so that one remains.
+/// of these fits is one Gauss-Newton step from `fit`, which is exact for log-linear fits. With a
+/// robust loss and so many rows, the result is empty. Precondition: at least two degrees of
+/// freedom, so that one remains.
 Influence leave_one_out(const Subject& subject, const SteadyProblem& problem, bool log_linear,
                         const SteadyFit& fit);
 

@@ -29,14 +29,14 @@ struct NoiseAlternative {
   double weight = 1.0;  ///< in (0, 1]; they add up to 1
 };
 
-/// Smallest probability of the chosen fit, whose value is reported. Half of this probability, 2.5
-/// %, lies on either side of the value, so the 95 % interval always contains the value.
+/// Smallest weight of the chosen fit. Its distribution is centred on the reported value, so at
+/// least 2.5 % of the mixture lies on either side, and the 95 % interval always contains the value.
 inline constexpr double kLeastOwnWeight = 0.05;
 
-/// Returns the chosen fit, then the usable fits of the same family under the other error models, if
-/// they have the same free parameters. Returns only the chosen fit if the user selected the error
-/// model or a robust loss, or if the chosen fit has no degrees of freedom. `candidates`: fits to
-/// reuse.
+/// Returns the chosen fit, then the usable fits of the same family with the same free parameters
+/// under the other error models. Returns only the chosen fit if the user selected the error model
+/// or a robust loss, or if the chosen fit has no degrees of freedom. `candidates`: fits already
+/// made, which are reused.
 std::vector<NoiseAlternative> noise_alternatives(const Subject& subject,
                                                  const SubjectOptions& options,
                                                  const SteadyProblem& problem,

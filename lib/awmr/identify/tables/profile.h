@@ -7,8 +7,8 @@
 
 namespace awmr {
 
-/// Minimum sum of squares with the coordinate `held` fixed at `value`. Infinite if the search
-/// fails.
+/// Minimum of the sum of squared residuals with the coordinate `held` fixed at `value`. Infinite if
+/// the search fails.
 double profile_cost(const SteadyProblem& problem, const TransformedParameters& initial_guess,
                     TransformedParameter held, double value);
 

@@ -21,9 +21,9 @@ std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit
 std::vector<Diagnostic> residual_tests(const Subject& subject, const SteadyFit& fit);
 
 /// The warning `outlier` for each run that deviates significantly from the curve of the other runs:
-/// Student's t, 5 % for the whole table (Bonferroni). Of timed runs, the time has to deviate too.
-/// The same stop-watch error is a larger relative error of a faster run, which alone would make the
-/// fastest run look like an outlier.
+/// Student's t, 5 % for the whole table (Bonferroni). If the runs were timed, the time has to
+/// deviate too: a stop-watch error is a larger share of a faster run's time, which alone would make
+/// the fastest run look like an outlier.
 std::vector<Finding> outlier_findings(const Subject& subject, const SteadyProblem& problem,
                                       const SteadyFit& fit);
 

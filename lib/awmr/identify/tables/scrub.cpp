@@ -124,10 +124,10 @@ std::optional<YawScrub> mean_scrub(const ScrubMoments& met, double of_law, doubl
                   .yaw_rate_radps = range_of(met.rates_radps)};
 }
 
-/// Range of the scrub moment from the slowest to the fastest turn, if the moment changes with the
-/// yaw rate. The range spans the 95 % intervals of a fitted line at both ends. A change counts only
-/// if the c_i slope over both r and tau: noise of r alone makes c fall with r, and noise of tau
-/// alone makes c rise with tau.
+/// Range of the scrub moment, if it changes with the yaw rate. It spans the 95 % intervals of a
+/// fitted line at the slowest and at the fastest turn. The moments c_i must change significantly
+/// with both r and tau, because noise of r alone makes c fall with r, and noise of tau alone makes
+/// c rise with tau.
 std::optional<Interval> changing_scrub(const ScrubMoments& met, const Model& model) {
   for (const auto* over : {&met.rates_radps, &met.applied_m}) {
     if (!is_sloped(*over, met.moments_m, met.rates_radps, model)) return std::nullopt;

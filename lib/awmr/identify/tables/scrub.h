@@ -22,11 +22,11 @@ namespace awmr {
 /// Smallest number of differential turns for a scrub estimate with an interval.
 inline constexpr std::size_t kFewestScrubRows = 3;
 
-/// Sets model.yaw_held_m, the largest moment, in m, at which the vehicle did not turn, with the
-/// finding `scrub-holds`. Sets model.yaw_scrub if the model has g3. Exceptions: too few turns
-/// (`few-scrub-rows`), or an interval that is all negative (`negative-scrub`). Warns of turns
-/// beyond the yaw rates that g3 was fitted to (`scrub-beyond-trials`), and of moments c_i that
-/// change with the yaw rate (`scrub-grows`).
+/// Does nothing without differential turns or without g3. Sets model.yaw_held_m, the largest
+/// moment, in m, at which the vehicle did not turn, with the finding `scrub-holds`. Sets
+/// model.yaw_scrub, unless there are too few turns (`few-scrub-rows`) or the whole interval is
+/// negative (`negative-scrub`). Warns of turns outside the yaw rates that g3 was fitted to
+/// (`scrub-beyond-trials`), and of moments c_i that change with the yaw rate (`scrub-grows`).
 void measure_scrub(const TrialSet<TurningRow>& turning, Model& model);
 
 }  // namespace awmr

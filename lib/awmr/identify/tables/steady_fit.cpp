@@ -73,8 +73,8 @@ std::vector<Family> families_inside(Family family) {
   return {};
 }
 
-/// Initial guess from the points: the log-linear fit for alpha and beta (beta is 1 in families
-/// without it), half of the smallest force for Coulomb friction and dead zone, and 0 for the
+/// Initial guess from the points: alpha and beta by the log-linear fit (beta 1 in families without
+/// a free exponent), half of the smallest force for Coulomb friction or dead zone, and 0 for the
 /// quadratic term.
 TransformedParameters initial_guess_of(const SteadyProblem& problem) {
   const SteadyFit line = fit_log_linear(problem.points);

@@ -27,9 +27,9 @@ struct SteadyPoint {
   int line = 0;                     ///< line number in the file
 };
 
-/// Largest number of rows with exact diagnostics. For larger tables, leave-one-out is one step of
-/// the fit instead of a new fit, and there are no profile intervals, so that time and memory stay
-/// proportional to the number of rows.
+/// Largest number of rows with exact diagnostics. In larger tables, leaving out a row is one step
+/// from the fit of all rows instead of a new fit, and there are no profile intervals. Time and
+/// memory then stay proportional to the number of rows.
 inline constexpr Eigen::Index kExactRows = 200;
 
 /// Input of a fit: the runs, the family of the curve, the error model and the loss.
@@ -82,16 +82,17 @@ SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points);
 /// beta stays in its range; c, q and z stay >= 0. The scale of a robust loss is computed from the
 /// median absolute residual. Precondition: with kTime, every point was timed.
 SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& initial_guess);
-/// As above, but computes its initial guesses: one from the points, and the optimum of each family
-/// that is a special case of this one, so that a richer family never fits worse. `known`: optima of
-/// the same points, noise and loss, by family; the function adds those that it computes.
+/// As fit_steady() above, but computes the initial guesses: one from the points, and the optimum of
+/// each family that is a special case of this one. A family with more terms thus never fits worse.
+/// `known`: optima of the same points, noise and loss, by family; the function adds those that it
+/// computes.
 SteadyFit fit_steady(const SteadyProblem& problem, std::map<Family, TransformedParameters>& known);
 
 /// Returns the problem with the error model kTime and each run's time set to travel/w. Empty if a
 /// run was not timed.
 std::optional<SteadyProblem> by_time(SteadyProblem problem);
 
-/// True if every coordinate is finite and alpha > 0.
+/// True if all parameters of the law are finite and alpha > 0.
 bool is_physical(const Resistance<double>& law);
 
 /// Residuals of a table and their derivatives, without the weights of a robust loss.

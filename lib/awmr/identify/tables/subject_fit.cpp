@@ -59,7 +59,8 @@ Finding not_compared(const Subject& subject) {
                            kFewestToCompare));
 }
 
-/// Finding that no fit can be chosen. `tried`: at least one family was fitted.
+/// Error finding if no family can be chosen. `tried`: true if the family is selected by AICc and at
+/// least one family was fitted.
 Finding nothing_to_choose(const Subject& subject, bool tried) {
   if (!tried) {
     return about(subject, Severity::kError, "too-few-rows",
@@ -148,7 +149,8 @@ void add_diagnostics(const Subject& subject, std::size_t report, SubjectFit& res
   }
 }
 
-/// Finding that rules out every fit: the log-linear fit failed, or --noise time without times.
+/// Error finding if no fit is possible: the log-linear fit failed, or `--noise time` was requested
+/// and a row has no time.
 std::optional<Finding> obstacle(const Subject& subject, const SubjectOptions& options,
                                 ErrorModel wanted, const SteadyFit& line) {
   if (!line.usable) {

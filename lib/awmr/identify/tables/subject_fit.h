@@ -26,8 +26,8 @@ struct SubjectFit {
 
 /// Fits the table by all estimators and chooses one. Checks the chosen fit for outliers
 /// (`outlier`), influential rows (`influential-row`) and a better family (`power-law-inadequate`).
-/// With squared loss, excludes gross outliers before the fit: at most a tenth of the runs, or one
-/// run if that is less than one.
+/// With squared loss, excludes gross outliers before the fit: at most a tenth of the runs, but
+/// always up to one run.
 SubjectFit fit_subject(Subject subject, const SubjectOptions& options);
 
 }  // namespace awmr

@@ -16,7 +16,7 @@ enum class TransformedParameter {
   kBeta,       ///< beta, 1, within the accepted range
   kCoulomb,    ///< c, >= 0
   kQuadratic,  ///< q, >= 0
-  kDeadZone,   ///< z = 4 F'0: tau_speed within the dead zone F'0 of each of four wheels, >= 0
+  kDeadZone,   ///< z = 4 F'0: part of tau_speed lost in the dead zones F'0 of four wheels, >= 0
 };
 inline constexpr std::size_t kTransformedParameterCount = 5;
 /// One number for each TransformedParameter, in its order.
@@ -25,7 +25,8 @@ using TransformedParameters = std::array<double, kTransformedParameterCount>;
 /// Coordinates that are free in a family, in the order of TransformedParameter.
 std::vector<TransformedParameter> coordinates_of(Family family);
 
-/// Model parameter of a coordinate: alpha = exp(ln alpha), F'0 = z/4, the others unchanged.
+/// Value of the model parameter at a coordinate: alpha = exp(ln alpha), F'0 = z/4, others
+/// unchanged.
 double value_from(TransformedParameter c, double coordinate);
 Interval values_from(TransformedParameter c, const Interval& coordinate);
 /// Derivative of value_from() by the coordinate.

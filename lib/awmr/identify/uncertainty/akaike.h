@@ -7,8 +7,8 @@
 namespace awmr {
 
 /// Unless the user selects a family, another family replaces the power law if its AIC is lower by
-/// this value. It is twice the usual threshold of 10, because the approximation of every resistance
-/// by a chord near rest also changes the AIC.
+/// this value. It is twice the usual threshold of 10, because the simulation replaces every
+/// resistance by a straight line near rest, which also changes the AIC.
 inline constexpr double kFamilyAicThreshold = 20.0;
 
 /// AICc of a fit with n normal residuals, their sum of squares SSE and k = free + 1 estimated

@@ -10,20 +10,23 @@
 namespace awmr {
 
 /// Anderson-Darling test for normality with estimated mean and variance; p by D'Agostino & Stephens
-/// (1986), table 4.9. Empty for fewer than 8 residuals.
+/// (1986), table 4.9. Empty for fewer than 8 residuals, or if all are equal.
 std::optional<Diagnostic> normality(std::span<const double> residuals);
 
-/// Ljung-Box test for white noise, over the first `lags` autocorrelations.
+/// Ljung-Box test for white noise, over the first `lags` autocorrelations. Empty for fewer than
+/// `lags` + 2 residuals, or if all are equal.
 std::optional<Diagnostic> whiteness(std::span<const double> residuals, int lags);
 
 /// Von Neumann's ratio test (normal approximation, one-sided) of the residuals in the order of the
-/// forces. Similar residuals of neighbouring forces mean that the curve has another shape. Empty
-/// for fewer than 8 residuals. `forces`: one per residual, in any unit.
+/// forces. Similar residuals of neighbouring forces show that the resistance has another shape than
+/// the curve. Empty for fewer than 8 residuals, or if all are equal. `forces`: one per residual, in
+/// any unit.
 std::optional<Diagnostic> curvature(std::span<const double> forces,
                                     const Eigen::VectorXd& residuals);
 
 /// F test of lack of fit: compares the distance of the curve from the mean of repeated runs with
-/// the scatter of the repeats. Empty without runs at equal forces.
+/// the scatter of the repeats. Empty without runs at equal forces, if these do not scatter, or if
+/// there are no more different forces than `parameters`, the free parameters of the curve.
 std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
                                       const Eigen::VectorXd& residuals, int parameters);
 

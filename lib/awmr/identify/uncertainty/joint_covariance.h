@@ -14,10 +14,11 @@ namespace awmr {
 /// on the diagonal of B and the gradient of each parameter in a row of G.
 class JointCovariance {
  public:
-  /// Derivatives of one parameter, by the index of the block element. Absent derivatives are 0.
+  /// Derivatives of one parameter by the numbers of the blocks, by the number's index over all
+  /// blocks. Absent derivatives are 0.
   using Gradient = std::map<Eigen::Index, double>;
 
-  /// Appends a block and returns the index of its first element.
+  /// Appends a block and returns the index of its first number.
   Eigen::Index add_block(const Eigen::MatrixXd& covariance);
   /// Sets the gradient of a parameter; replaces an earlier gradient.
   void set(ParameterId id, Gradient gradient) { gradients_[id] = std::move(gradient); }

@@ -3,7 +3,8 @@
 
 namespace awmr {
 
-/// 99.5 % quantile of the standard normal distribution: two-sided 99 % interval.
+/// 99.5 % quantile of the standard normal distribution: half width of a 99 % interval, in standard
+/// deviations.
 inline constexpr double kNormalQuantile995 = 2.576;
 
 /// 97.5 % quantile of Student's t: half width of a 95 % interval in standard errors. Precondition:
