@@ -20,8 +20,8 @@ constexpr double kRate_hz = 100.0;
 /// Speed (m/s) or yaw rate (rad/s) in place of rest, whose logarithm does not exist.
 constexpr double kAtRest = 1e-6;
 
-/// Relative scatter of the model's own rows of this kind about the prediction; 5 % for fewer than
-/// three rows.
+/// Relative standard deviation of the measured rows of this kind, as recorded in the model, about
+/// its predictions; 5 % for fewer than three rows.
 double relative_scatter(const Model& model, TrialKind kind) {
   double squares = 0.0;
   int count = 0;
@@ -194,7 +194,8 @@ void add_turning_runs(const Model& model, const SuggestOptions& options,
 
 std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptions& options) {
   std::vector<CandidateTrial> candidates;
-  // Tables are no candidates with back-EMF: steady runs determine only its sum with the resistance.
+  // With back-EMF, table rows are no candidates: steady runs determine only the sum of back-EMF and
+  // resistance.
   const bool tables = !(model[ParameterId::kBackEmf].value.value_or(0.0) > 0.0);
   if (tables && model.plant(Motion::kSteadySurge)) add_surge_runs(model, options, candidates);
   if (tables && model.plant(Motion::kSteadyTurn)) add_turning_runs(model, options, candidates);
@@ -230,7 +231,7 @@ std::optional<SideForces<double>> forces_for(double moment_m, double straight,
   return force;
 }
 
-/// Text that asks for steered turns, for a model from differential turns only.
+/// Text that suggests steered turns, for a model that was identified from differential turns only.
 std::string steered_turns_instead(const Vehicle& vehicle) {
   const double stop = vehicle.steering_max_deg;
   const double force = 0.5 * vehicle.wheel_force.hi;

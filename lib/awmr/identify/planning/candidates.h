@@ -18,8 +18,8 @@ struct CandidateTrial {
   std::function<std::vector<double>(const Plant<double>&)> standardised;
 };
 
-/// All candidates, within the measured range of the model. If the model has only parameters of
-/// straight motion, the logs drive straight.
+/// All candidates, within the limits of the wheels and the steering. If the model has only
+/// parameters of straight motion, the candidate logs drive straight.
 std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptions& options);
 
 /// Differential turns to record for the tyre scrub.
@@ -28,13 +28,14 @@ struct ScrubPlan {
   std::string about;  ///< see Suggestion::about_scrub
 };
 /// Plans differential turns at 1/3, 2/3 and 1 times the highest measured yaw rate. The mean wheel
-/// force is that of straight driving at half the highest speed. All forces are within the limits of
-/// the wheels.
+/// force is that of straight driving at half the highest speed. Plans only the turns that the wheel
+/// forces reach at the smallest possible scrub.
 ScrubPlan scrub_plan(const Model& model);
 
-/// Plans the turn with motors off. Its speed is half of the highest speed of the trials (without
-/// trials, of the motors). Its steering angle is half of the largest one, or less, so that the
-/// lateral acceleration is at most 0.2 g. Empty without steering or surge resistance.
+/// Plans the turn with motors off. Its speed is half of the highest speed of the surge trials or,
+/// without these, of the steady speed at full force. Its steering angle is half of the largest one,
+/// or less, so that the lateral acceleration is at most 0.2 g. Empty without steering or surge
+/// resistance.
 std::optional<CoastingTurn> coasting_turn(const Model& model);
 
 /// Describes the measurement errors that the candidates assume.

@@ -1,4 +1,5 @@
-/// Precision of a model's parameters: decides whether enough trials were recorded.
+/// Precision of a model's parameters, from which a command decides whether enough trials were
+/// recorded.
 #pragma once
 
 #include <optional>
@@ -12,14 +13,13 @@ namespace awmr {
 /// Precision of one parameter.
 struct Precision {
   ParameterId id{};
-  /// Half of the width of the 95 % interval, divided by the value unless the parameter is an
-  /// exponent; dimensionless, >= 0. Absent if the parameter was given or has no interval.
+  /// Half of the width of the 95 % interval, >= 0: divided by the value or, for an exponent or a
+  /// term of a family, in its own unit. Absent if the parameter was given or has no interval.
   std::optional<double> half_width;
 };
 
-/// Precision of the parameters in `requested`. If that is empty: of every parameter of the vehicle
-/// that was not given, without terms that only some families have, because a term that is 0 has no
-/// relative width.
+/// Precision of the parameters in `requested`. If `requested` is empty: of every parameter of the
+/// vehicle that was not given and is not a term of only some families.
 std::vector<Precision> precision_of(const Model& model, std::span<const ParameterId> requested);
 
 /// True if every half width is present and at most `limit`. False for an empty list.

@@ -28,15 +28,15 @@ struct RecoverOptions {
   int threads = 0;
   /// The estimator under test.
   IdentifyOptions identify;
-  /// Quantity that gets the simulated error. Absent: the one that the estimator assumes. Another
-  /// quantity shows the effect of a wrong assumption.
+  /// Quantity that gets the simulated error. Absent: the quantity that the estimator assumes.
+  /// Another quantity shows the effect of a wrong assumption.
   std::optional<ErrorModel> error;
   /// Sensor noise of curves and logs. Use the robot's own values if they are known.
   SensorNoise sensors;
   /// Duration, s, and sample rate, Hz, of a coast-down curve, > 0.
   double curve_s = 2.0;
   double curve_rate_hz = 100.0;
-  /// Commands of a log; each run has other random commands.
+  /// Duration and commands of a log. The random commands differ from run to run.
   DrivePlan drive;
 };
 
@@ -63,8 +63,9 @@ struct Recovery {
 /// Runs the self-test. `progress` is called on the calling thread with the number of completed
 /// runs. If the model has only parameters of straight motion, the log drives straight and only
 /// these parameters are fitted. Errors (input): the model lacks a parameter that a trial of the
-/// plan needs, or has no trials for the plan; fewer than 2 runs. Errors (refused): no run estimates
-/// a requested parameter, or any parameter.
+/// plan needs, or has no trials for the plan; fewer than 2 runs; a simulated log of fewer than 20
+/// or more than a million rows; as check_replay(). Errors (refused): no run estimates a requested
+/// parameter, or any parameter.
 Result<Recovery> recover(const Model& model, const RecoverOptions& options,
                          const std::function<void(int)>& progress);
 

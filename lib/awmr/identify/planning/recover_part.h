@@ -1,5 +1,5 @@
-/// The two steps of recover(), so that several machines can share the runs: the runs of a part, and
-/// the statistics of all runs.
+/// The two steps of recover(): the runs of a part, and the statistics of all runs. With them,
+/// several machines can share the runs.
 #pragma once
 
 #include <functional>

@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-/// Limits of numbers in a part's files: number of runs, absolute true value.
+/// Limits of numbers in a part's files: number of runs, magnitude of a true value other than 0.
 constexpr long kMaxRecoverRuns = std::numeric_limits<int>::max();
 constexpr double kLargestTruth = 1e100;
 constexpr double kSmallestTruth = 1e-100;

@@ -10,7 +10,7 @@
 
 namespace awmr {
 
-/// Largest accepted estimate, so that a sum of a million squares is finite.
+/// Largest accepted magnitude of an estimate. The sum of a million squares is then finite.
 inline constexpr double kLargestEstimate = 1e150;
 
 /// Text of recovery.csv. It has one row per run with the columns `run,refused`, and

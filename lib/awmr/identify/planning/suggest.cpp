@@ -15,8 +15,8 @@
 namespace awmr {
 namespace {
 
-/// Assumed standard error of the coordinate of a parameter without one: a factor of e^2. It makes
-/// trials that measure the parameter useful.
+/// Assumed standard error of the coordinate of a parameter whose standard error is unknown (a
+/// factor of e^2), so that trials that measure the parameter rank high.
 constexpr double kUnknownStd = 2.0;
 
 /// Covariance of the n uncertain parameters, in the coordinates z of model/transform.h. With the
@@ -50,8 +50,8 @@ Uncertainty uncertainty_of(const Model& model) {
     covariance(eigen_index(i), eigen_index(i)) = kUnknownStd * kUnknownStd;
   }
   // I'z from a coast-down is m' times a constant, so the covariance is singular. A small
-  // independent error of each parameter makes it invertible, so that a trial that measures I'z can
-  // separate them.
+  // independent error of each parameter makes it invertible, and a trial that measures I'z can then
+  // separate I'z from m'.
   constexpr double kIndependentStd = 1e-4;
   covariance.diagonal().array() += kIndependentStd * kIndependentStd;
   return {std::move(ids), std::move(covariance)};
@@ -106,8 +106,8 @@ struct Target {
   }
 };
 
-/// Whole resistance at 1 m/s or 1 rad/s. The error of a term is relative to it, because the term
-/// itself may be 0. For a term of a single wheel, the share of one wheel.
+/// Whole resistance at 1 m/s or 1 rad/s, by which the error of a term is divided, because the term
+/// itself may be 0. For a term of a single wheel (dead zone, back-EMF): a quarter of it.
 double whole_of(ParameterId id, const Plant<double>& plant) {
   if (id == ParameterId::kYawCoulomb || id == ParameterId::kYawQuadratic) return plant.yaw(1.0);
   const bool of_a_wheel = id == ParameterId::kWheelDeadZone || id == ParameterId::kBackEmf;

@@ -14,17 +14,17 @@ namespace awmr {
 /// A closed-loop metric whose uncertainty is to be reduced.
 struct SuggestTarget {
   std::string name;  ///< name of the metric
-  /// Value of the metric for a plant. Its variance is grad^T C grad, with the covariance C of the
-  /// parameters and the gradient by finite differences.
+  /// Value of the metric for a plant. The variance of the metric is grad^T C grad, with the
+  /// covariance C of the parameters' coordinates and the gradient by finite differences.
   std::function<double(const Plant<double>&)> value;
 };
 
 /// Options of suggest().
 struct SuggestOptions {
   /// Target of the ranking: the name of a parameter or of one of `metrics`. Empty: all parameters
-  /// (A-optimality), with the root of the sum of their squared relative standard errors. The error
-  /// of an exponent is absolute, that of a family's term relative to the whole resistance at 1 m/s
-  /// or 1 rad/s.
+  /// (A-optimality), that is, the root of the sum of their squared relative standard errors. In
+  /// this sum the error of an exponent is absolute, and that of a family's term is relative to the
+  /// whole resistance at 1 m/s or 1 rad/s.
   std::string parameter = {};
   /// Sensor noise of future curves and logs. Use the robot's own values if they are known.
   SensorNoise sensors = {};
@@ -90,7 +90,7 @@ struct Suggestion {
 /// with the derivatives J of its measurements by the coordinates, and the inverse variances W of
 /// its errors. A parameter without a value is reported as missing, and trials that measure it are
 /// not ranked. Errors (input): the model has all values but no covariance; the target is unknown or
-/// has no value.
+/// has no value; the effect of a trial is not finite; as check_replay().
 Result<Suggestion> suggest(const Model& model, const SuggestOptions& options);
 
 /// Content of suggest.json.
