@@ -1,5 +1,5 @@
-/// Default sway resistance, for models without a value from the vehicle file or a log. It is that
-/// of common tyres; the spread between tyres is its uncertainty. Private to identify/.
+/// Default sway resistance for models without a value from the vehicle file or a log: that of
+/// common tyres, with the spread between tyres as its uncertainty. Private to identify/.
 ///
 /// A tyre's lateral force is c times its load per radian of slip angle. At the forward speed u and
 /// the lateral speed v the slip angle is v/u:
@@ -7,8 +7,8 @@
 ///     F_y = c m g v/u,    over F_max = m/m':    sway.alpha = c g m'/u
 ///
 /// c in 1/rad is 15 for rubber on asphalt, 5 for hard plastic, and less than 1 for wheels that
-/// already slide, as in the turns of a skid-steered vehicle. The 95 % interval of c is 0.5 to 16,
-/// with ln c normal. u is half of the highest speed in the trials.
+/// already slide, as in the turns of a skid-steered vehicle. The value used is 2.8, with the 95 %
+/// interval 0.5 to 16 (ln c normal). u is half of the highest speed in the trials.
 #pragma once
 
 #include <optional>
@@ -22,8 +22,8 @@ namespace awmr {
 inline constexpr const char* kAssumedSwayMethod = "assumed of common tyres";
 
 /// Sets the assumed sway resistance and its covariance, and adds the finding `assumed-sway`. Does
-/// nothing if the model already has a sway resistance, lacks a3, I'z or m', or if no trial has a
-/// speed.
+/// nothing if the model already has a sway resistance, if it lacks a3, I'z or m', or if no trial
+/// has a speed.
 void assume_sway(const TrialData& data, MainValues& values);
 
 }  // namespace awmr

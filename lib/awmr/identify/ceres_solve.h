@@ -40,7 +40,7 @@ inline std::string stop_reason(const ceres::Solver::Summary& summary) {
 }
 
 /// Residuals at the problem's current point. Empty if one of them cannot be evaluated or is not
-/// finite. (Ceres alone would return the other residuals.)
+/// finite. (Ceres itself would leave out the residual blocks that it cannot evaluate.)
 inline std::optional<Eigen::VectorXd> evaluated_residuals(
     ceres::Problem& problem, const ceres::Problem::EvaluateOptions& options) {
   std::vector<double> values;

@@ -16,9 +16,11 @@ struct Identification {
 };
 
 /// Identifies the model of a vehicle. `findings`: those of the data, put first in the record.
-/// Errors (input): contradictory options, such as a robust loss with the log-linear method. A
-/// parameter that the data do not identify is not an error: it gets no value and the finding
-/// `not-identifiable`, and is listed in `refused`.
+/// Errors (input): contradictory options, such as a robust loss with the log-linear method; an
+/// option without the trials that it needs; a requested parameter or family that the vehicle cannot
+/// have; back-EMF together with tables; as run_log_stage() (log_stage.h).
+/// A parameter that the data do not identify is not an error: it gets no value and the finding
+/// `not-identifiable`, and is listed in `refused` if it was requested.
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings);
 

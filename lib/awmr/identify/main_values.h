@@ -19,7 +19,7 @@ struct MainValues {
   JointCovariance covariance = {};
 };
 
-/// Sets the values that vehicle.json gives: sway resistance and servo time constant.
+/// Sets the values that vehicle.json gives: sway resistance, back-EMF and servo time constant.
 void set_given(const Vehicle& vehicle, Model& model);
 
 /// Sets the parameters and the family of a resistance law. Precondition: `fit.chosen` is set.

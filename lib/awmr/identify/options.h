@@ -73,10 +73,11 @@ inline bool can_be_requested(const ParameterInfo& parameter) {
 }
 
 struct IdentifyOptions {
-  /// Absent: trajectory if there are logs, else log-linear, else (if the requested family or loss
-  /// needs it) nonlinear.
+  /// Absent: trajectory if there are logs. Without logs: nonlinear if another family or a robust
+  /// loss is requested, else log-linear.
   std::optional<Method> method = {};
-  /// Absent: time if every run was timed, else speed.
+  /// Error model of the nonlinear fit. Absent, with `method` nonlinear: time if every run was
+  /// timed, else speed. Absent, with `method` absent too: the relative error of the force.
   std::optional<ErrorModel> noise = {};
   FamilyChoice surge_family = {};
   FamilyChoice yaw_family = {};
@@ -93,8 +94,8 @@ struct IdentifyOptions {
   std::uint64_t seed = 1;               ///< seed of the multistart and of the bootstrap
   int starts = 6;     ///< logs: number of random initial guesses if no trial gives one; >= 0
   int bootstrap = 0;  ///< logs: number of bootstrap resamples, e.g. 1000; 0: no bootstrap
-  /// Logs: time limit of the searches, s. Fits that have not converged by then are refused. 0: no
-  /// time limit. The amount of computation is limited in either case.
+  /// Logs: time limit of all searches together, s; 0: none. A fit that has not converged by then is
+  /// refused. The amount of computation is always limited.
   double time_limit_s = 0.0;
   /// Logs: predicts each log by a fit of the other logs; needs two logs.
   bool cross_validate = false;

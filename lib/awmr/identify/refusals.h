@@ -17,8 +17,8 @@ std::vector<ParameterId> requested_parameters(const Vehicle& vehicle, const Tria
 
 /// Reasons why parameters have no value although their trials were recorded.
 struct Reasons {
-  std::string surge;    ///< why no fit of the surge rows is accepted; may be empty
-  std::string turning;  ///< why no fit of the turning rows is accepted; may be empty
+  std::string surge;    ///< why no fit of the surge rows is accepted; else empty
+  std::string turning;  ///< why no fit of the turning rows is accepted; else empty
   std::string mass;     ///< why the coast-downs give no m'
   /// Coast-down curves were fitted without a surge law. `mass` is then also why a1 has no value.
   bool curve_alone = false;

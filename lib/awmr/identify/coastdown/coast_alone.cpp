@@ -50,7 +50,8 @@ EstimatorReport report_of_alone(const CoastFit& fit) {
   return report;
 }
 
-/// Fits the curves under the requested family, or under all families if none is requested.
+/// Fits the curves under the requested family, or under all families if none or `auto` is
+/// requested. A requested dead zone counts as the power law.
 std::vector<CoastFit> fits_of(const std::vector<CoastCurve>& curves, const Interval& beta_range,
                               const FamilyChoice& choice) {
   std::vector<CoastFit> fits;

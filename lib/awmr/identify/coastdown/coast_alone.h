@@ -10,11 +10,12 @@
 
 namespace awmr {
 
-/// Adds number of rows, residual standard deviation, rank and residual tests of a curve fit.
+/// Adds number of rows, residual standard deviation, degrees of freedom, rank, condition number,
+/// stop reason and residual tests of a curve fit to its report.
 void add_curve_figures(EstimatorReport& report, const CoastFit& fit);
 
 /// Report entry of a positive number whose logarithm was fitted. `error`: standard error of the
-/// logarithm. `half`: quantile of Student's t for the 95 % interval.
+/// logarithm. `half`: half width of the 95 % interval in standard errors (quantile of Student's t).
 EstimatorParameter by_logarithm(std::string name, double value, double error, double half);
 
 /// Estimates m'/a1, b1, c1/a1 and q1/a1 from coast-down curves alone, under the requested family

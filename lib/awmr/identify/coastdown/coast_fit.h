@@ -26,18 +26,18 @@ struct TermOverAlpha {
 struct CoastFit {
   double log_mass_norm = 0.0;  ///< ln m'; ln (m'/a1) without a surge law
   double variance = 0.0;       ///< variance of log_mass_norm by the noise of the curves alone
-  double dof = 0.0;            ///< degrees of freedom of `variance`; fewer if autocorrelated
+  double dof = 0.0;            ///< degrees of freedom of `variance`, reduced if autocorrelated
   /// d ln m' / d theta for the free coordinates theta of the fixed surge law (SteadyFit::free).
   Eigen::VectorXd by_surge;
   double beta = 0.0;                 ///< b1: fitted or given
   double beta_variance = 0.0;        ///< 0 if b1 was not fitted or is at a bound
   Family family = Family::kPower;    ///< without a surge law: the family that was fitted
-  std::vector<TermOverAlpha> terms;  ///< without a surge law: those of the family
-  std::optional<double> aicc;        ///< without a surge law
+  std::vector<TermOverAlpha> terms;  ///< without a surge law: c1/a1, q1/a1
+  std::optional<double> aicc;        ///< AICc of a fit without a surge law
   double residual_std_mps = 0.0;
   int rows = 0;  ///< number of samples of all runs
   int rank = 0;
-  double condition_number = 0.0;               ///< of the Jacobian with columns of length one
+  double condition_number = 0.0;               ///< of the Jacobian, its columns of length 1
   std::vector<std::vector<double>> residuals;  ///< by run, m/s
   bool autocorrelated =
       false;            ///< neighbouring residuals are correlated; `variance` allows for this
@@ -48,7 +48,7 @@ struct CoastFit {
 /// Fits m' and each run's initial state for a given surge law.
 CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge);
 
-/// Fits curves without a surge law. They determine only m'/a1, b1, c1/a1 and q1/a1:
+/// Fits curves without a surge law. The curves then determine only m'/a1, b1, c1/a1 and q1/a1:
 ///   (m'/a1) u_dot = -(c1/a1 + |u|^b1 + (q1/a1) u^2)
 CoastFit fit_coast_alone(const std::vector<CoastCurve>& curves, const Interval& beta_range,
                          Family family);

@@ -39,13 +39,13 @@ void check_mass(const Resistance<double>& surge, const std::vector<CoastCurve>& 
 
 /// True if the initial deceleration g1(u)/m' of a coast-down from `speed_mps` is above g.
 bool is_implausible(const Resistance<double>& surge, double speed_mps, double mass_norm);
-/// m' with which a coast-down from the speed u begins at the limit of tyres, mu g, with the
-/// friction mu = kTyreFriction:
+/// The m' for which the initial deceleration of a coast-down from the speed u is mu g, the limit of
+/// tyres with the friction mu = kTyreFriction:
 ///   m' = g1(u)/(mu g)
 double mass_norm_by_grip(const Resistance<double>& surge, double speed_mps);
 
 /// Adds the note `inertia-mismatch` if the given Iz differs by more than 10 % from that of a
-/// uniform box.
+/// uniform box of the vehicle's size and mass.
 void check_inertia(const Vehicle& vehicle, std::vector<Finding>& findings);
 
 }  // namespace awmr

@@ -13,9 +13,8 @@ namespace awmr {
 
 struct MassResult {
   std::optional<MassEstimate> estimate;  ///< reported m', under the chosen surge law
-  /// Mixture over the alternative surge laws, of their free coordinates (SteadyFit::free) and ln
-  /// m'. Empty if the surge fit has no covariance. Excludes laws under which the vehicle never
-  /// stops.
+  /// Joint distribution of the surge law's free coordinates (SteadyFit::free) and ln m': a mixture
+  /// over the alternative surge laws that give an m'. Empty if the surge fit has no covariance.
   Posterior posterior;
   std::optional<double> by_grip;  ///< see Model::mass_norm_by_grip
   std::optional<JointFit> joint;  ///< present if requested and usable
@@ -25,10 +24,12 @@ struct MassResult {
   std::vector<Finding> findings;
 };
 
-/// Estimates m' by stop times, curves or both. `surge` is null if the surge law is not identified;
-/// `family` is then fitted to the curves alone, and compared with the other families unless the
+/// Estimates m' by stop times, curves or both. `surge` is null if the surge law is not identified.
+/// Then `family` is fitted to the curves alone, and compared with the other families unless the
 /// user requested it (`power-law-inadequate`). Excludes curves without a deceleration
-/// (`no-deceleration`). Precondition: at least one stop time or curve.
+/// (`no-deceleration`). Further findings: `estimates-disagree`, `noise-model`,
+/// `coloured-residuals`, `not-converged`, `back-emf-assumed`, those of check_mass(). Precondition:
+/// at least one stop time or curve.
 MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<StopTimeRow>>& stops,
                          const std::vector<CoastCurve>& curves, const Vehicle& vehicle,
                          const FamilyChoice& family, bool joint);

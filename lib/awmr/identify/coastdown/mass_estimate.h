@@ -1,4 +1,4 @@
-/// An estimate of ln m' with its two sources of error, and the combination of two estimates.
+/// Estimates of ln m' from coast-downs, with their errors, and the combination of two estimates.
 /// Private to identify/.
 #pragma once
 
@@ -40,8 +40,8 @@ MassEstimate combined(const MassEstimate& a, const MassEstimate& b, const Steady
 std::vector<Finding> disagreement(const MassEstimate& a, const MassEstimate& b,
                                   const SteadyFit& surge, const std::string& file);
 
-/// Report of an estimate for /estimates of model.json. `noise`: names of the quantities with
-/// errors.
+/// Report of an estimate for /estimates of model.json. `noise`: names of the quantities that have a
+/// measurement error.
 EstimatorReport report_of(const MassEstimate& mass, const SteadyFit& surge, Estimator estimator,
                           std::string_view noise);
 

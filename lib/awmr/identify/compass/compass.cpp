@@ -28,7 +28,7 @@ constexpr int kSectors = 36;
 /// Largest gap of headings that is accepted in a calibration turn.
 constexpr double kLargestGapDeg = 30.0;
 /// Residual standard deviation, as a share of the field, above which `compass-residual` is
-/// reported. Hard and soft iron alone leave less.
+/// reported. Tilt, moving iron or noise cause such residuals; hard and soft iron cause none.
 constexpr double kLargeResidual = 0.05;
 /// Residual standard deviation, as a share of the field, above which the ellipse is refused.
 constexpr double kNoEllipse = 0.2;
@@ -54,7 +54,7 @@ std::vector<double> headings_of(const Ellipse& ellipse, const Points& points) {
   return headings;
 }
 
-/// Largest part of the circle without a heading, rad: its beginning and its size.
+/// Largest gap in the circle without a heading: its beginning and its size, rad.
 std::pair<double, double> largest_gap_rad(std::vector<double> headings) {
   std::sort(headings.begin(), headings.end());
   std::pair<double, double> largest{headings.back(),
@@ -166,8 +166,9 @@ double turned_by_gyro_rad(const FieldRecord& record) {
   return turned;
 }
 
-/// Compares the angle `turned` by the compass with that of the gyroscope. Without a yaw rate it adds
-/// a note. Errors (refused): opposite signs, or a difference above kTurnTolerance times |turned|.
+/// Compares the angle `turned` by the compass with that of the gyroscope. Adds the note
+/// `turn-not-checked` if there is no yaw rate. Errors (refused): opposite signs, or a difference
+/// above kTurnTolerance times |turned|.
 Status check_turn(const FieldRecord& record, double turned, std::vector<Finding>& findings) {
   if (record.yaw_rate_radps.empty()) {
     findings.push_back({record.file, 0, Severity::kNote, "turn-not-checked",
@@ -259,8 +260,8 @@ Result<CompassFit> fit_compass(const FieldRecord& record, double declination_deg
   const auto [gap_begin, gap] = largest_gap_rad(headings);
   if (degrees(gap) > kLargestGapDeg) {
     return refusal(ErrorCode::kCompassUnusable,
-                   fmt::format("{}: the turn leaves {:.0f} deg out, from {:.0f} deg on, so the "
-                               "ellipse is uncertain there; turn through two whole circles",
+                   fmt::format("{}: {:.0f} deg of the circle have no reading, from {:.0f} deg on, "
+                               "so the ellipse is uncertain there; turn through two whole circles",
                                record.file, degrees(gap), degrees(gap_begin)));
   }
   const Known fit = known(*ellipse, points, headings);
