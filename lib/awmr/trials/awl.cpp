@@ -22,7 +22,7 @@ using awl::Lost;
 using awl::Place;
 using awl::Scan;
 
-/// Bits of SafetyFault with which heading or speed of a row is not a current measurement.
+/// Bits of SafetyFault that mark a row whose heading or speed is not a current measurement.
 constexpr unsigned kNotMeasured = kFaultHeadingStale | kFaultSpeedStale | kFaultNotFinite;
 
 /// Bits of `reset_cause`, as in the chip's MCUSR. [ATmega2560 data sheet, 12.5.1]

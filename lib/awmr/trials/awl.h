@@ -13,7 +13,7 @@
 
 namespace awmr {
 
-/// Content of a file, and how much of it was lost.
+/// Rows of an `.awl` file, and how many rows and bytes were lost.
 struct AwlLog {
   std::vector<std::string> header = {};           ///< column names: `t_s` first, `run` last
   std::vector<std::vector<double>> columns = {};  ///< by column, then by row; all finite
@@ -26,19 +26,19 @@ struct AwlLog {
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
 
-/// True if a header begins within the first kilobytes.
+/// True if a header begins within the first 8 KiB.
 bool is_awl(std::string_view bytes);
 
-/// Reads all complete rows of a file. A row is found by its checksum, so damaged bytes before it do
-/// not matter. Findings, each with its places in the file:
+/// Reads all complete rows of a file. Each row is found by its own checksum, so damaged bytes
+/// before a row do not prevent its reading. Findings, with the places in the file:
 ///   `rows-lost`          missing row numbers
 ///   `log-damaged`        bytes that are not a row
 ///   `log-truncated`      the file ends inside a row
 ///   `rows-not-measured`  rows set aside: heading or speed was too old, or a value not a number
 ///   `short-run`          rows set aside: their run has fewer than ten rows
 ///   `chip-reset`         a run began with a watchdog reset or a drop of the supply voltage
-/// Errors (input): no complete header; a header of another version; a header whose columns do not
-/// fill a row; two headers that differ. Errors (refused): no usable row.
+/// Errors (input): no complete header; as layout_of() (awl_header.h); two headers that differ; more
+/// than 1000 damaged headers. Errors (refused): no usable row.
 Result<AwlLog> read_awl(std::string_view bytes, const std::string& file);
 
 /// As read_awl(), for a file. Records the hash of the file as an input. Errors also: as

@@ -47,9 +47,9 @@ unsigned bits_in(std::string_view row, const Layout& layout, std::string_view na
 /// Returns the JSON text of the header at this offset; empty if there is no undamaged header.
 std::optional<std::string_view> header_at(std::string_view bytes, std::size_t at);
 
-/// Parses the JSON text of a header. Errors (input), with the place as `FILE:/pointer`: another
-/// version; a duplicate column; a first column other than t_s; a row size that is not the sum of
-/// its columns.
+/// Parses the JSON text of a header. Errors (input), with the place as `FILE:/pointer`: text that
+/// is not JSON; another version; a column with an invalid or duplicate name, type or scale; a first
+/// column other than t_s; a row size that is not that of the row's head and columns.
 Result<Layout> layout_of(std::string_view json, const std::string& file);
 
 }  // namespace awmr::awl

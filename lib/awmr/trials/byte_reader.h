@@ -12,7 +12,7 @@
 namespace awmr {
 
 /// Returns the number in the first sizeof(T) bytes. `big`: the most significant byte comes first.
-/// Precondition: there are so many bytes.
+/// Precondition: `bytes` has at least sizeof(T) bytes.
 template <class T>
 T number_in(std::string_view bytes, bool big = false) {
   using Bits = std::conditional_t<

@@ -176,8 +176,8 @@ std::string mapping_option(std::span<const ColumnMapping> mappings, std::string_
   return option_text("column '" + scaled_mapping(mappings, column, factor) + "'");
 }
 
-/// Decides whether the scale of the yaw rate or of the heading is wrong: the positions agree with
-/// the channel that is right.
+/// Decides whether the scale of the yaw rate or of the heading is wrong. The channel that agrees
+/// with the positions is right.
 enum class ChannelAtFault { kYawRate, kHeading, kEither };
 ChannelAtFault channel_at_fault(const DrivingLog& log, const Calibration& scale) {
   constexpr double kClearly = 0.7;

@@ -34,14 +34,15 @@ struct Calibration {
   double std_error = 0.0;
 };
 
-/// Angle phi from the heading to the course over ground, rad, left positive. Empty if it is below
-/// 1 deg or below five standard errors, or if x, y, the heading or the speed was not measured.
+/// Angle phi from the heading to the course over ground, rad, left positive. Empty if phi is below
+/// 1 deg or below five standard errors, if x, y, the heading or the speed was not measured, or with
+/// fewer than 15 windows.
 std::optional<Calibration> heading_offset_rad(const DrivingLog& log);
 
-/// Returns the warnings `heading-offset` (as heading_offset_rad()) and `scale-mismatch`: two
-/// channels whose scales differ by more than 3 % and five standard errors. `scale-mismatch` names
-/// the wrong channel if a third channel agrees with the other, else both. `mappings`: those with
-/// which the log was read.
+/// Returns the warnings `heading-offset`, if there is a heading_offset_rad(), and `scale-mismatch`,
+/// for two channels whose scales differ by more than 3 % and five standard errors. For heading and
+/// yaw rate, `scale-mismatch` names the wrong one if the positions agree with the other; else it
+/// names both channels. `mappings`: those with which the log was read.
 std::vector<Finding> calibration_findings(const DrivingLog& log,
                                           std::span<const ColumnMapping> mappings);
 

@@ -213,9 +213,9 @@ std::vector<RowSpan> equal_runs(std::span<const double> value) {
   return runs;
 }
 
-/// Time during `run` in which the mean of the command over 0.3 s differs by more than `notable`
-/// from the mean over the run's first 0.3 s. The last 0.3 s of the run do not count. Means are
-/// compared, because a speed controller changes its command constantly but hardly on average.
+/// Time, s, during `run` in which the mean command over 0.3 s differs by more than `notable` from
+/// the mean over the run's first 0.3 s. The last 0.3 s of the run do not count. Means are compared,
+/// because a speed controller changes its command in every row, but hardly on average.
 double changed_s(std::span<const double> t_s, std::span<const double> activity, const RowSpan& run,
                  double notable) {
   constexpr double kMean_s = 0.3;

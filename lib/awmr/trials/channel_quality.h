@@ -28,7 +28,7 @@ struct ChannelQuality {
   std::vector<std::size_t> spikes;  ///< rows whose value jumps away and back
   std::vector<RowSpan> stuck;       ///< rows with one value while the command changed
   std::size_t saturated = 0;        ///< number of rows at the end of the sensor's range
-  double saturated_at = 0.0;        ///< the value there
+  double saturated_at = 0.0;        ///< the value in these rows
 };
 
 /// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the
@@ -36,8 +36,9 @@ struct ChannelQuality {
 ///
 /// A slow sensor changes in every second row at most. A coarse sensor also changes in neighbouring
 /// rows, mostly by one step of its resolution. Of a slow sensor, only the rows with a new reading
-/// are measurements. Of a coarse sensor, every row is one: an unchanged value means that the signal
-/// did not reach the next step. Spikes, stuck and saturated rows are not measurements.
+/// are measurements. Of a coarse sensor, every row is a measurement: an unchanged value means that
+/// the signal did not reach the next step. Rows with spikes, stuck or saturated values are not
+/// measurements.
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity);
 

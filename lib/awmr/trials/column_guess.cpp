@@ -54,7 +54,8 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-/// Assumptions that the user must check; the guess's reason states them.
+/// Assumed angle of the steering stop and voltage of full power. The reason of a guess states them,
+/// so that the user can check them.
 constexpr double kUsualStop_deg = 20.0;
 constexpr double kUsualVolts = 12.0;
 
@@ -173,7 +174,7 @@ void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   }
 }
 
-/// Index of the file's column from which a guess is made; none for a formula of several columns.
+/// Index of the file's column that the guess uses; empty for a formula of several columns.
 std::optional<std::size_t> source_of(const ColumnGuess& guess, const FileSample& sample) {
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
     const std::string name = quoted(sample.names[i]);
@@ -189,8 +190,8 @@ void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& gues
   for (ColumnGuess& guess : guesses) {
     const auto source = source_of(guess, sample);
     if (!source) continue;
-    // Values of a channel: the column in question for this guess's channel, the first guess for
-    // others.
+    // Values of a channel: for this guess's channel its source column, for others that of their
+    // first guess.
     const auto values = [&](std::string_view column) -> std::optional<std::span<const double>> {
       if (column == guess.column) return sample.values[*source];
       for (const ColumnGuess& other : guesses) {

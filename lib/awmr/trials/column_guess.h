@@ -1,5 +1,5 @@
-/// Guesses which columns of an unknown file are awmr's columns, each guess with its reason (`awmr
-/// map`). The user must confirm the guesses.
+/// Guesses which columns of an unknown file correspond to awmr's columns (`awmr map`), each guess
+/// with its reason. The user must confirm the guesses.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace awmr {
 struct FileSample {
   std::vector<std::string> names;
   std::vector<std::vector<double>> values;  ///< by name: the first numbers, at most kSampleRows
-  std::vector<std::string> texts;           ///< by name: the first cell; empty in binary files
+  std::vector<std::string> texts;  ///< by name: first non-empty cell; empty in binary files
 };
 inline constexpr std::size_t kSampleRows = 1000;
 

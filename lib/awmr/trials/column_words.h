@@ -22,8 +22,8 @@ bool has_any(const Words& words, const std::set<std::string>& any);
 
 enum class Dimension { kForce, kAngle, kAngularRate, kSpeed, kLength, kGeographic, kTime, kCount };
 
-/// Returns the dimension of a file's column whose name has these words, if it may be awmr's
-/// `column` in a trial of this kind; else empty.
+/// Returns the dimension of a file's column whose name has these words, if the column may be awmr's
+/// `column` in a trial of this kind. Else empty.
 std::optional<Dimension> dimension_as(TrialKind kind, const std::string& column,
                                       const Words& words);
 

@@ -10,7 +10,8 @@
 namespace awmr {
 namespace {
 
-/// Below this speed, or below a tenth of the highest speed if that is smaller, the vehicle rests.
+/// The vehicle counts as at rest below this speed, or below a tenth of its highest speed if that is
+/// smaller.
 constexpr double kRest_mps = 0.1;
 /// A larger change from one reading to the next is a jump, not noise or a turn on the spot.
 constexpr double kFar_rad = 20.0 * pi<double>() / 180.0;

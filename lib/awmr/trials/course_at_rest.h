@@ -8,8 +8,8 @@
 namespace awmr {
 
 /// Result of course_at_rest(). A GPS reports the direction of motion (the course) as heading. While
-/// the vehicle rests, it repeats the last course or writes 0 or noise, and the heading jumps when
-/// the vehicle starts. A compass does not jump.
+/// the vehicle rests, the GPS repeats the last course or writes 0 or noise, so the heading jumps
+/// when the vehicle starts. The heading of a compass does not jump.
 struct CourseAtRest {
   double rest_mps = 0.0;          ///< below this speed, the vehicle counts as at rest
   std::vector<std::size_t> rows;  ///< rows with an invalid heading; empty: all headings are valid

@@ -23,7 +23,7 @@ constexpr std::array<FullScale, 5> kFullScales{{{100.0, "percent"},
                                                 {4095.0, "12-bit PWM counts"}}};
 constexpr double kEndOfScale = 0.005;    // relative tolerance for "the force is at full power"
 constexpr double kLeastShare = 0.2;      // fraction of full power that every vehicle's trials reach
-constexpr double kPlainlyBeyond = 1.05;  // times the limit: up to this, F_max may be too small
+constexpr double kPlainlyBeyond = 1.05;  // times the limit; below, F' may refer to a smaller F_max
 
 constexpr ForceUnit kMicroseconds{
     "microseconds of a servo pulse (F' = (us - 1500)/500 if 1500 is standstill and 2000 full "

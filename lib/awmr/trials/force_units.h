@@ -6,7 +6,7 @@
 ///     900 to 2200, no value below 900      microseconds of a servo pulse: F' = (us - 1500)/500
 ///     100, 255, 1000, 1023, 4095 +-0.5 %   percent, PWM counts or per mille, at full power
 ///     20 to 100 % of one of these          possibly that scale: all such scales are listed
-///     n F/m of 0.1 to 30 m/s^2             possibly newtons: n wheels then accelerate plausibly
+///     n F/m of 0.1 to 30 m/s^2             possibly newtons (n driven wheels, mass m in kg)
 ///     2 to 60                              possibly volts
 ///
 /// Only a force at full power identifies the unit for certain. The largest force in all tables of a
@@ -55,7 +55,7 @@ struct ForceUnits {
 
   bool is_clear() const { return units.size() == 1; }
 };
-/// Precondition: span.largest > F'max.
+/// Returns the possible units of forces with this range. Precondition: span.largest > F'max.
 ForceUnits force_units(const ForceSpan& span, const Vehicle& vehicle);
 
 /// Text for messages: "the forces look like percent or 8-bit PWM counts".
@@ -65,9 +65,9 @@ std::string words_of(const ForceUnits& units);
 /// none.
 std::vector<UnitFix> force_unit_fixes(const ForceUnits& units, std::string_view column);
 
-/// Possible units of a tau_speed above n F'max (n driven wheels), and the mappings that convert the
-/// column to n F'. The column may contain the force of one wheel or the sum of n wheels, so there
-/// is a mapping for each.
+/// Possible units of a column tau_speed above n F'max (n driven wheels), and the mappings that
+/// convert it to n F'. The column may contain the force of one wheel or the sum of n wheels, so
+/// there is a mapping for each.
 struct ThrustUnits {
   ForceUnits units;
   std::vector<UnitFix> unit_fixes;

@@ -27,8 +27,9 @@ void join_position(DrivingLog& log);
 /// Adds the note `held-samples` for each channel that is slower than the log.
 void note_held(const DrivingLog& log, std::vector<Finding>& findings);
 
-/// Adds the warning `command-held` if a command was not renewed for a second or more and for ten
-/// times its usual interval: it may have ended. `rows`: the rows in which the file has a value.
+/// Adds the warning `command-held` if a command has no new value for a second or more and for ten
+/// times its mean interval: the commands may have ended there. `rows`: the rows in which the file
+/// has a value.
 void note_stale_command(std::string_view column, const DrivingLog& log,
                         const std::vector<std::size_t>& rows, std::vector<Finding>& findings);
 

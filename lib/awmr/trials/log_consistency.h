@@ -1,7 +1,9 @@
 /// Checks a driving log for wrong units and signs and for swapped sides, before anything is fitted.
 /// The channels are compared with each other, with the commands and with the vehicle file.
 ///
-/// Compared over windows of one second, without a model of the vehicle:
+/// Compared with the vehicle file: the row spacing with sample_time_s, the forces with wheel_force,
+/// the steering angles with the stop. Compared over windows of one second, without a model of the
+/// vehicle:
 ///
 ///     change of heading      with   integral of the yaw rate
 ///     distance of positions  with   integral of the speed

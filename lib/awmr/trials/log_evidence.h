@@ -39,8 +39,8 @@ struct Evidence {
   const Vehicle& vehicle;
   std::span<const ColumnMapping> mappings;  ///< those with which the log was read
   std::vector<EvidenceWindow> windows;      ///< consecutive, without overlap
-  /// Windows for robust_ratio(), which needs twenty. A log of fewer than twenty windows also has
-  /// windows that overlap by two thirds here, so that ten seconds suffice to detect a wrong unit.
+  /// The same windows, for robust_ratio(), which needs twenty. If there are fewer, windows that
+  /// overlap by two thirds are added, so that ten seconds suffice to detect a wrong unit.
   std::vector<EvidenceWindow> overlapping;
 
   bool has(LogChannel channel) const { return log[channel].has_value(); }
@@ -50,7 +50,7 @@ struct Evidence {
 Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
                      std::span<const ColumnMapping> mappings);
 
-/// Consecutive windows of about this length. Each begins and ends at a row with a new reading.
+/// Consecutive windows of about this length, s. Each begins and ends at a row with a new reading.
 std::vector<LogWindow> evidence_rows(const DrivingLog& log, double length_s);
 
 /// The integral of a channel over a window (trapezoidal rule).
@@ -72,7 +72,8 @@ struct MomentShares {
   double sides = 0.0;
 };
 
-/// `rate(window)`: change of heading or integral of the yaw rate over the window, rad.
+/// Computes the regression. `rate(window)`: change of heading or integral of the yaw rate over the
+/// window, rad.
 MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
                            double (*rate)(const EvidenceWindow&));
 

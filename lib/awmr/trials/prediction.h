@@ -35,7 +35,7 @@ struct PredictionOptions {
   double horizon_s = 10.0;   ///< maximum length of a window, s; each begins at a measured state
   double delay_s = 0.0;      ///< latency from a command to its effect, s
   double motor_lag_s = 0.0;  ///< time constant of the motors, s, >= 0
-  /// Maximum length of a series; of a longer one every n-th measurement is kept. 0: no series.
+  /// Maximum number of measurements in a series; of more, every n-th is kept. 0: no series.
   std::size_t most_in_series = 0;
 };
 

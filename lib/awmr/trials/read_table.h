@@ -13,8 +13,8 @@
 
 namespace awmr {
 
-/// Reads a file of a flight controller or of ROS 2 as signals. Empty if `bytes` are of no such
-/// format.
+/// Reads a log of a flight controller (ULog, DataFlash) or a ROS 2 bag as signals. Empty if `bytes`
+/// have none of these formats.
 std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::string& file,
                                             const Wanted& wanted);
 

@@ -35,14 +35,16 @@ struct TrialOptions {
   int driven_wheels = 4;
   /// Part of each log to use, by its t_s, s.
   Interval used_s{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
-  /// Parts of each log to leave out, by its t_s, s. What is before and after becomes two runs.
+  /// Parts of each log to leave out, by its t_s, s. The rows before and after such a part become
+  /// two runs.
   std::vector<Interval> excluded_s = {};
 };
 
 /// Read one table. Findings: `speed-mismatch`, `tau-speed-mismatch`, `yaw-rate-mismatch`,
 /// `tau-turn-mismatch`, `steering-stop`, `turned-by-sides`, `rows-set-aside`, `repeated-rows`.
-/// Errors: as read_csv(); columns that are needed together are missing; a negative speed, time or
-/// distance; a coast-down curve with fewer than three rows or time that does not rise.
+/// Errors: as read_csv(); missing columns, or columns that exclude each other; a negative speed,
+/// time or distance; turns whose signs, forces or angles contradict each other; a coast-down curve
+/// with fewer than three rows or time that does not rise.
 Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
                                       const TrialOptions& options, std::vector<Finding>& findings);
 Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, const Vehicle& vehicle,
@@ -52,10 +54,11 @@ Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const Tri
                                     std::vector<Finding>& findings);
 
 /// Reads a driving log with one run. Columns: t_s, force_left, force_right, and at least one
-/// channel of log.h. A vehicle with steering also needs steering_cmd_deg or steering_deg.
-/// latitude_deg and longitude_deg may replace x_m and y_m (local tangent plane at the first row
-/// used). Findings: those of log_channels.h, `constant-channel`, `course-at-rest`. Errors: as
-/// read_csv(); time that does not rise; no channel; fewer than 10 rows; more than one run.
+/// channel of log.h other than steering_deg. A vehicle with steering also needs steering_cmd_deg or
+/// steering_deg. latitude_deg and longitude_deg may replace x_m and y_m (local tangent plane at the
+/// first row used). Findings: those of log_channels.h, `constant-channel`, `course-at-rest`.
+/// Errors: as read_csv(); missing or contradictory columns; a latitude or longitude out of range;
+/// time that does not rise; fewer than 10 rows; no row in the part to use; more than one run.
 Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,
                             std::vector<Finding>& findings);
 

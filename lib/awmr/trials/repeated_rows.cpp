@@ -17,7 +17,8 @@ namespace {
 constexpr double kChance = 0.01;
 /// Minimum degrees of freedom for an estimate of the scatter from rows with equal settings.
 constexpr int kFewestDifferences = 3;
-/// A reading written to more than six digits was computed, so its last place is not its resolution.
+/// A reading with more than six significant digits was computed, so its last place is not its
+/// resolution.
 constexpr double kComputed = 1e-6;
 
 /// Probability p that two readings are the same by chance; a = q/(2 s) (repeated_rows.h).
@@ -138,9 +139,9 @@ void find_repeated_rows(const TrialReader& reader, const std::vector<std::size_t
   std::ranges::sort(repeated);
   findings.push_back(reader.finding(
       repeated.front(), Severity::kWarning, "repeated-rows",
-      fmt::format("{} of {} rows repeat an earlier row to the last digit of {} ({}); of runs "
-                  "read to {:.2g}, {:.2g} rows would repeat by chance. Copies make every interval "
-                  "too narrow: delete rows that are not runs of their own",
+      fmt::format("{} of {} rows repeat an earlier row to the last digit of {} ({}); with "
+                  "readings in steps of {:.2g}, about {:.2g} rows repeat by chance. Copies make "
+                  "every interval too narrow: delete rows that are not runs of their own",
                   repeated.size(), rows.size(), *reading, lines_of(reader, repeated), resolution,
                   expected)));
 }

@@ -37,7 +37,7 @@ struct RepeatRule {
   double scatter = 0.003;                ///< relative standard deviation of the reading
 };
 
-/// Adds the warning `repeated-rows` if more of the `rows` repeat an earlier one than chance
+/// Adds the warning `repeated-rows` if more of the `rows` repeat an earlier row than chance
 /// explains.
 void find_repeated_rows(const TrialReader& reader, const std::vector<std::size_t>& rows,
                         const RepeatRule& rule, std::vector<Finding>& findings);

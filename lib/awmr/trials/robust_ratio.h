@@ -13,7 +13,7 @@ double median(std::vector<double> values);
 
 /// Median of |value - middle|, where `middle` is the median of the values. Precondition: not empty.
 double median_absolute_deviation(std::span<const double> values, double middle);
-/// Standard deviation over median absolute deviation, for a normal distribution.
+/// Ratio of the standard deviation to the median absolute deviation of a normal distribution.
 inline constexpr double kStdPerMad = 1.4826;
 
 struct RobustRatio {

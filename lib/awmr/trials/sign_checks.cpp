@@ -64,9 +64,9 @@ CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
   return {};
 }
 
-/// The sign of course_relation() for logs without a heading: the integrated yaw rate replaces it.
-/// Because that drifts, each minute is evaluated separately. 0 if two minutes contradict each
-/// other.
+/// The sign of course_relation() for logs without a heading, with the integrated yaw rate in its
+/// place. Because this integral drifts, each minute is evaluated separately. 0 if two minutes
+/// contradict each other.
 int turning_sign(std::span<const EvidenceWindow> windows) {
   constexpr std::size_t kPart = 60;
   int sign = 0;
@@ -269,9 +269,9 @@ std::optional<Contradiction> check_one_side(const Evidence& evidence) {
       scaled_mapping(evidence, column, -1.0)};
 }
 
-/// Speed gained during rearward thrust, m/s, summed over all spans of it. In each span, the largest
-/// rise of a mean over 0.25 s above the smallest earlier one. The first half second of a span does
-/// not count, because motors and sensors may lag.
+/// Speed gained during rearward thrust, m/s, summed over all spans of such thrust. The gain in a
+/// span is the largest rise of the mean speed over 0.25 s above the smallest earlier mean. The
+/// first half second of a span does not count, because motors and sensors may lag.
 double gathered_backwards_mps(const DrivingLog& log) {
   constexpr double kPushes = 0.1;  // fraction of the largest thrust
   constexpr double kLag_s = 0.5;

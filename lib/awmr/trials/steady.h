@@ -16,8 +16,9 @@ namespace awmr {
 ///   - the rest is steady if a straight line fitted to its rate changes from end to end by at most
 ///     `drift` of the mean rate, or by at most three standard errors of that change.
 /// A vehicle with steering: both sides are driven equally and forward. |steering| <= straight_rad
-/// is a surge run, else a turning run. Without steering: sides that differ by more than `same`
-/// turn.
+/// is a surge run, else a turning run. A vehicle without steering: a run whose left and right
+/// forces differ by more than `same` is a turning run.
+/// The rate must also exceed three standard errors and have the direction of the command.
 struct SteadyRule {
   double same = 1e-3;            ///< F' or rad of steering, >= 0: increase for noisy commands
   double settling_s = 1.0;       ///< s, >= 0: increase for vehicles that settle slowly

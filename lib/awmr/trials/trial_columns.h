@@ -30,8 +30,8 @@ Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& v
 Status check_mappings(const TrialOptions& options, std::span<const std::size_t> used,
                       std::span<const std::filesystem::path> files);
 
-/// Faults for the mappings that none of the files can use. Reported if a file could not be read,
-/// because a misspelt mapping is a frequent cause.
+/// Faults for the mappings that none of the files can use. For reports of files that could not be
+/// read, because a misspelt mapping is a frequent cause.
 std::vector<Fault> unusable_mappings(const TrialOptions& options,
                                      std::span<const std::filesystem::path> files);
 

@@ -23,8 +23,8 @@ namespace {
 /// drift or also steer its rear wheels), 4 for a differential turn (u is interpolated twice).
 constexpr double kMostSteered = 3.0;
 constexpr double kMostBySides = 4.0;
-/// Smallest accepted ratio of a table's fastest steered turn. Even with a wheelbase of five times
-/// l_f and strong understeer, a real turn has a ratio several times larger.
+/// Smallest accepted value of this ratio for the fastest steered turn of a table. A real turn has a
+/// ratio several times larger, even with a wheelbase of five times l_f and strong understeer.
 constexpr double kLeastSteered = 0.01;
 constexpr double kMostAcceleration_mps2 = 60.0;
 constexpr double kFastestTurn_radps = 25.0;

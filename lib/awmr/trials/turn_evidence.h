@@ -13,8 +13,10 @@
 ///     by steering   r^2 l_f/tan(d_r) <= 60 m/s^2         6 g, twice that of a spinning model car
 ///     any           r <= 25 rad/s                        four turns per second
 ///
-/// The fastest row is compared with the limit. A row that is ten times as fast as the median row is
-/// reported as a wrong row if the median is possible. Otherwise the unit of the column is reported.
+/// The row with the largest ratio of yaw rate to limit is checked. If this row violates the limit,
+/// but the median row does not and has less than a tenth of its ratio, rows are reported as wrong.
+/// Otherwise the unit of the column is reported, also if even the fastest steered turn is below 1 %
+/// of u tan(d_r)/l_f.
 #pragma once
 
 #include <optional>

@@ -61,8 +61,7 @@ std::optional<Contradiction> check_time(const Evidence& evidence) {
     if (ratio < 0.3 * unit.factor || ratio > 30.0 * unit.factor) continue;
     return time_in(unit, evidence);
   }
-  // Times below 1 ms between rows that are also below a twentieth of the sample time are no
-  // seconds.
+  // Row spacings below 1 ms and below a twentieth of the sample time cannot be in seconds.
   constexpr double kFastest_s = 1e-3;
   constexpr double kOften = 0.05;
   if (step_s >= kFastest_s || ratio >= kOften) return std::nullopt;
@@ -139,7 +138,8 @@ bool heading_spans_radians(const DrivingLog& log) {
   return most - least < 2.0 * pi<double>() + 0.1;
 }
 
-/// If turning_rate() is below this, the yaw rate is not in deg/s: 2 deg/s would hardly be a turn.
+/// If turning_rate() is below this, the unit of the yaw rate is not deg/s, because 2 deg/s would
+/// hardly be a turn.
 constexpr double kSlowTurn = 2.0;
 /// Typical yaw rate while turning: the 75 % quantile over windows, in the unit of the column.
 double turning_rate(const Evidence& evidence) {
@@ -305,10 +305,10 @@ double position_variance_m2(const DrivingLog& log) {
   return *quartile / (12.0 * std::log(4.0 / 3.0));
 }
 
-/// Ratio of the distance between the ends of the windows to the integral of the speed. The noise of
-/// the two positions makes the distance longer, E moved^2 = true^2 + 4 sigma^2; 4 sigma^2 is
-/// subtracted. Empty if the usual distance in the faster half of the windows is below twice that of
-/// noise alone.
+/// Ratio of the distance between the ends of the windows to the integral of the speed. The noise
+/// sigma of the two positions makes the distance longer: E moved^2 = true^2 + 4 sigma^2. The term 4
+/// sigma^2 is therefore subtracted. Empty if the median distance in the faster half of the windows
+/// is below twice that of noise alone.
 std::optional<RobustRatio> moved_over_driven(const Evidence& evidence) {
   constexpr double kClear = 4.0;  // ratio of the squares
   const double noise_m2 = 4.0 * position_variance_m2(evidence.log);
