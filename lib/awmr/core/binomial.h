@@ -7,8 +7,9 @@
 
 namespace awmr {
 
-/// Clopper-Pearson 95 % interval of the probability of success, for `successes` in `runs` >= 1. It
-/// contains the true probability with at least 95 %, whatever that is.
+/// Clopper-Pearson 95 % interval of the probability of success, for `successes` in `runs` >= 1. The
+/// interval contains the true probability in at least 95 % of samples, whatever this probability
+/// is.
 Interval clopper_pearson(std::size_t successes, std::size_t runs);
 
 /// p value of the two-sided exact McNemar test that two paired proportions are equal. `only_first`:
@@ -20,9 +21,9 @@ double mcnemar_p(std::size_t only_first, std::size_t only_second);
 /// for mean 0, else 0.
 double paired_t_p(double mean, double deviation, std::size_t count);
 
-/// p value of the equivalence test (TOST): the larger p of two one-sided t tests of a true mean
-/// beyond +-`margin`, >= 0. Below 0.05, the true mean is within the margin. With zero deviation: 0
-/// if `mean` is within the margin, else 1.
+/// p value of the equivalence test (TOST): the larger p of two one-sided t tests of the hypotheses
+/// that the true mean is beyond +`margin` or -`margin` (>= 0). p < 0.05: the mean is significantly
+/// within the margin. With zero deviation: 0 if `mean` is within the margin, else 1.
 double equivalence_p(double mean, double deviation, std::size_t count, double margin);
 
 }  // namespace awmr

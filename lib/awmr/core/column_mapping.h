@@ -1,5 +1,5 @@
-/// Mapping of one of awmr's columns to a file that has it under another name or in another unit, or
-/// from which it must be computed.
+/// Mapping of one of awmr's columns to the columns of a file: to a column with another name or
+/// unit, or to a formula over several columns.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct ColumnMapping {
   double scale = 1.0;
   double offset = 0.0;
   std::string expression = {};  ///< text after the '='; empty: only way 2 applies
-  std::string file = {};        ///< name or path of the file for which it is; empty: every file
+  std::string file = {};        ///< name or path of the only file to apply it to; empty: all
   bool standing = false;        ///< from the vehicle file: lowest priority, and may be unused
 };
 
@@ -29,7 +29,7 @@ struct ColumnMapping {
 Result<ColumnMapping> parse_column_mapping(std::string_view text);
 
 /// Parses `[FILE:]NAME=EXPRESSION`, where EXPRESSION is `SOURCE[*SCALE][+OFFSET]`, a formula
-/// (column_expression.h) or a constant. Errors: none of these; a scale of 0.
+/// (column_expression.h) or a constant. Errors: a text that is none of these; a scale of 0.
 Result<ColumnMapping> parse_column(std::string_view text);
 /// The same, with `[FILE:]NAME` and EXPRESSION as separate texts, as in JSON.
 Result<ColumnMapping> parse_column(std::string_view name, std::string_view expression);

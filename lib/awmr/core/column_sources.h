@@ -1,4 +1,5 @@
-/// Finds out from which columns of a file the requested columns come. Private to the library.
+/// Finds the columns of a file from which each requested column is computed. Private to the
+/// library.
 #pragma once
 
 #include <optional>
@@ -20,7 +21,7 @@ struct ColumnSource {
   std::optional<ColumnExpression> expression{};  ///< formula; none: one column, scaled
   double scale = 1.0;
   double offset = 0.0;
-  std::optional<TimeColumn> time = {};  ///< set if find_time() found t_s
+  std::optional<TimeColumn> time = {};  ///< set for t_s from find_time() or from dates
 };
 
 struct HeaderFault {
@@ -44,7 +45,8 @@ ColumnSources find_columns(std::span<const std::string> header,
                            std::span<const std::string> samples, std::span<const CsvColumn> columns,
                            std::span<const ColumnMapping> mappings, const std::string& file);
 
-/// Columns that the mapping needs and the header lacks. Empty: the mapping applies to this header.
+/// Columns that the mapping needs and the header lacks; empty if the mapping applies to this
+/// header.
 std::vector<std::string> missing_columns(const ColumnMapping& mapping,
                                          std::span<const std::string> header);
 

@@ -52,8 +52,8 @@ Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& w
 }
 
 /// Takes the last comment above the first row as the header, because some programs write the header
-/// after a '#'. It must have as many cells as the first row and at least one requested column.
-/// False if it has not.
+/// after a '#'. Returns false if this comment has another number of cells than the first row, or no
+/// requested column.
 bool take_comment(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
   CsvScanner comment(scanner.comment());
   const Delimiter chosen = delimiter_of(comment, wanted);

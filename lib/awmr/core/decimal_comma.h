@@ -23,8 +23,8 @@ std::optional<double> number_with_comma(const CsvCell& cell, DecimalCommas& seen
 /// Records the point of a number in `seen`; nothing if the cell has none.
 void note_point(const CsvCell& cell, DecimalCommas& seen);
 
-/// Text of the fault if the file also has decimal points, or if all of its commas may be thousands
-/// separators; else empty.
+/// Text of the fault if a file with commas also has decimal points, or if all of its commas may be
+/// thousands separators; else empty.
 std::optional<std::string> fault_of(const DecimalCommas& seen);
 
 }  // namespace awmr

@@ -16,21 +16,22 @@ namespace awmr {
 /// Maximum size read from one file or pipe: 1 GiB, about ten million rows of a log.
 inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;
 
-/// Reads a whole file. Errors: it is missing, a directory, unreadable, longer than `max_bytes`,
-/// modified since it was opened, or a pipe that no program opens for writing within kPipeWait_s.
+/// Reads a whole file. Errors: the file is missing, a directory, unreadable, longer than
+/// `max_bytes`, modified while it is read, or a pipe that no program opens for writing within
+/// kPipeWait_s.
 Result<std::string> read_file(const std::filesystem::path& path,
                               std::size_t max_bytes = kMaxFileBytes);
 
-/// Check of an output: parses its bytes as the commands do that read such a file. `file` names it
-/// in errors.
+/// Check of an output: parses the bytes as the commands that read such a file do. `file`: name of
+/// the file in errors.
 using ReadBack = std::function<Status(std::string_view bytes, const std::string& file)>;
 
 /// Writes a file. Writes a temporary file next to `path`, flushes it and renames it to `path`, so
 /// that another program reads either the old file or the new one. Pipes and terminals are written
-/// directly. A symbolic link is kept, and its target written, even if the target is missing. Also
-/// removes temporary files (`.awmr-PID-XXXXXX`) that killed programs left in the directory, which
-/// must exist. Errors: as check_output(); the disk is full; (fault) `read_back` rejects the bytes,
-/// and the old file is kept.
+/// directly. A symbolic link is kept, and its target written, even if the target is missing. The
+/// directory must exist. Also removes temporary files (`.awmr-PID-XXXXXX`) that killed programs
+/// left in this directory. Errors: as check_output(); the disk is full; (fault) `read_back` rejects
+/// the bytes, and the old file is kept.
 Status write_file(const std::filesystem::path& path, std::string_view bytes,
                   const ReadBack& read_back = {});
 
@@ -41,14 +42,15 @@ struct OutputFile {
 };
 
 /// Writes a set of files: all under temporary names, which are then renamed one after the other. If
-/// one cannot be written, or is a pipe or a device, no file is changed. A program that is killed
-/// between two renames (some microseconds) leaves new and old files. To detect this, the last file
-/// should have the hashes of the others.
+/// a temporary file cannot be written, or a path is a pipe or a device, no file is changed. A
+/// program that is killed between two renames (some microseconds) leaves new and old files. To
+/// detect this, the last file should have the hashes of the others.
 Status write_files(std::span<const OutputFile> files);
 
-/// Checks that `path` can be written and overwrites no input. For use before long work. Errors: it
-/// is one of `inputs`, by this or another name; a directory; a read-only file; a file with a second
-/// hard link, which would keep the old bytes; its directory is missing or read-only.
+/// Checks that `path` can be written and overwrites no input. For use before long work. Errors:
+/// `path` is one of `inputs`, by this or another name; it is a directory, a read-only file, or a
+/// file with a second hard link, which would keep the old bytes; its directory is missing or
+/// read-only.
 Status check_output(const std::filesystem::path& path,
                     std::span<const std::filesystem::path> inputs = {});
 
@@ -69,10 +71,11 @@ Result<bool> directory_exists(const std::filesystem::path& path);
 Result<bool> regular_file_exists(const std::filesystem::path& path);
 /// As regular_file_exists(), but a missing file is not an error.
 Status check_regular_file(const std::filesystem::path& path);
-/// Checks that files can be made in the directory `path`, or that it can be made if it is missing.
-/// Errors (input): it, or its nearest existing parent, is not a writable directory.
+/// Checks that files can be made in the directory `path`, or that this directory can be made if it
+/// is missing. Errors (input): as path_exists(); the directory, or its nearest existing parent, is
+/// not a writable directory; a name is too long.
 Status check_output_directory(const std::filesystem::path& path);
-/// Entries of a directory, sorted by path. Errors (input): it cannot be read.
+/// Entries of a directory, sorted by path. Errors (input): the directory cannot be read.
 Result<std::vector<std::filesystem::path>> list_directory(const std::filesystem::path& path);
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// SHA-256 hashes. Outputs identify their inputs by them.
+/// SHA-256 hashes, by which output files identify the input files that they were made from.
 #pragma once
 
 #include <filesystem>

@@ -12,8 +12,8 @@
 
 namespace awmr {
 
-/// As read_file(), and records the hash of the bytes under the path, for input_file(). There is one
-/// record per path in the process. Thread-safe.
+/// As read_file(), and records the hash of the bytes for input_file(). A later call with the same
+/// path replaces the record. Thread-safe.
 Result<std::string> read_input(const std::filesystem::path& path,
                                std::size_t max_bytes = kMaxFileBytes);
 

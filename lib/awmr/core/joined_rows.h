@@ -9,7 +9,7 @@
 namespace awmr {
 
 /// Drops rows without any value of their own, and rows before the first value of every command.
-/// Adds the note `joined-by-time` with their number.
+/// Adds the note `joined-by-time` with the number of dropped rows.
 void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources);
 
 /// Adds a fault for each column without any value, except for kOptional columns.

@@ -16,8 +16,8 @@ inline constexpr std::size_t kMaxJsonBytes = std::size_t{64} << 20U;  ///< size 
 inline constexpr std::size_t kMaxJsonDepth = 64;          ///< nesting depth of arrays and objects
 inline constexpr std::size_t kMaxJsonValues = 2'000'000;  ///< number of values in a document
 
-/// Parses a text, in time and memory proportional to its length. `file` names it in errors. Errors:
-/// a limit is exceeded; a syntax error; a number out of range; a duplicate key.
+/// Parses a text, in time and memory proportional to its length. `file`: name of the text in
+/// errors. Errors: a limit is exceeded; a syntax error; a number out of range; a duplicate key.
 Result<Json> read_json_text(std::string_view text, const std::string& file);
 
 /// ReadBack (file.h) of a JSON file that has no strict reader. Errors: as read_json_text().

@@ -16,7 +16,7 @@
 
 namespace awmr {
 
-/// One run of the reader: what it finds in the pretended document.
+/// Settings of one run of the reader: which keys a document would have in this run.
 struct Way {
   bool present = true;  ///< true: all optional keys are present; false: none is
   /// Index of the name that each JsonObject::choice() returns, by the choice's JSON pointer. A
@@ -27,7 +27,7 @@ struct Way {
 /// A choice that the reader requested.
 struct MetChoice {
   std::size_t count = 0;                       ///< number of its names
-  std::map<std::string, std::size_t> on = {};  ///< Way::picks of the run that first requested it
+  std::map<std::string, std::size_t> on = {};  ///< Way::picks of the run that first met it
 };
 
 /// State shared by the JsonShapes of one schema.

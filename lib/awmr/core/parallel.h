@@ -23,7 +23,7 @@ struct LoopControl {
   /// Called after each item that the caller's thread has processed, on that thread.
   std::function<void()> progress = {};
 };
-/// The same, with cancellation and progress.
+/// As parallel_for() above, with cancellation and progress.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body,
                   const LoopControl& control);
 

@@ -86,8 +86,8 @@ void check_value(double value, const ColumnSource& source, std::span<const doubl
                          std::isnan(value) ? "not a number" : "infinite", at));
 }
 
-/// Index of the formula's column with the most values. The formula has a value in the rows of this
-/// column; its other columns keep their previous value.
+/// Index, among the formula's columns, of the one with the most values. The formula has a value in
+/// the rows of this column. In these rows, its other columns keep their previous value.
 std::size_t fastest(const RawTable& raw, const ColumnSource& source) {
   std::size_t best = 0;
   std::size_t most = 0;
@@ -101,7 +101,8 @@ std::size_t fastest(const RawTable& raw, const ColumnSource& source) {
   return best;
 }
 
-/// Fills rows without a value with the previous value, and rows before the first value with that.
+/// Fills each row without a value with the previous value, and rows before the first value with the
+/// first value.
 void hold(CsvTable::Column& column) {
   const auto first = std::find(column.present.begin(), column.present.end(), true);
   if (first == column.present.end()) return;

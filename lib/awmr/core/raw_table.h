@@ -1,4 +1,4 @@
-/// The numbers of a file, as all readers of formats return them, and their conversion to the table
+/// The numbers of a file, as every format's reader returns them, and their conversion to the table
 /// of requested columns. Private to the library.
 #pragma once
 
@@ -28,7 +28,7 @@ struct RawTable {
   std::vector<RawColumn> columns = {};  ///< as in the header; columns that are not used are empty
   std::vector<CsvNote> notes = {};
   std::vector<std::size_t> mapped = {};  ///< indices of the mappings used so far
-  bool joined = false;                   ///< true: signals of different rates: empty cells
+  bool joined = false;                   ///< true: signals of different rates; cells may be empty
 };
 
 /// Converts the table to the requested columns, whose sources find_columns() has found with

@@ -93,9 +93,9 @@ Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& 
   return all;
 }
 
-/// Text for messages that says how the origin of a result (`found`, `found_version`) differs from
-/// the one with which it is to be combined (`expected`, called `name`): program version, options or
-/// inputs. Empty if they agree.
+/// Text for messages: how the origin of a result (`found`) differs from that of the result called
+/// `name` (`expected`), with which it is to be combined: options or inputs, or a `found_version`
+/// other than this program's version. Empty if they agree.
 std::string origin_difference(const Provenance& found, const std::string& found_version,
                               const Provenance& expected, const std::string& name);
 

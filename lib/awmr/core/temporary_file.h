@@ -1,5 +1,5 @@
-/// Temporary files that are renamed to their final name, for atomic output (file.cpp). Programs
-/// call remove_temporaries_on_signals() at their start.
+/// Temporary files that are renamed to their final name, for atomic output (file.cpp). A program
+/// should call remove_temporaries_on_signals() at its start.
 #pragma once
 
 #include <sys/types.h>

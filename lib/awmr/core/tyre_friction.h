@@ -1,5 +1,5 @@
-/// Tyre parameters that are used if they were not measured. Forces are divided by the weight on the
-/// tyre.
+/// Default tyre parameters, for tyres that were not measured. Both parameters are forces divided by
+/// the weight on the tyre.
 #pragma once
 
 namespace awmr {
