@@ -30,7 +30,8 @@ bool begins_name(char c) {
 
 bool continues_name(char c) { return begins_name(c) || is_digit(c) || c == '.'; }
 
-/// The formula as muParser gets it: columns are renamed to c0, c1, ..., numbers are rewritten.
+/// A formula in the form that muParser reads: columns are renamed to c0, c1, ..., and numbers are
+/// rewritten.
 struct Formula {
   std::vector<std::string> names = {};  ///< columns, in order of first use
   std::string text = {};                ///< the rewritten formula
@@ -66,7 +67,7 @@ std::string_view take_bare_name(std::string_view& rest) {
   return name;
 }
 
-/// Each function below removes one token from the front of `rest` and adds it to the formula. It
+/// Each function below removes one token from the front of `rest` and adds it to the formula. Each
 /// returns the text of an error, or nothing.
 using Wrong = std::optional<std::string>;
 

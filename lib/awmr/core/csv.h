@@ -30,7 +30,7 @@ enum class EmptyCells {
 /// A requested column.
 struct CsvColumn {
   std::string name;
-  bool required = true;
+  bool required = true;  ///< true: a missing column is a fault
   EmptyCells empty = EmptyCells::kFault;
 };
 
@@ -81,7 +81,7 @@ class CsvTable {
   const std::vector<CsvNote>& notes() const { return parts_.notes; }
   /// Clock time of the first row, s, which was subtracted from t_s; 0 if nothing was subtracted.
   double clock_s() const { return parts_.clock_s; }
-  /// Mappings that were used, as indices into those given to the reader.
+  /// Indices of the used mappings in the list of mappings that the reader got.
   const std::vector<std::size_t>& mapped() const { return parts_.mapped; }
 
  private:
@@ -90,9 +90,9 @@ class CsvTable {
 
 /// Reads the requested columns. A file has signals of different rates if a kHeld or kAbsent column
 /// is empty in a quarter of its rows or more. Empty cells of such columns then have the meaning in
-/// EmptyCells, and rows without any value are dropped. In other files they are faults. Reports all
-/// faults of the file at once: a missing required column, a duplicate column, rows with another
-/// number of cells than the header, cells that are empty, not numbers, NaN or infinite, an
+/// EmptyCells, and rows without any value are dropped. In other files, empty cells are faults.
+/// Reports all faults of the file at once: a missing required column, a duplicate column, rows with
+/// another number of cells than the header, cells that are empty, not numbers, NaN or infinite, an
 /// unterminated quote, no rows, a formula whose value is infinite or NaN.
 Result<CsvTable> read_csv(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                           std::span<const ColumnMapping> mappings = {});

@@ -15,7 +15,7 @@ namespace awmr {
 /// format, or has NUL bytes, as UTF-16 has.
 Result<std::string_view> text_of(std::string_view bytes, const std::string& file);
 
-/// Checks the next line. Errors: it begins JSON, HTML or XML.
+/// Checks the next line. Errors: the line begins JSON, HTML or XML.
 Status check_format(CsvScanner scanner, const std::string& file);
 
 /// Checks the header. Errors: its cells are separated by spaces. `wanted`: names of columns that

@@ -116,10 +116,10 @@ class JsonObject {
   std::set<std::string, std::less<>> known_;
 };
 
-/// Returns a JSON Schema (draft 2020-12) that accepts every document that `read` accepts. It is
-/// derived by running `read` for every value of every choice(), with and without optional keys. It
-/// has no rules between keys, except for keys that depend on a choice. `format`: value of the key
-/// `$id`.
+/// Returns a JSON Schema (draft 2020-12) that accepts every document that `read` accepts. The
+/// schema is derived by running `read` for every value of every choice(), with and without optional
+/// keys. The schema has no rules between keys, except for keys that depend on a choice. `format`:
+/// value of the key `$id`.
 std::string json_schema_text(std::string_view format, std::string_view title,
                              const std::function<void(JsonObject&)>& read);
 

@@ -13,8 +13,8 @@
 namespace awmr {
 namespace {
 
-/// Fraction of empty cells from which on a column counts as a signal of its own rate. Below it, an
-/// empty cell is a fault.
+/// Fraction of empty cells from which on a column counts as a signal of its own rate. Below this
+/// fraction, an empty cell is a fault.
 constexpr double kSparseShare = 0.25;
 
 bool is_empty(double value) { return std::isnan(value); }

@@ -10,7 +10,7 @@ namespace awmr {
 inline constexpr double kTyreFriction = 0.8;
 
 /// c_a, cornering stiffness, 1/rad: the slope of the side force at a small slip angle. Pneumatic
-/// tyres have about 5 to 15 (0.09 to 0.26 per degree) at their design load. Those of small robots
+/// tyres have about 5 to 15 (0.09 to 0.26 per degree) at their design load. Tyres of small robots
 /// are hardly ever measured.
 inline constexpr double kCorneringStiffness_per_rad = 10.0;
 

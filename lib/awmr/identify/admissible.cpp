@@ -37,9 +37,9 @@ std::string why_not(double value, const NumberRule& rule) {
                      rule.min, rule.max);
 }
 
-/// Reason why the tables do not determine m'; empty if they do. The largest m' of such an interval
-/// gives a time constant over 10,000 times that of the smallest, so samples from the interval
-/// cannot be simulated. An m' from logs is kept: its wide interval shows that the logs disagree.
+/// Reason why the tables do not determine m': the upper end of its 95 % interval is more than
+/// 10,000 times the lower end, so that samples from the interval cannot be simulated. Empty if the
+/// tables determine m', and for an m' from logs, whose wide interval shows that the logs disagree.
 std::string why_open(ParameterId id, const Estimate& estimate) {
   constexpr double kMostOpen = 1e4;  // ratio of the interval's upper end to its lower end
   const auto& ci = estimate.ci95;

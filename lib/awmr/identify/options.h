@@ -61,8 +61,8 @@ inline std::string title_of(Loss loss) {
 /// Resistance family to fit.
 struct FamilyChoice {
   std::optional<Family> family = Family::kPower;  ///< absent: the family with the smallest AICc
-  /// True if the user selected the family. If false, every family is fitted to the logs, and one
-  /// that is significantly better than the power law replaces it.
+  /// True if the user selected the family. If false and the logs suggest a missing term, the other
+  /// families are fitted to them too, and one that is significantly better replaces the power law.
   bool requested = false;
 };
 

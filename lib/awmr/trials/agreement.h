@@ -23,7 +23,7 @@ namespace awmr {
 
 /// Returns one unit in the last decimal place of a column as written in the file, converted to
 /// awmr's unit of the column. For a column computed by a formula: the last place of its computed
-/// values. `mappings`: those with which the table was read.
+/// values. `mappings`: column mappings with which the table was read.
 double last_place(const CsvTable& table, std::string_view column,
                   std::span<const ColumnMapping> mappings);
 

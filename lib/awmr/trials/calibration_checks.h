@@ -42,7 +42,7 @@ std::optional<Calibration> heading_offset_rad(const DrivingLog& log);
 /// Returns the warnings `heading-offset`, if there is a heading_offset_rad(), and `scale-mismatch`,
 /// for two channels whose scales differ by more than 3 % and five standard errors. For heading and
 /// yaw rate, `scale-mismatch` names the wrong one if the positions agree with the other; else it
-/// names both channels. `mappings`: those with which the log was read.
+/// names both channels. `mappings`: column mappings with which the log was read.
 std::vector<Finding> calibration_findings(const DrivingLog& log,
                                           std::span<const ColumnMapping> mappings);
 

@@ -105,9 +105,9 @@ void classify_repeats(std::span<const double> value, ChannelQuality& quality) {
   }
 }
 
-/// Each reading minus the median of itself and its two neighbours on either side. It is large for a
-/// jump away and back within two readings, and small for a step. 0 for the first and last two
-/// readings.
+/// Each reading minus the median of itself and its two neighbours on either side. The result is
+/// large for a jump away and back within two readings, and small for a step. 0 for the first and
+/// last two readings.
 std::vector<double> off_median(std::span<const double> value) {
   std::vector<double> off(value.size(), 0.0);
   for (std::size_t k = 2; k + 2 < value.size(); ++k) {
@@ -153,7 +153,7 @@ double spike_limit(std::span<const double> value, std::span<const double> off, d
 }
 
 /// True if reading `k` is near the straight line through the two nearest unsuspicious readings on
-/// one side (-1 or 1), as at a sharp change of motion. It is then no spike.
+/// one side (-1 or 1), as at a sharp change of motion. Such a reading is no spike.
 bool is_reached_from(std::span<const double> value, std::span<const double> off, double limit,
                      std::size_t k, std::ptrdiff_t side) {
   const auto rows = static_cast<std::ptrdiff_t>(value.size());

@@ -21,7 +21,7 @@
 namespace awmr {
 namespace {
 
-/// A guess of a column's unit, and the expression that converts it.
+/// A guess of a column's unit, with the expression that converts the column to awmr's unit.
 struct Scale {
   std::string expression;
   Confidence confidence = Confidence::kUnsure;
@@ -185,7 +185,8 @@ std::optional<std::size_t> source_of(const ColumnGuess& guess, const FileSample&
   return std::nullopt;
 }
 
-/// Clears guesses whose column is constant while other channels move: it is not a measurement.
+/// Clears guesses whose source column is constant while other channels move, because such a column
+/// is not a measurement.
 void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   for (ColumnGuess& guess : guesses) {
     const auto source = source_of(guess, sample);

@@ -13,7 +13,7 @@
 namespace awmr {
 
 /// Function that returns the values of a log column in the column's unit; empty if the file lacks
-/// it.
+/// the column.
 using ColumnValues = std::function<std::optional<std::span<const double>>(std::string_view column)>;
 
 struct ConstantChannel {

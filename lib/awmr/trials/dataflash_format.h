@@ -17,7 +17,7 @@ namespace awmr::dataflash {
 /// Two bytes for synchronisation, one for the type.
 inline constexpr std::size_t kRecordHeaderBytes = 3;
 
-/// Number type of a field, as the format names it by a character.
+/// Number type of a field, which the format names by one character.
 struct FieldKind {
   char character;
   std::size_t bytes;

@@ -82,7 +82,7 @@ bool is_same_recording(const DrivingLog& a, const DrivingLog& b) {
   return is_same;
 }
 
-/// Adds a fault for each recording that was given twice, because it would narrow intervals by
+/// Adds a fault for each recording that was given twice, because the copy would narrow intervals by
 /// sqrt(2).
 void check_repeated_logs(const std::vector<DrivingLog>& logs, std::vector<Fault>& faults) {
   for (std::size_t i = 0; i < logs.size(); ++i) {

@@ -14,7 +14,8 @@
 
 namespace awmr {
 
-/// Window length: averages the noise, and a vehicle turns by less than a circle in it.
+/// Window length, s: long enough to average the noise, and so short that a vehicle turns by less
+/// than a circle.
 inline constexpr double kEvidenceWindow_s = 1.0;
 
 /// Sums of the signals over one window; 0 for channels that the log lacks.
@@ -37,7 +38,7 @@ struct EvidenceWindow {
 struct Evidence {
   const DrivingLog& log;
   const Vehicle& vehicle;
-  std::span<const ColumnMapping> mappings;  ///< those with which the log was read
+  std::span<const ColumnMapping> mappings;  ///< column mappings used to read the log
   std::vector<EvidenceWindow> windows;      ///< consecutive, without overlap
   /// The same windows, for robust_ratio(), which needs twenty. If there are fewer, windows that
   /// overlap by two thirds are added, so that ten seconds suffice to detect a wrong unit.

@@ -32,15 +32,16 @@ class Recording {
     char delimiter = ',';
   };
 
-  /// `mappings`: those with which the log will be read. They make a header with other column names
-  /// recognisable. `most_bytes`: maximum size of the text.
+  /// `mappings`: column mappings with which the log will be read. They make a header with other
+  /// column names recognisable. `most_bytes`: maximum size of the text.
   explicit Recording(std::vector<ColumnMapping> mappings = {},
                      std::size_t most_bytes = kMaxRecording);
 
   /// Adds the next piece of the stream. Bytes beyond the limit are dropped, and full() becomes
   /// true.
   void add(std::string_view bytes);
-  /// Ends the stream. A last line without line end is set aside: it may be cut inside a number.
+  /// Ends the stream. A last line without line end is set aside, because the stream may have ended
+  /// inside a number.
   void finish();
 
   /// The complete lines so far.

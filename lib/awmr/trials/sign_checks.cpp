@@ -52,8 +52,8 @@ CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
   }
   // On a straight drive, the heading and its mirror image cannot be distinguished.
   if (n < 10.0 || std::abs(headings) / n > 0.95) return {};
-  // Scatter of the angles, 0 to 1. With the right sign it is that of noise; with the wrong sign,
-  // twice the heading is added to every angle.
+  // Scatter of the angles, 0 to 1. With the right sign, the angles scatter only by noise; with the
+  // wrong sign, twice the heading is added to every angle.
   constexpr double kMostNoise = 0.3;
   const auto holds = [n](double one, double other) {
     const double of_one = 1.0 - one / n;
@@ -300,8 +300,8 @@ double gathered_backwards_mps(const DrivingLog& log) {
   return gathered;
 }
 
-/// Detects a speed without sign: it is never negative, and rearward thrust increases it. (Rearward
-/// thrust would slow down a vehicle that drives forward.)
+/// Detects a column with speeds without sign: never negative, and rising during rearward thrust.
+/// (Rearward thrust would slow down a vehicle that drives forward.)
 std::optional<Contradiction> check_unsigned(const Evidence& evidence) {
   constexpr double kNegative = 0.05;  // fraction of the largest speed
   constexpr double kMuch = 0.15;

@@ -233,8 +233,8 @@ std::optional<double> rate_over_rolling(const Evidence& evidence) {
   return std::abs(ratio->ratio);
 }
 
-/// Detects a yaw rate in deg/s in logs without a heading: it is too large for a wheeled vehicle, or
-/// for its steering angle and speed.
+/// Detects a yaw rate in deg/s in logs without a heading, because the values are too large for a
+/// wheeled vehicle, or for its steering angle and speed.
 std::optional<Contradiction> check_rate_alone(const Evidence& evidence) {
   constexpr double kLargest_radps = 25.0;  // as for turning tables
   if (!evidence.has(LogChannel::kYawRate) || evidence.has(LogChannel::kHeading)) return {};
@@ -387,9 +387,9 @@ std::optional<Contradiction> check_speed_alone(const Evidence& evidence) {
                   option_text("column '" + scaled_mapping(evidence, "speed_mps", 1e-3) + "'"))};
 }
 
-/// Curvature of the path over that of the steering angle: (r/u)/(tan(factor d_r)/l_f). It is at
-/// most about 1 if `factor` converts the logged angle to rad. Windows in which the force difference
-/// turns the vehicle more than its steering are skipped.
+/// Curvature of the path over that of the steering angle: (r/u)/(tan(factor d_r)/l_f). This ratio
+/// is at most about 1 if `factor` converts the logged angle to rad. Windows in which the force
+/// difference turns the vehicle more than its steering are skipped.
 std::optional<double> sharpness(const Evidence& evidence, double factor) {
   const bool heading = evidence.has(LogChannel::kHeading);
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;

@@ -40,8 +40,8 @@ Eigen::MatrixXd correlated_information(const Eigen::MatrixXd& j, const std::vect
   return sum;
 }
 
-/// Sets rank and condition number of J with its columns scaled to length 1, so that they do not
-/// depend on units.
+/// Sets rank and condition number of J with its columns scaled to length 1, so that neither depends
+/// on units.
 void add_rank(const Eigen::MatrixXd& j, CoastFit& fit) {
   Eigen::MatrixXd scaled = j;
   for (Eigen::Index c = 0; c < j.cols(); ++c) {

@@ -89,9 +89,10 @@ using CoastCost = ceres::AutoDiffCostFunction<CoastResidual, ceres::DYNAMIC, 1, 
 /// (h/T)^4/120 of the speed: 2e-8 for T = 0.05 s.
 constexpr double kLongestStep_s = 2e-3;
 
-/// Finds the plateau before motors-off. It ends at the last sample within 4 standard deviations of
-/// the mean of the samples before it. The standard deviation of a sample's noise is the RMS of the
-/// second differences, which are small for a smooth curve, over sqrt(6).
+/// Finds the plateau before motors-off. The plateau ends at the last sample within 4 standard
+/// deviations of the mean of the samples before it. The standard deviation of the noise is the root
+/// mean square of the second differences over sqrt(6), because second differences of a smooth curve
+/// are small.
 CoastInitialState initial_state_of(const CoastCurve& curve) {
   const std::vector<double>& u = curve.speed_mps;
   double squares = 0.0;

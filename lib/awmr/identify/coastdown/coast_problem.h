@@ -13,8 +13,8 @@
 
 namespace awmr {
 
-/// Initial state of a run. If the record begins before motors-off, the speed has a plateau: u0 is
-/// its mean and t0 its end. Otherwise u0 and t0 are those of the first sample.
+/// Initial state of a run. If the record begins before motors-off, the speed has a plateau, with
+/// the mean u0 and the end t0. Otherwise u0 and t0 are those of the first sample.
 struct CoastInitialState {
   double block[2];         ///< u0 in m/s, t0 in s
   bool free_time = false;  ///< true if t0 is fitted
@@ -22,7 +22,7 @@ struct CoastInitialState {
 
 /// Residuals u(t) - measured of every sample, run after run. Parameters: the surge law (ln a, b, c,
 /// q), ln m' and each run's (u0, t0). The surge law is constant unless its blocks are set variable.
-/// Not movable, because the problem has pointers to its members. `curves` must outlive it.
+/// Not movable, because the problem has pointers to its members. `curves` must outlive this object.
 class CoastProblem {
  public:
   /// `terms_free`: true if c or q will be fitted. The curve is then integrated numerically, because

@@ -17,8 +17,8 @@ namespace {
 /// Smallest decrease of the mean speed that counts as a deceleration, in standard deviations.
 constexpr double kMinimumFall = 5.0;
 
-/// Standard deviation of a curve's speed noise. It is estimated from the distance e_i of each speed
-/// u_i from the line through its neighbours in time:
+/// Standard deviation of a curve's speed noise, estimated from the distance e_i of each speed u_i
+/// from the line through its neighbours in time:
 ///
 ///     e_i = u_i - (1 - w) u_(i-1) - w u_(i+1),   w = (t_i - t_(i-1))/(t_(i+1) - t_(i-1))
 ///     std^2 = mean of e_i^2/(1 + w^2 + (1 - w)^2)
@@ -35,7 +35,8 @@ double noise_of(const CoastCurve& curve) {
 }
 
 /// True if the speed falls significantly: the mean of the curve's last fifth is below the mean of
-/// its first fifth by more than the noise. Precondition: three rows.
+/// its first fifth by more than kMinimumFall standard deviations of such a mean. Precondition:
+/// three rows.
 bool falls(const CoastCurve& curve) {
   const std::size_t part = std::max<std::size_t>(1, curve.speed_mps.size() / 5);
   const auto mean = [&](std::size_t begin) {
@@ -157,8 +158,9 @@ std::optional<MassEstimate> estimate_under(const SteadyFit& law,
   return both;
 }
 
-/// Joint distribution of the surge law's coordinates theta and ln m'. Its covariance, with C that
-/// of theta, g = d ln m'/d theta, and v the variance of ln m' that does not come from theta, is
+/// Joint distribution of the surge law's coordinates theta and ln m'. With the covariance C of
+/// theta, g = d ln m'/d theta and the variance v of ln m' that does not come from theta, the joint
+/// covariance is
 ///   [ C    C g       ]
 ///   [ g'C  g'C g + v ]
 /// Precondition: the law has a covariance.

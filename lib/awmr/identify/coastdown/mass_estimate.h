@@ -13,8 +13,8 @@
 
 namespace awmr {
 
-/// An estimate of ln m'. It has two independent errors: that of the surge law, which is common to
-/// all coast-downs, and that of the coast-down itself.
+/// An estimate of ln m' with two independent errors: one from the surge law, which all coast-downs
+/// share, and one from the coast-down itself.
 struct MassEstimate {
   double log_mass_norm = 0.0;
   Eigen::VectorXd by_surge;   ///< d ln m' / d theta, theta: SteadyFit::free of the surge fit

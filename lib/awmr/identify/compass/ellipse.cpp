@@ -16,8 +16,8 @@ Ellipse ellipse_of(const Eigen::Vector2d& centre, const Eigen::Matrix2d& gain) {
   return ellipse;
 }
 
-/// Initial guess: fits the conic A x^2 + B x y + C y^2 + D x + E y = 1 by linear least squares. It
-/// is
+/// Initial guess: fits the conic A x^2 + B x y + C y^2 + D x + E y = 1 by linear least squares. In
+/// matrix form this is
 ///     (f - o)' M (f - o) = k,  M = (A, B/2; B/2, C),  o = -M^-1 (D, E)/2,  k = 1 + o' M o,
 /// which equals |S (f - o)| = 1 with S = (M/k)^(1/2). Empty if M/k is not positive definite.
 std::optional<Ellipse> conic(const Points& points) {

@@ -180,10 +180,10 @@ ceres::Solver::Options solver_options(double function_tolerance) {
   return options;
 }
 
-/// Ends a search after two failed steps in a row whose predicted decrease of -ln L is below 0.05 (a
-/// third of a standard error). On this scale the cost is rough, because Runge-Kutta steps cross the
-/// kink of the resistance wherever the speed or the yaw rate changes sign. Smaller steps would only
-/// find local minima.
+/// Ends a search after two failed steps in a row whose predicted decrease of -ln L is below 0.05,
+/// which corresponds to a third of a standard error. On this scale the cost is rough, because
+/// Runge-Kutta steps cross the kink of the resistance wherever the speed or the yaw rate changes
+/// sign. Smaller steps would only find local minima.
 class EndAtRoughness : public ceres::IterationCallback {
  public:
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) final {

@@ -73,7 +73,7 @@ Likelihood likelihood(std::span<const ErrorSeries> series, const ChannelNoise& n
   return {n * std::log(factor) + log_variances, factor};
 }
 
-/// Noise model with a total variance of 1. The drift has the share e^x/(1 + e^x) of it, with x =
+/// Noise model with a total variance of 1, of which the drift has the share e^x/(1 + e^x), with x =
 /// `logit`.
 ChannelNoise unit_noise(double logit, double correlation_s) {
   const double share = 1.0 / (1.0 + std::exp(-logit));

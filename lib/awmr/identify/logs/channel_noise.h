@@ -32,7 +32,8 @@ struct ChannelNoise {
 
   double std() const { return std::hypot(white_std, drift_std); }
   bool second_order() const { return frequency_radps > 0.0; }
-  /// Number of estimated noise parameters: sigma_w, and those of the drift.
+  /// Number of estimated noise parameters: 1 (sigma_w), plus 2 of a first-order drift or 3 of a
+  /// second-order drift.
   int numbers() const { return drift_std > 0.0 ? (second_order() ? 4 : 3) : 1; }
   /// True if the drift is above half of the sensor noise and lasts half a second or more. It is
   /// then a model error or a sensor drift.
@@ -54,8 +55,8 @@ using NoiseLevels = std::map<LogChannel, ChannelNoise>;
 inline constexpr double kMinimumStd = 1e-9;
 
 /// Estimates the white noise sigma of each channel from the n second differences of its readings y,
-/// d_k = y_k - 2 y_{k-1} + y_{k-2}. Those of a smooth signal are nearly 0, and those of white noise
-/// have the variance 6 sigma^2:
+/// d_k = y_k - 2 y_{k-1} + y_{k-2}. The differences of a smooth signal are nearly 0, and those of
+/// white noise have the variance 6 sigma^2:
 ///
 ///     sigma^2 = sum d^2 / (6 n)
 NoiseLevels sensor_noise(const std::vector<FitWindow>& windows);

@@ -111,8 +111,8 @@ bool may_be_smoothed(LogChannel channel) {
 /// empty.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
   // A filter is selected only if it lowers AIC by more than this. With the speed as the only
-  // channel no filter is tried, because it has the same effect as a motor lag, which is more
-  // common.
+  // channel no filter is tried, because a filter of the speed has the same effect as a motor lag,
+  // which is more common.
   constexpr double kLikelierFilter = 10.0;
   constexpr double kComparable = 0.2;  // smallest significance relative to that of the strongest
   const bool tells_filters = settled.problem.model.noise.size() > 1;

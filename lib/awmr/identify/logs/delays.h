@@ -1,5 +1,5 @@
-/// Search for delays, lags and constant errors of sensors and commands in a log fit. Each is a term
-/// that the fit frees if it improves the fit significantly. Private to identify/.
+/// Search for delays, lags and constant errors of sensors and commands in a log fit. Each of these
+/// terms is freed if it improves the fit significantly. Private to identify/.
 #pragma once
 
 #include <vector>

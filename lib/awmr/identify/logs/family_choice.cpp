@@ -89,8 +89,8 @@ double fastest(const std::vector<DrivingLog>& logs, LogChannel channel) {
   return most > 0.0 ? most : 1.0;
 }
 
-/// Sets the resistance parameters in `values` to the curves of these families nearest to those of
-/// `inner`.
+/// Sets the resistance parameters in `values` so that the curves of the families `surge` and `yaw`
+/// are nearest to the curves of `inner`.
 void begin_near(const std::vector<DrivingLog>& logs, const FamilyFit& inner, Family surge,
                 Family yaw, ParameterValues<double>& values) {
   const Vehicle& vehicle = inner.options.vehicle;

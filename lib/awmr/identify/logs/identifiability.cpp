@@ -19,8 +19,8 @@ namespace {
 /// Largest standard error of an identified quantity, in its large changes. The limit is lower for
 /// the sway resistance a_s, so that 1/a_s is at least 4 standard errors from 0. Reason: the logs
 /// measure the reciprocal, through the lateral speed v ~ m' r u / a_s. The standard error of ln a_s
-/// is a_s times that of 1/a_s. It becomes smaller if noise makes a_s too small, so the common limit
-/// would favour such values.
+/// is a_s times that of 1/a_s. This error becomes smaller if noise makes a_s too small, so the
+/// common limit would favour such values.
 double unknown_from(const FreeQuantity& q) {
   constexpr double kUnknownReciprocal = 0.25;
   return q.is(ParameterId::kSwayAlpha) ? kUnknownReciprocal : kUnknown;

@@ -49,7 +49,7 @@ Identifiability identifiability(const Eigen::MatrixXd& information, const Scores
                                 const std::vector<FreeQuantity>& quantities);
 
 /// Refuses every quantity whose search ended at an end of its range, and the quantities correlated
-/// with it. Also refuses an exponent whose factor alpha is refused.
+/// with such a quantity. Also refuses an exponent whose factor alpha is refused.
 Identifiability without_stopped(Identifiability found, const LogProblem& problem,
                                 const std::vector<double>& coordinates);
 

@@ -34,8 +34,9 @@ struct FreeQuantity {
   LogChannel channel =
       LogChannel::kX;  ///< of kSensorDelay (kX: x and y together), kSensorLag, kBias
   Scale scale = Scale::kLinear;
-  /// Large change: change of the coordinate that is large for this quantity. 1 for a logarithm (a
-  /// factor e) or an exponent. Priors and limits of identifiability are multiples of it.
+  /// Change of the coordinate that counts as large: 1 for a logarithm (a factor e), an exponent or
+  /// a bias; 0.2 for a term of a family; 0.1 for a delay or lag (s), trim (rad) or imbalance.
+  /// Priors and limits of identifiability are multiples of it.
   double large_change = 1.0;
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
@@ -92,8 +93,8 @@ std::vector<double> initial_coordinates(const LogFitOptions& options);
 std::vector<Interval> coordinate_bounds(const std::vector<FreeQuantity>& quantities,
                                         const std::vector<double>& initial, const Vehicle& vehicle);
 
-/// Values of all parameters: those of `held`, with the free parameters replaced by their
-/// coordinates.
+/// Values of all parameters: those of `held`, with the free parameters replaced by the values at
+/// their coordinates.
 ParameterValues<double> parameters_at(ParameterValues<double> held,
                                       const std::vector<FreeQuantity>& quantities,
                                       const std::vector<double>& coordinates);

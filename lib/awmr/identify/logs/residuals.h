@@ -37,8 +37,8 @@ WindowErrors errors_of(const LogModel& model, const FitWindow& window, const dou
                        const double* initial_state);
 
 /// Sums over the residuals r of a window and their Jacobian J. The residuals are the standardised
-/// errors and those of the prior of the initial state at its measurement. The columns of J are the
-/// q free quantities, then the k free components of the initial state.
+/// errors and those of a weak prior, which is centred on the measured initial state. The columns of
+/// J are the q free quantities, then the k free components of the initial state.
 struct WindowSums {
   Eigen::MatrixXd products;  ///< [J r]^T [J r], (q + k + 1) x (q + k + 1)
   /// J^T r of each block of samples, without the prior; length q + k each. Empty unless requested.

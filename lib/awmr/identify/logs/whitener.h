@@ -60,7 +60,7 @@ struct DriftStep {
 /// gains P_.0/S, which depend only on the times of the residuals, not on their values.
 class WhitenerGains {
  public:
-  /// `noise` must outlive it.
+  /// `noise` must outlive this object.
   explicit WhitenerGains(const ChannelNoise& noise)
       : noise_(noise), p00_(noise.drift_std * noise.drift_std), p11_(p00_) {}
 
@@ -159,7 +159,7 @@ struct WhitenerState {
 /// Whitens the errors of one channel in sequence.
 class Whitener {
  public:
-  /// `noise` must outlive it.
+  /// `noise` must outlive this object.
   explicit Whitener(const ChannelNoise& noise) : gains_(noise) {}
 
   struct Innovation {

@@ -56,8 +56,9 @@ struct MissingParameter {
 struct ScrubTurn {
   double yaw_rate_degps = 0.0;  ///< yaw rate to reach, > 0
   /// Wheel forces F' (over F_max) for this yaw rate under the smallest and under the largest scrub
-  /// moment. These are the ends of its 95 % interval; if there is none, 0 and the moment of sliding
-  /// tyres with friction 0.8.
+  /// moment. The two scrub moments are the ends of the measured 95 % interval. Without it, they are
+  /// the largest moment at which the vehicle did not turn (else 0) and the moment of sliding tyres
+  /// (friction 0.8).
   SideForces<double> least, most;
 };
 
