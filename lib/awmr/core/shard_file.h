@@ -53,8 +53,8 @@ auto payload_of(const Json& shard_json, const Read& read) {
   return read(json);
 }
 
-/// Reads a file of a part. Errors: as read_file(); (input) its hash differs from the one in
-/// shard.json.
+/// Reads a file of a part. Errors: as read_file(); (input) the hash of the file differs from the
+/// one in shard.json.
 Result<std::string> read_part_file(const Part& part, const ShardFile& file);
 
 /// Checks that the `rows` rows of a part's table belong to the part's items: the items in order,

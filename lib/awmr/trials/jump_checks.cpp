@@ -48,8 +48,8 @@ double common_rate(const std::vector<Move>& moves) {
   return rates[static_cast<std::size_t>(place)];
 }
 
-/// The first jump: a change that is too large for the vehicle, and after which the signal does not
-/// return. `least`: smallest jump.
+/// The first jump: a change of more than kTimes the usual change, after which the signal does not
+/// return. `least`: smallest change that counts as a jump.
 std::optional<Move> jump_in(const std::vector<Move>& moves, double least, const Size& size) {
   if (moves.size() < kFewest) return std::nullopt;
   const double rate = common_rate(moves);

@@ -23,7 +23,7 @@ namespace {
 struct TableUnit {
   double times;             ///< ratio of printed to timed value with this unit
   std::string_view column;  ///< column to correct
-  double factor;            ///< the correction
+  double factor;            ///< corrected value = value in the file times this
   std::string_view words;
 };
 

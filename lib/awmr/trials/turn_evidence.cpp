@@ -38,7 +38,7 @@ constexpr double kPossibleAcceleration_mps2 = 15.0;
 struct RateUnit {
   double times;             ///< value in this unit over value in rad/s
   std::string_view column;  ///< column to correct
-  double factor;            ///< the correction
+  double factor;            ///< corrected value = value in the file times this
   std::string_view words;
 };
 constexpr std::array<RateUnit, 4> kPrintedUnits{

@@ -37,7 +37,7 @@ struct CoastFit {
   double residual_std_mps = 0.0;
   int rows = 0;  ///< number of samples of all runs
   int rank = 0;
-  double condition_number = 0.0;               ///< of the Jacobian, its columns of length 1
+  double condition_number = 0.0;               ///< of the Jacobian, columns scaled to length 1
   std::vector<std::vector<double>> residuals;  ///< by run, m/s
   bool autocorrelated =
       false;            ///< neighbouring residuals are correlated; `variance` allows for this

@@ -28,7 +28,8 @@ std::optional<MassFromStopTime> mass_from_stop_time(const SteadyFit& surge,
                                                     const std::vector<StopTimeRow>& runs);
 
 /// Adds the findings about m' from stop times, where they apply: `implausible-deceleration`,
-/// `fragile-mass`, `single-stop-time`. `relative_std_error`: of m'.
+/// `fragile-mass`, `single-stop-time`. `relative_std_error`: standard error of m' over m'; absent
+/// if unknown.
 void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& coastdown,
                 double mass_kg, double mass_norm, std::optional<double> relative_std_error,
                 std::vector<Finding>& findings);

@@ -171,8 +171,8 @@ double log_determinant(const Eigen::MatrixXd& covariance) {
   return symmetric_eigen(covariance).values.array().max(1e-300).log().sum();
 }
 
-/// Computes the effect of a candidate: C_after = (C^-1 + J^T J)^-1, with the derivatives J of its
-/// measurements, divided by their standard deviations, by the coordinates.
+/// Computes the effect of a candidate: C_after = (C^-1 + J^T J)^-1. J has the derivatives, by the
+/// coordinates, of the measurements divided by their standard deviations.
 SuggestedTrial evaluate(const CandidateTrial& candidate, const Model& model,
                         const Uncertainty& uncertainty, const Target& target) {
   const Eigen::MatrixXd j = jacobian_of(model, uncertainty.parameters, candidate.standardised);

@@ -26,7 +26,7 @@ namespace awmr {
 struct NoiseAlternative {
   ErrorModel noise = ErrorModel::kLogForce;
   SteadyFit fit;
-  double weight = 1.0;  ///< in (0, 1]; they add up to 1
+  double weight = 1.0;  ///< in (0, 1]; all weights add up to 1
 };
 
 /// Smallest weight of the chosen fit. Its distribution is centred on the reported value, so at
