@@ -8,8 +8,8 @@
 namespace awmr {
 namespace {
 
-/// By row: true for rows to keep. They are not before the first value of every command, and have a
-/// value of their own in at least one column.
+/// By row: true for rows to keep. In these rows, all commands have had a value, and at least one
+/// column has a value of its own.
 std::vector<bool> rows_that_count(const CsvTable::Parts& parts, const ColumnSources& sources) {
   const std::size_t rows = parts.lines.size();
   std::vector<bool> counts(rows, false);

@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// Drops rows without any value of their own, and rows before the first value of every command.
+/// Drops rows without any value of their own, and the rows before all commands have had a value.
 /// Adds the note `joined-by-time` with the number of dropped rows.
 void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources);
 

@@ -25,7 +25,7 @@ struct File {
 /// The mappings of t_s.
 struct TimeMappings {
   std::vector<ColumnMapping> mappings = {};
-  std::vector<std::size_t> places = {};  ///< their indices among all mappings
+  std::vector<std::size_t> places = {};  ///< indices of `mappings` among all mappings
 };
 
 TimeMappings time_mappings(std::span<const ColumnMapping> mappings) {

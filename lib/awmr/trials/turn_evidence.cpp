@@ -71,9 +71,9 @@ class SpeedCurve {
     double most = 0.0;
     for (auto& [tau, speed] : points_) most = speed = std::max(most, speed);
   }
-  /// Odd in tau. Above the largest tau_speed of the runs, u grows with its square: an upper bound,
-  /// because resistance grows at least with the square root of the speed. Empty above 1.5 times the
-  /// largest tau_speed.
+  /// Odd in tau. Above the largest tau_speed of the runs, u is continued in proportion to tau^2.
+  /// This is an upper bound, because resistance grows at least with the square root of the speed.
+  /// Empty above 1.5 times the largest tau_speed.
   std::optional<double> at(double tau) const {
     if (tau < 0.0) {
       const auto forwards = at(-tau);
