@@ -25,7 +25,7 @@ std::size_t count_of_values(const RawColumn& column) {
       std::count_if(column.value.begin(), column.value.end(), has_value));
 }
 
-/// True for a column that may have empty cells in a table with signals of different rates.
+/// True for a column that may have empty cells if the signals of the table have different rates.
 bool has_own_rate(const ColumnSource& source) {
   return source.column.empty == EmptyCells::kHeld || source.column.empty == EmptyCells::kAbsent;
 }

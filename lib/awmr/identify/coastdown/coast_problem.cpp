@@ -41,8 +41,8 @@ T coast_step(const Resistance<T>& law, const T& mass, const T& u, const T& h) {
   return next > T(0.0) ? next : T(0.0);
 }
 
-/// Largest number of steps between two samples: half an hour in steps of 2 ms. A point of the
-/// search that needs more, because its t0 diverges, is rejected.
+/// Largest number of steps between two samples: half an hour in steps of 2 ms. Parameters that
+/// need more steps, because their t0 diverges, are rejected.
 constexpr double kMaximumSteps = 1e6;
 
 /// Residuals of one curve as a function of ln a, b, c, q, ln m' and (u0, t0).

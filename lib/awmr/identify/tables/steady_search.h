@@ -29,10 +29,11 @@ class SteadySearch {
   /// loss from the residuals.
   void solve_robustly();
 
-  /// Residuals by point, in the unit of the noise, without the loss. Empty if one is not finite.
-  std::optional<Eigen::VectorXd> residuals();
-  /// Derivatives of the residuals, points x `columns`, without the loss. Empty if one is not
+  /// Residuals by point, in the unit of the noise, before the robust loss. Empty if one is not
   /// finite.
+  std::optional<Eigen::VectorXd> residuals();
+  /// Derivatives of the residuals, points x `columns`, before the robust loss. Empty if
+  /// one is not finite.
   std::optional<Eigen::MatrixXd> jacobian(const std::vector<TransformedParameter>& columns);
 
   const TransformedParameters& theta() const { return theta_; }
