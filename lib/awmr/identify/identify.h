@@ -24,7 +24,7 @@ struct Identification {
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings);
 
-/// Identifies the model from trials that load_trials() has read.
+/// Identifies the model from trials that load_trials() has read. Errors: as above.
 Result<Identification> identify(const Trials& trials, const IdentifyOptions& options);
 
 /// Ratio of the upper end of the 95 % interval of the assumed sway resistance (`assumed-sway`) to

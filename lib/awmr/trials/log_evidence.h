@@ -73,7 +73,7 @@ struct MomentShares {
   double sides = 0.0;
 };
 
-/// Computes the regression. `rate(window)`: change of heading or integral of the yaw rate over the
+/// Computes MomentShares. `rate(window)`: change of heading or integral of the yaw rate over the
 /// window, rad.
 MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
                            double (*rate)(const EvidenceWindow&));

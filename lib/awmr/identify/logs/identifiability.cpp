@@ -93,8 +93,8 @@ void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
   }
 }
 
-/// Widens the standard errors to the scatter of the blocks and, with three or more logs, of the
-/// logs.
+/// Widens a standard error to that from the scatter of the scores, if the scores scatter more
+/// between blocks or significantly more between three or more logs.
 void widen(const Scores& scores, Identifiability& found) {
   constexpr double kManyDegrees = 1e6;  // Student's t is then the normal distribution
   constexpr std::size_t kEnoughLogs = 3;
