@@ -91,7 +91,7 @@ TEST(Resume, RefusesAnotherComparisonsFiles) {
   EXPECT_TRUE(read_finished(directory.path(), more_samples));
   write_all(directory.path() / "comparison.csv", "scenario,mode\nbroken\n");
   EXPECT_THAT(to_text(read_finished(directory.path(), kProvenance).error()),
-              HasSubstr("is not as it was written"));
+              HasSubstr("[stale-result]"));
   Json of_version_1 = Json::parse(comparison_text(c, kWhole, kProvenance));
   of_version_1.erase("csv_sha256");
   write_all(directory.path() / "comparison.json", to_text(of_version_1));
@@ -141,7 +141,7 @@ TEST(Resume, RefusesEditedRows) {
   csv[csv.find_last_of("0123456789")] ^= 1;
   write_all(directory.path() / "comparison.csv", csv);
   EXPECT_THAT(to_text(read_finished(directory.path(), kProvenance).error()),
-              HasSubstr("is not as it was written"));
+              HasSubstr("[stale-result]"));
 }
 
 TEST(ComparisonCsv, EscapesNamesThatASpreadsheetWouldRun) {

@@ -132,7 +132,7 @@ TEST_F(RecoverShards, AnErrorOfAllRunsIsThatOfTheFirst) {
   EXPECT_THAT(
       to_text(recovery_of(merge_recover_shards({write({1, 2}, one), write({2, 2}, two)})->whole)
                   .error()),
-      HasSubstr("none gave an interval"));
+      HasSubstr("[not-recovered]"));
   two.error = refusal(ErrorCode::kNotRecovered, "another").value();
   const auto recovery =
       recovery_of(merge_recover_shards({write({2, 2}, two), write({1, 2}, one)})->whole);

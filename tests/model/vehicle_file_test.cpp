@@ -73,7 +73,7 @@ TEST(VehicleFile, ReadsAVehicleWithoutSteering) {
 
 TEST(VehicleFile, RefusesADriveThatContradictsItsSteering) {
   EXPECT_THAT(faults_after({"/drive", "differential"}),
-              ElementsAre(StartsWith("/steering: a vehicle of drive")));
+              ElementsAre(StartsWith("/steering: a vehicle with drive")));
   EXPECT_THAT(faults_after({"/drive", "rear_wheel"}),
               ElementsAre(StartsWith("/drive: expected one of")));
   EXPECT_THAT(faults_after({"/steering", {}, true}), ElementsAre(StartsWith("/steering")));

@@ -423,7 +423,7 @@ TEST(Tune, RefusesAMillionEvaluationsOfLongScenarios) {
   const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kInput);
-  EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("give at most"));
+  EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("[too-large]"));
 }
 
 TEST(Tune, ReportsAMissingParameterOfTheModel) {
