@@ -16,7 +16,8 @@ namespace awmr {
 
 namespace detail {
 
-/// The q (steering_geometry.h) that makes a moment, and the limits that changed it.
+/// The q (steering_geometry.h) that makes a yaw moment. `limited`: q was clipped. `powerless`:
+/// tau_speed is too small to steer with, and q is 0.
 template <class T>
 struct Steering {
   T q;

@@ -85,8 +85,8 @@ constexpr T steering_authority_full() {
 /// Limit of |q| (steering_geometry.h) at tau_speed:
 ///   q_max sat(tau_speed/steering_authority_full(), [0, 1])
 /// The q of a given moment grows as 1/tau_speed and is 0 for tau_speed <= 0. With a constant limit,
-/// the wheels would jump there from the stop to straight. The reduced limit costs at most 1/256 of
-/// the steering moment at full thrust.
+/// the wheels would jump from the stop to straight ahead at tau_speed = 0. The reduced limit costs
+/// at most 1/256 of the steering moment that is available at full thrust.
 template <class T>
 AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed) {
   using math::any;
@@ -95,7 +95,7 @@ AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed
   return c.q_max * math::clamp(T(tau_speed * (T(1.0) / full)), T(0.0), T(1.0));
 }
 
-/// The commands, and the limits that are active.
+/// The allocated commands, and which limits changed them.
 template <class T>
 struct Allocation {
   SideForces<T> force;       ///< F' of each wheel of a side, in [F'min, F'max]

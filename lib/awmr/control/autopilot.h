@@ -1,6 +1,6 @@
 /// One complete step of the firmware: measurement -> checks -> guidance -> laws -> observer ->
-/// allocation -> limits -> command. Freestanding C++14. The host's float run compiles this source,
-/// too, and gives the same bits.
+/// allocation -> limits -> command. Freestanding C++14. A simulation in float on the host compiles
+/// the same source, with bit-identical results.
 #pragma once
 
 #include <stdint.h>
@@ -78,9 +78,8 @@ AWMR_CALLED void read_speed(Autopilot<G, P>& a, const AutopilotInput& in) {
   correct_speed(a.direction, {in.measured.u_mps, in.position_m, in.measured.psi_rad, is_new});
 }
 
-/// True if the heading reference and the outputs of both laws are finite. A check of the command
-/// alone is not sufficient: in steering mode the wheels are straight while the vehicle brakes, even
-/// if the reference is NaN.
+/// True if the heading reference and the outputs of both laws are finite. The command alone does
+/// not show a NaN reference: in steering mode the wheels are straight while the vehicle brakes.
 inline bool is_finite(const AutopilotOutput& out) {
   const uint16_t infinity = static_cast<uint16_t>(float_math::kInfinityBits >> 16U);
   return float_math::leading_bits(out.psi_ref_rad) < infinity &&
@@ -88,8 +87,8 @@ inline bool is_finite(const AutopilotOutput& out) {
          float_math::leading_bits(out.tau_speed) < infinity;
 }
 
-/// tau_speed that acts until the next step: the request of the law, limited to the range of four
-/// motors.
+/// Returns the tau_speed that acts until the next step: the output of the speed law, limited to the
+/// range of the four motors.
 inline float acting_force(const AllocationConstants<float>& c, float tau_speed) {
   return math::clamp(tau_speed, c.tau_speed_min, c.tau_speed_max);
 }

@@ -1,5 +1,5 @@
-/// Functions that give the autopilot a route, obstacles, a filter or an observer, in effect from its
-/// next step on. Freestanding C++14.
+/// Functions that give the autopilot a route, obstacles, a filter or an observer. They take effect
+/// in the next step. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/autopilot_state.h"

@@ -1,5 +1,5 @@
-/// Optional parts of a firmware: the disturbance observer, the motors' curve and the position
-/// estimate; the parts of the guidance are in guidance/parts.h. Freestanding C++14.
+/// Optional parts of a firmware: disturbance observer, compensation of dead zone and back-EMF, and
+/// position estimate. The parts of the guidance are in guidance/parts.h. Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
@@ -37,8 +37,8 @@ struct Positioner {
   uint32_t fix_ms = 0;  ///< time of the last fix
 };
 
-/// List of parts for a firmware without optional parts. A firmware with some of them defines its own
-/// struct with these names.
+/// List of parts for a firmware without optional parts. A firmware with some parts defines its own
+/// struct with these names, such as AllParts below.
 struct NoParts {
   typedef Disabled<LineFollower<float>> Line;
   typedef Disabled<PathFollower<float, uint32_t>> Path;
@@ -92,8 +92,8 @@ AWMR_INLINE void reset(Positioner<Filter>& part) {
   part.estimate.restart();
 }
 
-/// The present position. Call it only if the input has no fault except the command time-out. The
-/// sign of `speed_mps` is the direction of travel.
+/// Returns the present position. Call it only if the input has no fault except the command
+/// time-out. The sign of `speed_mps` is the direction of travel.
 template <class Filter>
 AWMR_INLINE const Position<float>& position_now(const Disabled<Positioner<Filter>>&,
                                                 const AutopilotInput& in, const float&) {
@@ -114,7 +114,7 @@ AWMR_CALLED Position<float> position_now(Positioner<Filter>& part, const Autopil
   return part.estimate.step({in.position_m, age_s, is_new}, motion);
 }
 
-/// Motor commands that make the forces with a dead zone.
+/// Replaces the forces by the motor commands that make them despite the dead zone.
 AWMR_INLINE void make_up_dead_zone(const Disabled<MotorCurve>&, SideForces<float>&) {}
 inline void make_up_dead_zone(const MotorCurve& part, SideForces<float>& force) {
   force = with_dead_zone(force, part.dead_zone);
@@ -132,7 +132,7 @@ inline AllocationConstants<float> limits_at(const MotorCurve& part,
   return at_speed(c, part.back_emf_s_per_m, u_mps);
 }
 
-/// Motor drives that make the forces with back-EMF.
+/// Replaces the forces by the motor drives that make them despite the back-EMF.
 AWMR_INLINE void make_up_back_emf(const Disabled<MotorCurve>&, const AllocationConstants<float>&,
                                   const Measurement<float>&, SideForces<float>&) {}
 inline void make_up_back_emf(const MotorCurve& part, const AllocationConstants<float>& c,

@@ -22,8 +22,7 @@ inline uint32_t crc32_with(uint32_t crc, uint8_t byte) {
 constexpr uint16_t kCrc16Start = 0xFFFFU;
 
 inline uint16_t crc16_with(uint16_t crc, uint8_t byte) {
-  // Shifts by whole nibbles replace a loop over eight bits; the polynomial x^16 + x^12 + x^5 + 1
-  // permits this.
+  // For the polynomial x^16 + x^12 + x^5 + 1, these shifts equal the usual loop over eight bits.
   uint8_t high = static_cast<uint8_t>((crc >> 8U) ^ byte);
   high = static_cast<uint8_t>(high ^ (high >> 4U));
   const uint16_t folded = static_cast<uint16_t>((static_cast<uint16_t>(high) << 12U) ^

@@ -1,15 +1,15 @@
 /// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
 ///
 /// The speed law needs a signed speed. With |u| as its input and a wanted speed of 0, the law would
-/// accelerate a vehicle that rolls backward while m' mu_s sat(u/eps_s) > g1(u). The sign is that of a predicted
-/// speed u, computed from the commanded force by the identified model:
+/// accelerate a vehicle that rolls backward while m' mu_s sat(u/eps_s) > g1(u). The sign is that of
+/// a predicted speed u, computed from the commanded force by the identified model:
 ///   m' u_dot = tau_speed - g1(u)
 /// The sensor corrects the magnitude of the prediction; the displacement along the heading verifies
 /// its sign. Rules:
 ///   - Braking (a force against the direction of travel) requires a known direction.
 ///   - The predicted speed of a braking vehicle stops at 0: braking cannot become driving backward.
 ///   - A direction is verified only while the vehicle does not brake, after 1 m along the heading.
-///   - If the direction is unknown and the vehicle is too fast, it coasts: tau_speed is 0.
+///   - If the direction is unknown and |u| > |u_ref|, the vehicle coasts: tau_speed is 0.
 ///   - At u_ref = 0, tau_speed is 0 while |u| <= kStandstill_mps.
 /// On a slope, a vehicle therefore brakes in pulses: each ends when the predicted speed is 0, and
 /// the next starts when the displacement has verified the direction again.
@@ -25,7 +25,7 @@
 
 namespace awmr {
 
-/// Below this predicted speed, m/s, the direction is unknown.
+/// The direction is unknown while the magnitude of the predicted speed is at most this, m/s.
 constexpr float kDirected_mps = 0.1F;
 /// Distance along the heading that verifies a direction, m.
 constexpr float kVerified_m = 1.0F;
@@ -132,8 +132,8 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
 }
 
 /// True if the speed law, with |u| as its input, would accelerate a vehicle that rolls backward at
-/// the speed u. At u_ref = 0 the law commands -m' mu_s sat(|u|/eps_s), which pushes such a vehicle
-/// on. This force exceeds the resistance if
+/// the speed u = speed_mps > 0. At u_ref = 0 the law commands -m' mu_s sat(u/eps_s), which pushes
+/// such a vehicle further backward. This force exceeds the resistance if
 ///   m' mu_s sat(u/eps_s) > g1(u)
 template <class T, class G>
 bool runs_away_unsigned(const G& surge, const T& mass_norm, const SpeedGains<T>& gains,

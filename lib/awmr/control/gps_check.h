@@ -10,7 +10,7 @@ namespace awmr {
 struct GpsLimits {
   float speed_max_mps;    ///< largest speed
   float on_course_rad;    ///< e0: largest heading error in steady motion
-  float off_course_mrad;  ///< largest integral over the distance of the error beyond e0, m rad
+  float off_course_mrad;  ///< largest integral of (heading error - e0) over the distance, m rad
   uint32_t timeout_ms;    ///< longest time without a fix
   /// True: the work on a fix is spread over several steps (GpsReceiver).
   static constexpr bool spreads_work = true;
@@ -124,9 +124,9 @@ class GpsCheck {
     return false;
   }
 
-  /// Updates the increase of the fixes' latency above its smallest value. Between two fixes, this
-  /// increase grows by the advance of the board's clock minus that of UTC. 1/64 of the time is
-  /// deducted, because a board's clock can be wrong by up to 0.5 %.
+  /// Updates lag_ms_, the increase of the fixes' latency above its smallest value. Between two
+  /// fixes, lag_ms_ grows by the advance of the board's clock minus that of UTC. 1/64 of the time
+  /// is deducted, because a board's clock can be wrong by up to 0.5 %.
   void note_lag(uint32_t wait_ms, uint32_t advance_ms) {
     lag_ms_ += static_cast<int32_t>(wait_ms - advance_ms) - static_cast<int32_t>(advance_ms / 64U);
     if (lag_ms_ < 0) lag_ms_ = 0;

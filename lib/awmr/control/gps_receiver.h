@@ -1,7 +1,7 @@
 /// Converts the characters of a GPS port to a checked position and speed. Freestanding C++14.
 ///
-/// Characters are received between the steps. The work on a sentence is spread over several steps,
-/// so that all take about the same time:
+/// Characters are received between the control steps. The work on one sentence is spread over
+/// several steps, so that each step takes about the same time:
 ///   1. Convert the numbers of the sentence.
 ///   2. Accept or reject the fix.
 ///   3. Publish position and speed, for the autopilot in this step.

@@ -23,7 +23,7 @@ enum class GpsSentence : uint8_t {
   kFix
 };
 
-/// Speeds below this, m/s, are noise of a receiver at rest.
+/// A GPS speed below this, m/s, can be the noise of a receiver at rest.
 constexpr float kStandstill_mps = 0.3F;
 /// Seconds and milliseconds of a day.
 constexpr uint32_t kDay_s = 86400;
@@ -31,9 +31,9 @@ constexpr uint32_t kDay_ms = 1000 * kDay_s;
 /// Units of GpsFix::lat_e7 in a degree.
 constexpr uint32_t kDegree_e7 = 10000000;
 
-/// A number of a sentence: its digits before the point, and its digits behind the point in units of
-/// the last place that is kept. Degrees, minutes and seconds are combined with base 60: the digits
-/// 1234 of 12 deg 34 min become 12 * 60 + 34.
+/// A number of a sentence. `whole`: the digits before the decimal point. `part`: those behind it,
+/// in units of the last place that is kept. Hours or degrees, minutes and seconds are combined with
+/// base 60: the digits 1234 of 12 deg 34 min become 12 * 60 + 34.
 struct RmcNumber {
   uint32_t whole;
   uint32_t part;

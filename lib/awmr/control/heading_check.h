@@ -6,8 +6,8 @@
 
 namespace awmr {
 
-/// Time without a change of the raw word after which a sensor counts as frozen, ms: 50 words at 100
-/// Hz. The noise of a working sensor changes its word, by 5 counts RMS (gyroscope) or 4 (compass).
+/// Time without a change of the raw word after which a sensor counts as frozen, ms: 50 readings at
+/// 100 Hz. In a working sensor, noise changes the word by 5 counts RMS (gyroscope) or 4 (compass).
 constexpr uint32_t kFrozen_ms = 500;
 /// Longest time without a new field of the compass, ms.
 constexpr uint32_t kCompassSilent_ms = 500;
@@ -34,11 +34,13 @@ class FrozenCheck {
   bool is_frozen_ = false;
 };
 
-/// Measures the zero-rate offset of a gyroscope over 100 readings. It starts again if their spread
-/// or mean, or the change of the compass heading, is too large for a vehicle at rest.
+/// Measures the zero-rate offset of a gyroscope as the mean of 100 readings. The measurement starts
+/// again if the spread or mean of the readings, or the change of the compass heading, is too large
+/// for a vehicle at rest.
 class GyroCalibration {
  public:
-  /// Processes the word of one sample. `heading_rad` is the compass heading, valid if `has_heading`.
+  /// Processes the word of one sample. `heading_rad` is the compass heading, valid if
+  /// `has_heading`.
   void take(int16_t word, float rate_per_word, bool has_heading, float heading_rad) {
     if (is_done_) return;
     if (count_ == 0) start(word);
@@ -62,8 +64,8 @@ class GyroCalibration {
 
  private:
   static constexpr uint8_t kSamples = 100;
-  /// Largest difference of two readings at rest: six times the peak-to-peak noise of an MPU9250 with
-  /// its 41 Hz filter.
+  /// Largest difference of two readings at rest: six times the peak-to-peak noise of an MPU9250
+  /// with its 41 Hz filter.
   static constexpr float kSpreadMax_radps = 0.05F;
   /// Largest zero-rate offset, 5.2 deg/s; the data sheet specifies 5 deg/s.
   static constexpr float kBiasMax_radps = 0.09F;
@@ -111,8 +113,8 @@ class StepCheck {
   bool is_apart() const { return is_apart_; }
 
  private:
-  /// An innovation above 20 deg for 0.2 s: the compass jumped, or the scale of the gyroscope is wrong
-  /// in a turn.
+  /// An innovation above 20 deg for 0.2 s: the compass jumped, or the scale of the gyroscope is
+  /// wrong in a turn.
   static constexpr float kJump_rad = 0.35F;
   static constexpr float kJump_s = 0.2F;
   /// A mean innovation above 6 deg (low pass of 5 s), which is 3 deg/s for T = 2 s: the compass is
@@ -127,15 +129,17 @@ class StepCheck {
 
 /// Compares the yaw rate with the commanded yaw moment, to detect swapped left and right motors, a
 /// reversed servo, or a gyroscope with the wrong sign. The fault is a turn of 90 deg against the
-/// moment in which the yaw rate never falls by a quarter: if it falls, the moment brakes a turn.
+/// moment in which the yaw rate does not fall by a quarter from its maximum. A yaw rate that falls
+/// means that the moment is braking an earlier turn.
 class TurnCheck {
  public:
   /// rate_per_word: rad/s per count of the gyroscope. dt_s: time between two readings, s.
   void begin(float rate_per_word, float dt_s) {
     quarter_turn_words_ = static_cast<int32_t>(float_math::kPiBy2 / (rate_per_word * dt_s));
   }
-  /// Adds a reading of the gyroscope, with its offset removed. `moment_m` is the yaw moment commanded
-  /// since the last reading, m; 0: the motors are off. Integer arithmetic, which is fast on the chip.
+  /// Adds a reading of the gyroscope, with its offset removed. `moment_m` is the yaw moment
+  /// commanded since the last reading, m; 0: the motors are off. Integer arithmetic, which is fast
+  /// on the chip.
   AWMR_CALLED_MEMBER void take(int16_t word, float moment_m) {
     if (word <= kTurning && word >= -kTurning) {
       if (is_wrong_ && float_math::magnitude_bits(moment_m) == 0) restart();
@@ -156,7 +160,8 @@ class TurnCheck {
   bool is_wrong() const { return is_wrong_; }
 
  private:
-  /// Smallest word that counts as turning: 5.7 deg/s for an MPU9250 at +-500 deg/s, above the noise.
+  /// Smallest word that counts as turning: 5.7 deg/s for an MPU9250 at +-500 deg/s, above the
+  /// noise.
   static constexpr int16_t kTurning = 375;
   int32_t quarter_turn_words_ = 0;  // sum of the words over a turn of 90 deg
   int32_t against_words_ = 0;       // sum of the words against the moment
@@ -191,8 +196,8 @@ class HeadingCheck {
   /// Processes a new field of the compass, as three raw words.
   void take_field(int16_t x, int16_t y, int16_t z, uint32_t now_ms) {
     field_ms_ = now_ms;
-    // The three words of 16 bits are hashed to one of 32 bits. Simultaneous changes of two words can
-    // cancel, but not in all readings of half a second.
+    // The three words of 16 bits are hashed to one of 32 bits. Simultaneous changes of two words
+    // can cancel, but not in all readings of half a second.
     const uint32_t low = static_cast<uint16_t>(x);
     const uint32_t high = static_cast<uint16_t>(y);
     field_.take(

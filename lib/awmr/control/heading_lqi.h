@@ -10,7 +10,7 @@
 
 namespace awmr {
 
-/// Weights as the largest acceptable values (Bryson's rule).
+/// Weights of the quadratic cost, each given as the largest acceptable value (Bryson's rule).
 template <class T>
 struct LqiWeights {
   T heading_rad;     ///< e_max, rad, > 0: of the heading error e
@@ -21,7 +21,7 @@ struct LqiWeights {
   T tau_turn_m;
 };
 
-/// Gains from the errors to the yaw acceleration.
+/// Gains of the LQI law, each from one error to the commanded yaw acceleration w.
 template <class T>
 struct LqiGains {
   T integral_per_s3;  ///< a0, 1/s^3
@@ -43,9 +43,9 @@ struct LqiGains {
 ///   a0   = w_max/z_max
 ///   a2^2 = w_max^2/r_max^2 + 2 a1
 ///   a1^2 = w_max^2/e_max^2 + 2 a0 a2
-/// The last two leave one equation for a1, convex and below 0 at a1 = 0. It has one positive root,
-/// to which Newton's method converges monotonically from any larger value. The initial value is
-/// larger, and less than three times the root, because
+/// The last two give one equation for a1, whose left side minus right side is convex and below 0 at
+/// a1 = 0. It has one positive root, to which Newton's method converges monotonically from any
+/// larger value. The initial value is larger, and less than three times the root, because
 ///   a1^2 <= c1 + 2 a0 sqrt(c2) + 2 a0 sqrt(2 a1),  c1 = w_max^2/e_max^2,  c2 = w_max^2/r_max^2
 template <class T>
 LqiGains<T> lqi_gains(const LqiWeights<T>& weights, const T& inertia_norm) {
@@ -107,7 +107,7 @@ T lqi_law(const G& yaw, const T& inertia_norm, const LqiGains<T>& gains, const M
          inertia_norm * (ref.psi_accel_radps2 + w);
 }
 
-/// Relative difference of two moments below which they count as equal: rounding.
+/// Two moments whose relative difference is below this count as equal, because of rounding.
 template <class T>
 constexpr T same_moment_share() {
   return T(1e-6);

@@ -1,5 +1,5 @@
-/// Ring buffer for log rows: the control step, which must not wait, writes rows; the idle loop
-/// stores them on a card, which can block for a quarter of a second. Freestanding C++11.
+/// Ring buffer for log rows between the control step, which must not wait, and the idle loop, which
+/// stores the rows on a card that can block for a quarter of a second. Freestanding C++11.
 ///
 /// The writer (the control step, an interrupt) and the reader (the idle loop) need no lock. Each
 /// changes only its own counter, a byte, which an 8-bit processor reads and writes atomically.
@@ -22,8 +22,8 @@ class LogRing {
                 "2, 4, 8 or 16 blocks: counters of a byte run through all rows");
 
  public:
-  /// Returns the row to fill in, or 0 if the ring is full. A lost row also gets a sequence number,
-  /// which is then missing in the log.
+  /// Returns the row to fill in, or 0 if the ring is full. Then the row is lost, and its sequence
+  /// number is missing in the log.
   LogRow* begin_row() {
     const uint32_t sequence = sequence_++;
     if (static_cast<uint8_t>(written_ - read_) == kRows) return 0;
@@ -37,16 +37,16 @@ class LogRing {
     written_ = static_cast<uint8_t>(written_ + 1);
   }
 
-  /// Number of rows that can be read at once: the rows up to the end of a block once all of them are
-  /// complete, else 0. With `rest`, the complete rows of an unfinished block, too.
+  /// Number of rows that can be read now: the rows of the current block once the block is complete,
+  /// else 0. With `rest`, also the complete rows of an incomplete block.
   uint8_t ready(bool rest = false) const {
     const uint8_t there = static_cast<uint8_t>(written_ - read_);
     const uint8_t whole = static_cast<uint8_t>(kLogBlockRows - read_ % kLogBlockRows);
     if (there >= whole) return whole;
     return rest ? there : static_cast<uint8_t>(0);
   }
-  /// Computes the check sums of the next `count` ready rows and returns the first; the others follow
-  /// it in memory.
+  /// Computes the check sums of the next `count` ready rows and returns the first; the others
+  /// follow it in memory.
   const LogRow* sealed(uint8_t count) {
     barrier();
     LogRow* first = rows_ + (read_ & kMask);

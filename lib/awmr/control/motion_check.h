@@ -33,9 +33,10 @@ class MotionCheck {
     due_ = Due::kDirection;
   }
 
-  /// Does the next comparison for the last motion. The first call compares the displacement with the
-  /// command, the second with the speed, the third with the heading. The fourth compares the heading
-  /// with the commanded one. False: all are done. Limits: GpsLimits, or its names as constants.
+  /// Does the next comparison for the last motion. The first call compares the displacement with
+  /// the command, the second with the speed, the third with the heading. The fourth compares the
+  /// heading with the commanded one. False: all are done. Limits: GpsLimits, or its names as
+  /// constants.
   template <class Limits>
   bool check(const Limits& limits) {
     switch (due_) {
@@ -87,26 +88,26 @@ class MotionCheck {
   /// Length of the windows in which displacement and speed are compared, m and s.
   static constexpr float kWindow_m = 12.0F;
   static constexpr float kWindow_s = 90.0F;
-  /// Displacement along the heading that is permitted beyond 1.25 times the distance travelled, m.
-  /// It covers the drift of the fixes: an error of 1.5 m RMS with a correlation time of 60 s changes
-  /// in the time t by
+  /// Displacement along the heading that is permitted in addition to 1.25 times the distance
+  /// travelled, m. It covers the drift of the fixes: an error of 1.5 m RMS with a correlation time
+  /// of 60 s changes in the time t by
   ///   1.5 sqrt(2 (1 - exp(-t/60 s))) m RMS
   /// which is 1.9 m in a window of kWindow_s.
   static constexpr float kFurther_m = 6.0F;
-  /// Displacement that is required, as a share of the distance travelled. A healthy vehicle reaches
-  /// 0.39 even with a compass error of 30 deg and three times the RMS drift above.
+  /// Displacement that is required in a window, as a share of the distance travelled. A healthy
+  /// vehicle reaches 0.39 even with a compass error of 30 deg and three times the RMS drift above.
   static constexpr float kNotFurther = 0.25F;
   /// At u_ref = 0, longest window whose displacement is compared, s. In a longer one, the noise of
   /// the unsigned speed alone would add up to kWindow_m.
   static constexpr float kMoving_s = kWindow_m / kStandstill_mps;
-  /// Maximum distance travelled by the speed while the position does not change, m. While a motion
-  /// is commanded, a speed at standstill counts as kStill_mps. So a receiver that froze at rest is
-  /// detected after 10 s.
+  /// Maximum integral of the measured speed while the position does not change, m. While a motion
+  /// is commanded, a speed of at most kStandstill_mps counts as kStill_mps, m/s. So a receiver that
+  /// froze at rest is detected after 10 s.
   static constexpr float kSame_m = 1.5F;
   static constexpr float kStill_mps = 0.15F;
   /// Maximum displacement against the commanded direction, m: a fault if kAgainstFixes consecutive
-  /// fixes exceed it. Earlier displacement in the commanded direction counts up to kAhead_m. The
-  /// maximum is larger than the drift of the fixes while the vehicle moves.
+  /// fixes exceed it. Up to kAhead_m of earlier displacement in the commanded direction is
+  /// subtracted. The maximum is larger than the drift of the fixes while the vehicle moves.
   static constexpr float kAgainst_m = 2.0F;
   static constexpr float kAhead_m = 1.0F;
   static constexpr uint8_t kAgainstFixes = 3;
@@ -130,15 +131,15 @@ class MotionCheck {
   GpsMotion motion_ = {0.0F, 0.0F, 0.0F, 0.0F};  // valid if a comparison is due
   GpsContext context_ = {0.0F, 0.0F, 0, false};
   float window_s_ = 0.0F;         // time since the window began
-  float window_m_ = 0.0F;         // displacement along the heading since then
-  float window_left_m_ = 0.0F;    // to the left of the heading, sum over straight motions
-  float travelled_m_ = 0.0F;      // integral of the speed since then
+  float window_m_ = 0.0F;         // displacement along the heading in the window
+  float window_left_m_ = 0.0F;    // displacement to the left in the window's straight motions
+  float travelled_m_ = 0.0F;      // integral of the speed in the window
   float same_m_ = 0.0F;           // integral of the speed while the position did not change
   float against_m_ = 0.0F;        // displacement against the commanded direction
-  float ahead_m_ = 0.0F;          // of the last motion along the heading, from Due::kSpeed on
-  float track_s_ = 0.0F;          // time of the motion since the track was compared
-  float track_ahead_m_ = 0.0F;    // displacement along the heading since then
-  float track_left_m_ = 0.0F;     // displacement to the left of the heading since then
+  float ahead_m_ = 0.0F;          // displacement of the last motion along the heading
+  float track_s_ = 0.0F;          // time of the straight motions since the last track comparison
+  float track_ahead_m_ = 0.0F;    // displacement of these motions along the heading
+  float track_left_m_ = 0.0F;     // displacement of these motions to the left of the heading
   float track_psi_rad_ = 0.0F;    // heading at the previous fix
   float off_course_mrad_ = 0.0F;  // integral of the heading difference over the distance
   float course_rad_ = 0.0F;       // commanded heading at the previous fix
@@ -147,7 +148,7 @@ class MotionCheck {
   int8_t direction_ = 0;
   uint8_t against_fixes_ = 0;        // consecutive fixes beyond kAgainst_m
   SensorFault fault_ = kSensorGood;  // the first detected fault
-  bool is_straight_ = false;         // of the last motion, valid from Due::kTrack on
+  bool is_straight_ = false;         // the last motion was straight; valid from Due::kTrack on
   Due due_ = Due::kNothing;
 
   AWMR_CALLED_MEMBER void note(SensorFault fault) {
@@ -243,7 +244,7 @@ class MotionCheck {
 
   /// Integral over the distance driven of the heading error beyond e0, m rad:
   ///   off = max(0, off + int (|psi_d - psi| - e0) |u| dt),  e0 = on_course_rad
-  /// It grows without limit if the vehicle does not turn to the commanded heading, for any reason:
+  /// It keeps growing while the vehicle does not turn to the commanded heading, for any reason:
   /// a gyroscope with the wrong sign, a failed or reversed servo or motor, a target inside the
   /// turning circle. A turn by 180 deg with the radius R adds
   ///   R int_e0^pi (e - e0) de = R (pi - e0)^2/2

@@ -24,12 +24,12 @@ AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_pe
   return c;
 }
 
-/// Motor drives e that make these forces at the speed u, m/s, and yaw rate r, rad/s:
+/// Motor drives e, over F_max, that make these forces at the speed u, m/s, and yaw rate r, rad/s:
 ///   e = sat(F' + k_e w, [F'min, F'max]),   w = u -+ d r           upper sign: left, lower: right
-/// w is the speed of a rear wheel. The speed of a front wheel differs by w d_r^2/2 and by l_f r d_r,
-/// which are neglected. A drive of 0 switches the motor off: a vehicle that cannot reverse its
-/// motors (F'min = 0) brakes by back-EMF while its drive is above 0, and rolls freely otherwise. NaN
-/// stays NaN.
+/// w is the speed of a rear wheel. The speed of a front wheel differs by w d_r^2/2 and by l_f r
+/// d_r, which are neglected. A drive of 0 switches the motor off: a vehicle that cannot reverse its
+/// motors (F'min = 0) brakes by back-EMF while its drive is above 0, and rolls freely otherwise.
+/// NaN stays NaN.
 template <class T>
 SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants<T>& c,
                            const T& back_emf_s_per_m, const T& u_mps, const T& r_radps) {
@@ -42,7 +42,7 @@ SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants
                   c.force_max)};
 }
 
-/// Motor commands whose parts beyond the dead zone are these drives.
+/// Motor commands, over F_max, that give these drives after the dead zone is subtracted.
 template <class T>
 SideForces<T> with_dead_zone(const SideForces<T>& drive, const T& dead_zone) {
   return {with_dead_zone(drive.left, dead_zone), with_dead_zone(drive.right, dead_zone)};

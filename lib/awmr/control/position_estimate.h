@@ -15,8 +15,8 @@
 /// kSpread_s, so that the direction to a near waypoint does not jump with each fix.
 ///
 /// A fix is rejected if |nu| > kInnovationMax sqrt(P + R). After kRejections in a row, the estimate
-/// is assumed wrong and reset to the last fix (`resets`). gps_check.h tests before whether the
-/// vehicle can have moved to a fix at all.
+/// is assumed wrong and reset to the last fix; `resets` counts this. Before, gps_check.h has
+/// rejected each fix that the vehicle cannot have reached.
 #pragma once
 
 #include <stdint.h>
@@ -66,8 +66,9 @@ class PositionEstimate {
   }
 
  private:
-  /// With spread work, the processing of a fix starts kWait steps after its arrival, because
-  /// gps_receiver.h uses these for its checks. It takes kWorkSteps steps.
+  /// If the work is spread over several steps, the processing of a fix starts kWait steps after its
+  /// arrival, because GpsReceiver uses these steps for its checks. The processing takes kWorkSteps
+  /// steps.
   static constexpr uint8_t kWorkSteps = 4;
   static constexpr uint8_t kWait = 5;
 
@@ -137,8 +138,8 @@ class PositionEstimate {
   }
 
   /// Finds the ring elements before and after the time of the fix. A fix younger than the newest
-  /// element is extrapolated. The oldest element is not used, because travel() can replace it before
-  /// the next step of work.
+  /// element is extrapolated. The oldest element is not used, because travel() can replace it
+  /// before the next step of work.
   void locate() {
     const T waited = filter_.spreads_work ? T(kWait) : T(0.0);
     const T steps = age_s_ * filter_.sample_rate_hz + (waited - T(since_));

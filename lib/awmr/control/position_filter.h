@@ -5,14 +5,15 @@
 
 namespace awmr {
 
-/// q, m^2/s: rate at which the variance of the dead-reckoned position grows, because of errors of
-/// heading and speed.
+/// q, m^2/s: rate at which the variance of the dead-reckoned position grows because of heading and
+/// speed errors.
 constexpr double kDrift_m2ps = 0.05;
 /// Time over which a correction is spread, s.
 constexpr double kSpread_s = 0.08;
 /// Smallest standard deviation of a fix, m, for a receiver without noise.
 constexpr double kFixNoiseMin_m = 0.01;
-/// Largest innovation in standard deviations. One of 300,000 fixes with normal errors exceeds it.
+/// Largest accepted innovation |nu| over sqrt(P + R). One of 300,000 fixes with normal errors
+/// exceeds it.
 constexpr double kInnovationMax = 5.0;
 /// Number of consecutive rejected fixes that resets the estimate.
 constexpr uint8_t kRejections = 5;

@@ -3,8 +3,8 @@
 /// A cell contains the speeds with the same float exponent and leading m mantissa bits: 2^m cells
 /// per octave, evenly spaced in the octave. So the relative error is similar at all speeds, and the
 /// index is a shift of the float's bits, without a logarithm. Within a cell, the table gives the
-/// chord between the ends of the curve, stored as a line: one multiplication and one addition. Below
-/// the first cell it gives the chord to the origin. The table is odd: g(-w) = -g(w).
+/// chord between the ends of the curve, stored as a line: one multiplication and one addition.
+/// Below the first cell it gives the chord to the origin. The table is odd: g(-w) = -g(w).
 #pragma once
 
 #include <stdint.h>
@@ -47,8 +47,8 @@ struct ResistanceTable {
   }
 };
 
-/// A resistance that jumps at rest: a table from `rest_speed` on, and the chord to the origin at
-/// lower speeds.
+/// A resistance that jumps at rest: at speeds from `rest_speed` on it is a table, at lower speeds
+/// the chord from the origin to g(rest_speed).
 struct RestingTable {
   ResistanceTable table;
   float rest_speed;  ///< m/s or rad/s; 0: the resistance does not jump

@@ -47,22 +47,22 @@ AWMR_SHARED inline uint8_t check_magnitude_at_edge(float value, float largest) {
   if (magnitude >= float_math::kInfinityBits) return kFaultNotFinite;
   return magnitude > bits_of(largest) ? kFaultRange : kFaultNone;
 }
-/// As above; usually decided by the leading 16 bits.
+/// As check_magnitude_at_edge(). Usually the leading 16 bits decide, which is faster.
 inline uint8_t check_magnitude(float value, float largest) {
   if (float_math::leading_bits(value) < float_math::leading_bits(largest)) return kFaultNone;
   return check_magnitude_at_edge(value, largest);
 }
 
-/// True if `then_ms` is more than `limit_ms` before `now_ms`; also correct across the clock's wrap.
-/// A time after `now_ms` cannot come from the clock and counts as old.
+/// True if `then_ms` is more than `limit_ms` before `now_ms`, also when the clock has wrapped to 0
+/// in between. A time after `now_ms` is an error and counts as old.
 inline bool is_older(uint32_t now_ms, uint32_t then_ms, uint32_t limit_ms) {
   return static_cast<uint32_t>(now_ms - then_ms) > limit_ms;
 }
 
 }  // namespace detail
 
-/// Largest yaw rate (rad/s) and acceleration (rad/s^2, m/s^2) of a reference. The value is far above
-/// that of any vehicle and only prevents overflow of products.
+/// Largest yaw rate (rad/s) and acceleration (rad/s^2, m/s^2) of a reference. The value is far
+/// above that of any vehicle and only prevents overflow of products.
 constexpr float kReferenceMax = 1e6F;
 
 /// Faults of a measurement: a value that is not finite or out of range.
@@ -108,7 +108,7 @@ inline bool is_between(float value, float lo, float hi) {
 }
 }  // namespace detail
 
-/// Final check before the motors: every command is a number within its limits. False for NaN.
+/// Final check before the motors: true if every command is within its limits; false for NaN.
 inline bool is_within_limits(const AllocationConstants<float>& c, const Allocation<float>& a) {
   return detail::is_between(a.force.left, c.force_min, c.force_max) &&
          detail::is_between(a.force.right, c.force_min, c.force_max) &&

@@ -1,12 +1,13 @@
 /// Fault codes of compass, gyroscope and GPS. Freestanding C++14.
 ///
 /// While a sensor has a fault, its readings are not used. Their time stamp becomes too old, and the
-/// autopilot gives the safe command (safety.h). A fault ends with its cause, with these exceptions:
+/// autopilot gives the safe command (safety.h). A fault ends with its cause, except that these end
+/// when:
 ///   kHeadingOutOfStep           compass and gyroscope have to agree again for a while
 ///   kWrongTurn                  the vehicle does not turn and its motors are off
-///   kGpsOld                     if UTC ran backward: ten fixes with advancing UTC
-///   kGpsJump                    a fix is within reach again; or the vehicle is disarmed, and ten
-///                               fixes in a row were out of reach
+///   kGpsOld                     if UTC ran backward: ten fixes with advancing UTC have arrived
+///   kGpsJump                    a fix is within reach again; or the vehicle is disarmed and ten
+///                               fixes in a row were out of reach: the tenth is accepted
 ///   kGpsInconsistent, kWrongWay, kOffHeading, kOffCourse
 ///                               the vehicle is disarmed and at rest
 #pragma once

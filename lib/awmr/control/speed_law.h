@@ -21,10 +21,10 @@ AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& eps
 ///   w = 0                     at u_d = 0
 ///   w = max(0, u_d + eps_s)   if the vehicle is faster than that, forward; backward likewise
 ///   w = u                     else
-/// Do not feed forward g1(u) at every speed: a vehicle that rolls down a slope faster than u_d would
-/// get tau_speed = g1(u) - m' mu_s, which drives it on without limit where g1(u) > m' mu_s.
-/// `wanted`: the correction before saturation. `limit`: its largest magnitude. `epsilon`: a function
-/// that returns eps_s.
+/// Do not feed forward g1(u) at every speed: a vehicle that rolls down a slope faster than u_d
+/// would get tau_speed = g1(u) - m' mu_s, which accelerates it further where g1(u) > m' mu_s.
+/// `wanted`: the correction before saturation. `limit`: its largest magnitude. `epsilon()` returns
+/// eps_s.
 template <class T, class Epsilon>
 AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T& error_mps,
                                 const T& wanted, const T& limit, const Epsilon& epsilon) {

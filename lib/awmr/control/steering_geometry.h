@@ -1,7 +1,7 @@
 /// Steering angle and wheel forces as functions of q. Freestanding C++14.
 ///
-/// q and k are defined by the left column. With four driven wheels, the right column follows from
-/// (41) in model/dynamics.h:
+/// The left column defines q, which measures the steering, and k, the force share. With four driven
+/// wheels, the right column follows from (41) in model/dynamics.h:
 ///   tau_steering = l_f tau_speed q       q = sin d_r/(1 + cos d_r) = tan(d_r/2)
 ///   F'L + F'R    = 2 k tau_speed         k = 1/(2 (1 + cos d_r))   = (1 + q^2)/4
 /// If only the front wheels are driven (front_wheel_forces() in model/dynamics.h):

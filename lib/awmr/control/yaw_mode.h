@@ -1,4 +1,4 @@
-/// The three modes of making a yaw moment. Freestanding C++14.
+/// The three modes of yaw control, and how each splits the yaw moment. Freestanding C++14.
 #pragma once
 
 #include "awmr/model/scalar_math.h"
@@ -24,7 +24,7 @@ struct YawSplit {
   Mask<T> redistributes;  ///< the moment that one path cannot make goes to the other
 };
 
-/// The split in a mode.
+/// Returns the split of a mode.
 template <class T>
 YawSplit<T> yaw_split(YawMode mode, CombinedSplit split) {
   const bool combined = mode == YawMode::kCombined;

@@ -1,5 +1,6 @@
-/// Guidance of one step: by waypoints, a line or a path, then obstacle avoidance, then heading
-/// shaping. A function of a part has a no-op overload for Disabled<Part>. Freestanding C++14.
+/// Guidance of one step: computes the reference heading and speed from waypoints, a line or a path,
+/// turns the heading away from obstacles, and smooths it. Each function of an optional part has an
+/// overload for Disabled<Part> that does nothing. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/flash.h"
@@ -7,7 +8,7 @@
 
 namespace awmr {
 
-/// The guidance's laws and their state. P lists the parts (autopilot_parts.h).
+/// Parameters and state of the guidance. P lists the optional parts (NoParts in autopilot_parts.h).
 template <class T, class P>
 struct GuidanceLaws : P::Line, P::Path, P::Arrival, P::Avoidance, P::Shaping {
   Waypoints<T> waypoints;        ///< count 0: no waypoints
@@ -19,7 +20,7 @@ struct GuidanceLaws : P::Line, P::Path, P::Arrival, P::Avoidance, P::Shaping {
 /// Target of the guidance in one step.
 template <class T>
 struct GuidanceTarget {
-  const Position<T>* target_m;  ///< point beyond which obstacles are ignored; 0: none
+  const Position<T>* target_m;  ///< obstacles farther away than this point are ignored; 0: no point
   bool arrived;                 ///< the route is finished
 };
 
@@ -42,7 +43,7 @@ AWMR_INLINE bool guidance_needs_position(GuidanceLaws<T, P>& g) {
          needs_position(part_of<typename P::Avoidance>(g));
 }
 
-/// A constant heading reference.
+/// Sets the reference to a constant heading: its rate and acceleration are 0.
 template <class T>
 AWMR_INLINE void hold_heading(const T& psi_rad, Reference<T>& ref) {
   ref.psi_rad = psi_rad;
@@ -50,8 +51,8 @@ AWMR_INLINE void hold_heading(const T& psi_rad, Reference<T>& ref) {
   ref.psi_accel_radps2 = T(0.0);
 }
 
-/// Reduces the speed on the last leg. `to_go_m` is a function that returns the remaining distance,
-/// m.
+/// Reduces the reference speed near the end of the last leg. `to_go_m()` returns the remaining
+/// distance, m.
 template <class T, class ToGo>
 AWMR_INLINE void slow_down(const Disabled<SlowDown<T>>&, bool, const ToGo&, Reference<T>&) {}
 template <class T, class ToGo>
@@ -61,7 +62,8 @@ AWMR_INLINE void slow_down(const SlowDown<T>& part, bool is_last, const ToGo& to
   ref.speed_mps *= arrival_share(part.distance_m, T(to_go_m()));
 }
 
-/// guide() in waypoints.h, skipping waypoints covered by obstacles.
+/// Calls guide() of waypoints.h. With obstacle avoidance, it also skips each waypoint that an
+/// obstacle covers (covers() in obstacles.h).
 template <class T>
 AWMR_INLINE WaypointGuidance<T> guide_clear(const Disabled<Avoider<T>>&,
                                             const Waypoints<T>& waypoints, const T& acceptance_m2,
@@ -77,7 +79,8 @@ WaypointGuidance<T> guide_clear(const Avoider<T>& part, const Waypoints<T>& wayp
                             progress);
 }
 
-/// Writes the line-of-sight heading to the waypoint into the reference. False: there is none.
+/// Writes the line-of-sight heading to the next waypoint into the reference. False: there are no
+/// waypoints to follow.
 template <class T, class P, class Time>
 AWMR_INLINE bool guide_by_waypoints(GuidanceLaws<T, P>& g, const VehiclePose<T, Time>& at,
                                     Reference<T>& ref, GuidanceTarget<T>& target) {
@@ -97,7 +100,7 @@ AWMR_INLINE bool guide_by_waypoints(GuidanceLaws<T, P>& g, const VehiclePose<T, 
   return true;
 }
 
-/// Calls guide() of line.h with the line and the progress of a part.
+/// Calls guide() of line.h with the line and the progress of the line follower.
 template <class T, class Law>
 AWMR_INLINE PolylineGuidance<T> guide_line(LineFollower<T, Law>& part,
                                            const Position<T>& position_m,
@@ -129,7 +132,7 @@ AWMR_CALLED bool guide_by_line(Line& part, const Arrival& arrival, const Vehicle
   return true;
 }
 
-/// The path's point `t_s` seconds after its start.
+/// Returns the point of the path at `t_s` seconds after the start.
 template <class T, class Time>
 AWMR_INLINE PathPoint<T> path_point(const PathFollower<T, Time>& part, const T& t_s) {
   return part.path.at(t_s);
@@ -171,13 +174,14 @@ AWMR_INLINE GuidanceTarget<T> guide_by_route(GuidanceLaws<T, P>& g, const Vehicl
   return target;
 }
 
-/// Distance to the target if there is no target, m: larger than that of any obstacle.
+/// Distance that avoid() gets if there is no target, m: larger than the distance to any obstacle.
 template <class T>
 constexpr T no_target_m() {
   return T(1e30);
 }
 
-/// Turns the reference heading away from obstacles and reduces its speed if that is not enough.
+/// Turns the reference heading away from obstacles, and reduces the reference speed while an
+/// obstacle is close ahead.
 template <class Part, class T, class Time>
 AWMR_INLINE void steer_around_obstacles(Disabled<Part>&, const VehiclePose<T, Time>&,
                                         const GuidanceTarget<T>&, Reference<T>&) {}
@@ -196,7 +200,7 @@ AWMR_CALLED void steer_around_obstacles(Avoider<T>& part, const VehiclePose<T, T
   ref.psi_rate_radps = T(0.0);
 }
 
-/// Shapes the reference's heading, starting from the vehicle's heading.
+/// Smooths the reference heading (heading_shaping.h). The filter starts at the vehicle's heading.
 template <class Part, class T, class Time>
 AWMR_INLINE void shape_heading(Disabled<Part>&, const VehiclePose<T, Time>&, Reference<T>&) {}
 template <class T, class Time>

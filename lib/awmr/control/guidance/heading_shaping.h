@@ -13,8 +13,8 @@ namespace awmr {
 /// Without the limits, the filter is psi_d_ddot + 2 w psi_d_dot + w^2 psi_d = w^2 psi_in.
 template <class T>
 struct HeadingShaping {
-  /// w, rad/s, > 0: bandwidth. Larger: the reference follows faster. w T_s <= 0.5 prevents
-  /// overshoot of the discrete filter.
+  /// w, rad/s, > 0: bandwidth. Larger: the reference follows faster. w T_s <= 0.5, with the sample
+  /// time T_s, prevents overshoot of the discrete filter.
   T omega_radps;
   /// r_max, rad/s, > 0: for example the largest yaw rate of the turning trials.
   T rate_max_radps;
@@ -36,9 +36,9 @@ ShapedHeading<T> start_shaping(const T& psi_rad) {
   return {psi_rad, T(0.0), T(0.0)};
 }
 
-/// Advances the filter by one sample towards psi_in = target_rad, which can jump and can be
-/// wrapped: the filter takes the shorter way. The step is semi-implicit Euler: the new rate moves
-/// the heading.
+/// Advances the filter by one sample towards psi_in = target_rad, which may jump and may be
+/// wrapped: the filter turns the shorter way. The step is semi-implicit Euler: it moves psi_d by
+/// the new rate.
 template <class T>
 void shape(const HeadingShaping<T>& filter, const T& target_rad, const T& sample_time_s,
            ShapedHeading<T>& state) {

@@ -1,7 +1,8 @@
 /// Integral line of sight (ILOS), a guidance law that follows a line. Freestanding C++14.
 ///
-/// Because of a side slope, an unmeasured sideslip or a steady heading error, a vehicle that aims at
-/// the line drives beside it. ILOS shifts the aim to the other side until this offset is 0.
+/// With a side slope, an unmeasured sideslip or a steady heading error, a vehicle that aims at the
+/// line drives parallel to it. ILOS shifts the aim to the other side of the line until the vehicle
+/// is on the line.
 #pragma once
 
 #include "awmr/control/guidance/line.h"
@@ -28,13 +29,14 @@ struct IntegralLos {
   }
 };
 
-/// Part of guide(), rad:
+/// The approach angle atan(q), rad, which guide() in line.h subtracts. With the distance e from the
+/// line, m, left positive, and its integral y_int, s:
 ///   psi_d     = psi_AB - beta - atan(q),   q = (e + sigma y_int)/Delta
 ///   y_int_dot = Delta e/((e + sigma y_int)^2 + Delta^2) = e/(Delta (1 + q^2))
 /// (Borhaug, Pavlov, Pettersen, Integral LOS control for path following of underactuated marine
 /// surface vessels in the presence of constant ocean currents, 2008, (7); Lekkas, Fossen, Integral
-/// LOS path following for curved paths based on a monotone cubic Hermite spline, 2014). Far from the
-/// line y_int hardly grows, so the law does not wind up. y_int restarts at 0 on each segment,
+/// LOS path following for curved paths based on a monotone cubic Hermite spline, 2014). Far from
+/// the line y_int hardly grows, so the law does not wind up. y_int restarts at 0 on each segment,
 /// because the disturbance has another direction relative to the new segment.
 template <class T>
 T approach_rad(const IntegralLos<T>& law, const AlongSegment<T>& s, const LineMotion<T>& motion,

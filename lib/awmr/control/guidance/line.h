@@ -1,4 +1,4 @@
-/// Following a line or a polyline by any of the laws of line_laws.h. Freestanding C++14.
+/// Guidance along a line or polyline, by any of the laws of line_laws.h. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/guidance/position.h"
@@ -33,7 +33,7 @@ template <class T>
 struct AlongSegment {
   T length_m;       ///< |B - A|, m
   T tx, ty;         ///< t; this and the following are undefined if length_m is 0
-  T along_m;        ///< m: from A, along t
+  T along_m;        ///< m: distance from A along t, negative before A
   T cross_track_m;  ///< e, m: left of the segment's line positive
 
   T psi_rad() const {
@@ -66,8 +66,8 @@ struct LineMotion {
   T sample_time_s;  ///< time between two guidance steps, > 0
 };
 
-/// Range of a law's parameter in scenario files. The law stores the file's value times `unit`, which
-/// is pi/180 for an angle in deg and otherwise 1.
+/// Range of a law's parameter in scenario files. The law stores the file's value times `unit`,
+/// which is pi/180 for an angle in deg and otherwise 1.
 struct LawParameter {
   double min;
   double max;
@@ -75,8 +75,8 @@ struct LawParameter {
   double unit;
 };
 
-/// Range of lookahead distances in scenario files, m. With a shorter one, the vehicle would turn for
-/// every rounding error.
+/// Range of lookahead distances in scenario files, m. With a shorter one, the vehicle would turn
+/// for every rounding error.
 constexpr LawParameter lookahead_range() { return {1e-3, 1e6, false, 1.0}; }
 
 /// Corners joined by line segments, driven from the first to the last. Two corners are one line.
@@ -105,7 +105,7 @@ struct Polyline {
 template <class T>
 struct PolylineProgress {
   int segment;  ///< from points_m[segment] to points_m[segment + 1]
-  T psi_rad;    ///< the last psi_d, held if there is none
+  T psi_rad;    ///< psi_d of the last step, rad, held when no segment is left
   T memory;     ///< state of the law, such as an integral; 0 at the start of each segment
 };
 
@@ -124,7 +124,8 @@ struct PolylineGuidance {
   bool finished;    ///< past the end of the last segment: psi_d holds its last value
 };
 
-/// True if the next segment is to be followed.
+/// True if the current segment is done and the next one is to be followed: the rest of the segment
+/// is at most `corner_m`.
 template <class T, class Law>
 AWMR_INLINE bool is_passed(const Law&, const AlongSegment<T>& s, const T& corner_m) {
   return !(s.length_m - s.along_m > corner_m);

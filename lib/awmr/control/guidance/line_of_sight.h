@@ -26,7 +26,7 @@ struct LineOfSight {
   }
 };
 
-/// Part of guide(), rad:
+/// The approach angle Delta sat(e/R), rad, which guide() in line.h subtracts:
 ///   psi_d = psi_AB - beta - Delta sat(e/R)                                           [paper (107)]
 /// e is the signed distance from the line, m, positive to the left of its direction.
 template <class T>

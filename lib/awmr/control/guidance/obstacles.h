@@ -15,8 +15,8 @@
 /// The blocked sector is centred on the bearing of c_i. An obstacle counts while D_obs <= MMD (plus
 /// the hysteresis once avoidance is active) and while it is nearer than the target. If blocked
 /// sectors contain the guidance heading, psi_d is the nearer edge, left or right, of their union.
-/// The chosen side is kept until the other is nearer by `side_hysteresis_rad`, or until the guidance
-/// heading is free again.
+/// The chosen side is kept until the other is nearer by `side_hysteresis_rad`, or until the
+/// guidance heading is free again.
 ///
 /// Why this clears one obstacle: a vehicle with the turning radius rho that heads for the centre of
 /// a circle can turn past it if D^2 >= (R + rho)^2 - rho^2. For any R, this holds while
@@ -113,7 +113,8 @@ bool is_covered(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles, int
   return false;
 }
 
-/// guide() of waypoints.h, which also skips waypoints that an obstacle covers: they count as missed.
+/// guide() of waypoints.h, which also skips waypoints that an obstacle covers: they count as
+/// missed.
 template <class T>
 AWMR_CALLED WaypointGuidance<T> guide_past_covered(const Avoidance<T>& avoidance,
                                                    const Obstacle<T>* obstacles, int count,
@@ -137,7 +138,7 @@ namespace detail {
 template <class T>
 struct Sight {
   T distance_m;
-  T bearing_rad;  ///< in the world frame; `otherwise_rad` if they coincide
+  T bearing_rad;  ///< in the world frame; `otherwise_rad` of sight() if the two points coincide
 };
 template <class T>
 AWMR_CALLED Sight<T> sight(const Position<T>& from, const Position<T>& point,
@@ -145,8 +146,8 @@ AWMR_CALLED Sight<T> sight(const Position<T>& from, const Position<T>& point,
   return {distance_m(from, point), direction_rad(seen_from(from, point), otherwise_rad)};
 }
 
-/// A heading inside a sector but within this angle of its edge, rad, counts as outside. The angle is
-/// larger than the rounding of a float.
+/// A heading inside a sector but within this angle of its edge, rad, counts as outside. The angle
+/// is larger than the rounding of a float.
 template <class T>
 constexpr T sector_tolerance_rad() {
   return T(1e-4);
@@ -238,11 +239,10 @@ struct Surroundings {
 
 }  // namespace detail
 
-/// Turns the guidance heading out of the sectors that `count` obstacles block, and reduces the
-/// speed if that is not sufficient. `guidance_rad` is the guidance heading. `target_m` is the
-/// distance to the guidance target, beyond which obstacles are ignored; without a target it is
-/// no_target_m(). `psi_rad` and `u_mps` are the vehicle's. `sectors` is work space for `count`
-/// elements.
+/// Turns the heading `guidance_rad` out of the sectors that `count` obstacles block, and reduces
+/// the speed while an obstacle is close ahead. `target_m` is the distance to the guidance target,
+/// beyond which obstacles are ignored; without a target it is no_target_m(). `psi_rad` and `u_mps`
+/// are the vehicle's heading and surge speed. `sectors` is work space for `count` elements.
 template <class T>
 AWMR_CALLED Avoided<T> avoid(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles,
                              Sector<T>* sectors, int count, const Position<T>& position_m,

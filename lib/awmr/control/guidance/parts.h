@@ -13,8 +13,8 @@
 
 namespace awmr {
 
-/// Pose and motion of the vehicle for the guidance of one step. Time is the type of the clock: ms
-/// that can wrap on the chip, s in the simulator.
+/// Pose and motion of the vehicle for the guidance of one step. Time is the type of the clock:
+/// uint32_t in ms on the chip, which wraps to 0 after 49.7 days; double in s in the simulator.
 template <class T, class Time>
 struct VehiclePose {
   const Position<T>& position_m;

@@ -26,9 +26,10 @@ struct PurePursuit {
 
 /// Position of the goal along a segment, m from its start:
 ///   s_g = max(0, s + sqrt(L^2 - e^2))
-/// s and e are the vehicle's distances along and to the left of the segment. The goal is the farther
-/// of the two points of the line at the distance L from the vehicle. If the line is farther away
-/// than L, the goal is the nearest point of the line. The goal is never before the segment's start.
+/// s and e are the vehicle's distances along and to the left of the segment. The goal is the
+/// farther of the two points of the line at the distance L from the vehicle. If the line is farther
+/// away than L, the goal is the nearest point of the line. The goal is never before the segment's
+/// start.
 template <class T>
 T goal_along_m(const PurePursuit<T>& law, const AlongSegment<T>& s) {
   using math::sqrt;
@@ -37,15 +38,16 @@ T goal_along_m(const PurePursuit<T>& law, const AlongSegment<T>& s) {
   return goal_m > T(0.0) ? goal_m : T(0.0);
 }
 
-/// The next segment starts when the goal reaches the end of the current one. On the last segment the
-/// goal continues straight beyond its end.
+/// The next segment starts when the goal reaches the end of the current one. On the last segment
+/// the goal continues straight beyond its end.
 template <class T>
 bool is_passed(const PurePursuit<T>& law, const AlongSegment<T>& s, const T& /*corner_m*/) {
   return !(goal_along_m(law, s) < s.length_m);
 }
 
-/// Signed distance, left positive, from the line of the current or of the previous segment, whichever
-/// is nearer: when the goal has passed the corner, the vehicle is still on the previous segment.
+/// Signed distance, left positive, from the line of the current or of the previous segment,
+/// whichever is nearer: when the goal has passed the corner, the vehicle is still on the previous
+/// segment.
 template <class T>
 T distance_off_m(const Polyline<T, PurePursuit<T>>& line, int segment,
                  const Position<T>& position_m, const AlongSegment<T>& s) {
@@ -58,7 +60,8 @@ T distance_off_m(const Polyline<T, PurePursuit<T>>& line, int segment,
   return is_nearer ? before.cross_track_m : s.cross_track_m;
 }
 
-/// Part of guide(): the heading to the goal, which is s_g along the segment from A to B:
+/// The approach angle atan2(e, s_g - s), rad, which guide() in line.h subtracts. psi_d then points
+/// to the goal, s_g along the segment from A to B:
 ///   psi_d = psi_AB - beta - atan2(e, s_g - s)
 /// (Coulter, Implementation of the pure pursuit path tracking algorithm, 1992. His law commands an
 /// arc to the goal; here the heading law turns the vehicle to the heading of the goal.)

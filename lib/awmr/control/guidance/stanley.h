@@ -1,7 +1,7 @@
 /// Stanley, a guidance law that follows a line. Freestanding C++14.
 ///
-/// The approach angle depends on the distance from the line divided by the speed, so that the
-/// approach is equally smooth at every speed.
+/// The approach angle grows with the distance from the line divided by the speed, so that the
+/// distance falls at nearly the same rate (1/s) at every speed.
 #pragma once
 
 #include "awmr/control/guidance/line.h"
@@ -11,8 +11,8 @@ namespace awmr {
 /// Parameters of Stanley.
 template <class T>
 struct Stanley {
-  /// k, 1/s, > 0: near the line, the distance falls by exp(-k t). Larger: the line is reached sooner
-  /// and more abruptly.
+  /// k, 1/s, > 0: near the line, the distance falls as exp(-k t u/(k_s + u)). Larger: the line is
+  /// reached sooner and more abruptly.
   T gain_per_s;
   /// k_s, m/s, > 0: added to the speed. Larger: smoother at low speed.
   T softening_mps;
@@ -27,7 +27,7 @@ struct Stanley {
   }
 };
 
-/// Part of guide(), rad:
+/// The approach angle atan(k e/(k_s + u)), rad, which guide() in line.h subtracts:
 ///   psi_d = psi_AB - beta - atan(k e/(k_s + u))
 /// (Hoffmann, Tomlin, Montemerlo, Thrun, Autonomous automobile trajectory tracking for off-road
 /// driving, 2007. They use the offset of the front axle and command the steering angle; here e is

@@ -26,7 +26,7 @@ struct WaypointProgress {
   int next;                 ///< index of the current waypoint; `count` when all are done
   int missed;               ///< waypoints passed by, see Waypoints::skip_passed
   Position<T> leg_start_m;  ///< start of the current leg
-  T psi_rad;                ///< the last line of sight, held if there is none
+  T psi_rad;                ///< the last line of sight, rad, held when no waypoint is left
 };
 
 /// The progress before the first step: `position_m` and `psi_rad` are the vehicle's.
@@ -38,7 +38,7 @@ WaypointProgress<T> start_waypoints(const Position<T>& position_m, const T& psi_
 /// Guidance output of one step.
 template <class T>
 struct WaypointGuidance {
-  T psi_rad;      ///< psi_d, in (-pi, pi]
+  T psi_rad;      ///< psi_d, rad, in (-pi, pi]
   bool finished;  ///< no waypoint is left: psi_d holds the last line of sight
 };
 
@@ -79,7 +79,7 @@ AWMR_INLINE WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const T& ac
   }
   return {progress.psi_rad, true};
 }
-/// As above, computing acceptance_m2 in each step.
+/// As above; computes acceptance_m2 in each step.
 template <class T>
 AWMR_CALLED WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Position<T>& position_m,
                                       WaypointProgress<T>& progress) {
@@ -87,14 +87,15 @@ AWMR_CALLED WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Posit
   return guide(waypoints, acceptance_m2, position_m, progress);
 }
 
-/// Fraction of the speed at the last waypoint: above 0, so that the vehicle reaches the waypoint.
+/// Fraction of the reference speed that remains at the last waypoint: above 0, so that the vehicle
+/// reaches the waypoint.
 template <class T>
 constexpr T arrival_share_min() {
   return T(0.1);
 }
 
-/// Fraction of the speed at `to_go_m` before the last waypoint: it decreases linearly within
-/// `slow_down_m` > 0, down to arrival_share_min().
+/// Fraction of the reference speed at the distance `to_go_m` before the last waypoint. Within
+/// `slow_down_m` > 0 it decreases linearly from 1 to arrival_share_min().
 template <class T>
 T arrival_share(const T& slow_down_m, const T& to_go_m) {
   return math::clamp(T(to_go_m / slow_down_m), arrival_share_min<T>(), T(1.0));
