@@ -7,8 +7,9 @@
 
 namespace awmr {
 
-/// Values of `/certificate/set`: the set of plants for which the worst case was computed. With a
-/// covariance of the model, it is the 95 % set; without, the model alone.
+/// Values of `/certificate/set`: the set of plants over which the worst case was computed. If the
+/// model has a covariance, the set is its 95 % confidence region; otherwise it is the identified
+/// plant only.
 inline constexpr const char* kCertifiedSet = "95 %";
 inline constexpr const char* kUncertifiedSet = "the model's own values";
 
@@ -20,10 +21,11 @@ struct CertifiedMode {
                                 ///< infinity: none
 };
 
-/// `/certificate` of gains.json, without the parameters at which the worst cases occur.
+/// The part of `/certificate` in gains.json that is read back: the worst cases, but not the
+/// parameters at which they occur.
 struct CertifiedGains {
   std::string set;         ///< kCertifiedSet or kUncertifiedSet
-  double latency_s = 0.0;  ///< latency of the loop in the worst cases
+  double latency_s = 0.0;  ///< latency of the loop that was assumed in all worst cases, s
   std::vector<CertifiedMode> modes;
 };
 

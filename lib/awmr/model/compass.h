@@ -11,9 +11,9 @@ struct WithInterval {
   Interval ci95 = {};
 };
 
-/// While the vehicle turns, the measured field f (ahead and left, in any unit) describes an ellipse.
-/// Magnets on the vehicle shift the centre o of the ellipse (hard iron); iron deforms the ellipse
-/// (soft iron). The calibrated field c describes a circle:
+/// While the vehicle turns, the measured field f (ahead and left, in any unit) describes an
+/// ellipse. Magnets on the vehicle shift the centre o of the ellipse (hard iron); iron deforms the
+/// ellipse (soft iron). The calibrated field c describes a circle:
 ///     c = S (f - o),  S symmetric, det S = 1,  |c| = field
 ///     heading = atan2(-c_left, c_ahead) - declination, counter-clockwise from true north
 struct CompassCalibration {
@@ -26,7 +26,7 @@ struct CompassCalibration {
   double residual = 0.0;         ///< standard deviation of |c| over `field`
   double heading_error_deg = 0;  ///< 97.5 % bound of the fit's heading uncertainty, worst direction
   double turned_deg = 0.0;       ///< from the first row to the last, left positive
-  double largest_gap_deg = 0.0;  ///< largest angle between two adjacent directions of the field
+  double largest_gap_deg = 0.0;  ///< largest angle between neighbouring measured field directions
   double declination_deg = 0.0;  ///< from true north to magnetic north, east positive
 };
 

@@ -43,12 +43,13 @@ struct Plant {
   T back_emf_s_per_m = T(0.0);
   /// 1: all four wheels are driven, as in the paper; 0: only the front wheels. Given.
   T rear_driven = T(1.0);
-  /// c, m, >= 0: Coulomb yaw moment over F_max that tyre scrub adds to g3 in a differential turn, see
-  /// scrub_moment_m(). 0: none, as in the paper. From trials with differential turns.
+  /// c, m, >= 0: Coulomb yaw moment over F_max that tyre scrub adds to g3 in a differential turn,
+  /// see scrub_moment_m(). 0: none, as in the paper. From trials with differential turns.
   T yaw_scrub_m = T(0.0);
 };
 
-/// g3 plus the whole scrub: upper bound of the yaw resistance, for the choice of the step length.
+/// g3 plus the whole scrub moment: upper bound of the yaw resistance, from which the length of an
+/// integration step is chosen.
 template <class T>
 Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   Resistance<T> law = p.yaw;
@@ -56,9 +57,9 @@ Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   return law;
 }
 
-/// The moment of the tyres' scrub against a yaw rate r, m. In a differential turn the straight
-/// wheels are dragged sideways; in a steered turn they roll. c is measured in differential turns,
-/// so it is scaled by the differential share of the moment:
+/// The moment N_c of tyre scrub that resists a yaw rate r, m. In a differential turn the straight
+/// wheels are dragged sideways; in a steered turn they roll. c = yaw_scrub_m is measured in
+/// differential turns, so it is scaled by the differential share q of the yaw moment:
 ///   N_c = c q sgn r,   q = |tau_diff|/(|tau_diff| + |tau_steering|),   q = 0 without a moment
 /// Below p.yaw.rest_speed, N_c falls in proportion to r, as g3 does.
 template <class T>
@@ -73,7 +74,7 @@ T scrub_moment_m(const Plant<T>& p, const T& yaw_rate_radps, const T& tau_steeri
          (yaw_rate_radps / larger(larger(T(abs(yaw_rate_radps)), p.yaw.rest_speed), tiny));
 }
 
-/// n, the number of driven wheels: straight ahead, with the force F' at each, tau_speed = n F'.
+/// n, the number of driven wheels. Straight ahead, with the force F' at each, tau_speed = n F'.
 template <class T>
 T driven_wheels(const Plant<T>& p) {
   return T(2.0) + T(2.0) * p.rear_driven;
@@ -102,8 +103,8 @@ WheelSpeeds<T> wheel_speeds(const T& front_axle_m, const T& half_track_m, const 
   return {left_mps * cos_d + across_mps, right_mps * cos_d + across_mps, left_mps, right_mps};
 }
 
-/// Force F' of a motor whose wheel rolls at w m/s, over F_max. `drive` is e, the motor command beyond
-/// the dead zone: the voltage divided by the voltage for F_max at standstill.
+/// Force F' of a motor whose wheel rolls at w m/s, over F_max. `drive` is e, the motor command
+/// beyond the dead zone: the voltage divided by the voltage for F_max at standstill.
 ///   F' = e - k_e w    for e != 0: reduced by the back-EMF of the turning motor
 ///   F' = 0            for e  = 0: the motor is off and its wheel rolls freely
 template <class T>
@@ -150,7 +151,7 @@ State<T> rates(const Plant<T>& p, const State<T>& s, const T& surge_force, const
   return d;
 }
 
-/// Force of each motor with back-EMF, at the rolling speed of its wheel.
+/// Force of each motor, reduced by the back-EMF at the rolling speed of its wheel.
 template <class T>
 AWMR_COLD WheelForces<T> motor_forces(const Plant<T>& p, const State<T>& s,
                                       const WheelForces<T>& drive) {
@@ -164,7 +165,7 @@ AWMR_COLD WheelForces<T> motor_forces(const Plant<T>& p, const State<T>& s,
 
 }  // namespace detail
 
-/// The servo, rad/s: a first-order lag with limited target and limited rate.
+/// Rate of the steering servo, rad/s: a first-order lag with limited target and limited rate.
 ///   d_r_dot = sat((sat(d_ro, d_max) - d_r)/T, d_rate_max)                        [paper (43)-(44)]
 /// d_ro is the angle commanded, rad, left positive.
 template <class T>
@@ -176,7 +177,7 @@ T steering_rate(const Plant<T>& p, const T& steering_rad, const T& steering_comm
 
 namespace detail {
 
-/// The motor forces for these commands, with dead zone and back-EMF.
+/// The motor forces that these commands make, reduced by dead zone and back-EMF.
 template <class T>
 WheelForces<T> wheel_forces(const Plant<T>& p, const State<T>& s, const WheelForces<T>& command) {
   using math::any;
@@ -205,7 +206,7 @@ YawMoments<T> yaw_moments(const Plant<T>& p, const WheelForces<T>& e, const T& c
           p.half_track_m * (e.rear_right - e.rear_left)};
 }
 
-/// scrub_moment_m() for these moments.
+/// scrub_moment_m() in the state `s` with the yaw moments `tau`.
 template <class T>
 T scrub_of(const Plant<T>& p, const State<T>& s, const YawMoments<T>& tau) {
   return scrub_moment_m(p, s.r_radps, tau.steering_m, T(tau.front_diff_m + tau.rear_diff_m));
@@ -218,8 +219,8 @@ T scrub_of(const Plant<T>& p, const State<T>& s, const YawMoments<T>& tau) {
 ///   u_dot = (S_f cos d_r + S_r + m' r v - g1(u)) / m'
 ///   v_dot = (S_f sin d_r       - m' r u - g2(v)) / m'
 ///   r_dot = (l_f S_f sin d_r + d cos d_r (F'FR - F'FL) + d (F'RR - F'RL) - g3(r) - N_c) / I'z
-/// with N_c = scrub_moment_m(), and the first three those of detail::rates.  [paper (39), corrected]
-/// Corrected: the rear term of the printed r_dot repeats the front pair of forces.
+/// with N_c = scrub_moment_m(); the first three are in detail::rates().      [paper (39),
+/// corrected] Corrected: the rear term of the printed r_dot repeats the front pair of forces.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>& f,
                      const T& steering_command_rad) {
@@ -293,7 +294,7 @@ T differential_moment_m(const T& half_track_m, const T& right_less_left) {
   return T(2.0) * half_track_m * right_less_left;
 }
 
-/// Left and right forces of motors with a dead zone for these commands.
+/// Left and right forces that motors with the dead zone `zone` make of these commands.
 template <class T>
 SideForces<T> beyond_dead_zone(const SideForces<T>& command, const T& zone) {
   return {beyond_dead_zone(command.left, zone), beyond_dead_zone(command.right, zone)};
@@ -303,7 +304,7 @@ SideForces<T> beyond_dead_zone(const SideForces<T>& command, const T& zone) {
 ///   u_dot = (tau_speed               + m' r v - g1(u)) / m'
 ///   v_dot = (tau_steering/l_f        - m' r u - g2(v)) / m'
 ///   r_dot = (tau_steering + tau_diff          - g3(r)) / I'z                          [paper (40)]
-/// with tau_turn = tau_steering + tau_diff, and the first three those of detail::rates.
+/// with tau_turn = tau_steering + tau_diff; the first three are in detail::rates().
 template <class T>
 State<T> side_driven_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                            const T& steering_command_rad) {
@@ -335,9 +336,9 @@ T scrub_power_mps(const Plant<T>& p, const State<T>& s, const SideForces<T>& f) 
   return detail::scrub_of(p, s, tau) * s.r_radps;
 }
 
-/// Rates of the state if both wheels of a side have the same command. With back-EMF or undriven rear
-/// wheels, front and rear forces differ: then, and with scrub, the equations for single wheels are
-/// used.
+/// Rates of the state if both wheels of a side have the same command. The equations for single
+/// wheels are used if front and rear forces differ, because of back-EMF or undriven rear wheels,
+/// and with scrub.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                      const T& steering_command_rad) {

@@ -1,4 +1,5 @@
-/// The families of resistance (friction models). Each frees some of the terms of resistance.h.
+/// The families of resistance (friction models). Each family fits some of the terms of the law in
+/// resistance.h.
 #pragma once
 
 #include <string_view>
@@ -22,7 +23,8 @@ inline constexpr NameTable<Family, 5> kFamilyNames{
      {"dead-zone", Family::kDeadZone}}};
 constexpr std::string_view name_of(Family family) { return name_in(kFamilyNames, family); }
 
-/// Free parameters of a family's curve; if not free, beta is 1 and the others are 0.
+/// Parameters that a fit of the family estimates, in addition to alpha. A parameter that is not
+/// estimated is 1 (beta) or 0 (the others).
 struct FamilyTerms {
   bool beta = false;
   bool coulomb = false;

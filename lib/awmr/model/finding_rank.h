@@ -18,8 +18,9 @@ enum class Effect {
   kNote,           ///< information that does not change any number
 };
 
-/// An error is a refusal. A warning has the effect of its code, else kDoubt; a note is kNote unless
-/// its code is an assumption.
+/// The effect of a finding, by its severity and code. An error is kRefusal. A warning has the
+/// effect of its code, or kDoubt if the code has none. A note is kNote, or kAssumption if its code
+/// has this effect.
 Effect effect_of(const Finding& finding);
 
 /// Returns the findings sorted by effect. Within an effect, the first finding of each code precedes

@@ -9,7 +9,7 @@
 namespace awmr {
 namespace {
 
-/// dg/d(parameter) at rate w; 0 if the law does not have the parameter.
+/// Derivative of g by a parameter at the rate w; 0 if the law does not have the parameter.
 double slope_at(const Model& model, TrialKind kind, ParameterId parameter, double w) {
   const LawParameters of = law_parameters(kind);
   const double power = w > 0.0 ? std::pow(w, *model[of.beta].value) : 0.0;

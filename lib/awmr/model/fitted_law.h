@@ -8,11 +8,11 @@
 
 namespace awmr {
 
-/// A resistance law is an extrapolation at rates above this factor times the largest fitted rate, or
-/// below the smallest one divided by this factor.
+/// A resistance law counts as extrapolated at rates above the largest fitted rate times this
+/// factor, and below the smallest fitted rate divided by this factor.
 inline constexpr double kLittleFurther = 1.2;
 
-/// The model's parameters of a law:
+/// The parameters that a model has for the coefficients of a resistance law:
 ///   g(w) = c + alpha w^beta + q w^2
 struct LawParameters {
   ParameterId alpha, beta, coulomb, quadratic;
@@ -20,8 +20,8 @@ struct LawParameters {
 /// The parameters of g3 for turning trials, of g1 for the other kinds.
 LawParameters law_parameters(TrialKind kind);
 
-/// The law with the model's values, without the wheels' dead zone; absent if alpha or beta has no
-/// value.
+/// The resistance law with the model's values, without the dead zone of the wheels; absent if alpha
+/// or beta has no value.
 std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind);
 
 /// Variance of sum_i weight_i g(w_i) over rates w_i >= 0; g is the force or moment of a run at such
@@ -30,8 +30,8 @@ std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind)
 ///              = sum_i weight_i (w^beta, alpha w^beta ln w, 1, w^2, z)
 /// C is the model's covariance; parameters that it does not contain count as exact. z is the number
 /// of driven wheels, whose dead zones F'0 a straight run must overcome; z = 0 for turns, whose
-/// moments already exclude the dead zone. The result is >= 0, in the squared unit of g times that of
-/// a weight. Precondition: the law is fitted; as many weights as rates.
+/// moments already exclude the dead zone. The result is >= 0, in the squared unit of g times that
+/// of a weight. Precondition: the law is fitted; as many weights as rates.
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates,
                        std::span<const double> weights);
 

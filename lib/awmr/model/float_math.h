@@ -50,7 +50,7 @@ inline float float_of(uint32_t bits) {
 namespace float_math {
 
 /// The bits of |x|. As integers, they have the order of the magnitudes, and comparing them takes
-/// half the cycles of a float comparison on the chip. Above kInfinityBits: NaN.
+/// half the cycles of a float comparison on the chip. A result above kInfinityBits is a NaN.
 inline uint32_t magnitude_bits(float x) { return bits_of(x) & 0x7FFFFFFFUL; }
 constexpr uint32_t kInfinityBits = 0x7F800000UL;
 

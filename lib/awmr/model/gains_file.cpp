@@ -35,7 +35,7 @@ Gains<double> gains_from_json(JsonObject& root) {
 
 namespace {
 
-/// Reads the gains from a complete file.
+/// Reads the gains and rejects keys that are not part of the format.
 Gains<double> gains_from_file(JsonObject& root) {
   root.schema(kGainsSchema);
   const Gains<double> gains = gains_from_json(root);

@@ -14,18 +14,19 @@
 
 namespace awmr {
 
-/// Reads `/heading`, `/speed` and, if present, `/observer`; other keys of the format are allowed
-/// and ignored. Errors: as read_json_file; gains that are missing or not above 0.
+/// Reads `/heading`, `/speed` and, if present, `/observer`; other keys of the format are ignored.
+/// Errors: as read_json_file; unknown keys; gains that are missing or out of range (ranges.h).
 Result<Gains<double>> read_gains(const std::filesystem::path& path);
 
-/// Reads `/certificate`, which files without tuning results and older files do not have. Errors: as
-/// read_gains; a certificate in another form.
+/// Reads `/certificate`; absent in files without tuning results and in older files. Errors: as
+/// read_json_file; a certificate in another form.
 Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path);
 
 /// Checks a text of gains.json after writing by reading it back (core/file.h).
 Status check_gains_text(std::string_view text, const std::string& file);
 
-/// As above, for a controller with this sample time. Errors also: as check_observer_rate.
+/// read_gains() for a controller with this sample time. Errors: as read_gains; as
+/// check_observer_rate.
 Result<Gains<double>> read_gains_for(const std::filesystem::path& path, double sample_time_s);
 
 /// Writes a file with gains only. Tuned gains are written by gains_text() in tune/tune.h.

@@ -28,7 +28,7 @@ inline Json gains_to_json(const Gains<double>& gains) {
   return json;
 }
 
-/// Reads `heading`, `speed` and `observer`.
+/// Reads `heading`, `speed` and, if present, `observer`. Faults are added to those of `root`.
 Gains<double> gains_from_json(JsonObject& root);
 
 }  // namespace awmr

@@ -9,7 +9,7 @@
 namespace awmr {
 namespace {
 
-/// Value of a parameter that has none in Model::plant_as_known().
+/// Value that Model::plant_as_known() uses for a parameter without a value.
 double none_of(ParameterId id) {
   switch (id) {
     case ParameterId::kSurgeBeta:
@@ -23,7 +23,7 @@ double none_of(ParameterId id) {
   }
 }
 
-/// The model's plant. Errors (input): a necessary parameter has no value.
+/// The model's plant. Errors (input): a parameter for which is_needed(id) is true has no value.
 template <class IsNeeded>
 Result<Plant<double>> plant_with(const Model& model, IsNeeded is_needed) {
   std::vector<Fault> faults;
@@ -122,7 +122,7 @@ Plant<double> Model::plant_as_known() const {
         (*this)[parameter.id].value.value_or(none_of(parameter.id));
   }
   Plant<double> plant = plant_of(vehicle, values);
-  // Negative values are due to noise, because scrub cannot drive a turn.
+  // A negative scrub moment is due to noise, because scrub cannot drive a turn.
   if (yaw_scrub) plant.yaw_scrub_m = std::max(yaw_scrub->moment_m, 0.0);
   return plant;
 }

@@ -42,7 +42,7 @@ inline constexpr std::array<QuantileInfo, kQuantileCount> kQuantiles{{
     {"0.75", 0.75, 0.6744897501960817},
     {"0.975", 0.975, 1.959963984540054},
 }};
-/// By kQuantiles, ascending.
+/// The values of the quantiles in the order of kQuantiles, ascending.
 using Quantiles = std::array<double, kQuantileCount>;
 
 /// One identified number with its uncertainty and its origin.
@@ -68,12 +68,12 @@ struct Covariance {
 ///   2 d (F'R - F'L) = g3(r) + moment
 struct YawScrub {
   double moment_m = 0.0;     ///< m; negative values are due to noise
-  double std_error_m = 0.0;  ///< m, > 0: from the turns' scatter and g3
+  double std_error_m = 0.0;  ///< m, > 0: from the scatter of the turns and the uncertainty of g3
   Interval ci95_m;           ///< 95 % confidence interval
   int rows = 0;              ///< turns from which it was estimated, >= 3
   Interval yaw_rate_radps;   ///< range of the yaw rates of these turns, > 0
-  /// Range of the moment, with its uncertainty, from the slowest to the fastest of those turns, if
-  /// it changes with the yaw rate; absent if no change is detected.
+  /// If the moment changes with the yaw rate: its range over these turns, widened by its
+  /// uncertainty. Absent if no change is detected.
   std::optional<Interval> changing_m = {};
 };
 
@@ -94,8 +94,8 @@ bool takes(Motion motion, ParameterId id);
 /// The motion that a trial of this kind measures.
 Motion motion_of(TrialKind kind);
 
-/// The identified vehicle: the data given before the trials, the resistance families, every
-/// quantity with its uncertainty.
+/// The identified vehicle: the data given before the trials, the resistance families, and every
+/// identified quantity with its uncertainty.
 struct Model {
   /// A model without any identified quantity. Only the optional terms (ParameterInfo::term) have a
   /// value, 0.
@@ -107,8 +107,8 @@ struct Model {
   Family yaw_family = Family::kPower;
   std::array<Estimate, kParameterCount> estimates;  ///< by ParameterId
   Covariance covariance;
-  /// Smallest m', s^2/m, > 0, with which no coast-down exceeds the deceleration limit of tyres with
-  /// friction kTyreFriction: g1(u)/(mu g). Absent if the identified m' is plausible.
+  /// Smallest plausible m', s^2/m, > 0: g1(u)/(mu g) with mu = kTyreFriction. With a smaller m', a
+  /// coast-down would decelerate more than tyres permit. Absent if the identified m' is plausible.
   std::optional<double> mass_norm_by_grip;
   std::optional<YawScrub> yaw_scrub;  ///< absent: no turning trial determines it
   /// The largest yaw moment by left and right wheel forces, m, > 0, at which the vehicle did not
@@ -124,11 +124,11 @@ struct Model {
   }
 
   /// The plant from estimates and vehicle, for simulation and control in this motion. Errors
-  /// (input): a parameter in the motion's equations has no value; each is named with the trial that
-  /// identifies it.
+  /// (input): parameters in the motion's equations have no value. The message names each with the
+  /// trial that identifies it.
   Result<Plant<double>> plant(Motion motion = Motion::kPlanar) const;
 
-  /// The plant for all motions measured by the trials in the record.
+  /// The plant for all motions that the trials in the record measured. Errors: as plant().
   Result<Plant<double>> plant_of_trials() const;
 
   /// The plant without checks. Parameters without a value are replaced: a resistance by 0, an

@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::string_view kModelSchema = "awmr.model/1";
 
-/// A number with a logarithmic coordinate has to be positive; the interval of an exponent or a term
-/// can extend below 0.
+/// Range of a parameter's quantiles. They must be positive if the coordinate is logarithmic; those
+/// of an exponent or a term can extend below 0.
 NumberRule rule_of_quantile(ParameterId id) {
   return scale_of(id) == Scale::kLogarithmic ? kPositive : kAnyNumber;
 }
@@ -41,7 +41,7 @@ Json estimate_to_json(const Estimate& estimate, std::string_view unit) {
   return json;
 }
 
-/// Reads the five quantiles, which must be ascending and in the parameter's range.
+/// Reads the five quantiles, which must ascend and be within rule_of_quantile().
 Quantiles quantiles_from_json(JsonObject json, const ParameterInfo& parameter) {
   Quantiles quantiles{};
   for (std::size_t q = 0; q < kQuantileCount; ++q) {
@@ -120,7 +120,7 @@ void put_estimates(Json& json, const Model& model) {
   if (model.yaw_family != Family::kPower) json["yaw"]["family"] = name_of(model.yaw_family);
 }
 
-/// Writes /si, which is computed from the rest of the file for users, and not read back.
+/// Writes /si: SI values for the user, computed from the rest of the file. They are not read back.
 void put_si(Json& json, const Model& model) {
   for (const SiQuantity& quantity : si_quantities(model)) {
     json["si"][Json::json_pointer(quantity.pointer)] =
@@ -237,7 +237,8 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
         fmt::format("[{:g}, {:g}] does not contain moment_m {:g}", ci.lo, ci.hi, scrub.moment_m));
   check(ci.hi >= 0.0, "ci95_m",
         fmt::format("[{:g}, {:g}] is below 0, but scrub cannot drive a turn", ci.lo, ci.hi));
-  // Student's quantile: 12.7 with one degree of freedom, 1.96 with many.
+  // The half width over std_error_m is Student's quantile: 12.7 with one degree of freedom, 1.96
+  // with many.
   const double quantile = 0.5 * (ci.hi - ci.lo) / scrub.std_error_m;
   check(quantile >= 1.95 && quantile <= 12.8, "std_error_m",
         fmt::format("{:g} does not match ci95_m [{:g}, {:g}], whose half width is {:.3g} times "
@@ -255,8 +256,8 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
                     scrub.moment_m, most_m));
 }
 
-/// Contradictions in a file edited by hand: a value outside its interval, a standard error that
-/// differs from the covariance.
+/// Contradictions in a file that was edited by hand: a value outside its interval, a scrub moment
+/// that does not fit its interval, a standard error that differs from the covariance.
 std::vector<Fault> self_contradictions(const Model& model) {
   constexpr double kTolerance = 0.01;
   std::vector<Fault> faults;

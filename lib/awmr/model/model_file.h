@@ -10,7 +10,8 @@
 
 namespace awmr {
 
-/// Errors: as read_json_file; unknown, missing or impossible values.
+/// Errors: as read_json_file; unknown or missing keys; values that are out of range (ranges.h) or
+/// contradict each other.
 Result<Model> read_model(const std::filesystem::path& path);
 
 /// As read_model(), from text; `file` names it in errors.

@@ -17,13 +17,13 @@
 namespace awmr {
 namespace {
 
-/// The kinds of trial in /trials: those with tables. Logs have no rows there.
+/// The kinds of trial in /trials: those that are tables. Logs have no entries there.
 constexpr NameTable<TrialKind, 3> kTableNames{
     {kTrialKindNames[0], kTrialKindNames[1], kTrialKindNames[2]}};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Maximum relative difference of m(i,j) and m(j,i), which differ by rounding.
+/// Maximum relative difference of the covariances m(i,j) and m(j,i), which can differ by rounding.
 constexpr double kSymmetryTolerance = 1e-9;
 
 /// True for the name of a parameter, or of another quantity that a fit estimates.

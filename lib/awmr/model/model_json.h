@@ -14,8 +14,8 @@ Json report_to_json(const EstimatorReport& report);
 EstimatorReport report_from_json(JsonObject json);
 
 Json covariance_to_json(const Covariance& covariance);
-/// Faults: unknown or repeated parameters; a matrix that has the wrong size, is not symmetric, or
-/// has a negative variance.
+/// Faults: unknown or repeated parameters; a matrix that has the wrong size, is not symmetric, has
+/// a negative variance, or correlations that contradict each other.
 Covariance covariance_from_json(JsonObject json);
 
 Finding finding_from_json(JsonObject json);

@@ -1,4 +1,4 @@
-/// Table of the identified quantities: name, symbol, unit, key in model.json.
+/// Table of the parameters of the model: name, symbol, unit, key in model.json.
 #pragma once
 
 #include <array>
@@ -39,12 +39,14 @@ struct ParameterInfo {
   bool term = false;         ///< true: optional term, 0 and not in model.json unless it was fitted
 };
 
-/// Names of further quantities that a fit of logs can estimate; only in /estimates of model.json.
+/// Names of quantities that a fit of logs can estimate in addition to the parameters. They are only
+/// in /estimates of model.json.
 inline constexpr std::string_view kInputDelayName = "input_delay_s";
 inline constexpr std::string_view kSteeringDelayName = "steering.delay_s";
 inline constexpr std::string_view kMotorLagName = "motor.time_constant_s";
 inline constexpr std::string_view kBiasPrefix = "bias.";  ///< + the channel's column
-/// The only result of a coast-down without a surge trial: the ratio m'/a1, in s (m/s)^(b1 - 1).
+/// Name of the ratio m'/a1, in s (m/s)^(b1 - 1), the only result of a coast-down without a surge
+/// trial.
 inline constexpr std::string_view kMassOverSurgeName = "mass_norm/surge.alpha";
 
 /// The table, in the order of ParameterId.

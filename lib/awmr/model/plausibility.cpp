@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-/// A unit error: the likely meaning of a value times `factor`.
+/// A likely error of a user: the value times `factor` is what was meant, and `words` says why.
 struct Guess {
   double factor;
   std::string_view words;
@@ -30,7 +30,8 @@ constexpr std::array<Guess, 5> kInertia{{{1e-4, "looks like kg cm^2"},
                                          {1e-7, "looks like g cm^2"},
                                          {1e-9, "looks like g mm^2"}}};
 
-/// The guess whose factor brings a ratio nearest to `usual`, among those that bring it into `range`.
+/// The guess whose factor brings a ratio nearest to `usual`, among those that bring it into
+/// `range`.
 std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interval range,
                             double usual) {
   std::optional<Guess> best;
@@ -152,7 +153,7 @@ void check_inertia(const Vehicle& vehicle, std::vector<Implausible>& found) {
                    ratio, box.inertia_kgm2(),
                    guess
                        ? remedy(*vehicle.yaw_inertia_kgm2, guess)
-                       : "; is it another vehicle's? Without this key, that of the box is used")});
+                       : "; measure it again, or omit the key: then that of the box is used")});
 }
 
 void check_steering(const Vehicle& vehicle, std::vector<Implausible>& found) {

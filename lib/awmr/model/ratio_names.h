@@ -1,5 +1,5 @@
-/// Names in /estimates of model.json of the ratios that a coast-down without a surge trial can
-/// identify.
+/// Names, in /estimates of model.json, of the ratios c1/a1 and q1/a1 that a coast-down without a
+/// surge trial can identify.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-/// Record of an identification: findings, the results of each estimator, the trials used.
+/// Record of an identification: the findings, the result of each estimator and the trials used.
 #pragma once
 
 #include <optional>
@@ -108,8 +108,8 @@ struct EstimatorReport {
   double condition_number = 0.0;  ///< of the problem, >= 1; infinite if rank-deficient
   std::string stop_reason;        ///< reason why the solver stopped
   std::string family = {};        ///< of resistance; empty: the paper's power law
-  /// Weight in the average over noise models, (0, 1]: the probability that this estimator's `noise`
-  /// is right; absent: not averaged.
+  /// Weight in the average over noise models, (0, 1]: the probability that the noisy quantity is
+  /// this `noise`; absent: the estimates were not averaged.
   std::optional<double> weight = {};
   /// Corrected Akaike criterion: less is better. Compare only estimators with the same `noise`.
   std::optional<double> aicc = {};
@@ -135,8 +135,8 @@ struct IdentificationRecord {
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
   std::vector<TrialPoint> trials;
-  /// The largest yaw rate in the logs to which g3 was fitted, rad/s, > 0; absent if g3 was not fitted
-  /// to logs.
+  /// The largest yaw rate in the logs to which g3 was fitted, rad/s, > 0; absent if g3 was not
+  /// fitted to logs.
   std::optional<double> logged_yaw_rate_radps;
   Provenance provenance;
 };

@@ -1,12 +1,12 @@
-/// Resistance to motion as an odd function of the speed; the families of family.h are special cases.
-/// Freestanding C++14.
+/// Resistance to motion as an odd function of the speed. The families of family.h are special cases
+/// of this law. Freestanding C++14.
 #pragma once
 
 #include "awmr/model/scalar_math.h"
 
 namespace awmr {
 
-/// The force or moment that resists the speed w. For w > 0 it is positive and acts backward:
+/// The force or moment g that resists the speed w. For w > 0, g is positive and acts backward:
 ///   g(w) = (c + alpha |w|^beta + q w^2) sgn w                                   [paper (47), (63)]
 /// The paper has c = q = 0 and only w > 0; its law is extended here to an odd curve.
 ///
@@ -22,8 +22,8 @@ struct Resistance {
   T beta;
   /// Speed below which the curve is replaced by its chord to the origin, >= 0; surge: m/s, yaw:
   /// rad/s. 0 keeps the law exact, for fits and steady states. A simulation needs a chord, because
-  /// the curve jumps at rest for c > 0 and has an infinite slope there for beta < 1: rest_speed() in
-  /// steady.h computes the value for its steps.
+  /// the curve jumps at rest for c > 0 and has an infinite slope there for beta < 1: rest_speed()
+  /// in steady.h computes the value for its steps.
   T rest_speed = T(0.0);
   /// c, in the unit of g, >= 0: Coulomb friction, the same at every speed. 0 in the paper.
   T coulomb = T(0.0);
@@ -71,16 +71,16 @@ Resistance<T> feed_forward(Resistance<T> law, const T& rest_speed = feed_forward
   return law;
 }
 
-/// The command for which a motor with a dead zone makes `force`; 0 for the force 0. Both are over
-/// F_max; zone = F'0 >= 0. Inverse of beyond_dead_zone() for every force except 0.
+/// The command with which a motor with a dead zone makes `force`; 0 for the force 0. Command and
+/// force are over F_max; zone = F'0 >= 0. Inverse of beyond_dead_zone() for every force except 0.
 template <class T>
 T with_dead_zone(const T& force, const T& zone) {
   using math::select;
   return select(force > T(0.0), T(force + zone), select(force < T(0.0), T(force - zone), force));
 }
 
-/// The force of a motor with a dead zone for `command`: 0 for |command| <= zone, and beyond that
-/// the command reduced by the zone. Both are over F_max, and zone = F'0 >= 0.
+/// The force that a motor with a dead zone makes of `command`: 0 for |command| <= zone, and beyond
+/// that the command reduced by the zone. Command and force are over F_max; zone = F'0 >= 0.
 template <class T>
 T beyond_dead_zone(const T& command, const T& zone) {
   using math::select;

@@ -7,11 +7,11 @@
 
 namespace awmr {
 
-/// Largest product of a rate of decay (1/s) and a Runge-Kutta step (s). With it, deviations decay
-/// without a change of sign; the method is stable up to 2.78.
+/// Largest permitted product of a rate of decay (1/s) and a Runge-Kutta step (s). Up to this
+/// product, deviations decay without a change of sign. The method is stable up to 2.78.
 inline constexpr double kMostRateTimesStep = 1.0;
 
-/// Largest number of halvings of a step, and of halved steps in a run.
+/// Maximum number of successive halvings of one step, and of halved steps in a run.
 inline constexpr int kMostHalvings = 40;
 inline constexpr double kMostHalves = 5e7;
 
@@ -37,8 +37,8 @@ T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   return select(counts, T((slope + T(2.0) * law.quadratic * w) / inertia), T(0.0));
 }
 
-/// Upper bound of the rates of change at the state `at`, 1/s: the rates of decay by g1 and g3, and
-/// r, with which the velocity rotates in the vehicle's frame (m' r v and m' r u).
+/// Largest rate of change at the state `at`, 1/s, of: the decay of u by g1, the decay of r by g3,
+/// and the rotation of the velocity in the vehicle's frame, at the rate |r| (m' r v and m' r u).
 template <class T>
 T fastest_rate(const Plant<T>& plant, const State<T>& at) {
   using math::abs;
@@ -70,13 +70,14 @@ struct Resolution {
   Mask<T> resolved = Mask<T>(true);  ///< false: no step is short enough, or a number is not finite
 };
 
-/// `body`, here and below: a Plant, or another type with its own fastest_rate() (tyres.h).
+/// Declared here for advance_by_halves(); defined below. `body`, here and below: a Plant, or
+/// another type with its own fastest_rate() (tyres.h).
 template <class Body, class T, class Rates>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution);
 
-/// Makes two steps of half the length in the lanes of `requested`. A lane that exceeds kMostHalvings
-/// or kMostHalves is marked as unresolved.
+/// Makes two steps of half the length in the lanes of `requested`. A lane that exceeds
+/// kMostHalvings or kMostHalves is marked as unresolved.
 template <class Body, class T, class Rates>
 AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates, Mask<T> requested,
                                      int halvings, Resolution<T>& resolution) {
@@ -113,7 +114,8 @@ State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates
                advance_by_halves(body, from, h, rates, requested && !fits, halvings, resolution));
 }
 
-/// True if every number is finite: 0 times an infinite number or NaN is NaN.
+/// True in the lanes in which every number of the state is finite. The sum of 0 times each number
+/// is NaN if one of them is infinite or NaN.
 template <class T>
 Mask<T> is_finite(const State<T>& s) {
   using math::abs;
@@ -131,8 +133,8 @@ T settled(const T& speed) {
   return select(abs(speed) < T(1e-150), T(0.0), speed);
 }
 
-/// Integrates the lanes of `requested` by `substeps` steps of h seconds at constant commands. A lane
-/// whose motion is not resolved keeps its state.
+/// Integrates the lanes of `requested` by `substeps` steps of h seconds at constant commands. A
+/// lane whose motion is not resolved keeps its state.
 template <class Body, class T, class Rates>
 void integrate(const Body& body, const T& h, const T& substeps, const Rates& rates,
                const Mask<T>& requested, State<T>& state, Resolution<T>& resolution) {

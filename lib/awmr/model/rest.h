@@ -1,4 +1,5 @@
-/// Chords through rest, so that a simulation can integrate a plant until it stops.
+/// Replaces the resistances near rest by chords through the origin, so that a simulation can
+/// integrate a plant until it stops.
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -9,7 +10,7 @@ namespace awmr {
 /// The value of a scalar; types with derivatives have their own overloads.
 inline double value_of(double x) { return x; }
 
-/// The curve without the derivatives of its coefficients.
+/// The law with plain numbers: without the derivatives of its coefficients.
 template <class T>
 Resistance<double> value_of(const Resistance<T>& law) {
   return {value_of(law.alpha), value_of(law.beta), value_of(law.rest_speed), value_of(law.coulomb),

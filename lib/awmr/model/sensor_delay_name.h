@@ -1,5 +1,6 @@
-/// Names in /estimates of model.json of errors that a fit of logs can estimate: steering trim,
-/// imbalance of left and right motors, delay and filter time constant of a sensor.
+/// Names, in /estimates of model.json, of the vehicle and sensor errors that a fit of logs can
+/// estimate: steering trim, imbalance of left and right motors, delay and filter time constant of a
+/// sensor.
 #pragma once
 
 #include <string_view>

@@ -8,11 +8,12 @@
 namespace awmr {
 namespace {
 
-/// A variance below this share of its terms counts as 0: it is only their rounding error, for a
-/// quantity that does not depend on m'.
+/// A variance below this share of the sum of its terms counts as 0. It is only rounding error: the
+/// quantity does not depend on m'.
 constexpr double kRounding = 1e-14;
 
-/// True for parameters divided by F_max in the equations of motion: neither exponents nor times.
+/// True for parameters that are divided by F_max in the equations of motion: all except exponents
+/// and the servo's time constant.
 bool is_over_max_force(ParameterId id) {
   return id != ParameterId::kSurgeBeta && id != ParameterId::kYawBeta &&
          id != ParameterId::kSteeringTimeConstant;
@@ -78,7 +79,7 @@ Estimate max_force(const Model& model) {
   return force;
 }
 
-/// Multiplies a force over F_max by F_max: N s^2/m are kg, and N s^2 m are kg m^2.
+/// Multiplies a normalised parameter by F_max. The unit of I'z, s^2 m, times N is kg m^2.
 SiQuantity quantity_of(const Model& model, const ParameterInfo& parameter) {
   if (parameter.id == ParameterId::kInertiaNorm) {
     return {"/yaw_inertia", "Iz", "kg m^2", times_max_force(model, parameter.id)};

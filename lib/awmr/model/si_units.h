@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// A quantity divided by F_max in the equations of motion, multiplied by F_max again.
+/// A quantity of the model in SI units: the normalised quantity times F_max.
 struct SiQuantity {
   std::string pointer;  ///< below /si of model.json: "/surge/alpha", "/max_wheel_force"
   std::string name;     ///< name for tables: "surge.alpha", "F_max"
@@ -16,15 +16,15 @@ struct SiQuantity {
   Estimate estimate;    ///< always with a value
 };
 
-/// F_max, the mass, the yaw inertia and every resistance of the model; empty if m' has no value.
-/// The mass of the vehicle is assumed exact, so
+/// Returns F_max, the mass, the yaw inertia, and each resistance, dead zone and back-EMF of the
+/// model; empty if m' has no value. The mass of the vehicle is assumed exact, so
 ///   F_max = m/m'                                                                      [paper (66)]
 ///   Q     = p F_max = p m/m'      of each quantity p over F_max
 /// The covariance of p and m' is propagated: with the gradient (m/m', -p m/m'^2),
 ///   Var Q = (m/m')^2 (C_pp - 2 (p/m') C_pm' + (p/m')^2 C_m'm')
-/// For p = I'z = m' Iz/m, the terms cancel and Iz is exact again. The interval uses the wider of the
-/// quantiles of p and m'. There is no standard error if p or m' was estimated but the model has no
-/// covariance of it.
+/// For p = I'z = m' Iz/m, the terms cancel and Iz is exact again. The interval uses the wider of
+/// the quantiles of p and m'. There is no standard error if p or m' was estimated but the model has
+/// no covariance of it.
 ///
 /// F_max is the force of one of four wheels: if one motor drives both wheels of a side, its largest
 /// force is twice F_max.

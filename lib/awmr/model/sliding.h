@@ -1,14 +1,14 @@
-/// Exact Coulomb friction at rest: a vehicle stops, is held, and starts again. Templates on the
-/// scalar.
+/// Integration with exact Coulomb friction: a vehicle stops, is held at rest, and starts again.
+/// Templates on the scalar.
 ///
-/// At rest, the resistance g1 jumps from -c to c. During a step, the friction keeps its direction s,
-/// which is that of the motion, 1 or -1. With the surge force X of the wheels,
+/// At rest, the resistance g1 jumps from -c to c. During an integration step, the friction keeps
+/// the direction s of the motion, 1 or -1. With the surge force X of the wheels,
 ///
 ///     u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v
 ///
 /// A step in which u passes 0 ends there. Then friction holds the vehicle, u_dot = 0, while the
-/// driving force |X + m' r v| is at most c. Yaw likewise. With a chord instead of the jump, the
-/// vehicle would creep.
+/// driving force |X + m' r v| is at most c. Yaw is treated likewise. With a chord instead of the
+/// jump, as in rest.h, a held vehicle would creep.
 #pragma once
 
 #include "awmr/model/rest.h"
@@ -70,7 +70,7 @@ Sliding sliding(const FrictionRates<T>& friction, const State<T>& s, const State
 /// True if friction holds the motion, in surge or in yaw: there is friction, and no sliding.
 inline bool is_held(double way, double friction) { return friction > 0.0 && way == 0.0; }
 
-/// Rates with friction, computed from those without.
+/// Adds friction to rates without friction: 0 for a motion that friction holds.
 template <class T>
 State<T> with_friction(const FrictionRates<T>& friction, const Sliding& way, State<T> rates) {
   rates.u_mps = is_held(way.surge, value_of(friction.surge_mps2))
@@ -82,9 +82,8 @@ State<T> with_friction(const FrictionRates<T>& friction, const Sliding& way, Sta
   return rates;
 }
 
-/// Fraction of a step after which a speed is 0 that changes from `from` to `to`, with the sliding
-/// direction `way`; 1: the speed does not reach 0. A speed that starts at 0 does not stop in the
-/// step.
+/// Fraction of a step after which a speed that changes linearly from `from` to `to` is 0. 1: it
+/// does not pass 0, or it starts at 0. `way`: direction of sliding in this step.
 inline double share_until_rest(double way, double from, double to) {
   if (!(way * from > 0.0) || !(way * to < 0.0)) return 1.0;
   return from / (from - to);

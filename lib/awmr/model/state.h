@@ -1,4 +1,4 @@
-/// Named states and commands. Freestanding C++14.
+/// State and wheel forces of the vehicle, with named fields. Freestanding C++14.
 ///
 /// World frame: x and y fixed to the ground. Body frame: origin at the centre of gravity, x forward
 /// and y left. Both are right-handed with z up, so angles and yaw rates count counter-clockwise.
@@ -19,8 +19,8 @@ struct State {
   T steering_rad;  ///< d_r, rad: actual angle of the front wheels, left positive; |d_r| <= d_max
 };
 
-/// The forces if both wheels of a side are driven alike. Each is the force of ONE wheel over F_max,
-/// dimensionless, in [-1, 1], forward positive.
+/// The wheel forces if both wheels of a side have the same force. Each field is the force of ONE
+/// wheel over F_max, dimensionless, in [-1, 1], forward positive.
 template <class T>
 struct SideForces {
   T left;   ///< F'L = F'FL = F'RL

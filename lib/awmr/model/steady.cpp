@@ -15,15 +15,16 @@ std::optional<double> finite(double value) {
 
 /// Solves alpha w^beta + v w + q w^2 = excess for w, v = `viscous`, by Newton's method on
 ///   h(s) = ln((alpha e^(s beta) + v e^s + q e^(2 s))/excess),   w = e^s
-/// h is increasing and convex, because it is the logarithm of a sum of exponentials. So the iteration
-/// from above falls monotonically to the root, and ends when rounding would reverse a step.
+/// h is increasing and convex, because it is the logarithm of a sum of exponentials. So the
+/// iteration from above falls monotonically to the root, and ends when rounding would reverse a
+/// step.
 std::optional<double> rate_above_coulomb(const Resistance<double>& law, double excess,
                                          double viscous) {
   constexpr double kFastest = 1e9;
   constexpr double kSlowest = 1e-300;
   constexpr int kMostSteps = 200;
   if (!(excess > 0.0) || !std::isfinite(excess)) return std::nullopt;
-  // Each term alone balances the force at a speed above the root.
+  // Start above the root: the smallest of the speeds at which one term alone balances the force.
   double w = std::min({std::pow(excess / law.alpha, 1.0 / law.beta),
                        std::sqrt(excess / law.quadratic), excess / viscous});
   for (int i = 0; i < kMostSteps && w > kSlowest && w <= kFastest; ++i) {
@@ -36,7 +37,8 @@ std::optional<double> rate_above_coulomb(const Resistance<double>& law, double e
     if (!(next < w)) return finite(next);
     w = next;
   }
-  // The speed exceeds that of any vehicle, or g jumps at rest (beta = 0) by more than the force.
+  // No solution: the speed would exceed that of any vehicle, or g jumps at rest (beta = 0) by more
+  // than the force.
   return std::nullopt;
 }
 

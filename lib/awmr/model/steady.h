@@ -7,11 +7,11 @@
 
 namespace awmr {
 
-/// The speed w > 0 at which the resistance equals a force: g(w) = force. With g1 and
-/// force = tau_speed, w is the steady speed in m/s; with g3 and force = tau_turn in m, the steady yaw
-/// rate in rad/s. With `viscous` > 0, in the unit of g over that of w, the solution of
-/// g(w) + viscous w = force: for motors with back-EMF, viscous = 4 k_e.
-/// None if the force does not exceed the Coulomb friction c, or if g never reaches the force.
+/// The speed w > 0 at which the resistance equals a force: g(w) = force. With g1 and force =
+/// tau_speed, w is the steady speed in m/s; with g3 and force = tau_turn in m, the steady yaw rate
+/// in rad/s. With `viscous` > 0 (the unit of g over that of w), w is the solution of g(w) + viscous
+/// w = force: straight ahead with back-EMF in four motors, viscous = 4 k_e. None if the force does
+/// not exceed the Coulomb friction c, or if g never reaches the force.
 std::optional<double> steady_rate(const Resistance<double>& law, double force,
                                   double viscous = 0.0);
 

@@ -1,11 +1,11 @@
-/// The coordinate of a parameter in searches and samples: in it, the error of the parameter is
-/// normally distributed.
+/// Coordinates of the parameters for searches and samples. The error of a parameter is taken to be
+/// normally distributed in its coordinate, which is its value or its logarithm:
 ///
 ///     linear:       coordinate = value        d value / d coordinate = 1
 ///     logarithmic:  coordinate = ln value     d value / d coordinate = value
 ///
-/// Positive quantities have the logarithmic coordinate. Exponents, which have a fixed range, and
-/// terms of a resistance family, which can be exactly zero, have the linear one.
+/// Positive quantities have the logarithmic coordinate. The linear coordinate is for exponents,
+/// which have a fixed range, and for terms of a resistance family, which can be exactly zero.
 #pragma once
 
 #include <cmath>

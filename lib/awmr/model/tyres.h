@@ -1,6 +1,6 @@
-/// Four-wheel tyre model, for a cross-check with the 3-DOF vehicle of dynamics.h: each tyre makes a
-/// side force from its slip, and its total force stays within its circle of friction. Templates on
-/// the scalar.
+/// Four-wheel tyre model, to cross-check the 3-DOF vehicle of dynamics.h. Each tyre makes a side
+/// force from its slip, and its total force stays within its circle of friction. Templates on the
+/// scalar.
 ///
 /// The side force is that of the brush model, in the form of Fiala: H. B. Pacejka, "Tire and
 /// Vehicle Dynamics", 3rd ed., 3.2.1. VEHICLES.md in this folder lists the parts of the 3-DOF model
@@ -44,9 +44,9 @@ T wheel_load(const T& mass_norm) {
   return mass_norm * T(kGravity_mps2 / 4.0);
 }
 
-/// Moment of four tyres that slide sideways when the vehicle turns on the spot, m, with the centre
-/// of gravity half-way between the axles. It is the upper bound of the scrub moment.
-///   mu g m' l_f
+/// Largest possible scrub moment, m: all four tyres slide sideways while the vehicle turns on the
+/// spot, with the centre of gravity half-way between the axles.
+///   mu g m' l_f,   mu = kTyreFriction
 template <class T>
 T sliding_moment_m(const Plant<T>& plant) {
   return T(kTyreFriction * kGravity_mps2) * plant.mass_norm * plant.front_axle_m;
@@ -130,8 +130,8 @@ TyreForces<T> tyre_forces(const FourWheels<T>& p, const State<T>& s, const Wheel
   return made;
 }
 
-/// Power dissipated by tyres that slide sideways at the speeds s_i (side_speeds()), over F_max, m/s,
-/// >= 0:
+/// Power dissipated by tyres that slide sideways at the speeds s_i (side_speeds()), over F_max,
+/// m/s, >= 0:
 ///   P = -sum of F'y_i s_i
 template <class T, class Forces>
 T tyre_power_mps(const FourWheels<T>& p, const State<T>& s, const Forces& f) {
@@ -179,8 +179,9 @@ State<T> state_rates(const FourWheels<T>& p, const State<T>& s, const Forces& f,
   return d;
 }
 
-/// Smallest effective mass m'_w that resistances along the four wheels slow down, in surge or yaw,
-/// over F_max, s^2/m. The lever of a wheel is at most its distance from the centre of gravity:
+/// Smallest effective mass m'_w at the wheels, over F_max, s^2/m: the inertia, in surge or yaw,
+/// that resistances along the four wheels slow down. The lever of a wheel is at most its distance
+/// from the centre of gravity:
 ///   m'_w = min(m', I'z/(l_f^2 + d^2))
 template <class T>
 T rolling_inertia(const Plant<T>& p) {
@@ -190,7 +191,7 @@ T rolling_inertia(const Plant<T>& p) {
   return select(turning < p.mass_norm, turning, p.mass_norm);
 }
 
-/// resolved_at_rest() of rest.h, with g1 at the wheels.
+/// resolved_at_rest() of rest.h for a vehicle on tyres, where g1 acts at the wheels.
 inline Plant<double> resolved_at_rest_on_tyres(const Plant<double>& body, double step_s) {
   Plant<double> resolved = resolved_at_rest(body, step_s);
   resolved.surge.rest_speed = rest_speed(body.surge, rolling_inertia(body), step_s);
@@ -200,9 +201,9 @@ inline Plant<double> resolved_at_rest_on_tyres(const Plant<double>& body, double
 /// Upper bound of the rate at which the tyres damp a sideways motion, 1/s: their stiffness c_a F'z
 /// divided by each wheel's rolling speed,
 ///   max(1/m' sum_i c_a F'z/V_i,  1/I'z sum_i a_i^2 c_a F'z/V_i),   V_i = sqrt(w_i^2 + v_0^2)
-/// with the lever a_i = l_f at the rear and, for any steering angle, sqrt(l_f^2 + d^2) at the front.
-/// The first term is the rate of sway, the second that of yaw. The rates of the coupled motion are at
-/// most twice the larger one.
+/// with the lever a_i = l_f at the rear and, for any steering angle, sqrt(l_f^2 + d^2) at the
+/// front. The first term is the rate of sway, the second that of yaw. The rates of the coupled
+/// motion are at most twice the larger one.
 template <class T>
 T tyre_rate(const FourWheels<T>& p, const State<T>& s) {
   using math::sqrt;
@@ -220,8 +221,8 @@ T tyre_rate(const FourWheels<T>& p, const State<T>& s) {
                                   T((wheel_m2 * front + axle_m2 * rear) / p.body.inertia_norm));
 }
 
-/// Upper bound of the rates of change at the state `at`, 1/s: of the rotation of the velocity in the
-/// vehicle's frame, of the tyres, and of the resistance g1 at the speed of the fastest wheel.
+/// Largest rate of change at the state `at`, 1/s, of: the rotation of the velocity in the vehicle's
+/// frame (|r|), the damping by the tyres, and the decay by g1 at the speed of the fastest wheel.
 template <class T>
 T fastest_rate(const FourWheels<T>& vehicle, const State<T>& at) {
   using math::abs;

@@ -11,7 +11,7 @@
 
 namespace awmr {
 
-/// The driven wheels and the steering.
+/// Drive of the vehicle: which wheels are driven, and whether the front wheels steer.
 enum class Drive {
   kFourWheel,     ///< four driven wheels, the front ones steered, as in the paper
   kDifferential,  ///< no steering (d_r = 0): turned only by left and right wheel forces
@@ -24,8 +24,8 @@ inline constexpr NameTable<Drive, 3> kDriveNames{{{"four_wheel", Drive::kFourWhe
 inline constexpr NameTable<AllocationForm, 2> kAllocationFormNames{
     {{"exact", AllocationForm::kExact}, {"paper", AllocationForm::kPaper}}};
 
-/// Errors of the vehicle's sensors: standard deviations of noise, latencies, and time constants of the noise's
-/// correlation (0: independent readings). Absent: not known.
+/// Errors of the vehicle's sensors: standard deviations of noise, latencies, and time constants of
+/// the noise's correlation (0: independent readings). Absent: not known.
 struct SensorQuality {
   std::optional<double> heading_deg = {};             ///< deg, >= 0
   std::optional<double> yaw_rate_degps = {};          ///< deg/s, >= 0
@@ -50,7 +50,7 @@ struct Vehicle {
   Drive drive = Drive::kFourWheel;         ///< without steering, the steering_ fields are 0
   double front_axle_m = 0.0;               ///< l_f, m, > 0: centre of gravity to front axle
   double half_track_m = 0.0;               ///< d, m, > 0: centre line to the middle of a wheel
-  Interval wheel_force;                    ///< F' of one wheel: -1 <= min < max, 0 < max <= 1
+  Interval wheel_force;                    ///< F' of one wheel: -1 <= min <= 0 < max <= 1
   double steering_max_deg = 0.0;           ///< d_max, deg, in (0, 90): stop, the same either side
   double steering_max_rate_degps = 0.0;    ///< d_rate_max, deg/s, > 0: the servo's maximum rate
   double steering_time_constant_s = 0.0;   ///< T, s, > 0: the servo's first-order lag
@@ -72,15 +72,15 @@ struct Vehicle {
   /// P_s, W, > 0: power of one motor under full voltage at standstill, where all of it becomes
   /// heat; absent: electrical work is not reported in joules.
   std::optional<double> motor_stall_power_w;
-  /// deg/s, > 0: largest yaw rate for which the yaw resistance is known; absent: the largest of the
-  /// turning trials.
+  /// deg/s, > 0: largest yaw rate for which the yaw resistance is known; absent: the largest yaw
+  /// rate of the turning trials and fitted logs.
   std::optional<double> yaw_rate_max_degps;
 
   /// Column mappings of this vehicle's files: column -> expression (core/column_mapping.h).
   std::map<std::string, std::string> columns = {};
 
   bool has_steering() const { return drive != Drive::kDifferential; }
-  /// n: straight ahead, tau_speed = n F'.
+  /// n, the number of driven wheels. Straight ahead, tau_speed = n F'.
   int driven_wheels() const { return drive == Drive::kFrontWheel ? 2 : 4; }
 
   /// Yaw inertia about the centre of gravity, kg m^2: the measured Iz if available, else that of a

@@ -126,7 +126,7 @@ void control_to_json(const Vehicle& vehicle, Json& json) {
   if (vehicle.yaw_rate_max_degps) json["yaw_rate_max_degps"] = *vehicle.yaw_rate_max_degps;
 }
 
-/// The unit in which a number beyond its range was probably given.
+/// The smaller unit in which a number above its range was probably given.
 struct SmallerUnit {
   std::string_view pointer;
   NumberRule rule;
@@ -165,7 +165,7 @@ Vehicle vehicle_from_json(JsonObject& json) {
   vehicle.width_m = json.number("width_m", kSize_m);
   if (json.has("drive")) vehicle.drive = json.choice("drive", kDriveNames);
   vehicle.half_track_m = json.number("half_track_m", kSize_m);
-  // Without steering, l_f only gives the position of the front wheels.
+  // Without steering, l_f is optional: it only gives the position of the front wheels.
   vehicle.front_axle_m = vehicle.has_steering() || json.has("front_axle_m")
                              ? json.number("front_axle_m", kSize_m)
                              : vehicle.half_track_m;

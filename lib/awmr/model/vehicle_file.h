@@ -9,7 +9,7 @@
 
 namespace awmr {
 
-/// Errors: as read_json_file; unknown, missing or impossible values.
+/// Errors: as read_json_file; unknown or missing keys; values out of range (ranges.h).
 Result<Vehicle> read_vehicle(const std::filesystem::path& path);
 
 /// The JSON Schema of vehicle.json, derived from its reader.

@@ -1,5 +1,5 @@
-/// The vehicle as JSON, as vehicle.json and within model.json. Private to this folder; include from
-/// .cpp files only.
+/// Converts the vehicle to and from JSON, for vehicle.json and for `/vehicle` of model.json.
+/// Private to this folder; include from .cpp files only.
 #pragma once
 
 #include "awmr/core/json.h"
@@ -10,7 +10,8 @@ namespace awmr {
 /// Reads every key of the vehicle and rejects others; faults are added to those of `json`.
 Vehicle vehicle_from_json(JsonObject& json);
 
-/// The vehicle with explicit defaults; an unknown optional quantity has no key.
+/// Writes the vehicle, with explicit default values. An optional quantity that is not known has no
+/// key.
 Json vehicle_to_json(const Vehicle& vehicle);
 
 }  // namespace awmr
