@@ -16,33 +16,36 @@
 
 namespace awmr {
 
-/// Standard normal numbers for the sensor noise of a run, by sample. Runs that differ only in plant,
-/// gains or mode can share these numbers. Drawing them takes a tenth of the time of a run.
+/// Standard normal numbers for the sensor noise of a run, one per sample and sensor. Runs that
+/// differ only in plant, gains or mode can share these numbers, which saves a tenth of their
+/// computing time.
 struct DrawnNoise {
   std::vector<double> heading, yaw_rate, speed;  ///< empty: the sensor has no noise
 };
 
-/// The numbers that the sensors of a run with this seed and sample draw: up to 24 bytes per sample.
+/// Draws the numbers that the sensors of a run with this seed and sample would draw: up to 24 bytes
+/// per time sample.
 DrawnNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std::uint64_t seed,
                              std::uint64_t sample);
 
-/// One of the runs: vehicle, controller, yaw mode and random numbers.
+/// One run of a batch: vehicle, controller, yaw mode and random numbers.
 struct BatchRun {
   Plant<double> plant;
   Controller<double> controller;
   YawMode mode;
   std::uint64_t seed = 0;    ///< as in SimulateOptions
   std::uint64_t sample = 0;  ///< as in SimulateOptions
-  /// Null, or draw_sensor_noise() of the run's scenario, seed and sample: the same numbers, faster.
+  /// Null, or the result of draw_sensor_noise() for the run's scenario, seed and sample. The run is
+  /// the same in both cases, but faster with the drawn numbers.
   const DrawnNoise* noise = nullptr;
 };
 
-/// Instruction set for batches.
+/// Instruction set that simulates the batches, and how it rounds.
 struct BatchArithmetic {
   /// "avx512", "avx2", "neon"; "scalar": by simulate(), one run at a time.
   std::string_view instructions;
   /// "fused" (a b + c is rounded once) for every vector instruction set, "scalar" for simulate().
-  /// Results of two machines have the same bytes only if their `rounding` is the same.
+  /// Results of two machines can be identical only if their `rounding` is the same.
   std::string_view rounding;
 };
 
@@ -66,8 +69,8 @@ struct DrivenRun {
   Run run;
   Metrics metrics;
 };
-/// As simulate_batch(), with the rows of each run. If a run fails in the batch, its result is that
-/// of simulate().
+/// As simulate_batch(), with the rows of each run. A run that fails in the batch is repeated with
+/// simulate(); its Run::end can still be kFailed.
 std::vector<DrivenRun> drive_batch(std::span<const BatchRun> runs, const Scenario& scenario,
                                    double sample_time_s, const BatchArithmetic& arithmetic);
 

@@ -1,4 +1,4 @@
-/// The closed loop of a single run (Row = double) and of sixteen runs at a time (lanes::Row):
+/// Simulates the closed loop, for a single run (Row = double) or sixteen at a time (lanes::Row):
 ///   sensors -> guidance -> controller -> actuators -> rows and metrics -> vehicle
 /// Sensors, guidance, disturbances and the ground are computed run by run. Controller, motors,
 /// motion and metrics are computed for all runs at once, by the steps in loop_steps.h and
@@ -33,7 +33,7 @@ inline constexpr LoopSteps<double> kOneRunSteps = {
 /// Options of the closed loop.
 struct LoopOptions {
   double sample_time_s = 0.01;
-  std::size_t samples = 0;           ///< index of the last sample, from 0
+  std::size_t samples = 0;           ///< index of the last sample; the first has the index 0
   std::optional<int> substeps = {};  ///< RK4 steps per sample; absent: substeps_for() each vehicle
   bool keeps_rows = false;           ///< the runs of take_run() have rows
   bool has_metrics = false;          ///< metrics() may be called
@@ -43,7 +43,7 @@ struct LoopOptions {
 template <class Row>
 class ClosedLoop {
  public:
-  /// At most kRunsOf<Row> runs, not empty; scenario and steps outlive the loop.
+  /// Precondition: 1 to kRunsOf<Row> runs; scenario and steps outlive the loop.
   ClosedLoop(std::span<const BatchRun> runs, const Scenario& scenario, const LoopSteps<Row>& steps,
              const LoopOptions& options);
 
@@ -142,8 +142,8 @@ void ClosedLoop<Row>::set_up_vehicle(const BatchRun& run, std::size_t index) {
                        index, runs_->vehicles);
 }
 
-/// True if the guidance must be computed run by run. False in open loop, and for plain heading steps
-/// without rows: their reference is the same for all runs.
+/// True if the guidance must be computed run by run. False in open loop. Also false for heading
+/// steps without avoidance, shaping and rows: their reference is the same for all runs.
 template <class Row>
 bool ClosedLoop<Row>::has_own_guidance() const {
   if (runs_->control.is_open_loop) return false;
@@ -253,7 +253,8 @@ RunRow ClosedLoop<Row>::row_of(std::size_t run, double t_s) const {
                                                         run_of<double>(v.plant.rear_driven, run))};
 }
 
-/// Appends a row to each active run. A non-finite row ends the run, and is kept only at k = 0.
+/// Appends a row to each active run. A row that is not finite ends the run; it is kept only as the
+/// first row, k = 0.
 template <class Row>
 void ClosedLoop<Row>::keep_rows(std::size_t k, double t_s) {
   if (!options_.keeps_rows) return;

@@ -7,7 +7,7 @@
 namespace awmr {
 namespace {
 
-/// First streams of RunSeed::random for each axis, with room for 200 terms.
+/// Number of the first stream (RunSeed::random) of each axis, with room for 200 terms per axis.
 constexpr std::uint64_t kSurgeUse = 100;
 constexpr std::uint64_t kSwayUse = 300;
 constexpr std::uint64_t kYawUse = 500;

@@ -9,27 +9,29 @@
 
 namespace awmr {
 
-/// Random streams of a run. Each use (a sensor, a disturbance term) has its own stream.
+/// Seed of a run, from which its random streams are made. Each use of random numbers (a sensor, a
+/// disturbance term) has its own stream.
 struct RunSeed {
   std::uint64_t seed = 0;
   std::uint64_t sample = 0;
-  /// The stream of `use` < 1024. It has bit 62 and so differs from the streams of compare/, which are
-  /// small numbers or have bit 63.
+  /// The stream of the use with the number `use` < 1024. Its number has bit 62 set and so differs
+  /// from the streams of compare/, which are small numbers or have bit 63 set.
   Random random(std::uint64_t use) const {
     return {seed, (std::uint64_t{1} << 62U) | (sample << 10U) | use};
   }
 };
 
-/// Combines two seeds. (The odd constant is 2^64 over the golden ratio, so that adjacent seeds give
-/// distant results.)
+/// The seed of a run from the scenario's seed, the seed of the simulation and the number of the
+/// draw. The constant is 2^64 over the golden ratio, so that adjacent seeds give distant results.
 inline RunSeed run_seed(std::uint64_t scenario_seed, std::uint64_t seed, std::uint64_t sample) {
   return {scenario_seed + seed * 0x9E3779B97F4A7C15U, sample};
 }
 
-/// The sum of the disturbance terms of one axis, sample by sample.
+/// Generates the sum of the disturbance terms of one axis, sample by sample.
 class DisturbanceSource {
  public:
-  /// `first_use`: stream of RunSeed::random for the first term; the others have the next ones.
+  /// `first_use`: number of the stream (RunSeed::random) of the first term. The other terms have
+  /// the following numbers.
   DisturbanceSource(const std::vector<DisturbanceTerm>& terms, double sample_time_s,
                     const RunSeed& seed, std::uint64_t first_use);
   /// The value over the sample that begins at `t_s`; call it once per sample, in order.

@@ -102,7 +102,7 @@ void check_segments(JsonObject& json, const char* key,
   }
 }
 
-/// Reads a law with its own keys; those of other laws are unknown keys.
+/// Reads a line-following law with its own keys. Keys of other laws are reported as unknown.
 void read_line_law(JsonObject& json, LinePath& path) {
   path.law = line_laws()[json.has("law") ? json.choice("law", line_law_names()) : 0];
   const auto read = [&json](const char* key, double& parameter, const LawParameter& rule) {

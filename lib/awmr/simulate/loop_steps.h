@@ -1,6 +1,6 @@
-/// Controllers and metrics of runs that are simulated together, as steps on rows (row_view.h).
-/// Together with vehicle_steps.h, this is the arithmetic of the closed loop, for a single run and
-/// for a register of runs. Private to this folder.
+/// Steps that compute controllers and metrics of runs that are simulated together, on rows
+/// (row_view.h). With vehicle_steps.h, this is the arithmetic of the closed loop, for a single run
+/// and for several runs in a vector register. Private to this folder.
 #pragma once
 
 #include "awmr/simulate/meter.h"
@@ -32,8 +32,9 @@ struct LoopRuns {
   Row goal_rad, cross_track_m, off_target_m, clearance_m;
 };
 
-/// The steps of a sample for one type of row, in the order in which they are called. Runs that are
-/// not active do not change.
+/// The steps of a sample for one type of row. They are called in this order: control,
+/// vehicle.dissipate, measure, vehicle.actuate, vehicle.move. The motion and the metrics of a run
+/// that is not active do not change.
 template <class Row>
 struct LoopSteps {
   const char* name;

@@ -1,5 +1,6 @@
-/// Streaming metrics accumulator: processes each row of a run once, so no row is stored. Templates
-/// on the scalar: a double, or a batch with one run per lane. Private to this folder.
+/// Accumulates the metrics of a run while it is simulated: each row is processed once, so no row is
+/// stored. Templates on the scalar: a double, or a batch with one run per lane. Private to this
+/// folder.
 #pragma once
 
 #include "awmr/control/controller.h"
@@ -28,7 +29,7 @@ struct MetricsVehicle {
 struct MetricsTask {
   bool has_headings = false;  ///< the guidance has heading steps
   double speed_mps = 0.0;     ///< commanded speed, from which a speed drop is measured
-  /// Timed path: largest allowed distance from the path's point in the second half of the run.
+  /// Timed path: largest allowed distance from the path's point in the second half of the run, m.
   double tolerance_m = 0.0;
   /// true: tyre work is that of the lateral tyre forces; false: the work against g3 and scrub.
   bool is_on_tyres = false;
@@ -164,7 +165,7 @@ T share_of_stop(const T& steering_rad, const T& steering_max_rad) {
   return select(steers, T(steering_rad / select(steers, steering_max_rad, T(1.0))), T(0.0));
 }
 
-/// Ends the current heading step.
+/// Ends the current heading step: adds its settling time to the results.
 template <class T>
 void close_step(MetricsAccumulator<T>& m) {
   using math::select;
@@ -273,7 +274,7 @@ void measure_work(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, bo
   m.steering_rate2_degps2 += rate_degps * rate_degps;
 }
 
-/// Stores the previous sample for finite differences.
+/// Stores this row, for the differences and integrals of the next row.
 template <class T>
 void remember(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, double t_s,
               MetricsAccumulator<T>& m) {

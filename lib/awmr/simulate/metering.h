@@ -16,7 +16,7 @@ struct Ending {
   int missed_waypoints = 0;
 };
 
-/// Gives the time data of each row of a run, in sequence.
+/// Computes the time data of each row of a run, in sequence.
 class MeterClock {
  public:
   /// `last`: index of the last row of a full run, from 0. The scenario must outlive the clock.

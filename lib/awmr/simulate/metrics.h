@@ -1,5 +1,5 @@
-/// Metrics of one run: the columns of comparison.csv. A metric without meaning for the run's
-/// guidance is absent, never 0.
+/// Metrics of one run, which are the columns of comparison.csv and the cost of tuning. A metric
+/// that has no meaning for the guidance of the run is absent, never 0.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ struct Metrics {
   /// 0.1 %, m/s, >= 0.
   std::optional<double> speed_drop_mps;
   double speed_itae_m_s = 0.0;  ///< integral of t |u_d - u| (for tuning)
-  /// Largest sideslip |atan2(v, |u|)|, for driving forward and backward, at speeds above 0.05 m/s.
+  /// Largest sideslip |atan2(v, |u|)|, deg, while driving forward or backward above 0.05 m/s.
   double sideslip_max_deg = 0.0;
   double yaw_rate_max_degps = 0.0;  ///< largest |r|, deg/s
   /// Total variation of the commanded d_r/d_max, F'L/F'max and F'R/F'max, summed, per second.
@@ -49,8 +49,8 @@ struct Metrics {
   double steering_travel_deg = 0.0;      ///< total variation of the angle d_r
   double steering_rate_rms_degps = 0.0;  ///< RMS rate of the commanded angle (for tuning)
   /// Work that wears the tyres, over F_max, m. 3-DOF model: the work against yaw resistance and
-  /// scrub, integral of g3(r) r plus RunRow::tyre_power_mps. On tyres (Scenario::tyres): work of the
-  /// lateral tyre forces, integral of RunRow::tyre_power_mps.
+  /// scrub, integral of g3(r) r plus RunRow::tyre_power_mps. On tyres (Scenario::tyres): work of
+  /// the lateral tyre forces, integral of RunRow::tyre_power_mps.
   double tyre_work = 0.0;
   /// Electrical work of the motors, J; absent if the vehicle has no stall power.
   std::optional<double> electric_work_j;
@@ -62,6 +62,7 @@ struct Metrics {
 std::optional<double> electric_work_j(const Metrics& metrics, const Vehicle& vehicle,
                                       double mass_norm);
 
+/// The metrics of a run from its rows, of which there is at least one.
 Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<double>& controller);
 
 }  // namespace awmr

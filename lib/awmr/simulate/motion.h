@@ -1,6 +1,6 @@
-/// Forces on the vehicle over one sample: motor lag and battery, disturbances and slopes. Templates
-/// on the scalar: a double, or a batch with one run per lane (vehicle_steps.h). Private to this
-/// folder.
+/// Forces on the vehicle over one sample, from motor lag, battery, disturbances and slopes.
+/// Templates on the scalar: a double, or a batch with one run per lane (vehicle_steps.h). Private
+/// to this folder.
 #pragma once
 
 #include "awmr/model/resolved_steps.h"
@@ -47,8 +47,9 @@ WheelForces<T> at_all_wheels(const SideForces<T>& force, const T& rear_driven) {
   return {force.left, force.right, rear_driven * force.left, rear_driven * force.right};
 }
 
-/// Motor commands after the lag, with motors of command 0 switched off if they have back-EMF.
-/// Otherwise the rest of the lag would let such a motor brake (motor_force() in dynamics.h).
+/// The motor commands `arriving` after the lag. With back-EMF, a motor with the command 0 is
+/// switched off at once: with the rest of the lag as its drive, it would brake (motor_force() in
+/// dynamics.h).
 template <class T>
 SideForces<T> switched_off(const T& back_emf_s_per_m, const SideForces<T>& command,
                            const SideForces<T>& arriving) {
@@ -65,7 +66,8 @@ SideForces<T> up_to(const SideForces<T>& force, const T& most) {
   return {math::saturate(force.left, most), math::saturate(force.right, most)};
 }
 
-/// Scales both forces by the voltage s of a sagging battery, relative to the voltage without current:
+/// Scales both forces by the voltage s of a sagging battery, relative to the voltage without
+/// current:
 ///   s = 1 - rho sum c_i (s c_i - k_e w_i)
 ///     = (1 + rho k_e sum c_i w_i) / (1 + rho sum c_i^2)
 /// rho: Battery::sag; c_i: command F' of motor i, which is also the fraction of time in which PWM

@@ -1,4 +1,4 @@
-/// Functions that set up a closed loop, and that evaluate one sample of it. Private to this folder.
+/// Functions that set up a closed loop, and that evaluate its rows. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace awmr {
 /// Speed below which a vehicle that was commanded to stop counts as stopped.
 inline constexpr double kStopped_mps = 1e-3;
 
-/// The controller with the scenario's changes.
+/// The controller with the allocation form and the split that the scenario requests.
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller);
 
 /// Properties common to the controllers of the runs of a scenario; `controller` is any of them.

@@ -10,7 +10,8 @@ namespace {
 /// Radius of a shrunk disc over its distance from the point that it must exclude.
 constexpr double kShrunk = 1.0 - 1e-9;
 
-/// Twice the signed area of a, b, c.
+/// Twice the signed area of the triangle a, b, c; >= 0 if c is left of the line from a to b or on
+/// it.
 double turn(const Position<double>& a, const Position<double>& b, const Position<double>& c) {
   return (b.x_m - a.x_m) * (c.y_m - a.y_m) - (b.y_m - a.y_m) * (c.x_m - a.x_m);
 }

@@ -1,4 +1,4 @@
-/// Checks whether a passage between obstacles exists.
+/// Checks whether a passage between obstacles exists, before the vehicle drives to a target.
 #pragma once
 
 #include <vector>

@@ -24,8 +24,9 @@ double step_for_chord(const Resistance<double>& law, double inertia) {
   return relaxation_time_s(law, inertia, kChordSpeed);
 }
 
-/// Limits the command of a motor so that the magnitude of its force is at most `most`. With back-EMF
-/// and the rolling speed w, F' = e - k_e w (motor_force()), so the drive e = F' + k_e w is limited.
+/// Limits the command of a motor so that the magnitude of its force is at most `most`. With
+/// back-EMF and the rolling speed w, F' = e - k_e w (motor_force()), so the drive e = F' + k_e w is
+/// limited.
 double slipping(const Plant<double>& plant, double command, double wheel_mps, double most) {
   const double k = plant.back_emf_s_per_m;
   const double drive = beyond_dead_zone(command, plant.wheel_dead_zone);
@@ -42,9 +43,11 @@ double steps_of_sample(const Plant<double>& plant, bool on_tyres, double sample_
 
 }  // namespace
 
-/// The limit is the smallest of
-///   h <= T/6 for each time constant that does not depend on speed: sway (m'/a_s), servo, back-EMF
-/// and, so that a chord replaces a resistance only below kChordSpeed (rest_speed() solved for h),
+/// The step h is limited by each time constant T that does not depend on speed, of sway (m'/a_s),
+/// servo and back-EMF:
+///   h <= T/6
+/// It is also limited so that a chord replaces g1 or g3 only below kChordSpeed (rest_speed() solved
+/// for h):
 ///   h <= inertia kChordSpeed / g(kChordSpeed)
 StepLimit step_limit(const Plant<double>& plant, bool on_tyres) {
   StepLimit limit{plant.steering_time_constant_s / kStepsPerTimeConstant,

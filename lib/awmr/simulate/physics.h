@@ -1,5 +1,5 @@
-/// Motion of vehicles in the environment of a scenario, sample by sample: for the closed loop, and
-/// for an external controller (Physics), such as one on a chip.
+/// Simulates the motion of vehicles in the environment of a scenario, sample by sample: for the
+/// closed loop, and for an external controller (Physics), such as one on a chip.
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -53,17 +53,17 @@ MotorLag motor_lag(const std::optional<Actuators>& actuators, double sample_time
 /// Ratio of the largest force at `t_s` to F'max.
 double battery_share(const Battery& battery, double t_s);
 
-/// Rounds a command to the nearest step of the servo and count of the PWM. `force_max` is F'max of
-/// a wheel.
+/// Rounds the steering command to the nearest step of the servo, and the forces to the nearest
+/// count of the PWM. `force_max` is the force command that `pwm_counts` counts make.
 void quantise(const Actuators& actuators, double force_max, SideForces<double>& force,
               double& steering_command_rad);
 
-/// The plant with the chords through rest (rest.h) that steps of step_s seconds need; on tyres, with
-/// the chord of g1 at the wheels.
+/// The plant with the chords through rest (rest.h) that integration steps of step_s seconds need.
+/// On tyres, the chord of g1 is that for the speeds of the wheels.
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario, double step_s);
 
-/// Longest RK4 step that resolves the time constants which do not depend on speed, and the parameter
-/// that limits the step.
+/// Longest RK4 step that resolves the time constants which do not depend on speed, and the
+/// parameter that limits the step.
 struct StepLimit {
   double step_s = 0.0;
   ParameterId parameter{};
@@ -71,7 +71,7 @@ struct StepLimit {
 /// Computes the limit for a plant; with `on_tyres`, without g2 and g3, which the tyres replace.
 StepLimit step_limit(const Plant<double>& plant, bool on_tyres);
 
-/// Number of RK4 steps of a complete run.
+/// Number of RK4 steps of a run over the whole duration of the scenario.
 double steps_of_run(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
 /// Properties common to the vehicles of a scenario. set_up_vehicle() adds back-EMF, scrub and

@@ -33,14 +33,15 @@ bool is_admissible(ParameterId id, double value) {
   return !(is_exponent || info(id).term) || value >= 0.0;
 }
 
-/// Smallest relative position in a stratum: the quantile of probability 0 is infinite.
+/// Smallest relative position of a draw in its stratum, because the normal quantile of probability
+/// 0 is infinite.
 constexpr double kInsideStratum = 1e-6;
 
 /// The z with P(Z <= z) = p, Z standard normal, 0 < p < 1.
 double normal_quantile(double p) { return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * p); }
 
-/// y at x by linear interpolation between five points in ascending order of x, and extrapolation
-/// beyond them.
+/// The quantity whose quantiles are y, at the normal score x: linear interpolation between the five
+/// quantiles, and linear extrapolation beyond them.
 double interpolate(const Quantiles& y, double x) {
   std::size_t right = 1;
   while (right + 1 < kQuantileCount && x > kQuantiles[right].normal_score) ++right;

@@ -1,4 +1,4 @@
-/// Draws random plants from the uncertainty of a model.
+/// Draws random plants from the uncertainty of a model, for robust tuning and comparisons.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ inline constexpr double kGripShare = 0.25;
 /// method, with dp/dz = p for a logarithmic and 1 for a linear coordinate,
 ///   Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q).
 ///
-/// For an estimate with quantiles, the same normal numbers are transformed (a Gaussian copula): z is
-/// piecewise linear in the normal score, through the coordinates of the quantiles, and extrapolated
-/// beyond them. So the distribution of the parameter has the quantiles of model.json, and its rank
-/// correlations are those of C.
+/// For an estimate with quantiles, the same normal numbers are transformed (a Gaussian copula): z
+/// is piecewise linear in the normal score, through the coordinates of the quantiles, and
+/// extrapolated beyond them. So the distribution of the parameter has the quantiles of model.json,
+/// and its rank correlations are those of C.
 ///
-/// If the model has mass_norm_by_grip, the identified m' requires more grip than tyres have. Then in
-/// the fraction kGripShare of the draws, m' is raised to at least mass_norm_by_grip, and I'z by the
-/// same factor.
+/// If the model has mass_norm_by_grip, the identified m' requires more grip than tyres have. Then
+/// in the fraction kGripShare of the draws, m' is raised to at least mass_norm_by_grip, and I'z by
+/// the same factor.
 ///
 /// Exponents and optional terms of a resistance (Coulomb, quadratic, dead zone) must not be
 /// negative, because a resistance neither falls with speed nor drives the vehicle. All parameters
@@ -35,9 +35,9 @@ inline constexpr double kGripShare = 0.25;
 /// limit draws, because an estimate near an end of its range is uncertain on both sides.
 class PlantSampler {
  public:
-  /// A scrub of the model is drawn, too, with YawScrub::std_error_m and independently of the other
-  /// parameters. Errors (input): a parameter has no value; the covariance is missing or not positive
-  /// semi-definite.
+  /// A sampler for the model. The scrub moment, if the model has one, is drawn with
+  /// YawScrub::std_error_m, independently of the parameters. Errors (input): a parameter has no
+  /// value; the covariance is missing, has the wrong size, or is not positive semi-definite.
   static Result<PlantSampler> make(const Model& model);
 
   /// The plant with the number `sample` (>= 1). It depends only on seed and sample. Errors (input):
@@ -48,19 +48,19 @@ class PlantSampler {
 
   /// Latin hypercube of `count` draws, which are evenly distributed even if they are few. Each
   /// direction of the covariance has one draw in each of `count` strata of equal probability; the
-  /// seed determines the order and the position within a stratum. A draw with a negative exponent or
-  /// term is replaced by draw() with its number, from 1.
+  /// seed determines the order and the position within a stratum. A draw with a negative exponent
+  /// or term is replaced by draw() with its number, from 1.
   Result<std::vector<Plant<double>>> draw_evenly(std::uint64_t seed, int count) const;
 
-  /// The plant for given standard normals n, one for each parameter of the covariance:
-  /// z = centre + L n. Empty if an exponent or a term is negative there. m' is not raised to
-  /// mass_norm_by_grip.
+  /// The plant for given standard normals n, one for each parameter of the covariance, by
+  /// z = centre + L n or, with quantiles, by their interpolation. Empty if an exponent or a term is
+  /// negative there. m' is not raised to mass_norm_by_grip.
   std::optional<Plant<double>> plant_at(std::span<const double> normals) const;
-  /// Degrees of freedom k: the parameters are in |n| <= r with the probability that a chi-squared
+  /// Degrees of freedom k of the draws. |n| <= r holds with the probability that a chi-squared
   /// variable with k degrees of freedom is below r^2. Derived parameters (m' from a1, b1) do not
   /// count.
   int rank() const;
-  /// Orthonormal directions of n on which these parameters depend.
+  /// Orthonormal directions in the space of the normals n on which these parameters depend.
   std::vector<std::vector<double>> directions_of(std::span<const ParameterId> ids) const;
 
  private:
@@ -69,8 +69,8 @@ class PlantSampler {
   std::size_t normals_of_a_draw() const {
     return centre_.size() + (model_.mass_norm_by_grip ? 1 : 0);
   }
-  /// The model at these normals, those of a draw or of plant_at(); empty if an exponent or a term
-  /// is negative there.
+  /// The model for the normals of a draw or of plant_at(); empty if an exponent or a term is
+  /// negative there.
   std::optional<Model> model_at(std::span<const double> normals) const;
   /// The model with its scrub changed by `normal` standard errors; unchanged without scrub.
   Model with_scrub(Model drawn, double normal) const;

@@ -1,4 +1,5 @@
-/// The position that the guidance of a run uses, from its sensors. Private to this folder.
+/// Computes the position that the guidance of a run uses from the sensors of the run. Private to
+/// this folder.
 #pragma once
 
 #include <cmath>

@@ -3,8 +3,8 @@
 /// sixteen runs is lanes::Row. Private to this folder.
 ///
 /// A step of the loop (vehicle_steps.h, loop_steps.h) is a template on a view of the rows. The view
-/// has a scalar type T, a double or a register of doubles. `view(rows)` loads State<Row> as State<T>,
-/// and `view.store()` writes it back.
+/// has a scalar type T (View::Number), a double or a batch of doubles. For example, `view(rows)`
+/// loads State<Row> as State<T>, and `view.store()` writes it back.
 #pragma once
 
 #include <cstddef>

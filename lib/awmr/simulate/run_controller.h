@@ -1,6 +1,6 @@
-/// The simulated controller for a given reference: control laws (or LQI, constant thrust, open
-/// loop), disturbance observer, allocation and motor commands. Templates for a single run and for a
-/// register of runs. Private to this folder.
+/// The simulated controller of a run, for a given reference: control laws (or LQI, constant thrust,
+/// open loop), disturbance observer, allocation and motor commands. Templates for a single run and
+/// for a batch of runs. Private to this folder.
 #pragma once
 
 #include "awmr/control/control_step.h"
@@ -45,7 +45,7 @@ template <class T>
 struct RunCommand {
   T tau_speed;          ///< as in Command
   T tau_turn_m;         ///< as in Command
-  SideForces<T> force;  ///< of the motors, with dead zone and back-EMF
+  SideForces<T> force;  ///< motor commands that compensate dead zone and back-EMF
   T steering_rad;
 };
 

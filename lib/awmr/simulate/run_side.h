@@ -16,12 +16,14 @@ namespace awmr {
 /// The name of the CSV with `.json` appended.
 std::filesystem::path run_side_path(const std::filesystem::path& csv);
 
-/// Content of the side file: `provenance`, the SHA-256 of `csv`, the keys of the JSON object
-/// `figures`, the findings. Precondition: `figures` is empty, or has none of the other keys.
+/// Content of the side file: `provenance`, the SHA-256 of the text `csv`, the keys of the JSON
+/// object in the text `figures`, and the findings. Precondition: `figures` is empty, or has none of
+/// the other keys.
 std::string run_side_text(std::string_view csv, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);
 
-/// Errors (input): a file with this name exists and is not the side file of a run.
+/// Checks that `side` may be written. Errors (input): a file with this name exists and is not the
+/// side file of a run.
 Status check_run_side(const std::filesystem::path& side);
 
 /// The JSON Schema of the side file.

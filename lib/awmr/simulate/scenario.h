@@ -23,7 +23,8 @@
 
 namespace awmr {
 
-/// Open loop: constant generalised forces, which are allocated and limited as in the mode.
+/// Open loop: constant generalised forces, which the allocation of the yaw mode limits and converts
+/// to commands.
 struct OpenLoop {
   double tau_speed = 0.0;   ///< thrust over F_max, dimensionless, forward positive
   double tau_turn_m = 0.0;  ///< yaw moment over F_max, m, counter-clockwise positive
@@ -72,8 +73,8 @@ struct LinePath {
   std::optional<double> slow_down_m;  ///< as in WaypointPath, along the last segment
 };
 
-/// A path as a function of time. With the scenario's speed_mps 0, the commanded speed is that of the
-/// path; else it is speed_mps (only without position feedback).
+/// A path as a function of time. With the scenario's speed_mps 0, the commanded speed is that of
+/// the path; else it is speed_mps (only without position feedback).
 struct LissajousPath {
   Lissajous<double> path{};
   bool closed_loop = false;          ///< with position feedback
@@ -144,29 +145,29 @@ struct HeadingStepsOptions {
 Scenario heading_steps(const std::vector<double>& headings_deg,
                        const HeadingStepsOptions& options = {});
 
-/// A key of the scenario that must not be used together with tyres.
+/// A key of the scenario that is invalid together with `tyres`.
 struct TyreConflict {
   std::string key;
   std::string message;  ///< the reason and the remedy
 };
 std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario);
 
-/// Errors (input): the scenario has tyres together with a key that has no meaning on tyres.
+/// Errors (input): the scenario has tyres and one of tyre_conflicts().
 Status check_tyres(const Scenario& scenario);
 
-/// Errors (input): the scenario cannot run with this model: as check_tyres and check_observer_rate;
-/// an LQI law that is unstable at the sample time.
+/// Checks that the scenario can run with this model. Errors (input): as check_tyres and
+/// check_observer_rate; an LQI law that is unstable at the vehicle's sample time.
 Status check_scenario(const Scenario& scenario, const Model& model);
 
-/// Description of the plant: "model", or "four-wheel, friction 0.8, ..." with the numbers of the
-/// tyres.
+/// Description of the simulated plant: "model", or "four-wheel, friction 0.8, ..." with the numbers
+/// of the tyres.
 std::string plant_text(const Scenario& scenario);
 
-/// The model with the scenario's corner parameters at the ends of their 95 % intervals.
+/// The model with each parameter of Scenario::corner set to the end of its 95 % interval.
 /// Errors (input): a parameter of the corner has no interval.
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
-/// The plant of model_at_corner(). Errors (input): as model_at_corner, check_scenario, Model::plant
-/// and check_work (in simulate.h).
+/// The plant of model_at_corner() for this motion. Errors (input): as model_at_corner,
+/// check_scenario, Model::plant and check_work (in simulate.h).
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
                                 Motion motion = Motion::kPlanar);
 

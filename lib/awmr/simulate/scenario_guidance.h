@@ -22,10 +22,10 @@ struct GuidanceOutput {
   Reference<double> reference{};
   PathRow path;
   bool finished = false;    ///< the end of the route is reached
-  bool no_passage = false;  ///< obstacles block the way
+  bool no_passage = false;  ///< obstacles block every way to the target
 };
 
-/// PathFollower that stores the path's point of the last step.
+/// PathFollower that also stores the point of the path at the last step.
 struct TimedPathFollower : PathFollower<double, double> {
   PathPoint<double> point{};
 };

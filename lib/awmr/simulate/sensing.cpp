@@ -103,8 +103,8 @@ Sensed Sensing::at(std::size_t k, const State<double>& truth) {
   return sensed;
 }
 
-/// Gives the last fix that has arrived. Before the first fix, it gives the true initial position, as
-/// if taken one period before the start.
+/// Sets the measured position to the last fix that has arrived. Before the first fix, this is the
+/// true initial position, as if it was taken one period before the start.
 void Sensing::receive_fixes(std::size_t k, const State<double>& truth, Sensed& sensed) {
   const Gps& gps = *sensors_->gps;
   true_m_.push_back({truth.x_m, truth.y_m});

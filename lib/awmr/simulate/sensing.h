@@ -17,7 +17,7 @@ namespace awmr {
 /// Measurements of one sample.
 struct Sensed {
   Measurement<double> motion;
-  Position<double> position_m;  ///< the true position; with a GPS, the last fix
+  Position<double> position_m;  ///< with a GPS, the last fix; else the true position
   double fix_taken_s = 0.0;     ///< time at which the last fix was taken
   bool is_fix_new = false;      ///< the last fix arrived after the previous sample
 };
@@ -52,8 +52,8 @@ class Sensing {
     Random random;
     const std::vector<double>* normals;  ///< w_k by sample; null: drawn from `random`
   };
-  /// The true quantity at the time of the k-th sample minus the latency, interpolated linearly
-  /// between samples. Before the first sample it has the value of the first.
+  /// The true value of the quantity at the time of the k-th sample minus the latency, interpolated
+  /// linearly between samples. Before the first sample, it is the value of the first sample.
   double truth_at(std::size_t k, const Sensor& sensor, double Measurement<double>::*quantity) const;
 
   std::optional<Sensors> sensors_;

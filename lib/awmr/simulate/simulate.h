@@ -1,5 +1,5 @@
-/// Simulation of one run in closed loop. The command of the controller is constant over each sample,
-/// during which the plant is integrated by RK4 steps.
+/// Simulation of one run in closed loop. The command of the controller is constant over each
+/// sample, during which the plant is integrated by RK4 steps.
 #pragma once
 
 #include <cstdint>
@@ -25,14 +25,15 @@ struct PathRow {
   int leg = 0;                  ///< index of the waypoint or segment
 };
 
-/// The state at t and the command computed from it, which is constant until the next row.
+/// One row of a run: the state at the time t, and the command computed at t, which is constant
+/// until the next row.
 struct RunRow {
   double t_s = 0.0;
   State<double> state{};
   SideForces<double> force{};         ///< commanded forces, over F_max
   double steering_command_rad = 0.0;  ///< d_ro: commanded steering angle, rad, left positive
-  double tau_speed = 0.0;             ///< requested by the law, before any limit
-  double tau_turn_m = 0.0;            ///< requested by the law, before any limit
+  double tau_speed = 0.0;             ///< thrust requested by the speed law, before any limit
+  double tau_turn_m = 0.0;            ///< yaw moment requested by the heading law, before any limit
   double psi_ref_rad = 0.0;           ///< psi_d: heading reference of the law; 0 in open loop
   double u_ref_mps = 0.0;             ///< u_d: speed reference of the law; 0 in open loop
   PathRow path = {};
@@ -42,18 +43,18 @@ struct RunRow {
   /// Distance from the vehicle's circle to the nearest obstacle; < 0 if they overlap; 0 without
   /// obstacles.
   double clearance_m = 0.0;
-  /// Power dissipated by the lateral tyre forces, over F_max, m/s. In the 3-DOF model: by scrub only,
-  /// without g3.
+  /// Power dissipated by the lateral tyre forces, over F_max, m/s. In the 3-DOF model: by scrub
+  /// only, without g3.
   double tyre_power_mps = 0.0;
-  /// Mean wheel forces over the sample that ends here, over F_max, after motor lag, battery, faults
-  /// and ground. 0 in the first row.
+  /// Mean wheel forces over the sample that ends at this row, over F_max, after motor lag, battery,
+  /// faults and slippery ground; dead zone and back-EMF are not subtracted. 0 in the first row.
   WheelForces<double> acting = {0.0, 0.0, 0.0, 0.0};
 };
 
 /// End of a run.
 enum class RunEnd {
   kDuration,   ///< the scenario's duration is over
-  kFinished,   ///< the last waypoint was reached, or the end of the line
+  kFinished,   ///< the last waypoint or the end of the line was reached
   kNoPassage,  ///< obstacles block the way to the guidance target: the vehicle stopped
   /// Failed early, without a valid result (see failure_of): a number was not finite, no step was
   /// short enough for the motion, or the run exceeds kMostRows or kMostSteps.
@@ -86,8 +87,8 @@ inline constexpr double kMostRows = 2e6;
 inline constexpr double kMostSteps = 1e8;
 inline constexpr int kMostSubsteps = 100'000'000;
 
-/// RK4 steps per sample that resolve the smallest time constant of the plant which does not depend
-/// on speed (see physics.cpp), at most kMostSubsteps.
+/// Number of RK4 steps per sample that resolve the time constants of the plant which do not depend
+/// on speed (step_limit() in physics.h), at most kMostSubsteps.
 int substeps_for(const Plant<double>& plant, double sample_time_s);
 /// As above, for a scenario: its tyres, if any, replace some resistances of the plant.
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
@@ -98,9 +99,9 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
                                    const Gains<double>& gains,
                                    CombinedSplit split = CombinedSplit::kRedistribute);
 
-/// A controller with the values of the model, which a scenario's corner does not change. If the
-/// model only has parameters for straight motion, a controller for straight motion. Errors (input):
-/// as Model::plant and check_observer_rate.
+/// A controller with the values of the model. A scenario's corner does not change them. If the
+/// model only has parameters for straight motion, so has the controller. Errors (input): as
+/// Model::plant and check_observer_rate.
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
 
 /// Simulates the model with the controller of controller_for(), at the vehicle's sample time. The
@@ -118,8 +119,9 @@ Status check_work(const Plant<double>& plant, const std::string& model_file,
 /// Errors (input): the run ended as kFailed; the message has the time and the speeds.
 Status failure_of(const Run& run, const Scenario& scenario);
 
-/// Simulates the given plant and controller. There is at least one row. RunEnd::kFailed: the run
-/// could not continue. Does not apply the scenario's corner: see plant_for.
+/// Simulates the given plant and controller. The result has at least one row. Its end is
+/// RunEnd::kFailed if the run could not continue. The scenario's corner is not applied: see
+/// plant_for.
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,
              const Scenario& scenario, YawMode mode, const SimulateOptions& options);
 

@@ -61,8 +61,8 @@ void note_speed(const Scenario& scenario, const Model& model, std::vector<Findin
                                   scenario.name, scenario.speed_mps, needed, std::max(most, 0.0))});
 }
 
-/// Yaw rate, deg/s, after 10 s of open loop with half of the largest thrust and the moment
-/// tau_turn_m; on `tyres` if given.
+/// Magnitude of the yaw rate, deg/s, after 10 s of open loop with half of the largest thrust and
+/// the moment tau_turn_m; on `tyres` if given.
 double turned_degps(const Model& model, double tau_turn_m,
                     const std::optional<Tyres<double>>& tyres) {
   Scenario turn;

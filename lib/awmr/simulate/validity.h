@@ -1,5 +1,6 @@
-/// Warnings about a simulation: turns faster than those of the trials, requests that the vehicle
-/// cannot meet, parameters without an interval. Also the limit of heading rates.
+/// Warnings about a simulation (turns faster than the measured ones, requests that the vehicle
+/// cannot meet, parameters without an interval), and the limit of heading rates that avoids the
+/// first.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +16,9 @@
 
 namespace awmr {
 
-/// Warning `tyres-differ`: with the scenario's tyres, the vehicle turns at least 1.5 times as fast or
-/// as slowly as in the model, under the moment of the highest measured yaw rate.
+/// Warning `tyres-differ`: with the yaw moment that makes the model turn at the highest measured
+/// yaw rate, the vehicle on the scenario's tyres turns more than 1.5 times as fast or as slowly.
+/// None without tyres or without a measured yaw rate.
 std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model);
 
 /// Warning `no-interval`: some fitted parameters have no interval, so sampled plants do not vary
@@ -29,25 +31,25 @@ std::optional<Finding> missing_intervals(const Model& model);
 std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model);
 
 /// Warning `unsigned-speed-runs-away`: with a speed sensor without a sign, such as a GPS, the speed
-/// law would accelerate a vehicle that rolls backward. This is so if m' mu_s sat(u/eps_s) > g1(u) at a
-/// speed that the vehicle can reach. `file`: the file of the gains.
+/// law would accelerate a vehicle that rolls backward. This is so if m' mu_s sat(u/eps_s) > g1(u)
+/// at a speed that the vehicle can reach. `file`: the file of the gains.
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,
                                               const Gains<double>& gains, double force_max,
                                               const std::string& file);
 
 /// Limits the rate of heading commands to `limit_degps`, > 0, by a filter with the bandwidth
-/// kShapingBandwidth_radps (control/guidance/heading_shaping.h). If the scenario has a filter, it
-/// keeps its bandwidth and gets the smaller of both limits. No effect in open loop.
+/// kShapingBandwidth_radps (control/guidance/heading_shaping.h). A filter that the scenario already
+/// has keeps its bandwidth and gets the smaller of the two rate limits. No effect in open loop.
 void limit_heading_rate(double limit_degps, Scenario& scenario);
 inline constexpr double kShapingBandwidth_radps = 4.0;
 
-/// Value of the option --heading-rate-limit: deg/s from 0.1 to 3600, "measured" (the highest yaw
-/// rate of the turning trials) or "none"; empty: the option is not given.
+/// Value of the option --heading-rate-limit: deg/s from 0.1 to 3600, "measured" (the highest
+/// measured yaw rate, measured_yaw_rate_degps()) or "none"; empty: the option is not given.
 using HeadingRateChoice = std::string;
 inline constexpr Interval kLeadRates_degps{0.1, 3600.0};
 inline constexpr const char* kMeasuredRate = "measured";
 inline constexpr const char* kNoRate = "none";
-/// Key of the choice in the recorded options of an output.
+/// Key of the heading rate limit among the options that an output file records.
 inline constexpr const char* kRateName = "heading_rate_limit";
 
 /// The message for an invalid choice; empty for a valid one.
@@ -74,8 +76,8 @@ std::optional<Finding> extrapolation_finding(const std::string& file, double mea
                                              bool is_rate_limited);
 
 /// Adds extrapolation_finding() with the highest measured yaw rate of the model, if there is one.
-/// `where`: name of the run, such as "C3, combined". `is_rate_limited`: the rate of heading commands
-/// was limited to the measured rate, so the vehicle turns faster than commanded.
+/// `where`: name of the run, such as "C3, combined". `is_rate_limited`: the rate of heading
+/// commands was limited to the measured rate, so the vehicle turns faster than commanded.
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
                         std::vector<Finding>& findings, bool is_rate_limited = false);
 

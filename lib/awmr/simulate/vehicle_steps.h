@@ -1,5 +1,5 @@
-/// Vehicles of runs that are simulated together: steps on rows (row_view.h) from the commands
-/// through motors and battery to the motion. Private to this folder.
+/// Steps that compute the vehicles of runs that are simulated together, on rows (row_view.h): from
+/// the commands through motors and battery to the motion. Private to this folder.
 #pragma once
 
 #include "awmr/simulate/motion.h"
@@ -50,7 +50,7 @@ struct Vehicles {
   Row tyre_power_mps;  ///< RunRow::tyre_power_mps
 };
 
-/// Steps of a sample for one type of row. Runs that are not active do not change.
+/// Steps of a sample for one type of row. The motion of a run that is not active does not change.
 template <class Row>
 struct VehicleSteps {
   /// Computes `tyre_power_mps` from the commands.
@@ -64,7 +64,7 @@ struct VehicleSteps {
 
 namespace steps {
 
-/// The moving body: the 3-DOF plant, or its body on tyres.
+/// The body whose motion is integrated: the 3-DOF plant, or the same vehicle on tyres.
 template <bool kIsOnTyres, class View, class Row>
 decltype(auto) body_of(const View& view, const Vehicles<Row>& v) {
   using T = typename View::Number;
@@ -77,7 +77,7 @@ decltype(auto) body_of(const View& view, const Vehicles<Row>& v) {
   }
 }
 
-/// The forces for RunRow::acting.
+/// The wheel forces that RunRow::acting reports.
 template <class View, class Row>
 WheelForces<typename View::Number> acting_forces(const View& view, const Vehicles<Row>& v) {
   if (v.setup.is_by_wheel) return view(v.wheels);
@@ -167,8 +167,8 @@ void move_alone(const View& view, Vehicles<Row>& v,
           __attribute__((always_inline)) { return side_driven_rates(plant, at, force, command); });
 }
 
-/// Integrates the vehicles with rates that have only the terms which any vehicle needs, because a
-/// branch inside the rates would stall the processor in every step.
+/// Integrates the vehicles. The rates of the state contain only the terms that at least one vehicle
+/// of the block needs, because a branch inside the rates would stall the processor in every step.
 template <class View, class Row>
 void move(const View& view, Vehicles<Row>& v) {
   using T = typename View::Number;

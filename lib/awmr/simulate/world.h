@@ -37,7 +37,7 @@ struct Window {
 struct DisturbanceTerm {
   enum class Kind { kConstant, kSine, kNoise };
   Kind kind = Kind::kConstant;
-  /// kConstant: the value; kSine: the amplitude; kNoise: the standard deviation. Its sign matters.
+  /// kConstant: the value, with its sign; kSine: the amplitude; kNoise: the standard deviation.
   double value = 0.0;
   Window window;                    ///< a step is a constant with from_s > 0
   double frequency_hz = 0.0;        ///< kSine: frequency, > 0
@@ -60,7 +60,7 @@ struct Disturbance {
   bool any() const { return slope || !surge.empty() || !sway.empty() || !yaw.empty(); }
 };
 
-/// The four driven wheels.
+/// The four wheels.
 enum class Wheel { kFrontLeft, kFrontRight, kRearLeft, kRearRight };
 
 /// Fault of motors, which make only a fraction of the requested force.
@@ -92,7 +92,7 @@ struct Battery {
 /// Errors of one sensor, in the unit of its reading.
 struct Channel {
   double noise = 0.0;      ///< >= 0: standard deviation
-  double bias = 0.0;       ///< constant over a run; its sign matters
+  double bias = 0.0;       ///< added to each reading; constant over a run
   double quantum = 0.0;    ///< >= 0: step of the reading; 0: none
   double latency_s = 0.0;  ///< >= 0: latency of a reading
   /// tau, s, >= 0: correlation time of the noise. Two readings t seconds apart have errors with the
@@ -100,7 +100,8 @@ struct Channel {
   double correlation_s = 0.0;
 };
 
-/// Correlation exp(-t/tau) of two errors of a sensor that are t = `apart_s` > 0 apart; 0 if tau is 0.
+/// Correlation exp(-t/tau) of two errors of a sensor that are t = `apart_s` > 0 apart; 0 if tau is
+/// 0.
 inline double noise_correlation(double correlation_s, double apart_s) {
   return correlation_s > 0.0 ? std::exp(-apart_s / correlation_s) : 0.0;
 }
@@ -124,7 +125,7 @@ struct Sensors {
   std::optional<Gps> gps;    ///< absent: the true position
 };
 
-/// Actuators between the commands and the wheels.
+/// Resolution and lag of the actuators between the commands and the wheels.
 struct Actuators {
   double steering_quantum_rad = 0.0;  ///< one step of the servo's pulse; 0: any angle
   int pwm_counts = 0;                 ///< counts for the force F'max; 0: any force
@@ -145,8 +146,8 @@ struct ControlOptions {
     double bandwidth_radps = 0.0;  ///< L of DisturbanceObserver, > 0
     double yaw_max_m = 0.0;        ///< largest estimated disturbance: moment over F_max, m, > 0
     double surge_max = 0.0;  ///< largest estimated disturbance in surge: force over F_max, > 0
-    /// true: the observer uses the command after the limits. false: it uses the command before them,
-    /// so that a saturated actuator looks like a disturbance and the estimate winds up.
+    /// true: the observer uses the command after the limits. false: it uses the command before
+    /// them, so that a saturated actuator looks like a disturbance and the estimate winds up.
     bool anti_windup = true;
   };
   std::optional<Observer> observer;

@@ -184,8 +184,8 @@ enum class HeadingLaw { kSlidingMode, kLqi };
 constexpr NameTable<HeadingLaw, 2> kHeadingLaws{
     {{"sliding_mode", HeadingLaw::kSlidingMode}, {"lqi", HeadingLaw::kLqi}}};
 
-// Ranges of the LQI weights: up to values above any sensor's range, and only such for which the
-// gains are finite.
+// Ranges of the LQI weights. The largest values exceed any sensor's range, and the gains are finite
+// within the ranges.
 constexpr NumberRule kLqiHeading_deg{.min = 1e-3, .max = 180.0};
 constexpr NumberRule kLqiYawRate_degps{.min = 1e-3, .max = 1e5};
 constexpr NumberRule kLqiIntegral_deg_s{.min = 1e-3, .max = 1e6};

@@ -57,7 +57,7 @@ struct Lanes {
   }
 };
 
-/// Applies f to the registers at each position.
+/// Calls f with the i-th register of each operand, for each i.
 template <class Result = Lanes, class F, class... Operands>
 AWMR_LANE_INLINE Result by_register(const F& f, const Operands&... operands) {
   Result result;
