@@ -99,7 +99,7 @@ TEST(Sensitivity, OfTheTunedLoopNamesWhatWasAssumed) {
   ASSERT_TRUE(tuning->robust->sensitivity);
   const GlobalSensitivity& found = *tuning->robust->sensitivity;
   EXPECT_EQ(found.figures.size(), 3U * std::size(kYawModes));
-  EXPECT_EQ(found.inputs.back(), "the noise itself");
+  EXPECT_EQ(found.inputs.back(), "noise realisation");
   for (const SensitiveFigure& figure : found.figures) {
     ASSERT_EQ(figure.by_input.size(), found.inputs.size());
     double totals = 0.0;

@@ -44,8 +44,8 @@ SetPoint random_direction(std::size_t size, Random& random) {
   return direction;
 }
 
-/// Centre, ends of the axes and corners, each at kPlaces yaw rates; then random points in the ball
-/// and on its surface.
+/// First points of the search: centre, ends of the axes and corners, each at kPlaces yaw rates;
+/// then random points in the ball and on its surface.
 std::vector<SetPoint> first_points(std::size_t dimension, Random& random) {
   constexpr int kPlaces = 5;
   constexpr int kRandomPoints = 500;
@@ -85,8 +85,8 @@ struct ValuedPoint {
 };
 using PointFunction = std::function<double(const SetPoint&)>;
 
-/// Pattern search from `best`: steps along the axes and along as many random directions. The step is
-/// halved if none of them decreases the function.
+/// Pattern search from `best`: steps along the axes and along as many random directions. The step
+/// is halved if none of them decreases the function.
 ValuedPoint search_by_pattern(ValuedPoint best, const PointFunction& value, Random& random) {
   constexpr double kFirstPatternStep = 0.25;
   constexpr double kLastPatternStep = 5e-4;
@@ -115,8 +115,8 @@ ValuedPoint search_by_pattern(ValuedPoint best, const PointFunction& value, Rand
   return best;
 }
 
-/// The point with the smallest value in each orthant of the ball: starts of the pattern search,
-/// because the function can have several local minima.
+/// The point with the smallest value in each orthant of the ball. The pattern search starts from
+/// each of these points, because the function can have several local minima.
 std::vector<ValuedPoint> best_by_orthant(std::vector<ValuedPoint> points) {
   std::map<unsigned, ValuedPoint> best;
   for (ValuedPoint& one : points) {

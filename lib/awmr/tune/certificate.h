@@ -1,5 +1,5 @@
-/// Worst-case damping and delay margin of the heading loop over the model's confidence set. Private
-/// to tune/.
+/// Computes the worst-case damping and delay margin of the heading loop over the model's confidence
+/// set. Private to tune/.
 #pragma once
 
 #include <optional>
@@ -22,8 +22,8 @@ namespace awmr {
 ///     distribution with PlantSampler::rank() degrees of freedom;
 ///   - all yaw rates in examined_rates_radps();
 ///   - the mass factors of `open`.
-/// Without a covariance, only the model's own plant is examined. The heading law uses the context's
-/// plant.
+/// Without a covariance, only the identified plant is examined. The heading law always uses the
+/// identified plant, `context.plant`.
 ///
 /// Each minimum is found by search: first the centre, the axes and the corners at five yaw rates
 /// and 500 random points; then a pattern search from the best point of each orthant of the
@@ -33,20 +33,22 @@ namespace awmr {
 Result<Certificate> certify(const Model& model, const ConstraintContext& context,
                             const UnmodelledVariation& open, const Gains<double>& gains);
 
-/// Accepted error of the search: relative for a delay margin, absolute for a damping ratio.
+/// Accepted error of the minima that the search finds: relative for a delay margin, absolute for a
+/// damping ratio.
 inline constexpr double kCertificateTolerance = 2e-3;
 
 /// 95 % confidence set of the plant parameters on which the heading loop depends.
 class ConfidenceSet {
  public:
+  /// Errors (input): as PlantSampler::make.
   static Result<ConfidenceSet> make(const Model& model);
 
   /// Dimension of the set, 0 ... 5.
   std::size_t dimension() const { return directions_.size(); }
   int parameters() const { return parameters_; }
   int rank() const { return sampler_ ? sampler_->rank() : 0; }
-  /// The plant at a point of the unit ball, which is mapped to the ellipsoid; the centre is the
-  /// model's own plant. Empty if an exponent or a term of the plant is negative.
+  /// The plant at a point of the unit ball, which is mapped to the confidence ellipsoid; the centre
+  /// is the identified plant. Empty if an exponent or a term of the plant is negative.
   std::optional<Plant<double>> plant_at(std::span<const double> point) const;
 
  private:

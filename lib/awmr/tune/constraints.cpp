@@ -107,7 +107,8 @@ double heading_damping(const Gains<double>& gains, const ConstraintContext& cont
   return worst;
 }
 
-/// Constraints that are evaluated for a single vehicle.
+/// The constraints that are evaluated for one vehicle at a time (all except late damping, delay
+/// margin and steering rate).
 std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
                                                const ConstraintContext& context,
                                                const DrawnVehicle& vehicle);
@@ -129,7 +130,7 @@ Moments moments_m(const DrawnVehicle& vehicle, double speed_mps) {
                           std::min(vehicle.wheel_force.hi - held, held - vehicle.wheel_force.lo)};
 }
 
-/// -margin/max(|value|, |limit|); > 0: the constraint is violated.
+/// Residual of a constraint, -margin/max(|value|, |limit|); > 0: the constraint is violated.
 double residual(const ConstraintReport& c) {
   const double scale = std::max({std::abs(c.value), std::abs(c.limit), 1e-12});
   return -c.margin / scale;
@@ -244,8 +245,8 @@ double mean_of_correlated(const W& w, double rho) {
   return mean;
 }
 
-/// Standard normal distribution. Not that of core/distributions.h, because it needs Boost.Math, which
-/// the report's WebAssembly build does not have.
+/// Standard normal distribution function. Do not replace it by that of core/distributions.h, which
+/// needs Boost.Math: the report's WebAssembly build does not have Boost.Math.
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 double normal_density(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * pi<double>()); }
 
@@ -260,8 +261,8 @@ double mean_saturated(double m, double s) {
 /// Part of E[w^2] in steering_rate_rms_degps() due to the friction that the heading law feeds
 /// forward at rest, (rad/s^2)^2. With w0 = rest_speed, the fed-forward friction is
 ///   b = B if |n| < w0, else 0,   B = g3(w0)/I'z sat(-lambda n_psi/w0)
-/// n and n_psi, the noise of yaw rate and heading, are independent; ' marks the next sample. The part
-/// is half the mean square change of b from one sample to the next,
+/// n and n_psi, the noise of yaw rate and heading, are independent; ' marks the next sample. The
+/// part is half the mean square change of b from one sample to the next,
 ///   E[b^2] - E[b b'] = P(|n| < w0) E[B^2] - P(|n| < w0, |n'| < w0) E[B B'],
 /// plus the cross term of b with -lambda k n_psi.
 double resting_mean_square(const Resistance<double>& g3, const Gains<double>& gains,

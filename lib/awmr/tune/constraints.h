@@ -13,15 +13,17 @@ namespace awmr {
 
 /// Largest latency, in samples, for which the damping is computed.
 inline constexpr int kMostLatencySamples = 20;
-/// Share of the modelled resistance that the corrective terms must exceed. It is larger than the
-/// model error that validate accepts by default on the trials (0.15).
+/// Share of the modelled resistance that mu I'z and mu_s m' must exceed. It is larger than the
+/// model error on the trials that `awmr validate` accepts by default (0.15).
 inline constexpr double kUnmodelledShare = 0.2;
 inline constexpr const char* kSteeringRate = "steering rate";
-/// Largest (mu_s/eps_s) T_s. The sampled speed loop is unstable from 2 on, so its gain margin is 4.
+/// Largest permitted (mu_s/eps_s) T_s. The sampled speed loop is unstable from 2 on, so the gain
+/// margin is at least 4.
 inline constexpr double kSpeedGainPerSample = 0.5;
 
-/// Yaw rates at which the heading loop is examined, as fractions of the highest rate of the runs.
-/// Lower rates than kSlowest_radps are replaced by it: sensors cannot distinguish them from rest.
+/// Yaw rates at which the heading loop is examined, as fractions of the highest expected yaw rate
+/// of the runs. Rates below kSlowest_radps, which sensors cannot distinguish from rest, are raised
+/// to it.
 inline constexpr double kRateShares[] = {1.0 / 60.0, 1.0 / 12.0, 1.0 / 3.0, 1.0};
 inline constexpr double kSlowest_radps = radians(1.0);
 
@@ -29,7 +31,7 @@ inline constexpr double kSlowest_radps = radians(1.0);
 struct ConstraintContext {
   ReachingForm form = ReachingForm::kStrict;  ///< the form of T2 < T1 that is required
   double margin = 0.8;                        ///< reaching time constant <= margin T1, in (0, 1)
-  Plant<double> plant{};                      ///< the model's own values, which the controller uses
+  Plant<double> plant{};                      ///< the identified plant, which the controller uses
   bool has_steering = true;              ///< false: only wheel-force differences turn the vehicle
   std::optional<YawMode> mode = {};      ///< the only mode; absent: all modes of the vehicle
   double sample_time_s = 0.01;           ///< T_s, > 0
@@ -42,23 +44,23 @@ struct ConstraintContext {
   double yaw_rate_noise_radps = radians(0.5);  ///< standard deviation, >= 0
   double heading_correlation = 0.0;   ///< correlation of the noise at two samples T_s apart, [0, 1)
   double yaw_rate_correlation = 0.0;  ///< the same for the yaw rate
-  double latency_s = 0.0;             ///< of heading and yaw rate, >= 0
-  double motor_time_constant_s = 0.0;    ///< >= 0
-  std::vector<DrawnVehicle> draws = {};  ///< drawn vehicles, which must meet them too
+  double latency_s = 0.0;             ///< of the readings of heading and yaw rate, s, >= 0
+  double motor_time_constant_s = 0.0;    ///< first-order lag of the motors, s, >= 0
+  std::vector<DrawnVehicle> draws = {};  ///< drawn vehicles, which must meet the constraints, too
 
-  /// The nominal vehicle.
+  /// The nominal vehicle: the identified plant with the vehicle's own wheel forces.
   DrawnVehicle own() const { return {plant, wheel_force}; }
-  /// Whether the servo acts in any of the modes.
+  /// True if the servo acts in any of the modes.
   bool steers() const { return has_steering && mode != YawMode::kDifferential; }
 };
 
-/// Largest tau_turn at steady speed u_d, m, of the weaker of the modes steering and differential, or
-/// of `mode` if it is one of these two. A mode without any moment at that speed (steering at rest)
-/// is ignored.
+/// Largest tau_turn at steady speed u_d, m, of the weaker of the modes steering and differential,
+/// or of `mode` if it is one of these two. A mode without any moment at that speed (steering at
+/// rest) is ignored.
 ///   steering      l_f g1(u_d) tan(d_max/2)
 ///   differential  4 d min(F'max - g1/4, g1/4 - F'min)
-/// Front-wheel drive: tan(d_max) replaces tan(d_max/2), and 2 driven wheels replace 4. With
-/// back-EMF, k_e u_d is added to g1/4.
+/// With front-wheel drive, tan(d_max) replaces tan(d_max/2), and 2 replaces each 4. With back-EMF,
+/// k_e u_d is added to g1/4.
 double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps,
                            std::optional<YawMode> mode = {});
 
@@ -73,26 +75,27 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 ///   delay margin       the same with motor lag and twice the latency plus T_s >= delayed_damping
 ///   speed gain         (mu_s/eps_s) T_s <= 0.5
 ///   speed lag          (mu_s/eps_s) (T + T_s/2) <= 1/(4 zeta^2)
-///   mu dominates       mu >= 0.2 g3(r)/I'z, g3 the plant's, r the highest rate         [paper (88)]
+///   mu dominates       mu >= 0.2 g3(r)/I'z, g3 the plant's, r the highest yaw rate    [paper (88)]
 ///   mu_s dominates     mu_s >= 0.2 g1(u_d)/m', g1 the plant's                        [paper (102)]
 ///   noise gain         I'z lambda (mu/eps) sigma <= noise_share turning_authority_m(),
 ///                      sigma: standard deviation of the heading noise
 ///   steering rate      steering_rate_rms_degps() <= the limit, if any
-/// damping, late_damping, delayed_damping, noise_share and zeta = damping are those of TuningLimits.
+/// damping, late_damping, delayed_damping, noise_share and zeta = damping are those of
+/// TuningLimits.
 ///
-/// Each constraint is reported for the vehicle that is nearest to the limit, or violates it most:
-/// the nominal vehicle or one of the draws. The controller uses the nominal plant. With another
-/// plant the loop gain changes by the ratio of the two m' (speed loop: a factor on mu_s/eps_s) or of
-/// the two I'z (heading loop: SampledHeadingLoop::input_gain).
+/// Each constraint is reported for the vehicle (nominal or drawn) that is nearest to the limit, or
+/// violates it most. The controller always uses the nominal plant. On a drawn plant, the gain of
+/// the speed loop therefore changes by the ratio of the two m' (a factor on mu_s/eps_s), and that
+/// of the heading loop by the ratio of the two I'z (SampledHeadingLoop::input_gain).
 ///
-/// T2 < T1: both forms are reported, the one of `form` is required.
+/// T2 < T1: both forms are reported; only the one that `form` selects is required.
 ///
 /// Heading damping is the smallest over the vehicle's modes and the yaw rates of kRateShares,
 /// because the slope of g3 depends on the rate. For drawn plants, late damping and the delay margin
 /// are computed at the lowest and the highest rate only, because their matrices grow with the
 /// latency. For the nominal plant, late damping is computed at all rates.
 ///
-/// Speed gain: if g1 is cancelled with the delay of the hold, the pole of the loop is
+/// Speed gain: the speed law cancels g1 with the delay of the hold, so the pole of the loop is
 ///   z = 1 - k_s (1 - exp(-a T_s))/a,   k_s = mu_s/eps_s,   a = g1'/m' >= 0,
 /// so z is in [1 - k_s T_s, 1).
 ///
@@ -106,13 +109,13 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 ///
 /// Noise gain: I'z lambda mu/eps is the gain of the heading law from psi to tau_turn.
 ///
-/// mu has no upper limit from the largest moment: the allocation clips a larger request. The
-/// paper's mu (I'z mu = 0.64 m) exceeds the largest moment in every mode.
+/// I'z mu may exceed the largest yaw moment, because the allocation clips a larger request. The
+/// paper's mu (I'z mu = 0.64 m) does so in every mode.
 std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
                                              const ConstraintContext& context);
 
-/// Returns the heading loop of `plant` at a yaw rate, with hold and servo, without latency and motor
-/// lag. The heading law uses the context's plant.
+/// Returns the heading loop of `plant` at a yaw rate, with hold and servo, without latency and
+/// motor lag. The heading law uses the context's plant.
 SampledHeadingLoop heading_loop(const Gains<double>& gains, const ConstraintContext& context,
                                 const Plant<double>& plant, double rate_radps, YawMode mode);
 
@@ -130,8 +133,8 @@ Interval examined_rates_radps(const ConstraintContext& context);
 /// is half as large. 0 without steering, or without thrust to steer with.
 double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context);
 
-/// Returns the gains with the smallest friction width w0, rad/s, that meets the limit of the
-/// steering rate times (1 + wider):
+/// Returns the gains with the smallest friction width w0 (HeadingGains::friction_width_radps) for
+/// which the steering rate is at most its limit times (1 + wider):
 ///   0.02 <= w0 <= min(10 c3 eps/(I'z mu), the highest yaw rate of the runs)
 /// c3 is the Coulomb friction in yaw. With the first upper bound, the fed-forward friction grows
 /// with S a tenth as fast as the corrective term. If no w0 in this range meets the limit, w0 is the
@@ -139,7 +142,8 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider = 0.0);
 
-/// -margin/max(|value|, |limit|) of each required constraint: <= 0 exactly if it is met.
+/// The residual of each required constraint, -margin/max(|value|, |limit|). It is <= 0 exactly if
+/// the constraint is met.
 std::vector<double> residuals(const std::vector<ConstraintReport>& constraints);
 
 }  // namespace awmr

@@ -81,7 +81,8 @@ double turning_time_s(const Model& model, const Plant<double>& plant, double spe
          kSettlingOverLag * lag_s;
 }
 
-/// Manoeuvre of the default scenario: at a speed, a heading for hold_s, then its opposite.
+/// Manoeuvre of the default scenario: at speed_mps, the heading step_deg is commanded for hold_s,
+/// then the opposite heading.
 struct Manoeuvre {
   double speed_mps;
   double step_deg;

@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// By mode, then scenario.
+/// Scores, by mode, then scenario.
 void describe_scores(JsonObject json) {
   for (JsonObject& mode : json.values()) {
     for (JsonObject& score : mode.values()) {
@@ -206,7 +206,7 @@ void describe_certificate(JsonObject json) {
   json.reject_unknown_keys();
 }
 
-/// Settling time against command activity, of the search and of named gains.
+/// Settling time and control variation of the gains of the search and of named gains.
 void describe_trade_off(JsonObject json) {
   const auto describe_point = [](JsonObject& point) {
     for (const char* key : {"settling_time_s", "control_variation"})

@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* kFigures[] = {"settling_time_s", "overshoot_deg", "heading_iae_degs"};
 
-/// One value of every input.
+/// One sample: a value of every input.
 struct Sample {
   Model model;                                               ///< only its parameters are used
   double noise_level = 1.0, latency = 1.0, motor_lag = 1.0;  ///< factors on the assumed values
@@ -76,7 +76,7 @@ std::vector<Input> inputs_of(const Model& model) {
   inputs.push_back(
       {"lag of the motors", [](const Sample& from, Sample& to) { to.motor_lag = from.motor_lag; }});
   inputs.push_back(
-      {"the noise itself", [](const Sample& from, Sample& to) { to.noise = from.noise; }});
+      {"noise realisation", [](const Sample& from, Sample& to) { to.noise = from.noise; }});
   return inputs;
 }
 

@@ -1,5 +1,5 @@
-/// Sobol indices of the tuned loop's metrics: which assumption about plant, sensors and motors
-/// affects each metric. Private to tune/.
+/// Sobol indices of the tuned loop's metrics. They show which uncertain input (plant parameters,
+/// sensor noise, latency, motor lag) affects each metric most. Private to tune/.
 #pragma once
 
 #include "awmr/core/result.h"
@@ -13,9 +13,9 @@ namespace awmr {
 ///   - the size of the sensor noise, the latency and the motor lag, each uniform from 0 to twice
 ///     the assumed value;
 ///   - the noise realisation.
-/// `setting` has the model's own plant and noise-free scenarios. With several scenarios, a metric is
-/// the mean over them.
-/// Errors (input): as PlantSampler's; (refused): a run breaks off.
+/// Precondition: `setting` has the identified plant and noise-free scenarios. With several
+/// scenarios, a metric is the mean over them. Errors (input): as PlantSampler's; (refused): a run
+/// breaks off.
 Result<GlobalSensitivity> global_sensitivity(const Model& model, const ObjectiveSetting& setting,
                                              const LoopConditions& assumed,
                                              const Gains<double>& gains, int samples);

@@ -45,7 +45,8 @@ std::vector<double> excesses(const GoalInMode& one, std::span<const RunOutcome> 
   return all;
 }
 
-/// Replaces a metric that is not finite: larger than any limit, and representable in JSON.
+/// Value that replaces a metric that is not finite: larger than any limit, and representable in
+/// JSON.
 constexpr double kNoFigure = 1e100;
 
 }  // namespace

@@ -1,9 +1,9 @@
 /// Evaluation of tuning goals (TuningGoal), such as "95 % of the draws settle within 2 s and
 /// overshoot by at most 1 deg". Private to tune/.
 ///
-/// The excess of a run is e = max_i x_i/l_i, with x_i its metrics and l_i their limits. It is
-/// infinite if the run breaks off. The excess of a draw is the largest over the scenarios. A goal
-/// with the share p is met in a mode if the p quantile of e over all draws is at most 1. The p
+/// The excess of a run is e = max_i x_i/l_i: the largest ratio of a metric x_i to its limit l_i. It
+/// is infinite if the run breaks off. The excess of a draw is the largest over its scenarios. A
+/// goal with the share p is met in a mode if the p quantile of e over all draws is at most 1. The p
 /// quantile of n draws is the ceil(p n)-th smallest value, so with few draws it is the largest.
 #pragma once
 
@@ -19,17 +19,17 @@ namespace awmr {
 
 /// Returns the metrics of a run that goals and evaluation need.
 RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario);
-/// The same for many runs. `scores` are by draw, then mode, then scenario.
+/// outcome_of() for many runs. `scores` are by draw, then mode, then scenario.
 std::vector<RunOutcome> outcomes_of(std::span<const ModeScore> scores,
                                     std::span<const Scenario> scenarios);
 
 /// Value of a metric for a run. Precondition: the metric exists.
 double figure_of_run(std::string_view name, const RunOutcome& outcome);
 
-/// "settling_time_s <= 2, overshoot_deg <= 1 in 95 % of draws"
+/// Describes a goal: "settling_time_s <= 2, overshoot_deg <= 1 in 95 % of draws".
 std::string in_words(const TuningGoal& goal);
 
-/// Largest ratio of a run's metric to its limit, >= 0. At most 1 if the run meets the goal.
+/// The excess of a run, >= 0 (see above). At most 1 if the run meets every limit of the goal.
 double excess_of(const TuningGoal& goal, const RunOutcome& outcome);
 
 /// A goal in one of its modes.
@@ -38,15 +38,15 @@ struct GoalInMode {
   YawMode mode{};
   std::string name() const;  ///< for constraints and messages
 };
-/// By goal, then mode.
+/// Each goal in each of its modes that is in `modes`: by goal, then mode.
 std::vector<GoalInMode> by_mode(std::span<const TuningGoal> goals, std::span<const YawMode> modes);
 
-/// Returns the quantile of the excess in the mode over the draws, >= 0. `outcomes` are by draw, then
-/// mode, then scenario.
+/// Returns the quantile of the excess over the draws in the mode of the goal, >= 0: the goal is met
+/// if it is at most 1. `outcomes` are by draw, then mode, then scenario.
 double quantile_of_excess(const GoalInMode& one, std::span<const RunOutcome> outcomes,
                           std::size_t scenarios);
 
-/// Counts the draws that meet the goal in the mode, and gives the verdict.
+/// Counts the draws that meet every limit of the goal in its mode, and determines the verdict.
 EvaluatedGoal evaluate_goal(const GoalInMode& one, const EvaluatedRuns& runs,
                             std::size_t scenarios);
 

@@ -18,7 +18,8 @@
 namespace awmr {
 namespace {
 
-/// The batch engine drives four or eight runs in one register, so a thread gets a multiple of four.
+/// Number of runs per thread is a multiple of this, because the batch engine simulates four or
+/// eight runs in one register.
 constexpr std::size_t kFour = 4;
 
 /// Number of runs per batch, so that every thread has work. `count`: runs in each scenario.

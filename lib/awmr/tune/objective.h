@@ -14,8 +14,9 @@
 /// over modes and scenarios. Each soft goal adds max(0, q - 1) in each of its modes, q the quantile
 /// of its excess (goals.h).
 ///
-/// Geometric means, because the baseline then affects only which vehicles are the worst ones and the
-/// weight of soft goals. In a sum of ratios, a metric that is large with the baseline would hardly count.
+/// J uses geometric means, because another baseline then only multiplies J by a constant. It
+/// changes the optimum only by the choice of the worst vehicles and by the weight of soft goals. In
+/// a sum of ratios, a metric that is large with the baseline would hardly count.
 #pragma once
 
 #include <array>
@@ -49,9 +50,9 @@ inline constexpr ObjectiveTerm kObjectiveTerms[] = {
 
 /// Substitute for the settling time, s, of a run that does not settle after every step:
 ///   T max(1, ITAE/sum_j(b T_j^2/2))
-/// T is the scenario's duration, T_j the time that step j is held, b = 0.5 deg the narrowest
-/// settling band. Not T alone, because T does not depend on the gains and the search would select
-/// the least active ones. Precondition: heading guidance.
+/// T is the scenario's duration, T_j the time for which step j is commanded, b = 0.5 deg the
+/// narrowest settling band. The factor on T makes the substitute depend on the gains: with T only,
+/// the search would select the least active gains. Precondition: heading guidance.
 double unsettled_s(const Scenario& scenario, double itae_degs2);
 
 /// The metrics x_i of one run, in the order of kObjectiveTerms.
@@ -66,7 +67,7 @@ std::span<const YawMode> tuned_modes(const Vehicle& vehicle, std::optional<YawMo
 
 /// Vehicles, modes and scenarios that the gains are scored on.
 struct ObjectiveSetting {
-  std::vector<DrawnVehicle> vehicles;  ///< the controller uses the first one's plant; not empty
+  std::vector<DrawnVehicle> vehicles;  ///< not empty; the controller uses the plant of the first
   Vehicle vehicle;
   ObjectiveWeights weights;
   std::vector<Scenario> scenarios;  ///< with heading guidance; not empty
@@ -76,7 +77,7 @@ struct ObjectiveSetting {
   std::vector<TuningGoal> goals = {};
   /// Number of each vehicle, which with the seed selects its random numbers; empty: 0, 1, ...
   std::vector<std::uint64_t> numbers = {};
-  std::optional<YawMode> mode = {};  ///< the only one; absent: all modes of the vehicle
+  std::optional<YawMode> mode = {};  ///< the only mode to score; absent: all modes of the vehicle
 
   std::span<const YawMode> modes() const { return tuned_modes(vehicle, mode); }
 };
@@ -87,7 +88,7 @@ using RunNoise = std::vector<std::vector<DrawnNoise>>;
 inline constexpr double kMostNoiseBytes = 64e6;
 RunNoise draw_noise(const ObjectiveSetting& setting);
 
-/// Result of one set of gains.
+/// Objective and metrics of one set of gains.
 struct Evaluation {
   std::vector<ModeScore> scores;       ///< of the first vehicle, by mode, then scenario
   std::vector<double> mode_objective;  ///< geometric mean over scenarios, in the order of modes()
@@ -131,8 +132,8 @@ class Objective {
 std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting, const RunNoise& noise,
                                             std::span<const Gains<double>> gains);
 
-/// (mean of all values + mean of the tail)/2. The tail is the largest `tail_share` of the values, at
-/// least one.
+/// (mean of all values + mean of the tail)/2. The tail is the largest `tail_share` of the values,
+/// at least one.
 double mean_and_tail(std::vector<double> values, double tail_share);
 
 }  // namespace awmr

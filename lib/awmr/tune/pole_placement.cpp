@@ -74,8 +74,8 @@ class HeadingPoles {
     return broken <= 0.0;
   }
 
-  /// Searches the largest feasible k of a ratio lambda/k, from 1/T_s downwards. Stops if lambda would
-  /// not exceed the largest one found so far.
+  /// Searches the largest feasible k of a ratio lambda/k, from 1/T_s downwards. Stops if lambda
+  /// would not exceed the largest one found so far.
   void look_along(double ratio) {
     double k = 1.0 / context_.sample_time_s;
     const auto is_behind = [&](double rate) {

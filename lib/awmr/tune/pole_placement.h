@@ -7,8 +7,9 @@
 
 namespace awmr {
 
-/// The fastest poles that the constraints allow. Inside the boundary layer the heading loop is
-/// (s + lambda)(s + k), k = mu/eps, and the speed loop s + k_s, k_s = mu_s/eps_s:
+/// Returns the gains with the fastest poles that the constraints allow. Inside the boundary layer,
+/// the characteristic polynomial of the heading loop is (s + lambda)(s + k), k = mu/eps, and that
+/// of the speed loop s + k_s, k_s = mu_s/eps_s:
 ///   lambda, k   the pair with the largest lambda that meets every constraint. Ratios lambda/k from
 ///               the largest that T2 < T1 allows (strict: margin; paper: 2 margin) down to a 64th
 ///               of it are tried.
@@ -17,8 +18,9 @@ namespace awmr {
 /// If no pair meets every constraint, the pair with the smallest violation is returned.
 Gains<double> place_poles(const ConstraintContext& context);
 
-/// Returns gains with the same poles and wider boundary layers, which contain the initial errors
-/// S = lambda e (e: the largest heading step) and e_u = u_d. Then only the actuators saturate:
+/// Returns gains with the same poles and boundary layers that are wide enough for the initial
+/// errors S = lambda e (e: the largest heading step) and e_u = u_d. Then the laws do not saturate,
+/// only the actuators:
 ///   mu >= lambda k e,   mu_s >= k_s u_d
 Gains<double> with_wide_layers(Gains<double> gains, const ConstraintContext& context);
 

@@ -19,8 +19,8 @@ inline constexpr unsigned kMostDimensions = 6;
 /// Natural logarithms of these values; the last one is 0 if no observer is searched.
 using Point = std::array<double, kMostDimensions>;
 
-/// Fills in the absent bounds: from the smallest of these gains divided by kBoundFactor to the
-/// largest times kBoundFactor.
+/// Fills in each absent bound: from the smallest value of the gain among `gains`, divided by
+/// kBoundFactor, to the largest value times kBoundFactor.
 void bound_around(std::span<const Gains<double>> gains, GainBounds& bounds);
 
 /// Box of the logarithms of the gains, and conversions between points and gains.
@@ -42,7 +42,7 @@ class SearchSpace {
   std::optional<ObserverSearch> observer_;
 };
 
-/// Evaluated gains.
+/// A set of gains with its evaluation.
 struct Candidate {
   Gains<double> gains{};
   /// Largest residual of the constraints, the activity limit and the goals; <= 0 is feasible.
@@ -54,8 +54,8 @@ struct Candidate {
   bool feasible() const { return simulated && valid && violation <= 0.0; }
 };
 
-/// Whether `a` is better than `b`: feasible candidates come first, by objective; then the others, by
-/// violation.
+/// True if `a` is better than `b`. Feasible candidates come first, ordered by objective; the others
+/// follow, ordered by violation.
 bool better(const Candidate& a, const Candidate& b);
 
 /// A point with its evaluation.
@@ -78,7 +78,7 @@ class Problem {
   const std::vector<std::string>& names() const { return names_; }
   const SearchSpace& space() const { return space_; }
   unsigned constraints() const { return static_cast<unsigned>(names_.size()); }
-  /// Whether points that violate a constraint are simulated too. The local search needs their
+  /// True: points that violate a constraint are simulated, too. The local search needs their
   /// objective.
   bool simulate_all = false;
   /// For each constraint, the residual up to which it counts as met. 0, except for the constraint

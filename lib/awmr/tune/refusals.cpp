@@ -21,7 +21,7 @@ std::string in_words(const Gains<double>& g) {
       g.observer.is_on() ? fmt::format(", observer {:.4g} rad/s", g.observer.bandwidth_radps) : "");
 }
 
-/// Advice if no gains meet a constraint: the limit to relax, and the cause in the vehicle.
+/// Advice for a constraint that no gains meet: the limit to relax, and the cause in the vehicle.
 std::string advice_on(std::string_view constraint) {
   struct Advice {
     std::string_view constraint, limit, cause;

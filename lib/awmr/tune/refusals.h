@@ -1,5 +1,5 @@
-/// Errors of a search without a result. They name the constraint that no gains meet and the limit to
-/// relax. Private to tune/.
+/// Errors of a search without a result. They name the constraint that no gains meet and the limit
+/// to relax. Private to tune/.
 #pragma once
 
 #include <vector>
@@ -21,8 +21,8 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
                                 const std::vector<Scenario>& scenarios);
 
 /// Error if gains meet every limit but none of the `runs` runs settles: names the active constraint
-/// with the largest cost. `is_held`: friction at rest holds the vehicle off its heading; the message
-/// then suggests --observer.
+/// with the largest cost. `is_held`: friction at rest holds the vehicle off its heading; the
+/// message then suggests --observer.
 tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,
                                     const std::vector<ActiveConstraint>& active, bool is_held);
 

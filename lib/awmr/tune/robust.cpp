@@ -57,8 +57,8 @@ EvaluatedRuns in_scenario(const EvaluatedRuns& runs, std::size_t scenario, std::
   return of_one;
 }
 
-/// Applies the unmodelled variation of draw `number`, from 1, to the vehicle. The mass factor changes
-/// with every draw, the wheel-force range after all mass factors were used.
+/// Applies the unmodelled variation of draw `number`, from 1, to the vehicle. The mass factor
+/// changes with every draw, the wheel-force range after all mass factors were used.
 void open_up(const UnmodelledVariation& open, int number, DrawnVehicle& vehicle) {
   const std::size_t turn = at(number - 1) % open.combinations();
   const std::size_t masses = std::max<std::size_t>(1, open.mass_factors.size());
@@ -78,10 +78,10 @@ std::size_t UnmodelledVariation::combinations() const {
 
 namespace {
 
-/// Sampler of the model's covariance. It ignores the mass that the grip limit requires
-/// (mass_norm_by_grip), because every constraint holds for all draws and that mass would make all
-/// gains slower: for the paper's vehicle it is three times the identified mass. `mass_factors` adds
-/// it on request.
+/// Sampler of the model's covariance, without the mass that the grip limit requires
+/// (mass_norm_by_grip). For the paper's vehicle, that is three times the identified mass. Because
+/// the gains must meet the constraints on all draws, it would make all gains slower. Users can
+/// request it with `mass_factors`.
 Result<PlantSampler> sampler_of(Model model) {
   model.mass_norm_by_grip.reset();
   return PlantSampler::make(model);

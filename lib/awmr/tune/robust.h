@@ -12,12 +12,12 @@
 
 namespace awmr {
 
-/// Returns the nominal vehicle, then the draws with these numbers (from 1), each with its unmodelled
-/// variation. A draw has parameters from the model's covariance, or the nominal ones if the model
-/// has none. Errors (input): as PlantSampler's.
+/// Returns the nominal vehicle, then the draws with these numbers (from 1), each with its
+/// unmodelled variation. The parameters of a draw come from the model's covariance; without a
+/// covariance, they are nominal. Errors (input): as PlantSampler::make and PlantSampler::draw.
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
                                               std::uint64_t seed, const UnmodelledVariation& open);
-/// The same with the draws 1 to `draws`, spread evenly (PlantSampler::draw_evenly).
+/// As above, with the draws 1 to `draws`, which are spread evenly (PlantSampler::draw_evenly).
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
                                               const UnmodelledVariation& open);
 
@@ -27,8 +27,8 @@ struct NamedCandidate {
   Gains<double> gains;
 };
 
-/// Simulates every set of gains in every mode and scenario, on all vehicles of the setting except
-/// the first, which is nominal.
+/// Simulates every set of gains in every mode and scenario, on each vehicle of the setting except
+/// the first, which is the nominal one.
 std::vector<EvaluatedRuns> run_candidates(const ObjectiveSetting& setting,
                                           const std::vector<NamedCandidate>& candidates);
 

@@ -40,7 +40,7 @@ Matrix5 held_over(const SampledHeadingLoop& loop, double time_s) {
   continuous(1, lag ? 3 : 4) = loop.input_gain * loop.direct_share;
   continuous(2, 2) = -1.0 / loop.servo_time_constant_s;
   continuous(2, 4) = 1.0 / loop.servo_time_constant_s;
-  // Without a motor lag w_motor has no effect; any decay time will do.
+  // Without a motor lag, w_motor has no effect, and its decay time is arbitrary.
   const double motor_s = lag ? loop.motor_time_constant_s : loop.sample_time_s;
   continuous(3, 3) = -1.0 / motor_s;
   continuous(3, 4) = 1.0 / motor_s;
@@ -60,8 +60,8 @@ SplitDelay split_delay(double delay_s, double sample_time_s) {
   return {static_cast<int>(whole), part > kRounding ? part : 0.0};
 }
 
-/// The plant from one sample to the next, for a delay of m whole samples and a fraction. During that
-/// fraction of the sample, the previous command still acts:
+/// The plant from one sample to the next, for a delay of m whole samples and a fraction. During
+/// that fraction of the sample, the previous command still acts:
 ///   x_(j+1) = Phi x_j + Gamma0 w_(j-m) + Gamma1 w_(j-m-1)
 struct HeldPlant {
   Eigen::Matrix4d phi;
@@ -135,7 +135,8 @@ class CompensatedLoop {
     const double t_s = loop_.sample_time_s;
     const std::complex<double> z = std::polar(1.0, omega_radps * t_s);
     const Eigen::Vector4cd by = plant_.gamma0 + plant_.gamma1 * std::conj(z);  // |z| = 1
-    // Solves (z I - Phi) x = by from the last row up: servo and motor do not act on each other.
+    // Solves (z I - Phi) x = by from the last row up, because servo and motor do not affect each
+    // other.
     const Eigen::Matrix4d& phi = plant_.phi;
     const std::complex<double> motor = by(3) / (z - phi(3, 3));
     const std::complex<double> servo = by(2) / (z - phi(2, 2));

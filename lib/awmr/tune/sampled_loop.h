@@ -1,11 +1,12 @@
-/// Damping ratio and delay margin of the sampled heading loop, with zero-order hold, servo and motor
-/// lag. Private to tune/.
+/// Damping ratio and delay margin of the sampled heading loop, with zero-order hold, servo and
+/// motor lag. Private to tune/.
 #pragma once
 
 namespace awmr {
 
-/// Heading loop linearised at one yaw rate r0, for S inside the boundary layer. psi is the deviation
-/// from the commanded heading, s the share of the moment that wheel forces make:
+/// Heading loop linearised at one yaw rate r0, for S inside the boundary layer. psi is the
+/// deviation from the commanded heading, s the share of the yaw moment that left and right wheel
+/// forces make:
 ///
 ///     psi_dot = r
 ///     r_dot   = -a r + q (s w_motor + (1 - s) w_servo)  a = g3'(r0)/I'z, the plant's own damping
@@ -14,8 +15,8 @@ namespace awmr {
 ///     w = c r_j - (lambda + k) r_j - lambda k psi_j     the law, k = mu/eps, held over T_s;
 ///                                                       r_j, psi_j: the readings n samples ago
 ///
-/// The law uses the parameters of the model: c is g3'(r0)/I'z of the model, and q is the ratio of
-/// the model's I'z to the plant's. For the model's own plant c = a and q = 1.
+/// The heading law uses the parameters of the model: c is g3'(r0)/I'z of the model, and q is the
+/// ratio of the model's I'z to that of the plant. For the plant of the model, c = a and q = 1.
 ///
 /// With an observer of bandwidth L (control/disturbance_observer.h), d_hat = I'z (y + L r) is
 /// subtracted:
@@ -23,11 +24,11 @@ namespace awmr {
 ///     w       = c r_j - (lambda + k + L) r_j - lambda k psi_j - y_j
 ///     y_(j+1) = y_j + T_s L ((lambda + k) r_j + lambda k psi_j)
 ///
-/// Without hold and servo, and with the model's own plant, c cancels a: the poles are -lambda, -k
-/// and, with an observer, -L. Hold and servo delay the cancellation by tau = T + T_s/2. The
-/// difference a r - a r(t - tau), about a tau r_dot, multiplies the inertia by 1 + a tau, and
-/// (lambda + k) tau reduces the phase. An approximation for lambda k << (lambda + k)/tau is that a
-/// damping zeta needs (lambda + k) tau <= 1/(4 zeta^2). Here the exact discretisation is used.
+/// Without hold and servo, and with the plant of the model, c cancels a: the poles are -lambda, -k
+/// and, with an observer, -L. Hold and servo delay the cancellation by about tau = T + T_s/2. The
+/// remaining term a r - a r(t - tau), about a tau r_dot, multiplies the inertia by 1 + a tau. The
+/// delay also reduces the phase: for lambda k << (lambda + k)/tau, a damping ratio zeta requires
+/// about (lambda + k) tau <= 1/(4 zeta^2). The functions below use the exact discretisation.
 struct SampledHeadingLoop {
   double lambda = 0.0;                 ///< 1/s
   double reaching_rate = 0.0;          ///< k = mu/eps, 1/s

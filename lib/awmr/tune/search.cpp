@@ -174,7 +174,8 @@ double feasibility_callback(unsigned dimension, const double* x, double*, void* 
   return static_cast<Feasibility*>(data)->look_at(point_at(dimension, x));
 }
 
-/// Start `index` of feasible_start(): 0 the baseline, 1 the middle of the bounds, then random points.
+/// Start `index` of feasible_start(): 0 the baseline, 1 the middle of the bounds, then random
+/// points.
 Point start_point(int index, const SearchSpace& space, std::uint64_t seed,
                   const Gains<double>& baseline) {
   if (index == 0) return space.point_of(baseline);

@@ -26,9 +26,10 @@ struct SearchResult {
   std::string stop_reason;
 };
 
-/// Runs NLopt's LN_COBYLA from `start` and restarts it with the first step size from the best point
-/// of `problem`. Stops when a restart improves the objective by less than 1e-4, or after
-/// `most_evaluations`. Returns the reason for stopping. Errors (program fault): NLopt's.
+/// Runs NLopt's LN_COBYLA from `start`, then restarts it from the best point of `problem`, each
+/// time with the first step size. Stops when a run improves the objective (while no gains are
+/// feasible: the violation) by less than 1e-4, or after `most_evaluations`. Returns the reason for
+/// stopping. Errors (program fault): a failure of NLopt.
 Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
                                    int most_evaluations);
 
@@ -42,9 +43,10 @@ Candidate feasible_start(const TuneOptions& options, const ConstraintContext& co
 ///   2. LN_COBYLA on `searched` from the best point so far, including the other starts;
 ///   3. if there are no feasible gains yet, LN_COBYLA on `searched` from each start;
 ///   4. if `all` has more draws, LN_COBYLA on `all` from the best point.
-/// Precondition: at least one start; all meet the constraints that need no simulation. The result
-/// meets every constraint exactly, whatever the tolerance of NLopt. Deterministic: NLopt's random
-/// generator is reseeded, and searches in one process take turns.
+/// Precondition: at least one start; all starts meet the constraints that need no simulation.
+/// SearchResult::best meets every constraint exactly, whatever the tolerance of NLopt.
+/// Deterministic: NLopt's random generator is reseeded, and global searches in one process take
+/// turns. Errors (program fault): a failure of NLopt.
 Result<SearchResult> search(const TuneOptions& options, const ConstraintContext& context,
                             const Objective& searched, const Objective& all,
                             std::span<const Gains<double>> starts);

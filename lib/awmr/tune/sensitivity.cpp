@@ -34,9 +34,9 @@ Interval room(const Point& from, const Pair& pair, const SearchSpace& space) {
           std::min(upper[pair[0]] - from[pair[0]], upper[pair[1]] - from[pair[1]])};
 }
 
-/// Interval around 0 by which both logarithms of a pair can be shifted together while the gains stay
-/// feasible with an objective of at most `most`. Found by bisection, because the objective increases
-/// towards both ends.
+/// Interval around 0 by which both logarithms of a pair can be shifted together while the gains
+/// stay feasible with an objective of at most `most`. Found by bisection, because the objective
+/// increases towards both ends.
 Interval stretch(Problem& problem, const Point& from, const Pair& pair, double most) {
   const auto is_good = [&](double by_ln) {
     const Point point = scaled(from, pair, by_ln);
@@ -66,7 +66,7 @@ SettledGains settle(const TuneOptions& options, const ConstraintContext& context
   SettledGains settled;
   Point point = problem.space().point_of(best.gains);
   const double objective = problem.look_at(std::span(&point, 1)).front().candidate.objective;
-  // mu may use half of kIndifferent, mu_s the rest.
+  // The smaller mu may worsen the objective by half of kIndifferent, the smaller mu_s by the rest.
   const Interval heading =
       stretch(problem, point, kHeading, (1.0 + 0.5 * kIndifferent) * objective);
   settled.mu = {best.gains.heading.mu * std::exp(heading.lo),
@@ -89,8 +89,8 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
   TuneOptions quiet = options;
   quiet.progress = {};
   const Point point = SearchSpace(options).point_of(best.gains);
-  // Smallest objective of a local search with constraint `wider` relaxed, or with none if there is no
-  // such constraint.
+  // Smallest objective of a local search with constraint `wider` relaxed, or with none if there is
+  // no such constraint.
   const auto searched = [&](std::size_t wider) -> Result<double> {
     Problem problem(quiet, context, objective);
     if (wider < problem.tolerated.size()) problem.tolerated[wider] = kWider;
@@ -106,7 +106,7 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
     if (residuals[i] > kActive) active.push_back({.name = problem.names()[i]});
   }
   if (active.empty()) return active;
-  // Compared with a search without a relaxed limit, because that search can improve, too.
+  // The improvement is measured from a search without a relaxed limit, which can improve, too.
   AWMR_ASSIGN_OR_RETURN(const double without, searched(residuals.size()));
   for (ActiveConstraint& one : active) {
     const auto place = std::ranges::find(problem.names(), one.name) - problem.names().begin();

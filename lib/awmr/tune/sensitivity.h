@@ -19,10 +19,11 @@ struct SettledGains {
   Interval speed_mu;  ///< the same range of mu_s, m/s^2, with mu_s/epsilon_s constant
 };
 
-/// Selects the smallest mu, then the smallest mu_s, that meets every constraint and has an objective
-/// within kIndifferent of that of `best` on the draws of the search; mu/epsilon and mu_s/epsilon_s
-/// stay constant. Only these ratios act inside the boundary layers, so without this rule the seed
-/// would decide on mu. Returns `best` if the selected gains violate a constraint on all draws.
+/// Selects the smallest mu, then the smallest mu_s, that meets every constraint and has an
+/// objective within kIndifferent of that of `best` on the draws of the search; mu/epsilon and
+/// mu_s/epsilon_s stay constant. Only these ratios act inside the boundary layers, so without this
+/// rule the seed of the search would determine mu. The selected gains are those of `best` if the
+/// smaller mu and mu_s violate a constraint on the draws of `all`.
 SettledGains settle(const TuneOptions& options, const ConstraintContext& context,
                     const Objective& searched, const Objective& all, const Candidate& best);
 

@@ -1,9 +1,9 @@
-/// Sobol indices: fractions of an output's variance that are due to each input. Private to this
-/// folder.
+/// Computes Sobol indices: the fractions of an output's variance that are due to each input.
+/// Private to this folder.
 ///
 /// With independent inputs x_i, V = Var f:
 ///   first order  S_i  = Var(E[f | x_i])/V            fraction of V that knowing x_i removes
-///   total        ST_i = E[Var(f | all but x_i)]/V    fraction of V that remains if only x_i is unknown
+///   total        ST_i = E[Var(f | all but x_i)]/V    fraction that remains if only x_i is unknown
 /// From samples A and B of all inputs, and A with the i-th input of B (AB_i), by Jansen's
 /// estimators (M. Jansen, Computer Physics Communications 117, 1999, as in A. Saltelli et al., same
 /// journal 181, 2010):

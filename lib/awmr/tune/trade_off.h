@@ -9,11 +9,12 @@
 
 namespace awmr {
 
-/// Returns the Pareto-optimal points, sorted by settling time.
+/// Returns the Pareto-optimal points: no other point has both a shorter settling time and a smaller
+/// control variation. Sorted by settling time.
 std::vector<TradeOffPoint> front_of(std::vector<TradeOffPoint> points);
 
-/// Returns the Pareto front of `met`, the points of the feasible gains of a search, and the points
-/// of the named gains on the same runs.
+/// Returns the Pareto front of `met` (the points of the feasible gains of a search), and the points
+/// of the gains of TradeOff::named on the runs of that search.
 TradeOff trade_off_of(const Objective& searched, const ConstraintContext& context,
                       std::vector<TradeOffPoint> met, const Gains<double>& tuned,
                       const Gains<double>& baseline);

@@ -163,9 +163,10 @@ Status check_baseline(const Objective& objective, const Baseline& baseline) {
 /// Factors of slowed(), for starts with slower poles. They suit a vehicle with large noise.
 constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 
-/// Starts of the search: all gains of `poles`, the first of them slowed down, and a given baseline.
-/// Each is replaced by gains that meet the constraints (feasible_start()), or left out if there are
-/// none. Errors (refused): the search from the first of `poles` finds no such gains.
+/// Starts of the search: all gains of `poles`, the first of them slowed down by each of
+/// kSlowerStarts, and the baseline, if given. Each start is replaced by gains that meet the
+/// constraints (feasible_start()), or left out if there are none. Errors (refused): the search from
+/// the first of `poles` finds no such gains.
 Result<std::vector<Gains<double>>> starts_of(const TuneOptions& options,
                                              const ConstraintContext& context,
                                              std::span<const Gains<double>> poles) {
@@ -253,7 +254,7 @@ Status check_latency(const ConstraintContext& context, const std::string& model_
                   option_text("nominal")));
 }
 
-/// XORed with the seed, so that the evaluation uses other draws than the search.
+/// Number that is XORed with the seed, so that the evaluation uses other draws than the search.
 constexpr std::uint64_t kEvaluationSeeds = 0x6a75646765ULL;
 
 /// Numbers of the new draws, from 1: those of the part `options.shard`, or all.
@@ -305,8 +306,8 @@ Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const T
   return {};
 }
 
-/// Tunes robust gains: adds draws, noise, latency and motor lag to the `setting` and `context` of the
-/// nominal search.
+/// Tunes robust gains: adds draws, noise, latency and motor lag to the `setting` and `context` of
+/// the nominal search.
 Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                              ConstraintContext context, const TuneOptions& options,
                              const Scenario& held_out) {

@@ -46,9 +46,9 @@ struct ObjectiveWeights {
                              ///< not determined
 };
 
-/// Bounds of each gain in the search. Symbols and units as in model/gains.h. An absent bound reaches
-/// from the smallest value by pole placement divided by kBoundFactor to the largest one times
-/// kBoundFactor. Pole placement gives two sets of gains: with the smallest mu, and with wide
+/// Bounds of each gain in the search. Symbols and units as in model/gains.h. An absent bound
+/// reaches from the smallest value by pole placement divided by kBoundFactor to the largest one
+/// times kBoundFactor. Pole placement gives two sets of gains: with the smallest mu, and with wide
 /// boundary layers (pole_placement.h).
 struct GainBounds {
   std::optional<Interval> lambda = {};         ///< 1/s
@@ -76,8 +76,8 @@ struct TuningLimits {
   double noise_share = 0.25;
 };
 
-/// Largest speed, heading step and yaw rate for which the constraints are evaluated. They follow
-/// from the scenarios and the vehicle.
+/// Largest speed, heading step and yaw rate for which the constraints are evaluated. They are
+/// computed from the scenarios and the vehicle.
 struct ExaminedRange {
   double speed_mps = 1.0;                 ///< largest u_d of the scenarios, >= 0
   double step_rad = radians(60.0);        ///< largest change of the commanded heading, >= 0
@@ -108,12 +108,13 @@ inline constexpr int kSearchedDraws = 4;
 /// Relative difference of the objective below which gains are equally good. settle()
 /// (sensitivity.h) selects among equally good gains.
 inline constexpr double kIndifferent = 1e-3;
-/// Relative relaxation of the limit of an active constraint, to measure what the limit costs.
+/// Relative relaxation of the limit of an active constraint, to measure how much of the objective
+/// the limit costs (ActiveConstraint::wider_gains).
 inline constexpr double kWider = 0.1;
 
-/// Variation that neither trials nor data sheets determine: payload, battery voltage, values
-/// missing in a paper. Each draw gets the next combination of a mass factor and a wheel-force
-/// range; the nominal plant is not varied.
+/// Unmodelled variation of the vehicle, which neither trials nor data sheets determine, such as
+/// payload and battery voltage. Each draw gets the next combination of a mass factor and a
+/// wheel-force range; the nominal plant is not varied.
 struct UnmodelledVariation {
   std::vector<double> mass_factors = {};    ///< factors on both m' and I'z; empty: 1
   std::vector<Interval> wheel_forces = {};  ///< ranges of F'; empty: the vehicle's own range
@@ -133,7 +134,7 @@ struct GoalLimit {
 /// Goal: at least this share of the draws meets every limit in all scenarios.
 struct TuningGoal {
   std::vector<GoalLimit> at_most;  ///< one or more limits, each of another metric
-  double share = 0.95;             ///< of the draws, in [kLeastShare, kMostShare]
+  double share = 0.95;             ///< required share of the draws, in [kLeastShare, kMostShare]
   std::optional<YawMode> mode;     ///< the mode in which it must be met; absent: in each mode
   /// true: the objective has a penalty for missing the goal. false: a constraint; gains that miss
   /// it on the draws of the search are rejected.
@@ -141,7 +142,7 @@ struct TuningGoal {
 };
 inline constexpr double kLeastShare = 0.5, kMostShare = 0.999;
 inline constexpr std::size_t kMostGoals = 20;
-/// Default number of draws that goals are evaluated on.
+/// Default number of new draws on which goals are evaluated.
 inline constexpr int kGoalDraws = 500;
 inline constexpr int kFewestSamples = 16, kMostSamples = 100'000;
 inline constexpr std::size_t kRunFigures = 6;  ///< names in run_figure_names()
@@ -149,9 +150,10 @@ bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 
 struct TuneOptions {
-  /// true: only the model's own values, with noise-free sensors without latency and motors without
-  /// lag. false (robust): also `draws` plants from the model's covariance, under LoopConditions.
-  /// Every constraint holds for all of these plants.
+  /// true: tune on the identified plant only, with noise-free sensors without latency and motors
+  /// without lag. false (robust): tune also on `draws` plants from the model's covariance, with the
+  /// noise, latency and lag of LoopConditions. The gains meet every constraint on all of these
+  /// plants.
   bool nominal = false;
   int draws = 32;                 ///< drawn plants of the search, 0 ... 1000
   int evaluation_draws = 50;      ///< new draws for the evaluation of the gains, 0 ... 100000
@@ -166,12 +168,14 @@ struct TuneOptions {
   /// The only mode to tune for; absent: all modes of the vehicle. It does not change the default
   /// scenarios.
   std::optional<YawMode> mode = {};
-  /// Absent: the gains with the fastest poles that the constraints allow (pole_placement.h).
+  /// Absent: the baseline is the gains with the fastest poles that the constraints allow
+  /// (pole_placement.h).
   std::optional<Baseline> baseline = {};
   /// Largest ratio of the control variation to that of the baseline gains, in each mode, > 0.
   /// Absent: no limit.
   std::optional<double> activity_max = {};
-  /// Form of the condition T2 < T1 that is required. kPaper allows an eps/mu twice as large.
+  /// Form of the condition T2 < T1 that is required. kPaper allows twice as large an eps/mu as
+  /// kStrict.
   ReachingForm form = ReachingForm::kStrict;
   /// Required: reaching time constant <= margin T1. In (0, 1). A smaller margin makes the approach
   /// to the sliding surface faster, compared with the motion on it.
@@ -262,7 +266,7 @@ struct EvaluatedRuns {
 struct EvaluatedFigure {
   std::string name;  ///< "heading_iae_degs"
   double median = 0.0;
-  double q95 = 0.0;
+  double q95 = 0.0;        ///< 95 % quantile
   double tail_mean = 0.0;  ///< mean over the worst tail_share of the draws (CVaR)
 };
 
@@ -321,10 +325,11 @@ struct EvaluatedGoal {
   GoalVerdict verdict = GoalVerdict::kOpen;
 };
 
-/// Conditions of a robust search, and results of its gains.
+/// Conditions of a robust search, and the evaluation of its gains on new draws.
 struct RobustTuning {
   LoopConditions conditions;
-  /// false: the model has no covariance, so the draws differ by noise and unmodelled variation only.
+  /// false: the model has no covariance, so the draws differ by noise and unmodelled variation
+  /// only.
   bool from_covariance = false;
   /// By gains, then mode. Empty if only a part was evaluated (TuneOptions::shard).
   std::vector<EvaluatedGains> evaluated;
@@ -335,8 +340,9 @@ struct RobustTuning {
   std::optional<GlobalSensitivity> sensitivity;  ///< absent if not requested
 };
 
-/// Settling time and control variation of one set of gains, each the mean over the modes, scenarios
-/// and plants of the search. A run that does not settle counts with the scenario's duration.
+/// Settling time and control variation of one set of gains, each as the mean over the modes,
+/// scenarios and plants of the search. The settling time of a run that does not settle is the
+/// scenario's duration.
 struct TradeOffPoint {
   double settling_time_s = 0.0;
   double control_variation = 0.0;  ///< 1/s, as Metrics::control_variation
@@ -348,10 +354,10 @@ struct NamedTradeOff {
 struct TradeOff {
   /// Pareto front of the feasible gains that the search evaluated, sorted by settling time.
   std::vector<TradeOffPoint> front;
-  /// Named gains on the same runs. Gains with a run that breaks off are left out. "lqi": the LQI
-  /// law (control/heading_lqi.h) with weights by Bryson's rule. With s the largest heading step, the
-  /// acceptable values are: heading error s/6, yaw rate s/(1.5 s), integral of the error (s/6)(4 s),
-  /// and moment a quarter of the weaker mode's largest.
+  /// Points of named gains on the same runs. Gains with a run that breaks off are left out.
+  /// "lqi": the LQI law (control/heading_lqi.h) with weights by Bryson's rule. With s the largest
+  /// heading step, the acceptable values are: heading error s/6, yaw rate s/(1.5 s), integral of
+  /// the error (s/6)(4 s), and moment a quarter of the weaker mode's largest.
   std::vector<NamedTradeOff> named;
 };
 
@@ -431,10 +437,11 @@ Result<Scenario> default_tuning_scenario(const Model& model);
 ///      measured ones.
 ///   2. The same with the heading rate limited to the highest measured yaw rate. It favours gains
 ///      that are accurate where the model is valid. Left out if the model has no measured yaw rate,
-///      or if `said` (--heading-rate-limit) is a rate or "none": then the caller applies `said`.
+///      or if `said` (--heading-rate-limit) is not empty: then the caller applies `said`.
 ///   3. Only if an observer is tuned: the last of these with a constant disturbance, because
-///      without a disturbance an observer only adds noise. The moment is kPush of the weaker mode's
-///      largest (turning_authority_m()), the force kPush of g1(u_d) against the motion.
+///      without a disturbance an observer only adds noise. The moment is kPush times the largest
+///      moment of the weaker mode (turning_authority_m()). The force is kPush times g1(u_d),
+///      against the motion.
 /// Errors (input): as Model::plant.
 Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
                                                        const TuneOptions& options,
@@ -442,18 +449,21 @@ Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
 inline constexpr double kPush = 0.1;  ///< size of the disturbance, as a fraction
 /// Suffix of the name of a default scenario with a heading-rate limit.
 inline constexpr std::string_view kLedSuffix = "_led";
-/// Scenario for the evaluation after the search: twice the heading of default_tuning_scenario(),
-/// then 0, at 0.7 of its speed. Errors (input): as Model::plant.
+/// Scenario for the evaluation after the search: twice the first heading of
+/// default_tuning_scenario(), then the heading 0, at 0.7 of its speed. Errors (input): as
+/// Model::plant.
 Result<Scenario> held_out_scenario(const Model& model);
 
-/// Tunes the gains by a global and then local searches (search.h). Deterministic: model, options and
-/// `arithmetic` determine every bit of the result, for any number of cores.
+/// Tunes the gains by a global and then local searches (search.h). Deterministic: model, options
+/// and the instruction set (Tuning::arithmetic) determine every bit of the result, for any number
+/// of cores.
 /// Errors (refused): no gains within the bounds meet the constraints, the activity limit and the
-/// goals that are not soft (the message names the most violated one); no run of the nominal vehicle
-/// settles with the tuned gains.
-/// Errors (input): the model lacks a parameter; margin, weights, limits, bounds or scenarios are
-/// invalid; runs with the baseline break off; the evaluations would take more than 1e11 RK4 steps
-/// (some hours).
+/// goals that are not soft (the message names the most violated one); runs diverge with all gains;
+/// no run of the nominal vehicle settles with the tuned gains; runs of the sensitivity analysis
+/// diverge.
+/// Errors (input): the model lacks a parameter; an option is invalid (check_options.h); the latency
+/// exceeds 20 samples; no wheel force is left for an observer; runs with the baseline break off;
+/// the evaluations would take more than 1e11 RK4 steps (some hours).
 Result<Tuning> tune(const Model& model, const TuneOptions& options);
 
 /// Content of gains.json.

@@ -147,7 +147,8 @@ void read_goals(JsonObject& json, TuneOptions& options) {
   }
 }
 
-/// Reads the scenarios, whose paths are relative to `directory`. Their faults are added to `faults`.
+/// Reads the scenarios, whose paths are relative to `directory`. Their faults are added to
+/// `faults`.
 void read_scenarios(JsonObject& json, const std::filesystem::path& directory, TuneConfig& config,
                     std::vector<Fault>& faults) {
   if (!json.has("scenarios")) return;

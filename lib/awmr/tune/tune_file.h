@@ -19,16 +19,16 @@ struct TuneConfig {
   std::optional<std::filesystem::path> baseline_file = {};
 };
 
-/// Reads a baseline: "pole-placement" (returns no gains), "paper" or the path of a gains.json.
-/// Errors: as read_gains.
+/// The baseline with this name: "pole-placement" (no gains, tune() computes them), "paper" or the
+/// path of a gains.json. Errors: as read_gains.
 Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name);
 
-/// tune.json (`awmr.tune/1`), strict, every key optional:
+/// Reads tune.json (`awmr.tune/1`). Unknown keys are errors, and every key is optional:
 ///   schema, mode (the only one tuned for), form ("paper" | "strict"), margin,
 ///   weights {settling, itae, overshoot, control_variation, effort, speed_itae},
 ///   bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
 ///   observer {bandwidth_radps [lo, hi], yaw_max_m, surge_max},
-///   nominal, draws (32), judged_draws (evaluation draws: 50; with goals 500), tail_share,
+///   nominal, draws (32), judged_draws (draws of the evaluation: 50; with goals 500), tail_share,
 ///   activity_max,
 ///   limits {steering_rate_rms_degps, damping, late_damping, delayed_damping, noise_share},
 ///   baseline ("pole-placement" | "paper" | path of a gains.json relative to the file),

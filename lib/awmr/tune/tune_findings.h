@@ -17,8 +17,8 @@ std::vector<Finding> evaluation_findings(const std::vector<EvaluatedGains>& eval
 
 /// All findings of a tuning: first those of the fresh draws, then those that do not depend on the
 /// draws. For nominal gains, or without fresh draws, the runs of the nominal vehicle replace the
-/// fresh draws. A part (options.shard) has the second kind only; merge_tune_shards() adds the first.
-/// Precondition: `tuning` is the result of tune() with `options`.
+/// fresh draws. A part (options.shard) has the second kind only; merge_tune_shards() adds the
+/// first. Precondition: `tuning` is the result of tune() with `options`.
 std::vector<Finding> tune_findings(const Model& model, const TuneOptions& options,
                                    const Tuning& tuning);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr NumberRule kGoalLimit{.min = 0.0, .max = 1e9, .min_excluded = true};
 
-/// Adds the quantiles of one set of gains in one mode: by mode, then gains.
+/// Adds the quantiles of one set of gains in one mode to `json`, at /MODE/GAINS.
 void put_quantiles(const EvaluatedGains& evaluated, Json& json) {
   Json& entry = json[std::string(name_of(evaluated.mode))][evaluated.gains];
   entry["completed_share"] = evaluated.completed_share;

@@ -10,7 +10,7 @@
 
 namespace awmr {
 
-/// A limit of TuningLimits in (0, 1], as tune.json and gains.json name it.
+/// A limit of TuningLimits in (0, 1], with its key in tune.json and gains.json.
 struct LimitKey {
   const char* name;
   double TuningLimits::*limit;

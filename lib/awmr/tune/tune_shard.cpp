@@ -21,7 +21,7 @@ namespace {
 /// Maximum of evaluation_draws, as in tune.json.
 constexpr long kMaxEvaluationDraws = 100'000;
 
-/// Keys of shard.json that only a tuning has. The runs themselves are in judged.csv.
+/// Content of the keys of shard.json that only a tuning has. The runs are in judged.csv.
 struct Payload {
   int evaluation_draws = 0;
   std::vector<std::string> gains;
@@ -174,8 +174,8 @@ Result<Json> read_gains_json(const std::vector<Part>& parts) {
   return json;
 }
 
-/// The text of judged.csv: `gains,draw,mode,scenario,completed,broke_off` and the figures,
-/// scenarios by number, from 1.
+/// The text of judged.csv: the columns gains, draw, mode, scenario (its number, from 1), completed,
+/// broke_off, then the metrics of run_figure_names().
 std::string evaluation_csv(const Tuning& tuning, const TuneOptions& options) {
   const std::vector<EvaluatedRuns>& all = tuning.robust->runs;
   const std::size_t draws = at(options.shard->share_of(options.evaluation_draws));

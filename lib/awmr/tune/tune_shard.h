@@ -1,6 +1,6 @@
-/// Evaluation of gains on several machines. Each machine repeats the search, with the same result,
-/// and runs its part of the new draws. merge_tune_shards() combines the parts to the output of a
-/// single `awmr tune`, byte for byte.
+/// Evaluation of tuned gains on several machines. Each machine repeats the search, with the same
+/// result, and simulates its part of the new draws. merge_tune_shards() combines the parts to the
+/// output of a single `awmr tune`, byte for byte.
 #pragma once
 
 #include <filesystem>
