@@ -29,7 +29,7 @@ AWMR_INLINE uint8_t check_period(Autopilot<G, P>& a, uint32_t now_ms) {
   return is_late ? kFaultStepLate : kFaultNone;
 }
 
-/// Faults of one step's input.
+/// Checks the input of one step. Returns SafetyFault bits.
 template <class G, class P>
 AWMR_INLINE uint8_t check_input(Autopilot<G, P>& a, const AutopilotInput& in) {
   unsigned fault = a.are_parameters_good ? kFaultNone : kFaultParameters;

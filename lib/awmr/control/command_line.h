@@ -11,8 +11,8 @@
 /// - A line is executed only if it is a complete command; incomplete lines are refused.
 /// - Exception: STOP acts at its last letter, anywhere in a line, even in one that is too long or
 ///   damaged.
-/// - A frame is new if its sequence number is 1 to 127 after the last. A repeated one is refused,
-///   so that a stuck transmitter cannot prevent the command time-out.
+/// - A frame is new if its sequence number is 1 to 127 above that of the last new frame, modulo 256.
+///   A repeated frame is refused, so that a stuck transmitter cannot prevent the command time-out.
 /// - After the first frame, text other than STOP is refused until the next reset, because noise on
 ///   a radio link can look like a short text but not like a frame.
 #pragma once
@@ -55,7 +55,7 @@ class CommandReader {
   CommandWord word = CommandWord::kNone;
   float value = 0.0F;      ///< 0 if the command has none
   bool is_framed = false;  ///< the last line was a frame
-  uint8_t sequence = 0;    ///< sequence number of the last accepted frame
+  uint8_t sequence = 0;    ///< sequence number of the last new frame
 
   /// Result for the line that this character completes; kNone within a line.
   CommandVerdict take(char c) {

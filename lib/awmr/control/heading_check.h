@@ -113,12 +113,12 @@ class StepCheck {
   bool is_apart() const { return is_apart_; }
 
  private:
-  /// An innovation above 20 deg for 0.2 s: the compass jumped, or the scale of the gyroscope is
-  /// wrong in a turn.
+  /// Fault: an innovation above 20 deg for 0.2 s. Causes: the compass jumped, or the scale of the
+  /// gyroscope is wrong and the vehicle turns.
   static constexpr float kJump_rad = 0.35F;
   static constexpr float kJump_s = 0.2F;
-  /// A mean innovation above 6 deg (low pass of 5 s), which is 3 deg/s for T = 2 s: the compass is
-  /// frozen, or the gyroscope drifts.
+  /// Fault: a mean innovation above 6 deg (low pass of 5 s); with T = 2 s, the yaw rates differ by
+  /// 3 deg/s. Causes: the compass is frozen, or the gyroscope drifts.
   static constexpr float kSlow_per_s = 0.2F;
   static constexpr float kSlowMax_rad = 0.105F;
 

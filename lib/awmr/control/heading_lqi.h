@@ -66,7 +66,7 @@ LqiGains<T> lqi_gains(const LqiWeights<T>& weights, const T& inertia_norm) {
 }
 
 /// True if the sampled closed loop, with T_s = sample_time_s > 0, is stable. During a sample w is
-/// constant, so the loop is
+/// constant, so the loop is, with + for the value at the next sample,
 ///   e+ = e + T_s e_dot - w T_s^2/2,  e_dot+ = e_dot - w T_s,  z+ = z + T_s e
 /// Its characteristic polynomial in l = (eigenvalue) - 1 is
 ///   l^3 + A l^2 + B l + C,  A = a2 T_s + a1 T_s^2/2,  B = a1 T_s^2 + a0 T_s^3/2,  C = a0 T_s^3

@@ -47,8 +47,8 @@ struct LogRow {
   float tau_turn_m;
   uint8_t mode;    ///< a YawMode
   uint8_t fault;   ///< SafetyFault bits
-  uint8_t limits;  ///< 1: speed, 2: steering, 4: force, 8: too little force to steer with;
-                   ///< 16 ... 240: SensorFault (sensor_fault.h) modulo 16
+  uint8_t limits;  ///< 1, 2, 4: tau_speed, d_r, a force was limited; 8: too little force to steer;
+                   ///< upper four bits: SensorFault (sensor_fault.h) modulo 16
   uint8_t
       reset_cause;  ///< 1 ... 31: as reported by the board, the same in every row; 128: SensorFault is 16 or more
 };

@@ -1,4 +1,5 @@
-/// Parameters of the firmware's vehicle, as one block with a check sum. Freestanding C++14.
+/// Parameters of the vehicle and the controller for the firmware, as blocks with a common check
+/// sum. Freestanding C++14.
 #pragma once
 
 #include <stddef.h>

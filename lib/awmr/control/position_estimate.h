@@ -33,8 +33,8 @@ namespace awmr {
 template <class T>
 struct PositionFix {
   Position<T> position_m;
-  T age_s;      ///< time since it was taken, >= 0
-  bool is_new;  ///< not yet processed by a step
+  T age_s;      ///< time since the fix was taken, s, >= 0
+  bool is_new;  ///< no step has processed the fix yet
 };
 
 /// Estimate of the position. Filter: PositionFilter, or a type with the same names as constants.

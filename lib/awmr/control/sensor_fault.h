@@ -3,7 +3,7 @@
 /// While a sensor has a fault, its readings are not used. Their time stamp becomes too old, and the
 /// autopilot gives the safe command (safety.h). A fault ends with its cause, except that these end
 /// when:
-///   kHeadingOutOfStep           compass and gyroscope have to agree again for a while
+///   kHeadingOutOfStep           compass and gyroscope have agreed again for a while
 ///   kWrongTurn                  the vehicle does not turn and its motors are off
 ///   kGpsOld                     if UTC ran backward: ten fixes with advancing UTC have arrived
 ///   kGpsJump                    a fix is within reach again; or the vehicle is disarmed and ten

@@ -1,4 +1,4 @@
-/// The speed law. Freestanding C++14.
+/// The speed law: thrust from the speed error, with the resistance fed forward. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/controller.h"

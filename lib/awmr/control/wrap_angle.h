@@ -1,4 +1,4 @@
-/// The equivalent of an angle in (-pi, pi]. Freestanding C++14.
+/// Wraps an angle to the equivalent angle in (-pi, pi]. Freestanding C++14.
 #pragma once
 
 #include "awmr/core/units.h"
@@ -17,7 +17,7 @@ T wrap_angle(T angle_rad) {
   using math::cos;
   using math::sin;
   const T few = T(2.0 * kTurnsOneByOne) * pi<T>();
-  // NaN compares false with every bound, so the loops below would not end.
+  // NaN compares false with every bound: without this test, the second loop below would not end.
   if (!(angle_rad < few && angle_rad > -few)) angle_rad = atan2(sin(angle_rad), cos(angle_rad));
   if (!(angle_rad < few && angle_rad > -few)) return angle_rad;
   while (angle_rad > pi<T>()) angle_rad -= T(2.0) * pi<T>();

@@ -219,8 +219,8 @@ T scrub_of(const Plant<T>& p, const State<T>& s, const YawMoments<T>& tau) {
 ///   u_dot = (S_f cos d_r + S_r + m' r v - g1(u)) / m'
 ///   v_dot = (S_f sin d_r       - m' r u - g2(v)) / m'
 ///   r_dot = (l_f S_f sin d_r + d cos d_r (F'FR - F'FL) + d (F'RR - F'RL) - g3(r) - N_c) / I'z
-/// with N_c = scrub_moment_m(); the first three are in detail::rates().      [paper (39),
-/// corrected] Corrected: the rear term of the printed r_dot repeats the front pair of forces.
+/// with N_c = scrub_moment_m(); the first three are in detail::rates().     [paper (39), corrected]
+/// Corrected: the rear term of the printed r_dot repeats the front pair of forces.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>& f,
                      const T& steering_command_rad) {

@@ -1,4 +1,5 @@
-/// Findings as the JSON under model.json's /findings. Not installed; include from .cpp files only.
+/// Converts findings to and from JSON, as in `/findings` of model.json. Not installed; include from
+/// .cpp files only.
 #pragma once
 
 #include <string>

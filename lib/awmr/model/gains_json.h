@@ -1,4 +1,4 @@
-/// Gains as the JSON of gains.json. Not installed; include from .cpp files only.
+/// Converts gains to and from the JSON of gains.json. Not installed; include from .cpp files only.
 #pragma once
 
 #include "awmr/core/json.h"

@@ -43,13 +43,13 @@ std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interv
   return best;
 }
 
-/// "; the value looks like mm: 0.32", or another remedy.
+/// End of a message: "; the value looks like mm: 0.32", or advice to measure again without a guess.
 std::string remedy(double value, const std::optional<Guess>& guess) {
   if (!guess) return "; measure it again";
   return fmt::format("; the value {}: {:.4g}", guess->words, value * guess->factor);
 }
 
-/// Unit factors of the sizes and the mass.
+/// Factors that convert sizes and mass from the units in which they were probably given.
 struct Scale {
   double size;
   double mass;

@@ -6,9 +6,9 @@
 ///
 ///     u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v
 ///
-/// A step in which u passes 0 ends there. Then friction holds the vehicle, u_dot = 0, while the
-/// driving force |X + m' r v| is at most c. Yaw is treated likewise. With a chord instead of the
-/// jump, as in rest.h, a held vehicle would creep.
+/// A step in which u passes 0 is cut at that time. Then friction holds the vehicle, u_dot = 0,
+/// while the driving force |X + m' r v| is at most c. Yaw is treated likewise. With a chord instead
+/// of the jump, as in rest.h, a held vehicle would creep.
 #pragma once
 
 #include "awmr/model/rest.h"

@@ -1,5 +1,5 @@
-/// Range of a motor's force as JSON: in vehicle.json and in the unmodelled variation of a search.
-/// Include from .cpp files only.
+/// Converts the range of a motor's force to and from JSON, for vehicle.json and for the unmodelled
+/// variation of a search. Include from .cpp files only.
 #pragma once
 
 #include "awmr/core/interval.h"
@@ -7,7 +7,7 @@
 
 namespace awmr {
 
-/// `{min, max}` of F' of one wheel over F_max: -1 <= min < max, 0 < max <= 1.
+/// Reads `{min, max}` of F' of one wheel over F_max: -1 <= min <= 0 < max <= 1.
 Interval wheel_force_from_json(JsonObject json);
 Json wheel_force_to_json(const Interval& force);
 

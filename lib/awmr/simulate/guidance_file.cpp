@@ -45,7 +45,7 @@ HeadingSteps read_heading_steps(JsonObject& json) {
   return heading;
 }
 
-/// `[x, y]` under a key.
+/// Reads a point `[x, y]`, m.
 Position<double> read_point(JsonObject& json, const char* key) {
   const std::vector<double> xy = json.numbers(key, kCoordinate_m);
   if (xy.size() == 2) return {xy[0], xy[1]};
@@ -53,7 +53,7 @@ Position<double> read_point(JsonObject& json, const char* key) {
   return {};
 }
 
-/// `[[x, y], ...]`
+/// Reads an array of at least `least` points `[[x, y], ...]`, m.
 std::vector<Position<double>> read_points(JsonObject& json, const char* key, std::size_t least) {
   std::vector<Position<double>> points;
   bool well_formed = true;
@@ -132,7 +132,7 @@ LinePath read_line(JsonObject& json) {
   return path;
 }
 
-/// Two numbers under a key.
+/// Reads an array of two numbers.
 std::array<double, 2> read_pair(JsonObject& json, const char* key, NumberRule rule) {
   const std::vector<double> pair = json.numbers(key, rule);
   if (pair.size() == 2) return {pair[0], pair[1]};

@@ -58,7 +58,7 @@ struct Metrics {
 
 /// Sum of copper loss and mechanical work, J, for the normalised mass m':
 ///   P_s energy_electric + F_max energy_mech,   F_max = m/m'                          [paper (66)]
-/// P_s is the motors' stall power; absent without it.
+/// P_s is the stall power of one motor (Vehicle::motor_stall_power_w). Absent if it is not known.
 std::optional<double> electric_work_j(const Metrics& metrics, const Vehicle& vehicle,
                                       double mass_norm);
 

@@ -24,14 +24,16 @@ bool cross(const Position<double>& a, const Position<double>& b, const Position<
   return left(turn(a, b, c)) != left(turn(a, b, d)) && left(turn(c, d, a)) != left(turn(c, d, b));
 }
 
-/// Union-find with parities. The parity of an element says whether the path to its root has an odd
-/// number of odd edges.
+/// Groups of overlapping discs (union-find with parities). An edge joins two discs; it is odd if it
+/// crosses the segment between the two points. The parity of a disc says whether the path to the
+/// root of its group has an odd number of odd edges.
 class ParitySets {
  public:
   explicit ParitySets(std::size_t count) : parent_(count), odd_(count, false) {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
-  /// False if the edge closes a cycle of odd parity.
+  /// Joins the groups of a and b by an edge. False if the edge closes a cycle with an odd number of
+  /// odd edges.
   bool join(std::size_t a, std::size_t b, bool odd) {
     const auto [root_a, odd_a] = root(a);
     const auto [root_b, odd_b] = root(b);

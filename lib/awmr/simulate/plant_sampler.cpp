@@ -88,7 +88,7 @@ Status check_shape(const Covariance& covariance, const std::string& place) {
   return {};
 }
 
-/// Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q)
+/// Covariance of the coordinates: Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q)
 Eigen::MatrixXd coordinate_covariance(const Model& model) {
   const std::vector<ParameterId>& ids = model.covariance.parameters;
   Eigen::MatrixXd covariance(rows_of(ids), rows_of(ids));

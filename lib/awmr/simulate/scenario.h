@@ -55,7 +55,7 @@ struct WaypointPath {
   std::optional<double> slow_down_m;
 };
 
-/// A line-following law: the paper's line of sight, or a baseline.
+/// A line-following law with its parameters: the paper's line of sight, or a law for comparison.
 using AnyLineLaw = LineLaws<std::variant, double>;
 /// Each law, with parameters of 0, in the order of LineLaws.
 std::vector<AnyLineLaw> line_laws();
@@ -181,7 +181,8 @@ inline constexpr YawMode kYawModes[] = {YawMode::kDifferential, YawMode::kSteeri
                                         YawMode::kCombined};
 /// Modes of the vehicle, in the order of kYawModes; without steering, differential only.
 std::span<const YawMode> yaw_modes(const Vehicle& vehicle);
-/// Errors (input): the mode needs steering and the vehicle has none.
+/// Checks that the vehicle has this mode. Errors (input): the mode needs steering, and the vehicle
+/// has none.
 Status check_mode(const Vehicle& vehicle, YawMode mode);
 
 }  // namespace awmr

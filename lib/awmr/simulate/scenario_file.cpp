@@ -21,7 +21,8 @@ State<double> read_initial(JsonObject json) {
   return state;
 }
 
-/// Reads u_d. A guidance with constant thrust has no commanded speed and no such key.
+/// Reads speed_mps, which is u_d. With constant thrust, there is no commanded speed, and the key is
+/// an error.
 double read_speed(JsonObject& json, bool holds_thrust) {
   if (!json.has("speed_mps")) {
     if (!holds_thrust) json.fault(ErrorCode::kMissing, "speed_mps", "this key is missing; add it");

@@ -111,8 +111,9 @@ Result<Controller<double>> controller_for(const Model& model, const Gains<double
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                      YawMode mode);
 
-/// Errors (input): the run would have more than kMostRows rows (the message names duration_s), or
-/// more than kMostSteps steps (it names the parameter whose time constant requires them).
+/// Checks the length of a run. Errors (input): the run would have more than kMostRows rows (the
+/// message names duration_s), or more than kMostSteps RK4 steps (the message names the parameter
+/// whose time constant requires them).
 Status check_work(const Plant<double>& plant, const std::string& model_file,
                   const Scenario& scenario, double sample_time_s);
 

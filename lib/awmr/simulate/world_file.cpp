@@ -25,7 +25,7 @@ Window read_window(JsonObject& json) {
   return window;
 }
 
-/// Types of disturbance terms in the file; a step becomes a constant that begins later.
+/// Types of disturbance terms in the file. A step is read as a constant that begins at t_s.
 enum class TermType { kConstant, kStep, kSine, kNoise };
 constexpr NameTable<TermType, 4> kTermTypes{{{"constant", TermType::kConstant},
                                              {"step", TermType::kStep},

@@ -85,8 +85,8 @@ struct ValuedPoint {
 };
 using PointFunction = std::function<double(const SetPoint&)>;
 
-/// Pattern search from `best`: steps along the axes and along as many random directions. The step
-/// is halved if none of them decreases the function.
+/// Pattern search from `best`: tries steps along the axes and along as many random directions. The
+/// step length is halved if no step decreases the function.
 ValuedPoint search_by_pattern(ValuedPoint best, const PointFunction& value, Random& random) {
   constexpr double kFirstPatternStep = 0.25;
   constexpr double kLastPatternStep = 5e-4;

@@ -30,7 +30,8 @@ double damping_of(const std::complex<double>& z) {
 /// States psi, r, w_servo, w_motor and the held input w.
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
-/// [Phi Gamma; 0 1] = exp([A B; 0 0] t)
+/// The plant x_dot = A x + B w over the time t = `time_s` with constant w:
+///   [Phi Gamma; 0 1] = exp([A B; 0 0] t)
 Matrix5 held_over(const SampledHeadingLoop& loop, double time_s) {
   const bool lag = loop.motor_time_constant_s > 0.0;
   Matrix5 continuous = Matrix5::Zero();
@@ -125,7 +126,7 @@ double damping_ratio(const SampledHeadingLoop& loop) {
 
 namespace {
 
-/// P(w, f) of delay_margin_s().
+/// P(w, f) of delay_margin_s(): the open loop with its delay removed.
 class CompensatedLoop {
  public:
   CompensatedLoop(const SampledHeadingLoop& loop, double part)

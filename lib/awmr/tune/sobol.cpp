@@ -15,7 +15,7 @@ struct FirstAndTotal {
   double first = 0.0, total = 0.0;
 };
 
-/// Indices of one input, from the samples with these indices, which can repeat (bootstrap).
+/// Sobol indices of one input, from the samples at `places`, which can repeat (bootstrap).
 FirstAndTotal indices_over(const std::vector<std::size_t>& places, const std::vector<double>& of_a,
                            const std::vector<double>& of_b, const std::vector<double>& of_mixed) {
   double mean = 0.0, least = of_a[places.front()], most = least;

@@ -50,7 +50,7 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
   double evaluations = static_cast<double>(options.global_evaluations) + options.local_evaluations;
   if (!options.nominal) {
     steps *= 1.0 + options.draws;
-    // The evaluation runs three sets of gains on each draw.
+    // The evaluation runs about three sets of gains (candidates_of()) on each draw.
     evaluations += (3.0 * options.evaluation_draws + sensitivity_runs(model, options.sensitivity)) /
                    (1.0 + options.draws);
   }
@@ -76,8 +76,8 @@ double largest_step_rad(const Scenario& scenario) {
   return largest;
 }
 
-/// Expected highest yaw rate in runs of the scenario, rad/s: the largest step within 1 s, or the
-/// heading-rate limit if that is lower.
+/// Expected highest yaw rate in runs of the scenario, rad/s: the largest heading step divided by 1
+/// s, or the heading-rate limit if that is lower.
 double reached_radps(const Scenario& scenario) {
   const double in_a_second = largest_step_rad(scenario) / 1.0;
   return scenario.shaping ? std::min(in_a_second, scenario.shaping->rate_max_radps) : in_a_second;
@@ -116,7 +116,7 @@ void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context) {
       std::min(vehicle.steering_max_rate_degps, 2.0 * degrees(context.plant.steering_max_rad) /
                                                     context.plant.steering_time_constant_s);
   const Gains<double> none{{0.0, 0.0, 1.0}, {0.0, 1.0}};
-  // Without Coulomb friction: with_friction_width() limits the noise that it adds.
+  // Without Coulomb friction, because with_friction_width() limits the noise that friction adds.
   ConstraintContext without_friction = context;
   without_friction.plant.yaw.coulomb = 0.0;
   context.limits.steering_rate_rms_degps =

@@ -65,7 +65,7 @@ struct TuningLimits {
   /// held at the largest u_d of the scenarios (steering_rate_rms_degps() in constraints.h).
   /// Absent in a nominal search: no limit. Absent in a robust search: the larger of
   ///   - 0.9 of the servo's rate limit, which counts as at most 2 d_max/T, T its time constant;
-  ///   - 1.25 times the rate that the feed-forward g3(r) of a noisy yaw rate causes with any gains.
+  ///   - 1.25 times the rate that the feed-forward g3(r) of a noisy yaw rate causes by itself.
   std::optional<double> steering_rate_rms_degps = {};
   double damping = 0.7;           ///< smallest damping ratio of the heading loop without latency
                                   ///< and motor lag, (0, 1]
@@ -102,8 +102,9 @@ struct ObserverSearch {
 };
 inline constexpr double kObserverShare = 0.5;
 
-/// Number of drawn plants in the search if three modes are tuned. With one mode there are 12, so
-/// that the number of runs is the same. The last part of the search uses all draws.
+/// Number of drawn plants in the search if three modes are tuned; with one mode 12, so that the
+/// number of runs is the same. It is at least UnmodelledVariation::combinations(). The last part of
+/// the search uses all draws.
 inline constexpr int kSearchedDraws = 4;
 /// Relative difference of the objective below which gains are equally good. settle()
 /// (sensitivity.h) selects among equally good gains.
@@ -234,7 +235,7 @@ struct ModeScore {
 /// An evaluation of the search that improved on all earlier ones.
 struct SearchStep {
   int evaluation = 0;      ///< number of the evaluation, from 1
-  double objective = 0.0;  ///< the gains meet every constraint
+  double objective = 0.0;  ///< of the evaluated gains, which meet every constraint
 };
 
 /// Progress of a search.
@@ -305,10 +306,10 @@ struct GlobalSensitivity {
   std::vector<SensitiveFigure> figures;  ///< by mode, then metric
 };
 
-/// Result of a goal on fresh draws.
+/// Verdict on a goal from the share of the new draws that meet it (EvaluatedGoal::ci95).
 enum class GoalVerdict {
-  kMet,     ///< the whole interval is at or above the goal's share
-  kMissed,  ///< the whole interval is below the goal's share
+  kMet,     ///< the whole 95 % interval of the share is at or above the required share
+  kMissed,  ///< the whole 95 % interval of the share is below the required share
   kOpen,    ///< neither: more draws are needed
 };
 inline constexpr NameTable<GoalVerdict, 3> kGoalVerdictNames{
@@ -446,7 +447,7 @@ Result<Scenario> default_tuning_scenario(const Model& model);
 Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
                                                        const TuneOptions& options,
                                                        const HeadingRateChoice& said = {});
-inline constexpr double kPush = 0.1;  ///< size of the disturbance, as a fraction
+inline constexpr double kPush = 0.1;  ///< size of the disturbance, see default_tuning_scenarios()
 /// Suffix of the name of a default scenario with a heading-rate limit.
 inline constexpr std::string_view kLedSuffix = "_led";
 /// Scenario for the evaluation after the search: twice the first heading of

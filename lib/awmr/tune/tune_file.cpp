@@ -98,7 +98,8 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
   }
 }
 
-/// "pole-placement", "paper", or the path of a gains.json relative to `directory`.
+/// Reads the baseline: "pole-placement", "paper", or the path of a gains.json relative to
+/// `directory`.
 void read_baseline(JsonObject& json, const std::filesystem::path& directory, TuneConfig& config,
                    std::vector<Fault>& faults) {
   const std::optional<std::string> name = json.optional_string("baseline");
@@ -201,7 +202,7 @@ Json active_json(const std::vector<ActiveConstraint>& active) {
 
 Json interval_json(const Interval& interval) { return {interval.lo, interval.hi}; }
 
-/// By mode, then scenario.
+/// The scores, by mode, then scenario.
 Json scores_json(const std::vector<ModeScore>& scores) {
   Json json = Json::object();
   for (const ModeScore& score : scores) {

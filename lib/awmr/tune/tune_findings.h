@@ -8,17 +8,19 @@
 
 namespace awmr {
 
-/// Findings of the tuned gains on fresh draws: a warning for each goal that they do not confirm
-/// (`goal-missed`, `goal-open`) and for each mode in which fewer than 95 % of the runs settle after
-/// every step (`unsettled`), per scenario if there are several. Arguments as in RobustTuning.
+/// Findings of the tuned gains on fresh draws, which are draws that the search did not use: a
+/// warning for each goal that these draws do not confirm (`goal-missed`, `goal-open`), and one for
+/// each mode in which fewer than 95 % of the runs settle after every step (`unsettled`), per
+/// scenario if there are several. Arguments as in RobustTuning.
 std::vector<Finding> evaluation_findings(const std::vector<EvaluatedGains>& evaluated,
                                          const std::vector<EvaluatedGains>& evaluated_by_scenario,
                                          const std::vector<EvaluatedGoal>& goals);
 
 /// All findings of a tuning: first those of the fresh draws, then those that do not depend on the
-/// draws. For nominal gains, or without fresh draws, the runs of the nominal vehicle replace the
-/// fresh draws. A part (options.shard) has the second kind only; merge_tune_shards() adds the
-/// first. Precondition: `tuning` is the result of tune() with `options`.
+/// draws. For nominal gains, or without fresh draws, the runs of the nominal vehicle replace those
+/// on fresh draws. A part (options.shard) has only findings that do not depend on the draws;
+/// merge_tune_shards() adds the others. Precondition: `tuning` is the result of tune() with
+/// `options`.
 std::vector<Finding> tune_findings(const Model& model, const TuneOptions& options,
                                    const Tuning& tuning);
 

@@ -32,7 +32,8 @@ struct MergedTuning {
 };
 
 /// Combines the parts in these directories, in any order. Errors (input): as read_parts(); a file
-/// whose checksum differs from the one in shard.json; a row of another part, or a missing row.
+/// whose checksum differs from the one in shard.json; a row of another part, or a missing row; a
+/// gains.json without `robust`.
 Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>& directories);
 
 }  // namespace awmr
