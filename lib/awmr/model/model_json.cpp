@@ -98,7 +98,8 @@ void check_covariance(JsonObject& json, const std::vector<std::vector<double>>& 
       m, [&](const std::vector<double>& row) { return row[at(&row - m.data())] >= 0.0; });
   if (variances && !are_correlations(m)) {
     json.fault(ErrorCode::kContradiction, "matrix",
-               "is not positive semi-definite: its correlations contradict each other");
+               "is not positive semi-definite, because its correlations contradict each other; "
+               "identify again");
   }
 }
 

@@ -151,9 +151,8 @@ void check_inertia(const Vehicle& vehicle, std::vector<Implausible>& found) {
        fmt::format("yaw_inertia_kgm2 is {:.3g} times that of a box of this mass and size, {:.4g} "
                    "kg m^2 (all mass in the corners makes 3 times){}",
                    ratio, box.inertia_kgm2(),
-                   guess
-                       ? remedy(*vehicle.yaw_inertia_kgm2, guess)
-                       : "; measure it again, or omit the key: then that of the box is used")});
+                   guess ? remedy(*vehicle.yaw_inertia_kgm2, guess)
+                         : "; measure it again, or omit the key: then that of the box is used")});
 }
 
 void check_steering(const Vehicle& vehicle, std::vector<Implausible>& found) {

@@ -113,9 +113,9 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
   }
   return Finding{
       model.file, 0, Severity::kWarning, "tyres-differ",
-      fmt::format("{}: the yaw moment for {:.3g} deg/s in the model, the highest measured rate, "
-                  "gives {:.3g} deg/s on these tyres. So the results are for another vehicle; "
-                  "awmr validate --tyres fits the tyres to logs",
+      fmt::format("{}: with the yaw moment that turns the model at {:.3g} deg/s, the highest "
+                  "measured rate, the vehicle on these tyres turns at {:.3g} deg/s. The tyres do "
+                  "not match the vehicle; fit them to logs with awmr validate --tyres",
                   scenario.name, plain_degps, on_tyres_degps)};
 }
 

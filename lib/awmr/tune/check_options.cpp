@@ -62,8 +62,8 @@ void check_scenarios(const std::vector<Scenario>& scenarios, bool observer_is_se
   for (const Scenario& scenario : scenarios) {
     if (!std::holds_alternative<HeadingSteps>(scenario.guidance)) {
       faults.push_back({ErrorCode::kUnsupported, "",
-                        fmt::format("scenario '{}' commands no headings; gains are tuned on "
-                                    "guidance of type 'heading'",
+                        fmt::format("scenario '{}' commands no headings; give guidance of "
+                                    "type 'heading', on which gains are tuned",
                                     scenario.name)});
     }
     if (scenario.held_tau_speed()) {

@@ -19,8 +19,8 @@ void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
   const bool is_missed = evaluated.verdict == GoalVerdict::kMissed;
   findings.push_back(
       {"", 0, Severity::kWarning, is_missed ? "goal-missed" : "goal-open",
-       fmt::format("{} of {} fresh draws in {} meet the goal (95 %: {:.1f} to {:.1f} %); {:g} % "
-                   "are required: {}",
+       fmt::format("{} of {} fresh draws in {} meet the goal (95 % interval: {:.1f} to {:.1f} %); "
+                   "{:g} % are required: {}",
                    evaluated.held, evaluated.runs, name_of(evaluated.mode),
                    100.0 * evaluated.ci95.lo, 100.0 * evaluated.ci95.hi,
                    100.0 * evaluated.goal.share,
@@ -84,7 +84,7 @@ void note_observer(const TuneOptions& options, std::vector<Finding>& findings) {
   if (!options.observer || is_pushed) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "observer-unpushed",
-       "no scenario has a disturbance, so the observer was tuned on noise alone. Give a scenario "
+       "no scenario has a disturbance, so the observer was tuned on noise only. Give a scenario "
        "with a disturbance, or no scenarios to use the default ones"});
 }
 
