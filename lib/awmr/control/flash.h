@@ -5,9 +5,9 @@
 #include <stdint.h>
 #include <string.h>
 
-/// AWMR_IN_FLASH: a constant that needs no RAM. AWMR_SHARED: a function that must not be inlined,
-/// because it is called from several places. AWMR_INLINE: a template that must be inlined, because
-/// it is called from one place only.
+/// AWMR_IN_FLASH: a constant that is only in flash and needs no RAM. AWMR_SHARED: a function that
+/// must not be inlined, because it is called from several places. AWMR_INLINE: a template that must
+/// be inlined, because it is called from one place only.
 #ifdef __AVR__
 #include <avr/pgmspace.h>
 #define AWMR_IN_FLASH PROGMEM

@@ -61,8 +61,8 @@ inline uint8_t hex_value(char c) {
   return 16;
 }
 
-/// Minutes of arc in 1e-7 deg: 1e7 (whole + 1e-7 part)/60. Degrees and minutes are converted
-/// separately to stay within 32 bits.
+/// Converts minutes of arc to 1e-7 deg: 1e7 (whole + 1e-7 part)/60. Degrees and minutes are
+/// converted separately to stay within 32 bits.
 inline int32_t degrees_e7(const RmcNumber& minutes, bool is_negative) {
   const uint16_t whole = static_cast<uint16_t>(minutes.whole);
   const uint16_t degrees = static_cast<uint16_t>(whole / 60U);
@@ -231,7 +231,8 @@ class RmcReader {
   void begin_field() {
     size_ = 0;
     if (field_ < kBeyond) ++field_;
-    // hhmmss[.s*] (no leap second), ddmm.m*, dddmm.m*; knots: at most five digits before the point
+    // time hhmmss[.s*] (no leap second), latitude ddmm.m*, longitude dddmm.m*; knots: up to five
+    // digits before the point
     if (field_ == kUtc) begin_number(numbers_.utc, 6, 3, 0x14);
     if (field_ == kLat) begin_number(numbers_.lat, 4, 7, 0x04);
     if (field_ == kLon) begin_number(numbers_.lon, 5, 7, 0x08);

@@ -50,7 +50,7 @@ struct LogRow {
   uint8_t limits;  ///< 1, 2, 4: tau_speed, d_r, a force was limited; 8: too little force to steer;
                    ///< upper four bits: SensorFault (sensor_fault.h) modulo 16
   uint8_t
-      reset_cause;  ///< 1 ... 31: as reported by the board, the same in every row; 128: SensorFault is 16 or more
+      reset_cause;  ///< bits 0 to 4: from the board, the same in every row; bit 7: SensorFault >= 16
 };
 static_assert(sizeof(LogRow) == 64, "eight rows fill a block of 512 bytes");
 

@@ -8,8 +8,8 @@
 
 namespace awmr {
 
-/// Limit of the fed-forward speed: max(0, u_d + eps_s) for u > 0, else min(0, u_d - eps_s). Rarely
-/// called.
+/// Fastest speed whose resistance the speed law feeds forward, m/s: max(0, u_d + eps_s) if the
+/// vehicle drives forward, else min(0, u_d - eps_s). Rarely called.
 template <class T>
 AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& epsilon_mps) {
   using math::select;

@@ -23,8 +23,9 @@ enum class Effect {
 /// has this effect.
 Effect effect_of(const Finding& finding);
 
-/// Returns the findings sorted by effect. Within an effect, the first finding of each code precedes
-/// the repeated ones; otherwise the order of the list is kept. The list must outlive the result.
+/// Returns the findings sorted by effect. Within an effect, the first finding of each code comes
+/// before further findings with the same codes; otherwise the order of the list is kept. The list
+/// must outlive the result.
 std::vector<const Finding*> by_effect(const std::vector<Finding>& findings);
 
 }  // namespace awmr

@@ -22,7 +22,8 @@ inline constexpr NumberRule kLatency_s{.min = 0.0, .max = 1.0};
 /// Time constant of the correlation of a sensor's noise; 0: none.
 inline constexpr NumberRule kCorrelation_s{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kStallPower_w{.min = 0.0, .max = 1e6, .min_excluded = true};
-/// 1/k_e, the speed at which a motor under full voltage has no force left, is at least 1 mm/s.
+/// The maximum of k_e corresponds to 1/k_e = 1 mm/s, the speed at which a motor under full voltage
+/// has no force left.
 inline constexpr NumberRule kBackEmf_s_per_m{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kFastestTurn_degps{.min = 1e-3, .max = 1e6};
 /// Coefficients of resistance, m' and I'z, each in its own unit.
@@ -40,8 +41,8 @@ inline constexpr NumberRule kFrictionWidth_radps{.min = feed_forward_rest_speed<
 inline constexpr NumberRule kObserverBandwidth{.min = 1e-6, .max = 1e4};
 inline constexpr NumberRule kObserverLimit{.min = 1e-9, .max = 1e6};
 
-/// The valid range of a parameter in model.json. The fields in dynamics.h and resistance.h state the
-/// narrower bounds of the equations.
+/// The valid range of a parameter in model.json. The fields in dynamics.h and resistance.h state
+/// the narrower bounds of the equations.
 NumberRule rule_of(ParameterId id);
 
 }  // namespace awmr

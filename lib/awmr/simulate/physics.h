@@ -59,7 +59,7 @@ void quantise(const Actuators& actuators, double force_max, SideForces<double>& 
               double& steering_command_rad);
 
 /// The plant with the chords through rest (rest.h) that integration steps of step_s seconds need.
-/// On tyres, the chord of g1 is that for the speeds of the wheels.
+/// On tyres, g1 acts at the wheels, and its chord is chosen for them (resolved_at_rest_on_tyres()).
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario, double step_s);
 
 /// Longest RK4 step that resolves the time constants which do not depend on speed, and the

@@ -82,7 +82,7 @@ struct SimulateOptions {
   std::uint64_t sample = 0;
 };
 
-/// Limits of a run: rows of half a gigabyte, and RK4 steps that take about a minute.
+/// Limits of a run: rows that take half a gigabyte, and RK4 steps that take about a minute.
 inline constexpr double kMostRows = 2e6;
 inline constexpr double kMostSteps = 1e8;
 inline constexpr int kMostSubsteps = 100'000'000;

@@ -22,7 +22,8 @@ namespace {
 /// eight runs in one register.
 constexpr std::size_t kFour = 4;
 
-/// Number of runs per batch, so that every thread has work. `count`: runs in each scenario.
+/// Number of runs per batch, small enough that every thread gets a batch. `count`: number of runs
+/// in each scenario.
 std::size_t runs_together(std::size_t count, std::size_t scenarios) {
   const std::size_t share = count * scenarios / thread_count(0) + 1;
   return std::min(kBatchRuns, (share + kFour - 1) / kFour * kFour);
