@@ -104,8 +104,8 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
       geometry, c, steering.q, a.steering_limited && !math::is_different(limit, c.q_max));
 }
 
-/// As above, for a mode. The speed u, m/s, matters if the motors have back-EMF, which lowers the
-/// force limits. `constants`: prepared(limits).
+/// allocate() for a yaw mode. The speed u, m/s, matters if the motors have back-EMF, which lowers
+/// the force limits. `constants`: prepared(limits).
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits, const T& u_mps,
@@ -117,7 +117,8 @@ Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
   return a;
 }
 
-/// As above; computes the constants from the limits, where computing time does not matter.
+/// allocate() that also computes the constants from the limits, for use where computing time does
+/// not matter.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits, const T& u_mps = T(0.0)) {

@@ -27,8 +27,9 @@ namespace awmr {
 ///
 /// A branch that can differ between lanes is written as
 ///   if (any(m)) { if (MaskOf<T>::kOneLane || all(m)) return a;  x = select(m, a, x); }
-/// For bool this is an ordinary branch. The condition uses the constant kOneLane, because a constant
-/// is known before the compiler decides on inlining, which affects the flash size on the chip.
+/// For bool this is an ordinary branch. The condition uses the constant kOneLane, because a
+/// constant is known before the compiler decides on inlining, which affects the flash size on the
+/// chip.
 template <class T>
 struct MaskOf {
   using Type = bool;
@@ -76,7 +77,7 @@ T saturate(const T& x, const T& limit) {
   return select(x > limit, limit, select(x < -limit, T(-limit), x));
 }
 
-/// As above for float, limit >= 0, by comparing bits, which is faster on the chip. NaN stays NaN.
+/// saturate() for float, limit >= 0, by comparing bits, which is faster on the chip. NaN stays NaN.
 inline float saturate(float x, float limit) {
   const uint32_t magnitude = float_math::magnitude_bits(x);
   if (magnitude <= float_math::magnitude_bits(limit) || float_math::is_nan(x)) return x;
@@ -127,8 +128,8 @@ AWMR_CALLED inline bool is_above(float x, float y) {
          !float_math::is_nan(y);
 }
 
-/// x < y or x > y; false for NaN. For float, the bits are compared; x must be y, or a limit to which
-/// y was clipped.
+/// x < y or x > y; false for NaN. For float, the bits are compared; x must be y, or a limit to
+/// which y was clipped.
 template <class T>
 Mask<T> is_different(const T& x, const T& y) {
   return x < y || x > y;
@@ -183,7 +184,8 @@ T clamp(const T& x, const T& lo, const T& hi) {
   using math::select;
   return select(x > hi, hi, select(x < lo, lo, x));
 }
-/// As above for float, usually by the leading 16 bits. NaN stays NaN.
+/// clamp() for float; usually the leading 16 bits decide, which is faster on the chip. NaN stays
+/// NaN.
 AWMR_CALLED inline float clamp(float x, float lo, float hi) {
   if (float_math::is_inside(x, lo, hi)) return x;
   if (is_above(x, hi)) return hi;

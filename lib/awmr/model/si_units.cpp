@@ -66,7 +66,7 @@ Estimate times_max_force(const Model& model, ParameterId id) {
   return q;
 }
 
-/// F_max = m/m'; its interval is the reciprocal of that of m'.
+/// F_max = m/m'. Its interval follows from the ends of the interval of m'.
 Estimate max_force(const Model& model) {
   const Estimate& mass = model[ParameterId::kMassNorm];
   const double mass_kg = model.vehicle.mass_kg;

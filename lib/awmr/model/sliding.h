@@ -36,7 +36,8 @@ Plant<T> without_friction(Plant<T> plant) {
   return plant;
 }
 
-/// resolved_at_rest() for steps with friction: the chords are those of the resistance without c.
+/// resolved_at_rest() for steps with exact friction: the chords are computed for the resistance
+/// without c.
 template <class T>
 Plant<T> resolved_beside_friction(Plant<T> plant, double step_s) {
   const Plant<T> resolved = resolved_at_rest(without_friction(plant), step_s);

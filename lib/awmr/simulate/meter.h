@@ -31,7 +31,7 @@ struct MetricsTask {
   double speed_mps = 0.0;     ///< commanded speed, from which a speed drop is measured
   /// Timed path: largest allowed distance from the path's point in the second half of the run, m.
   double tolerance_m = 0.0;
-  /// true: tyre work is that of the lateral tyre forces; false: the work against g3 and scrub.
+  /// true: tyre work is the work of the lateral tyre forces; false: the work against g3 and scrub.
   bool is_on_tyres = false;
 };
 

@@ -103,14 +103,14 @@ State<T> with_push(State<T> d, const Plant<T>& plant, const ExternalForces<T>& p
   return d;
 }
 
-/// Rates of the state, including external forces.
+/// Rates of the state of the 3-DOF plant, including external forces.
 template <class T, class Forces>
 State<T> pushed_rates(const Plant<T>& plant, const ExternalForces<T>& push, const State<T>& at,
                       const Forces& force, const T& steering_command_rad) {
   return with_push(state_rates(plant, at, force, steering_command_rad), plant, push, at);
 }
 
-/// As above, for a vehicle on tyres.
+/// Rates of the state of a vehicle on tyres, including external forces.
 template <class T, class Forces>
 State<T> pushed_rates(const FourWheels<T>& vehicle, const ExternalForces<T>& push,
                       const State<T>& at, const Forces& force, const T& steering_command_rad) {

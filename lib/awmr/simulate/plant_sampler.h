@@ -43,7 +43,7 @@ class PlantSampler {
   /// The plant with the number `sample` (>= 1). It depends only on seed and sample. Errors (input):
   /// no draw without a negative exponent or term was found.
   Result<Plant<double>> draw(std::uint64_t seed, int sample) const;
-  /// The same draw as a model; its intervals are those of the identified model.
+  /// The plant of draw() as a model; the intervals are those of the identified model.
   Result<Model> draw_model(std::uint64_t seed, int sample) const;
 
   /// Latin hypercube of `count` draws, which are evenly distributed even if they are few. Each

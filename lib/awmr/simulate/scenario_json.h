@@ -18,7 +18,7 @@ inline constexpr NumberRule kSignedSpeed_mps{.min = -1e3, .max = 1e3};
 inline constexpr NumberRule kSpeed_mps{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kAngle_deg{.min = -1e12, .max = 1e12};
 inline constexpr NumberRule kYawRate_degps{.min = -1e5, .max = 1e5};
-/// Forces over F_max, and moments over F_max in m: up to those of a thousand motors.
+/// Forces over F_max, and moments over F_max in m: a thousand times the largest force of one motor.
 inline constexpr NumberRule kForce{.min = -1e3, .max = 1e3};
 inline constexpr NumberRule kForceSize{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kRate{.min = 0.0, .max = 1e6, .min_excluded = true};

@@ -90,7 +90,7 @@ inline constexpr int kMostSubsteps = 100'000'000;
 /// Number of RK4 steps per sample that resolve the time constants of the plant which do not depend
 /// on speed (step_limit() in physics.h), at most kMostSubsteps.
 int substeps_for(const Plant<double>& plant, double sample_time_s);
-/// As above, for a scenario: its tyres, if any, replace some resistances of the plant.
+/// substeps_for() in a scenario, whose tyres, if any, replace the resistances in sway and yaw.
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
 /// A controller that feeds this plant's resistances forward, with these gains and the limits of the

@@ -40,10 +40,10 @@ struct ConstraintContext {
   double fastest_radps = radians(60.0);  ///< highest yaw rate of the runs, > 0
   TuningLimits limits = {};              ///< without steering_rate_rms_degps: no limit of that rate
   Interval wheel_force{-1.0, 1.0};       ///< F' of one wheel over F_max
-  double heading_noise_rad = radians(1.0);     ///< standard deviation, >= 0
-  double yaw_rate_noise_radps = radians(0.5);  ///< standard deviation, >= 0
-  double heading_correlation = 0.0;   ///< correlation of the noise at two samples T_s apart, [0, 1)
-  double yaw_rate_correlation = 0.0;  ///< the same for the yaw rate
+  double heading_noise_rad = radians(1.0);     ///< standard deviation of the noise, >= 0
+  double yaw_rate_noise_radps = radians(0.5);  ///< standard deviation of the noise, >= 0
+  double heading_correlation = 0.0;   ///< of the heading noise at two samples T_s apart, [0, 1)
+  double yaw_rate_correlation = 0.0;  ///< of the yaw-rate noise at two samples T_s apart, [0, 1)
   double latency_s = 0.0;             ///< of the readings of heading and yaw rate, s, >= 0
   double motor_time_constant_s = 0.0;    ///< first-order lag of the motors, s, >= 0
   std::vector<DrawnVehicle> draws = {};  ///< drawn vehicles, which must meet the constraints, too
@@ -71,8 +71,8 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 ///   T2 < T1 (paper)    eps/(2 mu) <= margin/lambda                                    [paper (95)]
 ///   T2 < T1 (strict)   eps/mu     <= margin/lambda
 ///   heading damping    smallest zeta of the sampled loop >= damping
-///   late damping       the same with latency and motor lag, if any, >= late_damping
-///   delay margin       the same with motor lag and twice the latency plus T_s >= delayed_damping
+///   late damping       smallest zeta with latency and motor lag, if any, >= late_damping
+///   delay margin       smallest zeta with motor lag, twice the latency and T_s >= delayed_damping
 ///   speed gain         (mu_s/eps_s) T_s <= 0.5
 ///   speed lag          (mu_s/eps_s) (T + T_s/2) <= 1/(4 zeta^2)
 ///   mu dominates       mu >= 0.2 g3(r)/I'z, g3 the plant's, r the highest yaw rate    [paper (88)]

@@ -93,7 +93,7 @@ struct Evaluation {
   std::vector<ModeScore> scores;       ///< of the first vehicle, by mode, then scenario
   std::vector<double> mode_objective;  ///< geometric mean over scenarios, in the order of modes()
   std::vector<double> mode_activity;   ///< by mode: sum of the control variation of all runs,
-                                       ///< divided by that of the baseline gains
+                                       ///< divided by the sum with the baseline gains
   std::vector<double> goal_quantile;   ///< quantile of the excess, by goal, then mode (goals.h)
   TradeOffPoint trade_off;             ///< means over all runs
   double objective = 0.0;  ///< geometric mean over the modes, plus soft goals; finite if `valid`

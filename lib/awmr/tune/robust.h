@@ -17,7 +17,9 @@ namespace awmr {
 /// covariance, they are nominal. Errors (input): as PlantSampler::make and PlantSampler::draw.
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
                                               std::uint64_t seed, const UnmodelledVariation& open);
-/// As above, with the draws 1 to `draws`, which are spread evenly (PlantSampler::draw_evenly).
+/// Returns the nominal vehicle, then the draws 1 to `draws`, which are spread evenly
+/// (PlantSampler::draw_evenly), each with its unmodelled variation. Errors (input): as
+/// PlantSampler::make and PlantSampler::draw_evenly.
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
                                               const UnmodelledVariation& open);
 

@@ -69,8 +69,9 @@ struct TuningLimits {
   std::optional<double> steering_rate_rms_degps = {};
   double damping = 0.7;           ///< smallest damping ratio of the heading loop without latency
                                   ///< and motor lag, (0, 1]
-  double late_damping = 0.25;     ///< the same with latency and motor lag, (0, 1]
-  double delayed_damping = 0.05;  ///< the same with twice the latency plus one sample, (0, 1]
+  double late_damping = 0.25;     ///< smallest damping ratio with latency and motor lag, (0, 1]
+  double delayed_damping = 0.05;  ///< smallest damping ratio with motor lag and twice the latency
+                                  ///< plus one sample, (0, 1]
   /// Largest share of the largest yaw moment of the weaker mode (turning_authority_m()) that
   /// heading noise may request, (0, 1].
   double noise_share = 0.25;
@@ -334,7 +335,8 @@ struct RobustTuning {
   bool from_covariance = false;
   /// By gains, then mode. Empty if only a part was evaluated (TuneOptions::shard).
   std::vector<EvaluatedGains> evaluated;
-  /// The same by scenario, then gains, then mode; empty with a single scenario.
+  /// `evaluated` for each scenario: by scenario, then gains, then mode; empty with a single
+  /// scenario.
   std::vector<EvaluatedGains> evaluated_by_scenario;
   std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode; empty for a part
   std::vector<EvaluatedRuns> runs;   ///< only for a part: the runs of its draws, by gains

@@ -79,7 +79,7 @@ AWMR_INLINE WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const T& ac
   }
   return {progress.psi_rad, true};
 }
-/// As above; computes acceptance_m2 in each step.
+/// guide() that computes acceptance_m2 in each step.
 template <class T>
 AWMR_CALLED WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Position<T>& position_m,
                                       WaypointProgress<T>& progress) {
