@@ -1,17 +1,17 @@
 /// The commands of a log as signals over time.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "awmr/model/dynamics.h"
-#include "awmr/model/rest.h"
 #include "awmr/trials/log.h"
 
 namespace awmr {
 
-/// Integral over time of a command that is constant between rows. The mean over any span is a
-/// difference of integrals, so its derivative by a delay exists although the command jumps.
+/// Integral over time of a command that is constant between rows.
 class HeldSignal {
  public:
   HeldSignal(const std::vector<double>& t_s, const std::vector<double>& value);
@@ -33,17 +33,56 @@ struct LogSignals {
   HeldSignal left;
   HeldSignal right;
   HeldSignal steering;  ///< the command, or the angle if only that was logged
+
+  /// The logged angle at a fraction of the time from a row to the next, interpolated.
+  double angle_after(std::size_t row, double share) const {
+    const std::vector<double>& angle = (*log)[LogChannel::kSteering]->value;
+    return angle[row] + share * (angle[std::min(row + 1, angle.size() - 1)] - angle[row]);
+  }
+  bool forces_differ(std::size_t row, std::size_t other) const {
+    return log->force_left[row] != log->force_left[other] ||
+           log->force_right[row] != log->force_right[other];
+  }
+  /// False for a logged angle, which is no command.
+  bool steering_commands_differ(std::size_t row, std::size_t other) const {
+    const auto& command = log->steering_command_rad;
+    return command && (*command)[row] != (*command)[other];
+  }
+};
+
+/// Times closer than this, s, are equal.
+inline constexpr double kSameTime_s = 1e-9;
+
+/// The row whose commands act, from one change of the commands to the next.
+class ActingRow {
+ public:
+  /// Begins just before t_s: a change at t_s is the first one.
+  ActingRow(const std::vector<double>& row_times_s, double t_s)
+      : t_s_(&row_times_s),
+        row_(static_cast<std::size_t>(std::ranges::lower_bound(row_times_s, t_s - kSameTime_s) -
+                                      row_times_s.begin())) {
+    if (row_ > 0) --row_;
+  }
+  std::size_t row() const { return row_; }
+  /// The time of the next change before to_s; `differ`(row, next row) is true if they differ.
+  template <class Differ>
+  std::optional<double> next_change_s(double to_s, Differ differ) {
+    while (row_ + 1 < t_s_->size() && (*t_s_)[row_ + 1] < to_s - kSameTime_s) {
+      if (differ(row_, row_ + 1)) return (*t_s_)[row_ + 1];
+      ++row_;
+    }
+    return std::nullopt;
+  }
+  void pass_change() { ++row_; }
+
+ private:
+  const std::vector<double>* t_s_;
+  std::size_t row_;
 };
 
 /// Mean of a command over [t, t + h] as it arrives `delay_s` later.
-template <class T>
-T delayed_mean(const HeldSignal& signal, double t_s, double h_s, const T& delay_s) {
-  // mean = (U(t + h - d) - U(t - d))/h, whose derivative by d is -(u(t + h - d) - u(t - d))/h. The
-  // linear term, whose value is zero, gives T this derivative.
-  const double d = value_of(delay_s);
-  const double mean = (signal.integral(t_s + h_s - d) - signal.integral(t_s - d)) / h_s;
-  const double slope = -(signal.at(t_s + h_s - d) - signal.at(t_s - d)) / h_s;
-  return T(mean) + slope * (delay_s - T(d));
+inline double delayed_mean(const HeldSignal& signal, double t_s, double h_s, double delay_s) {
+  return (signal.integral(t_s + h_s - delay_s) - signal.integral(t_s - delay_s)) / h_s;
 }
 
 }  // namespace awmr

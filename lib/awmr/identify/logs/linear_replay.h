@@ -70,8 +70,7 @@ CommandColumns columns_of(const CommandPath& path);
 /// of their path.
 struct DelayedCommand {
   HeldCommand command;
-  HeldCommand by_delay{};
-  double steering_by_delay = 0.0;  ///< by a delay of the steering alone
+  SideForces<double> by_delay{};  ///< of motors with lag; see LinearStepper::change_command()
   SideForces<double> by_lag{};
   SideForces<double> by_imbalance{};
   double steering_by_trim = 0.0;  ///< 1 with a trim, of a logged angle too
@@ -89,6 +88,11 @@ class LinearStepper {
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// Makes one step along the rates at the present state, which are returned; h of either sign.
   State<double> step_along_tangent(const DelayedCommand& command, double h_s, LinearMotion& motion);
+  /// Adds the derivatives by the delays at a change of the commands from `before` to `after`: a
+  /// longer delay makes the motion follow `before` for longer.
+  ///     dS = rates before - rates after
+  void change_command(const DelayedCommand& before, const DelayedCommand& after,
+                      LinearMotion& motion);
   /// The rates of the state.
   State<double> rates(const DelayedCommand& command, LinearMotion& motion);
 
@@ -127,9 +131,16 @@ class LinearStepper {
   std::vector<double> driven_;  ///< [kStages][kDrivenSize][columns]
 };
 
-/// The command over [t, t + h].
-DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s, double h_s,
-                          const CommandPath& path);
+/// Moves the motion from `from_s` to `to_s`, times between `row` and the next one, as
+/// advance_after_row() does.
+void advance_after_row(const LogSignals& signals, std::size_t row, double from_s, double to_s,
+                       const CommandPath& path, LinearStepper& stepper, double longest_step_s,
+                       LinearMotion& motion);
+
+/// Sets the steering to the logged angle at a fraction of the time from a row to the next. Its
+/// derivatives depend on its trim alone.
+void steer(const LogSignals& signals, std::size_t row, double share, const CommandPath& path,
+           std::size_t columns, LinearMotion& motion);
 
 /// Runs the model over rows [begin, end) from `motion` and calls visit(row, motion) at every row,
 /// as replay() does.
@@ -138,43 +149,21 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
                    const CommandPath& path, LinearStepper& stepper, double longest_step_s,
                    LinearMotion motion, Visit visit) {
   const DrivingLog& log = *signals.log;
-  const bool servo = log.steering_command_rad.has_value();
-  const std::size_t columns = stepper.columns();
-  // A logged angle depends on its trim alone.
-  const auto steer = [&](std::size_t row, double share) {
-    const std::vector<double>& angle = log[LogChannel::kSteering]->value;
-    motion.state.steering_rad =
-        angle[row] + share * (angle[std::min(row + 1, log.rows() - 1)] - angle[row]);
-    if (path.steering_trim) motion.state.steering_rad += path.steering_trim->value;
-    double* const by_column = motion.row(LogChannel::kSteering, columns);
-    std::fill(by_column, by_column + columns, 0.0);
-    if (path.steering_trim && columns > 0) by_column[path.steering_trim->column] = 1.0;
-  };
   for (std::size_t row = begin; row < end; ++row) {
-    if (!servo) steer(row, 0.0);
+    if (!log.steering_command_rad) steer(signals, row, 0.0, path, stepper.columns(), motion);
     visit(row, motion);
     if (row + 1 == end) return;
-    const double span_s = log.t_s[row + 1] - log.t_s[row];
-    const int steps = steps_in(span_s, longest_step_s);
-    const double h = span_s / steps;
-    for (int i = 0; i < steps; ++i) {
-      DelayedCommand command = command_at(signals, row, log.t_s[row] + i * h, h, path);
-      if (!servo) {
-        steer(row, (i + 0.5) / steps);
-        command.command.steering_rad = motion.state.steering_rad;
-        command.by_delay.steering_rad = command.steering_by_delay = 0.0;
-      }
-      stepper.step(command, h, motion);
-    }
+    advance_after_row(signals, row, log.t_s[row], log.t_s[row + 1], path, stepper, longest_step_s,
+                      motion);
   }
 }
 
 /// The motion at delay.delay_s >= 0 before the last of `motions`, which are the motions at the rows
 /// from `begin` on. Integrated by Runge-Kutta steps from the preceding row. Before the first row,
-/// its rates are extrapolated. `errors`: its constant errors apply to the commands, not its delays.
+/// its rates are extrapolated.
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
                             const DelayColumn& delay, double longest_step_s,
-                            const CommandPath& errors = {});
+                            const CommandPath& path);
 
 }  // namespace awmr
