@@ -348,6 +348,32 @@ TEST(Log, RefusesTheServoLagWithoutASteeringCommand) {
   EXPECT_TRUE(refused(*result, ParameterId::kSteeringTimeConstant));
 }
 
+TEST(Log, OfSkidTurnsWithASteeringColumnShowsTheInertia) {
+  const Truth& t = kTruths[1];
+  const std::map<LogChannel, double> noise{{LogChannel::kX, 0.02},
+                                           {LogChannel::kY, 0.02},
+                                           {LogChannel::kHeading, 0.002},
+                                           {LogChannel::kSpeed, 0.01},
+                                           {LogChannel::kYawRate, 0.001}};
+  DrivingLog log = drive(t, 8, {.duration_s = 40.0});
+  std::ranges::fill(*log.steering_command_rad, 0.0);
+  Random random(8, 77);
+  replay<double>(LogSignals(log), 0, log.rows(), plant(t), nullptr, 0.002, {},
+                 [&](std::size_t row, const State<double>& state) {
+                   for (const auto& [channel, std] : noise) {
+                     log[channel]->value[row] = channel_of(state, channel) + std * random.normal();
+                   }
+                 });
+  TrialData data;
+  data.logs = {std::move(log)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "not-identifiable", "steering.time_constant_s"));
+  EXPECT_FALSE(estimated(*result, "steering.time_constant_s"));
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+}
+
 TEST(Log, AServoTooFastForALogIsNamed) {
   TrialData data;
   data.logs = {drive(kTruths[0], 3)};
