@@ -654,6 +654,21 @@ TEST(Log, WholeLogsThatScatterBeyondChanceWidenTheIntervals) {
   EXPECT_EQ(factor(2, 5.0), 1.0) << "two logs are too few";
 }
 
+TEST(Log, ARefusedTermOfAResistanceRefusesTheRest) {
+  LogProblem problem;
+  problem.model.quantities = {
+      free_parameter(ParameterId::kSurgeAlpha), free_parameter(ParameterId::kYawAlpha),
+      free_parameter(ParameterId::kYawBeta), free_parameter(ParameterId::kYawCoulomb)};
+  problem.bounds.assign(4, {-10.0, 10.0});
+  Identifiability found;
+  found.covariance = Eigen::MatrixXd::Identity(4, 4);
+  found.why_not = {"", "", "", "the search ended at the end of its range"};
+  const Identifiability result = without_stopped(found, problem, {0.0, 0.0, 1.0, 0.1});
+  EXPECT_EQ(result.why_not[0], "");
+  EXPECT_THAT(result.why_not[1], ::testing::StartsWith("yaw.coulomb is not determined"));
+  EXPECT_THAT(result.why_not[2], ::testing::StartsWith("yaw.alpha is not determined"));
+}
+
 /// Oscillating errors, d'' = -2 zeta omega d' - omega^2 d + noise, integrated with small steps,
 /// plus white noise. The oscillation has standard deviation 1.
 std::vector<ErrorSeries> swinging(double omega, double zeta, double white_std, double step_s) {

@@ -46,7 +46,8 @@ Identifiability identifiability(const Eigen::MatrixXd& information, const Scores
                                 const std::vector<FreeQuantity>& quantities);
 
 /// Refuses a coordinate that the search left at an end of its range, which is not an estimate. Also
-/// refuses coordinates correlated with it, and an exponent without its factor.
+/// refuses coordinates correlated with it, a factor without the other terms of its resistance, and
+/// an exponent without its factor.
 Identifiability without_stopped(Identifiability found, const LogProblem& problem,
                                 const std::vector<double>& coordinates);
 
