@@ -150,7 +150,7 @@ void add_identify(CLI::App& app, Session& session) {
            "Driving log: CSV, or another format that awmr map reads; may be repeated");
   add_fit_options(*sub, *words);
   add_log_options(*sub, words->command);
-  add_part_options(*sub, *words);
+  add_part_options(*sub, words->command.trials, words->excluded);
   add_reading_options(*sub, *words);
   add_output(*sub, words->command.output, "model.json to write");
 }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "awmr/core/csv_cell.h"
+
 namespace awmr::cli {
 namespace {
 
@@ -89,6 +91,28 @@ Status add_requested(std::string_view name, IdentifyOptions& options) {
   return {};
 }
 
+Status add_excluded(std::string_view text, TrialOptions& trials) {
+  const std::size_t colon = text.find(':');
+  const auto from_s = number_from_text(text.substr(0, colon));
+  const auto until_s =
+      number_from_text(colon == std::string_view::npos ? "" : text.substr(colon + 1));
+  if (!from_s || !until_s || !(*from_s < *until_s)) {
+    return input_error(
+        ErrorCode::kOutOfRange, "--exclude",
+        fmt::format("'{}' is not a span of time: give A:B in s, A before B, such as 12.5:40",
+                    text));
+  }
+  trials.excluded_s.push_back({*from_s, *until_s});
+  return {};
+}
+
+Status check_used(const TrialOptions& trials) {
+  if (trials.used_s.lo < trials.used_s.hi) return {};
+  return input_error(
+      ErrorCode::kWrongOrder, "--until",
+      fmt::format("{:g} s is not after --from {:g} s", trials.used_s.hi, trials.used_s.lo));
+}
+
 std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options) {
   std::vector<std::pair<std::string, std::string>> words{
       {"method",
@@ -113,10 +137,8 @@ std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions
   return words;
 }
 
-void describe_reading(const TrialOptions& trials, bool steady_from_logs,
-                      std::vector<std::pair<std::string, std::string>>& words) {
-  words.emplace_back("prefer", name_in(kPreferenceNames, trials.preference));
-  if (trials.as_is) words.emplace_back("as-is", "true");
+void describe_parts(const TrialOptions& trials,
+                    std::vector<std::pair<std::string, std::string>>& words) {
   const TrialOptions whole;
   if (trials.used_s.lo > whole.used_s.lo) {
     words.emplace_back("from", fmt::format("{}", trials.used_s.lo));
@@ -127,6 +149,13 @@ void describe_reading(const TrialOptions& trials, bool steady_from_logs,
   for (const Interval& span : trials.excluded_s) {
     words.emplace_back("exclude", fmt::format("{}:{}", span.lo, span.hi));
   }
+}
+
+void describe_reading(const TrialOptions& trials, bool steady_from_logs,
+                      std::vector<std::pair<std::string, std::string>>& words) {
+  words.emplace_back("prefer", name_in(kPreferenceNames, trials.preference));
+  if (trials.as_is) words.emplace_back("as-is", "true");
+  describe_parts(trials, words);
   if (steady_from_logs) words.emplace_back("steady_from_logs", "true");
   for (const ColumnMapping& mapping : trials.columns) {
     words.emplace_back("column", text_of(mapping));

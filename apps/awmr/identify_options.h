@@ -19,8 +19,21 @@ Status add_family(std::string_view text, IdentifyOptions& options);
 /// (`bias.yaw_rate_radps`, ...).
 Status add_requested(std::string_view name, IdentifyOptions& options);
 
+/// Times in s, as in the t_s of a log.
+inline constexpr double kMostTime_s = 1e12;
+
+/// Adds `A:B`, a span of time that is left out of each log, s. Errors: no such span.
+Status add_excluded(std::string_view text, TrialOptions& trials);
+
+/// Errors: the used time does not end after its begin.
+Status check_used(const TrialOptions& trials);
+
 /// Returns the options as text for the model's provenance.
 std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options);
+
+/// Appends the parts of the logs that are used, if not all.
+void describe_parts(const TrialOptions& trials,
+                    std::vector<std::pair<std::string, std::string>>& words);
 
 /// Appends the options with which the trials were read.
 void describe_reading(const TrialOptions& trials, bool steady_from_logs,

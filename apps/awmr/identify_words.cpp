@@ -1,11 +1,7 @@
 #include "identify_words.h"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
-#include <string_view>
 
-#include "awmr/core/csv_cell.h"
 #include "choices.h"
 #include "identify_options.h"
 #include "numbers.h"
@@ -13,41 +9,13 @@
 
 namespace awmr::cli {
 
-namespace {
-
-/// The span of time of `A:B`, s.
-Result<Interval> span_of(std::string_view option, const std::string& text) {
-  const std::size_t colon = text.find(':');
-  const auto from_s = number_from_text(std::string_view(text).substr(0, colon));
-  const auto until_s =
-      number_from_text(colon == std::string::npos ? "" : std::string_view(text).substr(colon + 1));
-  if (from_s && until_s && *from_s < *until_s) return Interval{*from_s, *until_s};
-  return input_error(
-      ErrorCode::kOutOfRange, std::string(option),
-      fmt::format("'{}' is not a span of time: give A:B in s, A before B, such as 12.5:40", text));
-}
-
-/// Errors: an invalid span; an end before the begin.
-Status add_parts(const IdentifyWords& words, TrialOptions& trials) {
-  trials.used_s = {words.from_s, words.until_s};
-  if (!(words.from_s < words.until_s)) {
-    return input_error(
-        ErrorCode::kWrongOrder, "--until",
-        fmt::format("{:g} s is not after --from {:g} s", words.until_s, words.from_s));
-  }
-  for (const std::string& text : words.excluded) {
-    AWMR_ASSIGN_OR_RETURN(const Interval span, span_of("--exclude", text));
-    trials.excluded_s.push_back(span);
-  }
-  return {};
-}
-
-}  // namespace
-
 Result<IdentifyCommand> command_of(const IdentifyWords& words) {
   IdentifyCommand command = words.command;
   AWMR_ASSIGN_OR_RETURN(command.trials.columns, column_mappings(words.columns));
-  AWMR_RETURN_IF_ERROR(add_parts(words, command.trials));
+  AWMR_RETURN_IF_ERROR(check_used(command.trials));
+  for (const std::string& span : words.excluded) {
+    AWMR_RETURN_IF_ERROR(add_excluded(span, command.trials));
+  }
   for (const std::string& name : words.requested) {
     AWMR_RETURN_IF_ERROR(add_requested(name, command.identify));
   }
@@ -122,13 +90,16 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
       ->check(within(1, 1024));
 }
 
-void add_part_options(CLI::App& sub, IdentifyWords& words) {
-  constexpr double kMostTime_s = 1e12;
-  sub.add_option("--from", words.from_s, "Use each log from this time on, s, as in its t_s")
+void add_part_options(CLI::App& sub, TrialOptions& trials, std::vector<std::string>& excluded) {
+  sub.add_option("--from", trials.used_s.lo, "Use each log from this time on, s, as in its t_s")
       ->check(within(-kMostTime_s, kMostTime_s));
-  sub.add_option("--until", words.until_s, "Use each log up to this time, s")
+  add_end_options(sub, trials, excluded);
+}
+
+void add_end_options(CLI::App& sub, TrialOptions& trials, std::vector<std::string>& excluded) {
+  sub.add_option("--until", trials.used_s.hi, "Use each log up to this time, s")
       ->check(within(-kMostTime_s, kMostTime_s));
-  sub.add_option("--exclude", words.excluded,
+  sub.add_option("--exclude", excluded,
                  "A:B: leave out each log's rows from time A to time B, s; the parts before and "
                  "after count as two logs; may be repeated");
 }

@@ -20,8 +20,6 @@ struct IdentifyWords {
   std::string noise;
   std::string loss = "squares";
   std::string prefer = "printed";
-  double from_s = TrialOptions{}.used_s.lo;
-  double until_s = TrialOptions{}.used_s.hi;
   std::vector<std::string> excluded;
 };
 
@@ -35,7 +33,9 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words);
 /// Adds the options for fitting logs.
 void add_log_options(CLI::App& sub, IdentifyCommand& command);
 /// Adds `--from`, `--until` and `--exclude`.
-void add_part_options(CLI::App& sub, IdentifyWords& words);
+void add_part_options(CLI::App& sub, TrialOptions& trials, std::vector<std::string>& excluded);
+/// Adds the last two.
+void add_end_options(CLI::App& sub, TrialOptions& trials, std::vector<std::string>& excluded);
 /// Adds the options for reading files.
 void add_reading_options(CLI::App& sub, IdentifyWords& words);
 

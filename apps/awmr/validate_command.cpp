@@ -17,6 +17,8 @@
 #include "choices.h"
 #include "commands.h"
 #include "gains_origin.h"
+#include "identify_options.h"
+#include "identify_words.h"
 #include "inputs.h"
 #include "numbers.h"
 #include "paths.h"
@@ -126,6 +128,7 @@ Result<Provenance> provenance_of(const ValidateCommand& command) {
                         input_files(inputs_of(command), command.names));
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   options.emplace_back("tolerance", format_number(command.validate.tolerance));
+  describe_parts(command.trials, options);
   if (command.tyres) options.emplace_back("tyres", "true");
   if (command.scenario) {
     options.emplace_back("mode", std::string(name_of(command.acceptance.mode)));
@@ -169,7 +172,8 @@ void add_model_options(CLI::App& sub, ValidateCommand& command) {
       ->check(within(1e-9, 1e6));
 }
 
-void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& columns) {
+void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& columns,
+                     std::vector<std::string>& excluded) {
   add_file(sub, "--log", command.logs,
            "CSV of a driving log, preferably not used in the fit; may be repeated");
   sub.add_option("--horizon", command.horizon_s, "Prediction horizon for logs, s (default 10)")
@@ -182,6 +186,7 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& colum
                "Also fit friction and cornering stiffness of four wheels on tyres to the logs, and "
                "compare both plants on windows held out from that fit")
       ->needs("--log");
+  add_end_options(sub, command.trials, excluded);
   sub.add_flag("--as-is", command.trials.as_is,
                "Accept logs with contradictory units, signs or sides");
   sub.add_option("--column", columns.columns, kColumnHelp);
@@ -203,10 +208,9 @@ void add_drive_options(CLI::App& sub, ValidateCommand& command) {
       ->check(within<std::uint64_t>(0, kAnySeed))
       ->needs(scenario);
   sub.add_option("--from", command.acceptance.from_s,
-                 "Time in the log at which the scenario begins, s (default: first row with a "
-                 "non-zero command)")
-      ->check(within(-1e12, 1e12))
-      ->needs(scenario);
+                 "Use each log from this time on, s; with --scenario the time at which the "
+                 "scenario begins (default: first row with a non-zero command)")
+      ->check(within(-kMostTime_s, kMostTime_s));
 }
 
 void add_claims_options(CLI::App& sub, ValidateCommand& command) {
@@ -258,16 +262,24 @@ Result<Outcome> execute(const ValidateCommand& command) {
 void add_validate(CLI::App& app, Session& session) {
   auto command = std::make_shared<ValidateCommand>();
   auto columns = std::make_shared<ColumnWords>();
+  auto excluded = std::make_shared<std::vector<std::string>>();
   CLI::App* sub = add_command(
       app, session, "validate", "Validate the model on its trials and the paper's claims",
       "awmr validate --model model.json --gains gains.json -o validation.json",
-      [command, columns]() -> Result<Outcome> {
+      [command, columns, excluded]() -> Result<Outcome> {
         AWMR_ASSIGN_OR_RETURN(command->trials.columns, column_mappings(*columns));
+        for (const std::string& span : *excluded) {
+          AWMR_RETURN_IF_ERROR(add_excluded(span, command->trials));
+        }
+        if (command->acceptance.from_s && !command->scenario) {
+          command->trials.used_s.lo = *command->acceptance.from_s;
+        }
+        AWMR_RETURN_IF_ERROR(check_used(command->trials));
         command->validate.open_cases = command->claims;
         return execute(*command);
       });
   add_model_options(*sub, *command);
-  add_log_options(*sub, *command, *columns);
+  add_log_options(*sub, *command, *columns, *excluded);
   add_drive_options(*sub, *command);
   add_claims_options(*sub, *command);
   add_output(*sub, command->output, "validation.json to write");

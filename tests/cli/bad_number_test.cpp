@@ -86,6 +86,24 @@ TEST(BadNumber, IsRefusedAsATime) {
   }
 }
 
+TEST(BadNumber, IsRefusedAsATimeOfAProject) {
+  TemporaryDirectory directory;
+  const std::string root = AWMR_SOURCE_DIR;
+  const auto check = [&](const std::string& part) {
+    const std::filesystem::path project = directory.path() / "project.json";
+    write_all(project, R"({"schema": "awmr.project/1", "vehicle": ")" + root +
+                           R"(/configs/paper/vehicle.json", "trials": {"logs": [")" + root +
+                           R"(/datasets/synthetic/drive_1.csv"]}, "identify": {)" + part +
+                           R"(}, "compare": {"scenarios": [")" + root +
+                           R"(/configs/paper/scenarios/c3_heading_steps.json"]}})");
+    return awmr("check " + project.string());
+  };
+  EXPECT_EQ(check(R"("from_s": 2, "until_s": 12, "exclude": ["5:6"])").exit_code, 0);
+  EXPECT_THAT(check(R"("from_s": 1e6)").err, HasSubstr("no row is used"));
+  EXPECT_THAT(check(R"("from_s": 9, "until_s": 3)").err, HasSubstr("/identify/until_s"));
+  EXPECT_THAT(check(R"("exclude": ["5"])").err, HasSubstr("/identify/exclude"));
+}
+
 TEST(BadNumber, TheHelpShowsTheRange) {
   EXPECT_THAT(awmr("recover --help").out, HasSubstr("in [2, 1000000]"));
   EXPECT_THAT(awmr("pil --help").out, HasSubstr("in [0, 360]"));

@@ -70,8 +70,7 @@ TEST_F(Contradiction, SuggestRefusesAnExtremeModel) {
 TEST_F(Contradiction, RecoverReportsRunsWithoutAResult) {
   const std::string recover = "recover --runs 3 --model " + kept("model.json");
   expect_refused(awmr(recover + " --joint"), "--joint: needs");
-  expect_refused(awmr(recover + " --fit steering.time_constant_s"),
-                 "[not-recovered]", 1);
+  expect_refused(awmr(recover + " --fit steering.time_constant_s"), "[not-recovered]", 1);
   const ProcessResult requested = awmr(recover + " --fit surge.alpha -o " + path("recover.json"));
   ASSERT_EQ(requested.exit_code, 0) << requested.err;
   EXPECT_EQ(Json::parse(read_all(path("recover.json")))["parameters"].size(), 1U);

@@ -67,9 +67,8 @@ TEST_F(Terminal, NamesTheCommandThatExplainsFindings) {
 TEST(Explain, PrintsSeverityMeaningAndRemedyOfACode) {
   const ProcessResult one = awmr("explain few-samples");
   EXPECT_EQ(one.exit_code, 0);
-  EXPECT_THAT(one.out,
-              AllOf(HasSubstr("few-samples\n  severity warning\n"),
-                    HasSubstr("meaning  fewer than 6 samples"), HasSubstr("remedy   ")));
+  EXPECT_THAT(one.out, AllOf(HasSubstr("few-samples\n  severity warning\n"),
+                             HasSubstr("meaning  fewer than 6 samples"), HasSubstr("remedy   ")));
   // The severity of each code of a row.
   EXPECT_THAT(awmr("explain held-samples").out, HasSubstr("severity note\n"));
   EXPECT_THAT(awmr("explain quantised-samples").out, HasSubstr("severity warning\n"));

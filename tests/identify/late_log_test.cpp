@@ -43,6 +43,66 @@ TEST(LateLog, SeparatesASteeringDeadTimeFromServoLag) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
 }
 
+/// Every `every`-th row of the log. Commands are those of the row and act `rows_later` rows later.
+DrivingLog with_late_commands(DrivingLog log, const Truth& t, std::size_t every,
+                              std::size_t rows_later) {
+  const DrivingLog all = log;
+  DrivingLog logged = log;
+  const auto row_of = [&](std::size_t i) { return i - i % every; };
+  for (std::size_t i = 0; i < all.rows(); ++i) {
+    const std::size_t from = row_of(i < rows_later ? 0 : i - rows_later);
+    log.force_left[i] = all.force_left[from];
+    log.force_right[i] = all.force_right[from];
+    (*log.steering_command_rad)[i] = (*all.steering_command_rad)[from];
+  }
+  const auto true_motion = [&t](const DrivingLog& of) {
+    std::vector<State<double>> states;
+    replay<double>(LogSignals(of), 0, of.rows(), plant(t), nullptr, 0.002, {},
+                   [&](std::size_t, const State<double>& state) { states.push_back(state); });
+    return states;
+  };
+  const std::vector<State<double>> before = true_motion(all);
+  const std::vector<State<double>> late = true_motion(log);
+  const auto thin = [every](auto& of) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < of.size(); i += every) of[count++] = of[i];
+    of.resize(count);
+  };
+  for (const LogChannel channel : kChannels) {
+    if (!logged[channel]) continue;
+    for (std::size_t i = 0; i < all.rows(); ++i) {
+      logged[channel]->value[i] += channel_of(late[i], channel) - channel_of(before[i], channel);
+    }
+    thin(logged[channel]->value);
+    thin(logged[channel]->fresh);
+    logged[channel]->fresh_count =
+        static_cast<int>(std::ranges::count(logged[channel]->fresh, true));
+  }
+  thin(logged.line);
+  thin(logged.t_s);
+  thin(logged.force_left);
+  thin(logged.force_right);
+  thin(*logged.steering_command_rad);
+  return logged;
+}
+
+TEST(LateLog, FindsACommandDelayOfAFractionOfARow) {
+  // 2.25 rows of 0.04 s, with a servo at its limit of rate after many changes of the command.
+  TrialData data;
+  data.logs = {with_late_commands(drive(kTruths[1], 8, {.duration_s = 40.0}), kTruths[1], 4, 9)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto delay = estimated(*result, "input_delay_s");
+  ASSERT_TRUE(delay && delay->std_error);
+  EXPECT_NEAR(delay->value, 0.09, 4.5 * *delay->std_error);
+  EXPECT_FALSE(has_finding(*result, "sensor-delay"));
+  EXPECT_FALSE(has_finding(*result, "sensor-lag"));
+  expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kSteeringTimeConstant,
+                   plant(kTruths[1]).steering_time_constant_s, 4.5);
+}
+
 TEST(LateLog, KeepsAMotorLagOfTheVehicleFileFixed) {
   constexpr double kLag_s = 0.08;
   TrialData data;

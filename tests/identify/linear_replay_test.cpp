@@ -100,13 +100,14 @@ Plant<double> plant_by_hand(bool servo, double step_s, Drive drive, Friction fri
 }
 
 ByHand by_hand(const DrivingLog& log, double step_s, double latency_s = kSpeedDelay_s,
-               Drive drive = Drive::kFourWheel, Friction friction = Friction::kNone) {
+               Drive drive = Drive::kFourWheel, Friction friction = Friction::kNone,
+               double input_delay_s = kInputDelay_s) {
   const LogSignals signals(log);
   std::vector<ParameterColumn> parameters;
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     parameters.push_back({static_cast<ParameterId>(i), i, 1.0});
   }
-  const CommandPath path{.delay = DelayColumn{kInputDelay_s, kInputDelay}};
+  const CommandPath path{.delay = DelayColumn{input_delay_s, kInputDelay}};
   const Plant<double> plant =
       plant_by_hand(log.steering_command_rad.has_value(), step_s, drive, friction);
   LinearStepper stepper(plant, kColumns, parameters, columns_of(path));
@@ -121,7 +122,7 @@ ByHand by_hand(const DrivingLog& log, double step_s, double latency_s = kSpeedDe
                 [&](std::size_t, const LinearMotion& motion) {
                   found.motions.push_back(motion);
                   found.earlier.push_back(earlier_motion(signals, 0, found.motions, back,
-                                                         {latency_s, kSpeedDelay}, step_s));
+                                                         {latency_s, kSpeedDelay}, step_s, path));
                 });
   return found;
 }
@@ -147,13 +148,18 @@ ByJets by_jets(const DrivingLog& log, double step_s, Drive drive = Drive::kFourW
   replay(signals, 0, log.rows(), plant, &input, step_s, first,
          [&](std::size_t, const State<Jet>& state) {
            found.states.push_back(state);
-           found.earlier.push_back(earlier_state(signals, 0, found.states, plant, late, step_s));
+           found.earlier.push_back(
+               earlier_state(signals, 0, found.states, plant, late, &input, step_s));
          });
   return found;
 }
 
-/// Compares states and derivatives. `tolerance` is relative to the largest derivative of the column
-/// over the log, at least to `least`. `but`: a column to skip.
+/// Of the derivative by the delay of the commands, which follows from the rates where a command
+/// changes; that of jets follows from the lengths of the Runge-Kutta steps.
+constexpr double kChanges = 1e-4;
+
+/// Tolerance relative to the largest derivative of the column over the log, or to `least`. `but`: a
+/// column to skip.
 void expect_equal(const std::vector<State<Jet>>& jets, const std::vector<LinearMotion>& motions,
                   double tolerance, int but = -1, double least = 1e-9) {
   ASSERT_EQ(jets.size(), motions.size());
@@ -169,7 +175,8 @@ void expect_equal(const std::vector<State<Jet>>& jets, const std::vector<LinearM
       for (int c = 0; c < kColumns; ++c) {
         if (c == but) continue;
         const double slope = motions[row].row(channel, kColumns)[c];
-        ASSERT_NEAR(slope, jet.v(c), tolerance * largest(c))
+        const double share = tolerance + (c == kInputDelay ? kChanges : 0.0);
+        ASSERT_NEAR(slope, jet.v(c), share * largest(c))
             << info(channel).name << " by column " << c << " at row " << row;
       }
     }
@@ -210,6 +217,66 @@ TEST(LinearReplay, DelayedStatesHaveTheDerivativesOfJets) {
   for (const bool servo : {true, false}) {
     const DrivingLog log = commands(servo);
     expect_equal(by_jets(log, 0.004).earlier, by_hand(log, 0.004).earlier, kRounding, kSpeedDelay);
+  }
+}
+
+/// The log with ten rows for each, and its commands so many of these rows later.
+DrivingLog refined(const DrivingLog& log, std::size_t rows_later) {
+  constexpr std::size_t kParts = 10;
+  DrivingLog fine;
+  fine.steering_command_rad.emplace();
+  for (std::size_t i = 0; i < kParts * log.rows(); ++i) {
+    const std::size_t from = i < rows_later ? 0 : (i - rows_later) / kParts;
+    fine.t_s.push_back(0.001 * static_cast<double>(i));
+    fine.force_left.push_back(log.force_left[from]);
+    fine.force_right.push_back(log.force_right[from]);
+    fine.steering_command_rad->push_back((*log.steering_command_rad)[from]);
+  }
+  return fine;
+}
+
+TEST(LinearReplay, ACommandThatArrivesBetweenRowsActsFromThen) {
+  const DrivingLog log = commands(true);
+  for (const Friction friction : {Friction::kNone, Friction::kCoulomb}) {
+    const auto motions = [&](const DrivingLog& of, double delay_s) {
+      return by_hand(of, 0.001, kSpeedDelay_s, Drive::kFourWheel, friction, delay_s).motions;
+    };
+    const std::vector<LinearMotion> late = motions(log, 0.033);
+    const std::vector<LinearMotion> fine = motions(refined(log, 33), 0.0);
+    for (std::size_t row = 0; row < log.rows(); ++row) {
+      for (const LogChannel channel : kChannels) {
+        ASSERT_NEAR(channel_of(late[row].state, channel), channel_of(fine[10 * row].state, channel),
+                    1e-9)
+            << info(channel).name << " at row " << row;
+      }
+    }
+  }
+}
+
+TEST(LinearReplay, DerivativeByACommandDelayIsThatOfDifferences) {
+  // A change of the command that falls on a row (0.03 s) has the derivative by a
+  // longer delay. Steps in which the servo leaves its limit have a kink.
+  constexpr double kApart_s = 1e-6;
+  const DrivingLog log = commands(true);
+  for (const double delay_s : {0.033, 0.03, -0.017}) {
+    const auto motions = [&](double late_s) {
+      return by_hand(log, 0.001, kSpeedDelay_s, Drive::kFourWheel, Friction::kNone, late_s).motions;
+    };
+    const std::vector<LinearMotion> here = motions(delay_s);
+    const std::vector<LinearMotion> more = motions(delay_s + kApart_s);
+    for (const LogChannel channel : kChannels) {
+      double largest = 0.0;
+      for (const LinearMotion& motion : here) {
+        largest = std::max(largest, std::abs(motion.row(channel, kColumns)[kInputDelay]));
+      }
+      for (std::size_t row = 0; row < here.size(); ++row) {
+        const double slope =
+            (channel_of(more[row].state, channel) - channel_of(here[row].state, channel)) /
+            kApart_s;
+        ASSERT_NEAR(here[row].row(channel, kColumns)[kInputDelay], slope, 0.01 * largest)
+            << info(channel).name << " at row " << row << ", delay " << delay_s;
+      }
+    }
   }
 }
 

@@ -348,6 +348,32 @@ TEST(Log, RefusesTheServoLagWithoutASteeringCommand) {
   EXPECT_TRUE(refused(*result, ParameterId::kSteeringTimeConstant));
 }
 
+TEST(Log, OfSkidTurnsWithASteeringColumnShowsTheInertia) {
+  const Truth& t = kTruths[1];
+  const std::map<LogChannel, double> noise{{LogChannel::kX, 0.02},
+                                           {LogChannel::kY, 0.02},
+                                           {LogChannel::kHeading, 0.002},
+                                           {LogChannel::kSpeed, 0.01},
+                                           {LogChannel::kYawRate, 0.001}};
+  DrivingLog log = drive(t, 8, {.duration_s = 40.0});
+  std::ranges::fill(*log.steering_command_rad, 0.0);
+  Random random(8, 77);
+  replay<double>(LogSignals(log), 0, log.rows(), plant(t), nullptr, 0.002, {},
+                 [&](std::size_t row, const State<double>& state) {
+                   for (const auto& [channel, std] : noise) {
+                     log[channel]->value[row] = channel_of(state, channel) + std * random.normal();
+                   }
+                 });
+  TrialData data;
+  data.logs = {std::move(log)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "not-identifiable", "steering.time_constant_s"));
+  EXPECT_FALSE(estimated(*result, "steering.time_constant_s"));
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+}
+
 TEST(Log, AServoTooFastForALogIsNamed) {
   TrialData data;
   data.logs = {drive(kTruths[0], 3)};
@@ -630,6 +656,21 @@ TEST(Log, WholeLogsThatScatterBeyondChanceWidenTheIntervals) {
   EXPECT_NEAR(factor(6, 3.0), std::sqrt(1.2) * 3.0, 1e-4);
   EXPECT_EQ(factor(6, 1.3), 1.0);
   EXPECT_EQ(factor(2, 5.0), 1.0) << "two logs are too few";
+}
+
+TEST(Log, ARefusedTermOfAResistanceRefusesTheRest) {
+  LogProblem problem;
+  problem.model.quantities = {
+      free_parameter(ParameterId::kSurgeAlpha), free_parameter(ParameterId::kYawAlpha),
+      free_parameter(ParameterId::kYawBeta), free_parameter(ParameterId::kYawCoulomb)};
+  problem.bounds.assign(4, {-10.0, 10.0});
+  Identifiability found;
+  found.covariance = Eigen::MatrixXd::Identity(4, 4);
+  found.why_not = {"", "", "", "the search ended at the end of its range"};
+  const Identifiability result = without_stopped(found, problem, {0.0, 0.0, 1.0, 0.1});
+  EXPECT_EQ(result.why_not[0], "");
+  EXPECT_THAT(result.why_not[1], ::testing::StartsWith("yaw.coulomb is not determined"));
+  EXPECT_THAT(result.why_not[2], ::testing::StartsWith("yaw.alpha is not determined"));
 }
 
 /// Oscillating errors, d'' = -2 zeta omega d' - omega^2 d + noise, integrated with small steps,

@@ -1,17 +1,17 @@
 /// The commands of a log as functions of time. A command is held until the next row.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "awmr/model/dynamics.h"
-#include "awmr/model/rest.h"
 #include "awmr/trials/log.h"
 
 namespace awmr {
 
-/// A command that is constant between rows, and its integral over time. The mean over a time span
-/// is a difference of integrals. It can be differentiated by a delay, although the command jumps.
+/// Integral over time of a command that is constant between rows.
 class HeldSignal {
  public:
   HeldSignal(const std::vector<double>& t_s, const std::vector<double>& value);
@@ -34,18 +34,57 @@ struct LogSignals {
   const DrivingLog* log;
   HeldSignal left;
   HeldSignal right;
-  HeldSignal steering;  ///< rad: the command, or the angle if no command was logged
+  HeldSignal steering;  ///< the command, or the angle if only that was logged
+
+  /// The logged angle at a fraction of the time from a row to the next, interpolated.
+  double angle_after(std::size_t row, double share) const {
+    const std::vector<double>& angle = (*log)[LogChannel::kSteering]->value;
+    return angle[row] + share * (angle[std::min(row + 1, angle.size() - 1)] - angle[row]);
+  }
+  bool forces_differ(std::size_t row, std::size_t other) const {
+    return log->force_left[row] != log->force_left[other] ||
+           log->force_right[row] != log->force_right[other];
+  }
+  /// False for a logged angle, which is no command.
+  bool steering_commands_differ(std::size_t row, std::size_t other) const {
+    const auto& command = log->steering_command_rad;
+    return command && (*command)[row] != (*command)[other];
+  }
 };
 
-/// Mean over [t, t + h] of a command that takes effect `delay_s` after it was logged.
-template <class T>
-T delayed_mean(const HeldSignal& signal, double t_s, double h_s, const T& delay_s) {
-  // u: command, U: its integral, d: delay. mean = (U(t + h - d) - U(t - d))/h, with the derivative
-  // -(u(t + h - d) - u(t - d))/h by d. The term slope (delay - d) is 0 and gives T this derivative.
-  const double d = value_of(delay_s);
-  const double mean = (signal.integral(t_s + h_s - d) - signal.integral(t_s - d)) / h_s;
-  const double slope = -(signal.at(t_s + h_s - d) - signal.at(t_s - d)) / h_s;
-  return T(mean) + slope * (delay_s - T(d));
+/// Times closer than this, s, are equal.
+inline constexpr double kSameTime_s = 1e-9;
+
+/// The row whose commands act, from one change of the commands to the next.
+class ActingRow {
+ public:
+  /// Begins just before t_s: a change at t_s is the first one.
+  ActingRow(const std::vector<double>& row_times_s, double t_s)
+      : t_s_(&row_times_s),
+        row_(static_cast<std::size_t>(std::ranges::lower_bound(row_times_s, t_s - kSameTime_s) -
+                                      row_times_s.begin())) {
+    if (row_ > 0) --row_;
+  }
+  std::size_t row() const { return row_; }
+  /// The time of the next change before to_s; `differ`(row, next row) is true if they differ.
+  template <class Differ>
+  std::optional<double> next_change_s(double to_s, Differ differ) {
+    while (row_ + 1 < t_s_->size() && (*t_s_)[row_ + 1] < to_s - kSameTime_s) {
+      if (differ(row_, row_ + 1)) return (*t_s_)[row_ + 1];
+      ++row_;
+    }
+    return std::nullopt;
+  }
+  void pass_change() { ++row_; }
+
+ private:
+  const std::vector<double>* t_s_;
+  std::size_t row_;
+};
+
+/// Mean of a command over [t, t + h] as it arrives `delay_s` later.
+inline double delayed_mean(const HeldSignal& signal, double t_s, double h_s, double delay_s) {
+  return (signal.integral(t_s + h_s - delay_s) - signal.integral(t_s - delay_s)) / h_s;
 }
 
 }  // namespace awmr

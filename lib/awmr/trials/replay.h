@@ -50,46 +50,67 @@ SideForces<T> lagged_force(const LaggedForces& lagged, const LogSignals& signals
           side(mean.force.right, mean.by_delay.right, command.right)};
 }
 
-/// Simulates the rows [begin, end) from the initial `state`, and calls visit(row, state) at each
-/// row. `step(state, h_s, force, steering_rad)` returns the state after one integration step, which
-/// is at most `longest_step_s` long. `delay_s`: latency of the commands, null for none. `lagged`:
-/// forces of motors with lag, null for motors without. A logged steering angle is used as the
-/// actual angle, without delay.
+/// Moves `state` from `from_s` to `to_s`, times between `row` and the next one. Steps end where a
+/// delayed command changes: the limits of the servo and the dead zone apply to the commands, not to
+/// their mean over a step. Other arguments: see replay_rows().
+template <class T, class Step>
+State<T> advance_after_row(const LogSignals& signals, std::size_t row, T from_s, const T& to_s,
+                           const Plant<T>& plant, const T* delay_s, double longest_step_s,
+                           State<T> state, const LaggedForces* lagged, Step step) {
+  const DrivingLog& log = *signals.log;
+  const bool servo = log.steering_command_rad.has_value();
+  const T delay = delay_s ? *delay_s : T(0.0);
+  const double row_s = log.t_s[row];
+  const double span_s = row + 1 < log.rows() ? log.t_s[row + 1] - row_s : 1.0;
+  const auto share_at = [&](const T& t_s) { return (value_of(t_s) - row_s) / span_s; };
+  const double end_s = value_of(to_s) - value_of(delay);
+  ActingRow acting(log.t_s, value_of(from_s) - value_of(delay));
+  const auto differ = [&](std::size_t a, std::size_t b) {
+    return signals.forces_differ(a, b) || signals.steering_commands_differ(a, b);
+  };
+  for (;;) {
+    const std::optional<double> change_s = acting.next_change_s(end_s, differ);
+    const T until_s = change_s ? T(*change_s + delay) : to_s;
+    const double part_s = value_of(until_s) - value_of(from_s);
+    if (!change_s || part_s > kSameTime_s) {
+      const int steps = steps_in(part_s, longest_step_s);
+      const T h = (until_s - from_s) / double(steps);
+      for (int i = 0; i < steps; ++i) {
+        SideForces<T> force{T(log.force_left[acting.row()]), T(log.force_right[acting.row()])};
+        if (lagged) {
+          const double at_s = value_of(from_s) + i * value_of(h);
+          force = lagged_force(*lagged, signals, at_s, value_of(h), delay_s, force, plant);
+        }
+        if (!servo) {
+          const double share = share_at(from_s);
+          state.steering_rad = T(
+              signals.angle_after(row, share + (share_at(until_s) - share) * ((i + 0.5) / steps)));
+        }
+        const T steering =
+            servo ? T((*log.steering_command_rad)[acting.row()]) : state.steering_rad;
+        state = step(state, h, force, steering);
+      }
+      from_s = until_s;
+    }
+    if (!change_s) return state;
+    acting.pass_change();
+  }
+}
+
+/// Calls visit(row, state) at every row of [begin, end), starting at `state`. Integrates in steps
+/// of at most `longest_step_s` by step(state, h_s, force, steering_rad). `delay_s` null: no delay.
+/// `lagged` null: motors without lag. A logged angle is used as it is: no lag.
 template <class T, class Visit, class Step>
 void replay_rows(const LogSignals& signals, std::size_t begin, std::size_t end,
                  const Plant<T>& plant, const T* delay_s, double longest_step_s, State<T> state,
                  Visit visit, const LaggedForces* lagged, Step step) {
   const DrivingLog& log = *signals.log;
-  const bool servo = log.steering_command_rad.has_value();
-  const auto angle_at = [&](std::size_t row, double share) {
-    const std::vector<double>& angle = log[LogChannel::kSteering]->value;
-    return angle[row] + share * (angle[std::min(row + 1, log.rows() - 1)] - angle[row]);
-  };
   for (std::size_t row = begin; row < end; ++row) {
-    if (!servo) state.steering_rad = T(angle_at(row, 0.0));
+    if (!log.steering_command_rad) state.steering_rad = T(log[LogChannel::kSteering]->value[row]);
     visit(row, state);
     if (row + 1 == end) return;
-    const double span_s = log.t_s[row + 1] - log.t_s[row];
-    const int steps = steps_in(span_s, longest_step_s);
-    const double h = span_s / steps;
-    for (int i = 0; i < steps; ++i) {
-      const double at_s = log.t_s[row] + i * h;
-      SideForces<T> force{T(log.force_left[row]), T(log.force_right[row])};
-      if (delay_s) {
-        force = {delayed_mean(signals.left, at_s, h, *delay_s),
-                 delayed_mean(signals.right, at_s, h, *delay_s)};
-      }
-      if (lagged) force = lagged_force(*lagged, signals, at_s, h, delay_s, force, plant);
-      T steering{};
-      if (!servo) {
-        steering = T(angle_at(row, (i + 0.5) / steps));
-        state.steering_rad = steering;
-      } else {
-        steering = delay_s ? delayed_mean(signals.steering, at_s, h, *delay_s)
-                           : T((*log.steering_command_rad)[row]);
-      }
-      state = step(state, T(h), force, steering);
-    }
+    state = advance_after_row(signals, row, T(log.t_s[row]), T(log.t_s[row + 1]), plant, delay_s,
+                              longest_step_s, state, lagged, step);
   }
 }
 
@@ -138,37 +159,41 @@ bool replay(const LogSignals& signals, std::size_t begin, std::size_t end,
   return resolution.resolved;
 }
 
-/// Returns the state `delay_s` >= 0 before the last of `states`, which are the states at the rows
-/// from `begin` on. Integrates from the last row before that time, by Runge-Kutta steps whose
-/// length carries the derivative with respect to the delay. For a time before row `begin`,
-/// extrapolates with the rates at that row.
+/// State at delay_s >= 0 before the last of `states`, the states at the rows from `begin` on. It is
+/// reached by Runge-Kutta steps from the row before, whose length carries the derivative with
+/// respect to the delay. Before the first row its rates are extrapolated. `input_delay_s`: as of
+/// replay().
 template <class T>
 State<T> earlier_state(const LogSignals& signals, std::size_t begin,
                        const std::vector<State<T>>& states, Plant<T> plant, const T& delay_s,
-                       double longest_step_s) {
+                       const T* input_delay_s, double longest_step_s) {
   const DrivingLog& log = *signals.log;
   const double now_s = log.t_s[begin + states.size() - 1];
   const double then_s = now_s - value_of(delay_s);
   std::size_t row = begin + states.size() - 1;
   while (row > begin && log.t_s[row] > then_s) --row;
-  const bool servo = log.steering_command_rad.has_value();
   plant = without_stop_of_logged_angle(plant, log);
   const FrictionRates<T> friction = friction_rates(plant);
   if (friction.any()) plant = without_friction(plant);
+  const auto rates = [&](const State<T>& s, const SideForces<T>& force, const T& steering) {
+    return state_rates(plant, s, force, steering);
+  };
   State<T> state = states[row - begin];
-  const SideForces<T> force{T(log.force_left[row]), T(log.force_right[row])};
-  const T steering = servo ? T((*log.steering_command_rad)[row]) : state.steering_rad;
-  const auto rates = [&](const State<T>& s) { return state_rates(plant, s, force, steering); };
-  const T span_s = T(now_s - log.t_s[row]) - delay_s;
-  if (value_of(span_s) < 0.0) {
-    const State<T> here = rates(state);
-    return moved(state, with_friction(friction, sliding(friction, state, here), here), span_s);
+  const T to_s = T(now_s) - delay_s;
+  if (value_of(to_s) < log.t_s[row]) {
+    const double at_s = log.t_s[row] - (input_delay_s ? value_of(*input_delay_s) : 0.0);
+    const SideForces<T> force{T(signals.left.at(at_s)), T(signals.right.at(at_s))};
+    const T steering = log.steering_command_rad ? T(signals.steering.at(at_s)) : state.steering_rad;
+    const State<T> here = rates(state, force, steering);
+    return moved(state, with_friction(friction, sliding(friction, state, here), here),
+                 T(to_s - log.t_s[row]));
   }
-  const int steps = steps_in(value_of(span_s), longest_step_s);
-  for (int i = 0; i < steps; ++i) {
-    state = rk4_step_with_friction(friction, state, T(span_s / double(steps)), rates);
-  }
-  return state;
+  return advance_after_row(
+      signals, row, T(log.t_s[row]), to_s, plant, input_delay_s, longest_step_s, state, nullptr,
+      [&](const State<T>& from, const T& h, const SideForces<T>& force, const T& steering) {
+        return rk4_step_with_friction(
+            friction, from, h, [&](const State<T>& at) { return rates(at, force, steering); });
+      });
 }
 
 /// Component of the state that a channel measures.

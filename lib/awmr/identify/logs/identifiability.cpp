@@ -183,6 +183,19 @@ Identifiability without_stopped(Identifiability found, const LogProblem& problem
     found.why_not[i] = why_stopped(quantities[i], coordinates[i]);
     refuse_what_hangs_on(eigen_index(i), quantities, found);
   }
+  for (const auto& [alpha, term] :
+       {std::pair(ParameterId::kSurgeAlpha, ParameterId::kSurgeCoulomb),
+        std::pair(ParameterId::kSurgeAlpha, ParameterId::kSurgeQuadratic),
+        std::pair(ParameterId::kSurgeAlpha, ParameterId::kWheelDeadZone),
+        std::pair(ParameterId::kYawAlpha, ParameterId::kYawCoulomb),
+        std::pair(ParameterId::kYawAlpha, ParameterId::kYawQuadratic)}) {
+    const auto factor = place_of(quantities, alpha);
+    const auto part = place_of(quantities, term);
+    if (!factor || !part) continue;
+    if (!found.why_not[*factor].empty() || found.why_not[*part].empty()) continue;
+    found.why_not[*factor] = fmt::format("{} is not determined, and the resistance needs it: {}",
+                                         info(term).name, found.why_not[*part]);
+  }
   for (const auto& [alpha, beta] : {std::pair(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta),
                                     std::pair(ParameterId::kYawAlpha, ParameterId::kYawBeta)}) {
     const auto factor = place_of(quantities, alpha);

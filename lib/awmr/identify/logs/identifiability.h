@@ -49,7 +49,8 @@ Identifiability identifiability(const Eigen::MatrixXd& information, const Scores
                                 const std::vector<FreeQuantity>& quantities);
 
 /// Refuses every quantity whose search ended at an end of its range, and the quantities correlated
-/// with such a quantity. Also refuses an exponent whose factor alpha is refused.
+/// with such a quantity. Also refuses the factor of a resistance of which another term is refused,
+/// and an exponent whose factor is refused.
 Identifiability without_stopped(Identifiability found, const LogProblem& problem,
                                 const std::vector<double>& coordinates);
 

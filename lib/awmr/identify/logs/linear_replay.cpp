@@ -59,12 +59,7 @@ std::size_t place_of(LogChannel channel) {
   return 6;
 }
 
-/// Derivative by the delay of a command's mean over [t_s, t_s + h_s].
-double slope_by_delay(const HeldSignal& signal, double t_s, double h_s, double delay_s) {
-  return -(signal.at(t_s + h_s - delay_s) - signal.at(t_s - delay_s)) / h_s;
-}
-
-/// Rates of change A S + B of one column S of the derivatives.
+/// By column, [kStateSize]: the rate of the derivatives at one moment.
 std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double* b,
                                               std::size_t columns, const double* s) {
   const double psi = s[2 * columns];
@@ -125,9 +120,8 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
     driven[t.place] = rates_.by_parameter[t.parameter].*t.rate * t.factor;
   }
   const CommandColumns& c = command_columns_;
-  if (c.delay) set_column(command.by_delay, *c.delay, driven);
+  if (c.delay) set_column({command.by_delay, 0.0}, *c.delay, driven);
   if (c.lag) set_column({command.by_lag, 0.0}, *c.lag, driven);
-  if (c.steering_delay) set_column({{}, command.steering_by_delay}, *c.steering_delay, driven);
   if (c.steering_trim) set_column({{}, command.steering_by_trim}, *c.steering_trim, driven);
   if (c.imbalance) set_column({command.by_imbalance, 0.0}, *c.imbalance, driven);
 }
@@ -227,6 +221,20 @@ State<double> LinearStepper::step_along_tangent(const DelayedCommand& command, d
   return rates_.rates;
 }
 
+void LinearStepper::change_command(const DelayedCommand& before, const DelayedCommand& after,
+                                   LinearMotion& motion) {
+  const CommandColumns& c = command_columns_;
+  if (columns_ == 0) return;
+  const State<double> old = rates(before, motion);
+  const State<double> now = rates(after, motion);
+  for (const LogChannel channel : kChannels) {
+    const double less = channel_of(old, channel) - channel_of(now, channel);
+    double* const row = motion.row(channel, columns_);
+    if (c.delay) row[*c.delay] += less;
+    if (c.steering_delay && channel == LogChannel::kSteering) row[*c.steering_delay] += less;
+  }
+}
+
 State<double> LinearStepper::rates(const DelayedCommand& command, LinearMotion& motion) {
   find_way(command, motion);
   find_rates(command, motion.state);
@@ -240,7 +248,7 @@ void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
   const auto off = [&](double SideForces<double>::*side) {
     if (command.*side != 0.0) return;
     at_wheels.command.force.*side = 0.0;
-    at_wheels.by_lag.*side = at_wheels.by_delay.force.*side = 0.0;
+    at_wheels.by_lag.*side = at_wheels.by_delay.*side = 0.0;
   };
   off(&SideForces<double>::left);
   off(&SideForces<double>::right);
@@ -250,47 +258,25 @@ void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
 
 namespace {
 
-/// Commands at the wheels with delays and lag, before the constant errors.
-DelayedCommand intended_command(const LogSignals& signals, std::size_t row, double t_s, double h_s,
-                                const CommandPath& path) {
-  const DrivingLog& log = *signals.log;
-  const std::vector<double>& steering = log.driving_steering_rad();
-  DelayedCommand at{{{log.force_left[row], log.force_right[row]}, steering[row]}};
-  const double d = path.delay ? path.delay->delay_s : 0.0;
-  if (path.delay) {
-    at.command.force = {delayed_mean(signals.left, t_s, h_s, d),
-                        delayed_mean(signals.right, t_s, h_s, d)};
-    at.by_delay.force = {slope_by_delay(signals.left, t_s, h_s, d),
-                         slope_by_delay(signals.right, t_s, h_s, d)};
-  }
-  if (path.delay || path.steering_delay) {
-    const double latency_s = d + (path.steering_delay ? path.steering_delay->delay_s : 0.0);
-    at.command.steering_rad = delayed_mean(signals.steering, t_s, h_s, latency_s);
-    at.by_delay.steering_rad = slope_by_delay(signals.steering, t_s, h_s, latency_s);
-    at.steering_by_delay = at.by_delay.steering_rad;
-  }
-  if (!path.lag) return at;
-  const SideForces<double> command = at.command.force;
-  const LaggedForces::Mean mean = path.lag->mean(signals, t_s, h_s, d);
-  at.command.force = mean.force;
-  at.by_lag = mean.by_lag;
-  at.by_delay.force = mean.by_delay;
-  if (path.switches_off) switch_off(command, at);
-  return at;
+/// Rows of the log whose commands act.
+struct ActingRows {
+  std::size_t forces;
+  std::size_t steering;
+};
+
+HeldCommand logged_command(const DrivingLog& log, const ActingRows& rows) {
+  return {{log.force_left[rows.forces], log.force_right[rows.forces]},
+          log.driving_steering_rad()[rows.steering]};
 }
 
-}  // namespace
-
-DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s, double h_s,
-                          const CommandPath& path) {
-  DelayedCommand at = intended_command(signals, row, t_s, h_s, path);
+DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
   if (path.steering_trim) {
     at.command.steering_rad += path.steering_trim->value;
     at.steering_by_trim = 1.0;
   }
   if (path.imbalance) {
     at.by_imbalance = {-at.command.force.left, at.command.force.right};
-    for (SideForces<double>* const force : {&at.command.force, &at.by_delay.force, &at.by_lag}) {
+    for (SideForces<double>* const force : {&at.command.force, &at.by_delay, &at.by_lag}) {
       force->left *= 1.0 - path.imbalance->value;
       force->right *= 1.0 + path.imbalance->value;
     }
@@ -298,32 +284,137 @@ DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s
   return at;
 }
 
+double force_delay_s(const CommandPath& path) { return path.delay ? path.delay->delay_s : 0.0; }
+double steering_delay_s(const CommandPath& path) {
+  return force_delay_s(path) + (path.steering_delay ? path.steering_delay->delay_s : 0.0);
+}
+
+/// The command over [t, t + h], in which these rows act.
+DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, double t_s,
+                            double h_s, const CommandPath& path) {
+  DelayedCommand at{logged_command(*signals.log, rows)};
+  if (!path.lag) return with_errors(at, path);
+  const SideForces<double> command = at.command.force;
+  const LaggedForces::Mean mean = path.lag->mean(signals, t_s, h_s, force_delay_s(path));
+  at.command.force = mean.force;
+  at.by_lag = mean.by_lag;
+  at.by_delay = mean.by_delay;
+  if (path.switches_off) switch_off(command, at);
+  return with_errors(at, path);
+}
+
+/// The command at t.
+DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPath& path) {
+  constexpr double kMoment_s = 1e-6;
+  const auto row_at = [&](double at_s) {  // a change at this time has happened
+    return ActingRow(signals.log->t_s, at_s + 2.0 * kSameTime_s).row();
+  };
+  return command_over(signals,
+                      {row_at(t_s - force_delay_s(path)), row_at(t_s - steering_delay_s(path))},
+                      t_s, kMoment_s, path);
+}
+
+/// Adds the derivatives by the delays where other rows begin to act. Forces of motors with lag do
+/// not jump.
+void change_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
+                 const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
+  if (path.lag) before.forces = after.forces;
+  const DrivingLog& log = *signals.log;
+  stepper.change_command(with_errors({logged_command(log, before)}, path),
+                         with_errors({logged_command(log, after)}, path), motion);
+}
+
+}  // namespace
+
+void steer(const LogSignals& signals, std::size_t row, double share, const CommandPath& path,
+           std::size_t columns, LinearMotion& motion) {
+  motion.state.steering_rad = signals.angle_after(row, share);
+  if (path.steering_trim) motion.state.steering_rad += path.steering_trim->value;
+  double* const by_column = motion.row(LogChannel::kSteering, columns);
+  std::fill(by_column, by_column + columns, 0.0);
+  if (path.steering_trim && columns > 0) by_column[path.steering_trim->column] = 1.0;
+}
+
+namespace {
+
+/// Steps from `from_s` to `to_s`, between which the same rows act.
+void step_along(const LogSignals& signals, std::size_t row, const ActingRows& rows, double from_s,
+                double to_s, const CommandPath& path, LinearStepper& stepper, double longest_step_s,
+                LinearMotion& motion) {
+  const DrivingLog& log = *signals.log;
+  const double row_s = log.t_s[row];
+  const double span_s = row + 1 < log.rows() ? log.t_s[row + 1] - row_s : 1.0;
+  const double share = (from_s - row_s) / span_s;
+  const double end_share = (to_s - row_s) / span_s;
+  const int steps = steps_in(to_s - from_s, longest_step_s);
+  const double h = (to_s - from_s) / steps;
+  for (int i = 0; i < steps; ++i) {
+    DelayedCommand command = command_over(signals, rows, from_s + i * h, h, path);
+    if (!log.steering_command_rad) {
+      steer(signals, row, share + (end_share - share) * ((i + 0.5) / steps), path,
+            stepper.columns(), motion);
+      command.command.steering_rad = motion.state.steering_rad;
+    }
+    stepper.step(command, h, motion);
+  }
+}
+
+}  // namespace
+
+void advance_after_row(const LogSignals& signals, std::size_t row, double from_s, double to_s,
+                       const CommandPath& path, LinearStepper& stepper, double longest_step_s,
+                       LinearMotion& motion) {
+  if (!path.delay && !path.steering_delay) {
+    return step_along(signals, row, {row, row}, from_s, to_s, path, stepper, longest_step_s,
+                      motion);
+  }
+  const DrivingLog& log = *signals.log;
+  const double of_forces_s = force_delay_s(path);
+  const double of_steering_s = steering_delay_s(path);
+  ActingRow forces(log.t_s, from_s - of_forces_s);
+  ActingRow steering(log.t_s, from_s - of_steering_s);
+  for (;;) {
+    const auto force_change_s = forces.next_change_s(
+        to_s - of_forces_s, [&](auto a, auto b) { return signals.forces_differ(a, b); });
+    const auto steering_change_s = steering.next_change_s(
+        to_s - of_steering_s,
+        [&](auto a, auto b) { return signals.steering_commands_differ(a, b); });
+    const ActingRows rows{forces.row(), steering.row()};
+    const double forces_s = force_change_s ? *force_change_s + of_forces_s : to_s;
+    const double steering_s = steering_change_s ? *steering_change_s + of_steering_s : to_s;
+    const double until_s = std::min(forces_s, steering_s);
+    const bool is_last = !force_change_s && !steering_change_s;
+    if (is_last || until_s - from_s > kSameTime_s) {
+      step_along(signals, row, rows, from_s, until_s, path, stepper, longest_step_s, motion);
+      from_s = until_s;
+    }
+    if (is_last) return;
+    if (force_change_s && forces_s - until_s < kSameTime_s) forces.pass_change();
+    if (steering_change_s && steering_s - until_s < kSameTime_s) steering.pass_change();
+    change_rows(signals, rows, {forces.row(), steering.row()}, path, stepper, motion);
+  }
+}
+
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
                             const DelayColumn& delay, double longest_step_s,
-                            const CommandPath& errors) {
+                            const CommandPath& path) {
   const DrivingLog& log = *signals.log;
   const double now_s = log.t_s[begin + motions.size() - 1];
   const double then_s = now_s - delay.delay_s;
   std::size_t row = begin + motions.size() - 1;
   while (row > begin && log.t_s[row] > then_s) --row;
   LinearMotion motion = motions[row - begin];
-  DelayedCommand command =
-      command_at(signals, row, log.t_s[row], 1.0,
-                 {.steering_trim = errors.steering_trim, .imbalance = errors.imbalance});
-  if (!log.steering_command_rad) command.command.steering_rad = motion.state.steering_rad;
-  const double span_s = now_s - log.t_s[row] - delay.delay_s;
-  State<double> rates{};
-  if (span_s == 0.0) {
-    rates = stepper.rates(command, motion);
-  } else if (span_s < 0.0) {
-    rates = stepper.step_along_tangent(command, span_s, motion);
-  } else {
-    const int steps = steps_in(span_s, longest_step_s);
-    for (int i = 0; i < steps; ++i) stepper.step(command, span_s / steps, motion);
-    rates = stepper.rates(command, motion);
+  const double row_s = log.t_s[row];
+  if (then_s > row_s) {
+    advance_after_row(signals, row, row_s, then_s, path, stepper, longest_step_s, motion);
   }
-  // A longer delay selects an earlier state, so the derivative by the delay is minus the rate.
+  DelayedCommand command = command_at(signals, std::max(row_s, then_s), path);
+  if (!log.steering_command_rad) command.command.steering_rad = motion.state.steering_rad;
+  const State<double> rates = then_s < row_s
+                                  ? stepper.step_along_tangent(command, then_s - row_s, motion)
+                                  : stepper.rates(command, motion);
+  // A longer delay selects an earlier time.
   if (stepper.columns() == 0) return motion;
   for (const LogChannel channel : kChannels) {
     motion.row(channel, stepper.columns())[delay.column] -= channel_of(rates, channel);

@@ -69,8 +69,7 @@ CommandColumns columns_of(const CommandPath& path);
 /// Commands as they reach the wheels, with derivatives by the free quantities of their path.
 struct DelayedCommand {
   HeldCommand command;
-  HeldCommand by_delay{};
-  double steering_by_delay = 0.0;  ///< by the delay of the steering alone
+  SideForces<double> by_delay{};  ///< of motors with lag; see LinearStepper::change_command()
   SideForces<double> by_lag{};
   SideForces<double> by_imbalance{};
   double steering_by_trim = 0.0;  ///< 1 if there is a trim, else 0
@@ -89,7 +88,12 @@ class LinearStepper {
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// Makes one Euler step of h_s seconds (of either sign). Returns the rates before the step.
   State<double> step_along_tangent(const DelayedCommand& command, double h_s, LinearMotion& motion);
-  /// Rates of the state.
+  /// Adds the derivatives by the delays at a change of the commands from `before` to `after`: a
+  /// longer delay makes the motion follow `before` for longer.
+  ///     dS = rates before - rates after
+  void change_command(const DelayedCommand& before, const DelayedCommand& after,
+                      LinearMotion& motion);
+  /// The rates of the state.
   State<double> rates(const DelayedCommand& command, LinearMotion& motion);
 
   std::size_t columns() const { return columns_; }
@@ -129,9 +133,16 @@ class LinearStepper {
   std::vector<double> driven_;  ///< [kStages][kDrivenSize][columns]
 };
 
-/// Mean command at the wheels over [t_s, t_s + h_s].
-DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s, double h_s,
-                          const CommandPath& path);
+/// Moves the motion from `from_s` to `to_s`, times between `row` and the next one, as
+/// advance_after_row() does.
+void advance_after_row(const LogSignals& signals, std::size_t row, double from_s, double to_s,
+                       const CommandPath& path, LinearStepper& stepper, double longest_step_s,
+                       LinearMotion& motion);
+
+/// Sets the steering to the logged angle at a fraction of the time from a row to the next. Its
+/// derivatives depend on its trim alone.
+void steer(const LogSignals& signals, std::size_t row, double share, const CommandPath& path,
+           std::size_t columns, LinearMotion& motion);
 
 /// Simulates rows [begin, end) from `motion` and calls visit(row, motion) at every row, like
 /// replay().
@@ -140,43 +151,21 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
                    const CommandPath& path, LinearStepper& stepper, double longest_step_s,
                    LinearMotion motion, Visit visit) {
   const DrivingLog& log = *signals.log;
-  const bool servo = log.steering_command_rad.has_value();
-  const std::size_t columns = stepper.columns();
-  // A logged steering angle has no servo; it depends only on the trim.
-  const auto steer = [&](std::size_t row, double share) {
-    const std::vector<double>& angle = log[LogChannel::kSteering]->value;
-    motion.state.steering_rad =
-        angle[row] + share * (angle[std::min(row + 1, log.rows() - 1)] - angle[row]);
-    if (path.steering_trim) motion.state.steering_rad += path.steering_trim->value;
-    double* const by_column = motion.row(LogChannel::kSteering, columns);
-    std::fill(by_column, by_column + columns, 0.0);
-    if (path.steering_trim && columns > 0) by_column[path.steering_trim->column] = 1.0;
-  };
   for (std::size_t row = begin; row < end; ++row) {
-    if (!servo) steer(row, 0.0);
+    if (!log.steering_command_rad) steer(signals, row, 0.0, path, stepper.columns(), motion);
     visit(row, motion);
     if (row + 1 == end) return;
-    const double span_s = log.t_s[row + 1] - log.t_s[row];
-    const int steps = steps_in(span_s, longest_step_s);
-    const double h = span_s / steps;
-    for (int i = 0; i < steps; ++i) {
-      DelayedCommand command = command_at(signals, row, log.t_s[row] + i * h, h, path);
-      if (!servo) {
-        steer(row, (i + 0.5) / steps);
-        command.command.steering_rad = motion.state.steering_rad;
-        command.by_delay.steering_rad = command.steering_by_delay = 0.0;
-      }
-      stepper.step(command, h, motion);
-    }
+    advance_after_row(signals, row, log.t_s[row], log.t_s[row + 1], path, stepper, longest_step_s,
+                      motion);
   }
 }
 
-/// Motion at the time delay.delay_s >= 0 before the last of `motions`, which are the motions at the
-/// rows from `begin` on. It is integrated from the row before that time, or extrapolated by the
-/// rates if there is no such row. Of `errors` only the constant errors are used, not the delays.
+/// The motion at delay.delay_s >= 0 before the last of `motions`, which are the motions at the rows
+/// from `begin` on. Integrated by Runge-Kutta steps from the preceding row. Before the first row,
+/// its rates are extrapolated.
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
                             const DelayColumn& delay, double longest_step_s,
-                            const CommandPath& errors = {});
+                            const CommandPath& path);
 
 }  // namespace awmr

@@ -148,13 +148,16 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
     const Estimate& known = model[parameter.id];
     if (known.value) fit.initial_guess[at(parameter.id)] = *known.value;
     const bool wanted = contains(requested, parameter.id) || !known.value;
-    const bool back_emf = parameter.id == ParameterId::kBackEmf;
+    // A servo without a command that changes has no effect, but with its lag free the angle at the
+    // begin of each window would act like a trim.
+    const bool never_acts =
+        parameter.id == ParameterId::kBackEmf || parameter.id == ParameterId::kSteeringTimeConstant;
     if (!can_be_requested(parameter) || !wanted) continue;
     const std::string why = cannot_show(logs, parameter.id);
     if (!why.empty()) reasons[parameter.id] = why;
     // In logs with turns, an unidentifiable parameter affects the others. It therefore stays free,
     // so that its uncertainty is included, and is refused later.
-    if (!why.empty() && (!turning || back_emf)) continue;
+    if (!why.empty() && (!turning || never_acts)) continue;
     fit.free.push_back(parameter.id);
     if (!known.value) fit.guessed.push_back(parameter.id);
   }
