@@ -20,8 +20,9 @@
 namespace awmr {
 namespace {
 
-/// Smallest moment that is tried, as a share of the largest one. The search proceeds from small to
-/// large moments by decades, because runs with a larger moment need shorter integration steps.
+/// Smallest moment of the search, as a fraction of the largest one. The search goes from small to
+/// large moments, a decade at a time, because runs with a larger moment need shorter integration
+/// steps.
 constexpr double kLeast = 1e-4;
 
 /// A scenario on the nominal model, with the mode whose lead is examined.
@@ -34,8 +35,8 @@ struct ModeSetting {
   BatchArithmetic arithmetic;
 };
 
-/// Simulates the scenario in a mode with each scrub moment. Returns the metrics; empty for a run that
-/// fails.
+/// Simulates the scenario in a mode with each of the scrub moments. Returns the metrics of each run;
+/// empty for a run that fails.
 std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawMode mode,
                                                 const std::vector<double>& moments_m) {
   std::vector<BatchRun> runs;
@@ -52,9 +53,10 @@ std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawM
   return driven;
 }
 
-/// True if the run of a mode with scrub is not worse than the run `other` of the other mode with the
-/// same scrub, or if `other` failed. False if the run fails, or lacks a metric that it has without
-/// scrub (it no longer settles, or does not arrive).
+/// True if a mode with scrub (`run`) has no worse score than the other mode with the same scrub
+/// (`other`), or if `other` failed. False if `run` fails, does not complete although the mode does
+/// so without scrub (`without`), or lacks a metric that the mode has without scrub, such as a
+/// settling time.
 bool is_ahead(const std::optional<Metrics>& run, const Metrics& without,
               const std::optional<Metrics>& other, const std::vector<ScoredMetric>& scoring) {
   if (!run || (without.completed && !run->completed)) return false;
@@ -87,8 +89,8 @@ std::optional<std::size_t> first_false(const std::vector<bool>& all) {
   return at(found - all.begin());
 }
 
-/// Smallest moment with which the mode is no longer ahead, with an error of 1 %; absent if there is
-/// none up to `most_m`. `ahead` returns for each moment whether the mode is still ahead.
+/// Smallest moment with which the mode is no longer ahead, with an error of at most 1 %; absent if
+/// the mode is ahead up to `most_m`. `ahead` returns for each moment whether the mode is ahead.
 template <class Ahead>
 std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   constexpr double kFine = 0.01;
@@ -200,8 +202,8 @@ void add_measured(const Model& model, BreakEven& entry) {
       lead_of(entry) != Lead::kOpen || !scrub->ci95_m.contains(*entry.yaw_coulomb_m)) {
     return;
   }
-  // The half width of the interval decreases as 1/sqrt(n) with the number n of turns. Enough turns
-  // are those with which the interval no longer contains the moment that ends the lead.
+  // The half width of the interval decreases as 1/sqrt(n) with the number n of turns. n is enough
+  // when the interval no longer contains the break-even scrub.
   constexpr double kMostTurns = 1000.0;
   const double half = 0.5 * (scrub->ci95_m.hi - scrub->ci95_m.lo);
   const double shrunk = half / std::abs(*entry.yaw_coulomb_m - scrub->moment_m);
@@ -209,8 +211,8 @@ void add_measured(const Model& model, BreakEven& entry) {
   if (turns <= kMostTurns) entry.turns_to_decide = static_cast<int>(turns);
 }
 
-/// The questions of all scenarios and modes. `without`: the rows of sample 0 without scrub.
-/// `entry`: an entry with the values that all questions share.
+/// The questions of all scenarios and modes. `without`: rows of sample 0 without scrub. `entry`: the
+/// values that all questions share; the others are empty.
 Result<std::vector<Question>> all_questions(const Model& model, const Gains<double>& gains,
                                             const std::vector<Scenario>& scenarios,
                                             const std::vector<ComparisonRow>& without,
@@ -250,7 +252,7 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
   AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant());
   const Interval force = model.vehicle.wheel_force;
   BreakEven entry;
-  // 2 d (F'R - F'L), at the ends of the forces' range.
+  // 2 d (F'R - F'L) with F'R = F'max and F'L = F'min.
   entry.most_m = 2.0 * nominal.half_track_m * (force.hi - force.lo);
   entry.sliding_m = sliding_moment_m(nominal);
   AWMR_ASSIGN_OR_RETURN(const std::vector<ComparisonRow> without,

@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Lines for one pair of modes: in how many scenarios the first is still ahead with the measured
-/// scrub. `all`: the entries of the pair.
+/// Lines for one pair of modes: number of scenarios in which the first is still ahead with the
+/// measured scrub, is no longer ahead, or is undecided. `all`: the entries of the pair.
 std::string decided(const std::vector<const BreakEven*>& all) {
   std::map<Lead, int> count;
   int at_other_rates = 0;

@@ -53,8 +53,8 @@ struct Contender {
 /// With fewer samples than this, 95 % intervals cover less than 95 %.
 inline constexpr int kFewSamples = 6;
 
-/// Maximum number of runs of a comparison: scenarios times sets of gains times modes times samples
-/// (including the nominal one). A run takes about 2 kB of memory.
+/// Maximum number of runs of a comparison. The number of runs is scenarios x sets of gains x modes x
+/// samples (including the nominal one). A run takes about 2 kB of memory.
 inline constexpr std::size_t kMaxRuns = 1'000'000;
 
 struct CompareOptions {
@@ -68,13 +68,14 @@ struct CompareOptions {
   Preferences preferences = {};
   /// Computes Comparison::break_even; needs a single set of gains.
   bool break_even = false;
-  /// Computes Comparison::changes: the ranking on the other plant (3-DOF model or four wheels) and
-  /// with slower and faster gains. If the comparison is divided into parts, only the first has them.
+  /// Computes Comparison::changes: the ranking on the plant that the scenario does not use (3-DOF
+  /// model or four wheels) and with slower and faster gains. Of a divided comparison, only part 1
+  /// computes these rankings.
   bool other_settings = false;
-  /// Tyres of the four-wheel plant, if that is the other plant.
+  /// Tyres for scenarios without tyres, when `other_settings` runs them on four wheels.
   Tyres<double> tyres = {};
-  /// Part of the samples to run, for merge_shards() (shard.h); default: all. There are at most as
-  /// many parts as samples, including the nominal one.
+  /// Part of the samples to run, to be combined by merge_shards() (shard.h); default: all samples.
+  /// There can be at most as many parts as samples, including the nominal one.
   Shard shard = {};
   /// Number of threads, >= 0; 0: one per core. Results do not depend on it.
   int threads = 0;
@@ -82,7 +83,7 @@ struct CompareOptions {
   std::vector<ComparisonRow> finished = {};
   /// Called with the numbers of finished and of all runs, on the thread that called compare().
   std::function<void(std::size_t done, std::size_t total)> progress = {};
-  /// If it becomes true, the comparison stops before its next run. Null: it never stops.
+  /// When *stop becomes true, runs in progress finish and no other run starts. Null: never stopped.
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -92,37 +93,38 @@ struct BreakEven {
   std::string scenario;
   YawMode mode{};     ///< differential or combined: it has the better score without scrub
   YawMode against{};  ///< a mode with smaller wheel-force differences
-  /// Scrub c at which `mode` is no longer ahead, m, > 0; its error is at most 1.2 %, or 7e-6 of
-  /// most_m. Absent if the mode stays ahead up to most_m.
+  /// Smallest scrub at which `mode` is no longer ahead, m, > 0; its error is at most 1 %, or 3e-8
+  /// of most_m. Absent if the mode stays ahead up to most_m.
   std::optional<double> yaw_coulomb_m;
-  double most_m = 0.0;  ///< the largest yaw moment of left and right wheel forces, m
-  /// Largest possible scrub, m: 0.8 g m' l_f, the moment of four tyres that slide sideways at
-  /// friction 0.8, with the centre of gravity half-way between the axles.
+  double most_m = 0.0;  ///< largest yaw moment by left and right wheel forces: 2 d (F'max - F'min)
+  /// Largest possible scrub, m: 0.8 g m' l_f. It is the moment of four tyres that slide sideways
+  /// with a friction of 0.8, if the centre of gravity is half-way between the axles.
   double sliding_m = 0.0;
   /// Highest yaw rate in the run of `mode` on the nominal model without scrub, deg/s, >= 0.
   double fastest_degps = 0.0;
-  /// Scrub measured in differential turns of the vehicle, m: its 95 % interval. The interval is
-  /// widened if scrub changes with the yaw rate, and up to the largest moment at which the vehicle
-  /// did not turn. If the model has only that moment, the range is from there to most_m. Absent if
-  /// the model has neither.
+  /// Range of the scrub measured in differential turns, m: the 95 % interval, widened to the range
+  /// over the yaw rates if scrub depends on them, and to the largest moment that did not turn the
+  /// vehicle. If the model has only this moment, the range is from it to most_m. Absent if the
+  /// model has neither.
   std::optional<Interval> measured_m = {};
   std::optional<Interval> measured_degps =
-      {};  ///< yaw rates of those turns; absent if the model has no scrub
-  /// Total number of differential turns needed to decide whether `mode` is ahead, if their scatter
-  /// stays the same; at most 1000. Absent if it is decided, or if more turns would not decide it.
+      {};  ///< yaw rates of these turns, deg/s; absent if the model has no scrub
+  /// Total number of differential turns (recorded and further ones) that would decide whether `mode`
+  /// is ahead, if their mean and scatter stay the same. At most 1000. Absent if the question is
+  /// already decided, or if turns cannot decide it.
   std::optional<int> turns_to_decide = {};
 };
 
-/// Whether BreakEven::mode stays ahead with the measured scrub.
+/// Result for BreakEven::mode with the measured scrub.
 enum class Lead {
   kKept,  ///< the mode is ahead in the whole measured range
   kLost,  ///< the mode is ahead nowhere in the measured range
-  kOpen,  ///< undecided: the mode is ahead in a part of the range, or the run turns at rates at
-          ///< which scrub was not measured
+  kOpen,  ///< undecided: the mode is ahead in a part of the range, or scrub was not measured at the
+          ///< yaw rates of the run
 };
 inline constexpr NameTable<Lead, 3> kLeadNames{
     {{"kept", Lead::kKept}, {"lost", Lead::kLost}, {"open", Lead::kOpen}}};
-/// The lead of an entry; absent without measured scrub.
+/// Returns the Lead of an entry; absent without measured scrub.
 std::optional<Lead> lead_of(const BreakEven& entry);
 
 /// An assumption that is changed to test whether the ranking depends on it.
@@ -131,52 +133,54 @@ inline constexpr NameTable<ChangeKind, 3> kChangeKindNames{{{"plant", ChangeKind
                                                             {"weights", ChangeKind::kWeights},
                                                             {"gains", ChangeKind::kGains}}};
 
-/// Number of completed runs of one contender.
+/// Number of completed runs of one contender in a changed setting.
 struct Completion {
   Contender contender;
-  std::size_t count = 0;
-  std::size_t of = 0;  ///< > 0
+  std::size_t count = 0;  ///< completed runs
+  std::size_t of = 0;     ///< all counted runs (ModeRows::counted), > 0
 };
 
-/// The best modes of a scenario in a changed setting.
+/// The best modes of a scenario when one assumption is changed.
 struct Change {
   std::string scenario;
   ChangeKind kind{};
   std::string setting;           ///< "four-wheel", "model"; "slower", "faster"; "within a factor 2"
-  std::vector<Contender> first;  ///< modes of rank 1; for weights: of rank 1 with all weights
+  std::vector<Contender> first;  ///< modes of rank 1; kWeights: of rank 1 with all changed weights
   std::string not_run = {};      ///< why there is no ranking in this setting; empty if there is one
-  std::vector<Completion> completed = {};  ///< by contender; empty for weights, which need no runs
+  std::vector<Completion> completed = {};  ///< by contender; empty for kWeights, which runs nothing
 };
 
 /// Result of compare().
 struct Comparison {
-  std::vector<ComparisonRow> rows;  ///< finished rows, by scenario, gains, mode, sample
-  /// Number of evaluated samples, including the nominal one: the samples 0, 1, ... up to the first
-  /// that some scenario, mode or set of gains lacks. Fewer than requested if the comparison was
-  /// stopped, or is a part.
+  std::vector<ComparisonRow> rows;  ///< finished rows, sorted by scenario, gains, mode, sample
+  /// Number of evaluated samples, including the nominal one: the samples 0, 1, 2, ... that have a
+  /// finished run in every scenario, mode and set of gains. Fewer than requested if the comparison
+  /// was stopped, or is a part.
   int whole_samples = 0;
   bool stopped = false;  ///< true: not all runs were done
-  /// Rounding of the runs (BatchArithmetic::rounding). Rows with different rounding cannot be
-  /// combined.
+  /// Rounding of the runs (BatchArithmetic::rounding): "fused" or "scalar". Rows with different
+  /// rounding cannot be combined.
   std::string arithmetic = {};
   /// Highest yaw rate at which yaw resistance was measured, deg/s, > 0; absent if unknown.
   std::optional<double> measured_yaw_rate_degps = {};
-  /// Result of break_even_of() (break_even.h); absent if not requested.
+  /// Break-even scrub of each scenario and pair of modes; absent if not requested, or if stopped.
   std::optional<std::vector<BreakEven>> break_even = {};
   /// Rankings on the other plant and with other gains, by changes_of_runs() (decision.h); empty if
   /// not requested.
   std::vector<Change> changes = {};
 };
 
-/// Runs every scenario with every mode and set of gains, on the nominal model and on samples. A
-/// sample draws the fitted parameters from the model's covariance (simulate/plant_sampler.h), and
-/// the noise and disturbances of the scenarios from the seeds. All modes and gains use the same
-/// draws. The controller uses the nominal values. Blocks of kBatchRuns samples (simulate/batch.h)
-/// are run in every scenario and mode before the next block, so a stopped comparison is valid, with
-/// fewer samples.
+/// Runs every scenario with every mode and set of gains, on the nominal model and on samples. For a
+/// sample, the fitted parameters are drawn from the model's covariance (simulate/plant_sampler.h),
+/// and noise and disturbances from the seeds of scenario and options. All modes and gains use the
+/// same draws. The controller uses the nominal values. Blocks of kBatchRuns samples
+/// (simulate/batch.h) are run in every scenario and mode before the next block, so a stopped
+/// comparison is valid, with fewer samples.
 /// Errors (input): the model lacks a parameter, a covariance (with samples) or an interval that a
-/// scenario's corner needs; no scenario, or two of the same name; a negative number of samples or
-/// threads; more than kMaxRuns runs; a finished row of another comparison.
+/// scenario's corner needs; as check_scenario() and controller_for(); no scenario or gains, or two
+/// of the same name; a negative number of samples or threads; a part that does not exist; more than
+/// kMaxRuns runs; a finished row of another comparison; break-even with several sets of gains, in a
+/// part, for a scenario on four wheels, or as break_even_of(). Also the error of a run that fails.
 Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
 Result<Comparison> compare(const Model& model, const Gains<double>& gains,

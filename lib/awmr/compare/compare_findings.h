@@ -10,17 +10,18 @@
 
 namespace awmr {
 
-/// Returns the findings that do not depend on the runs, so that they are the same for a part and for
-/// the whole comparison: requests that the vehicle cannot meet, tyres that differ from those of the
-/// trials, too few samples (`few-samples`), heading commands without rate limit, and scrub
-/// (`scrub-simulated`, `turned-by-sides`). `rate` is the requested limit of the heading rate.
+/// Returns the findings that do not depend on the results of the runs: requests that the vehicle
+/// cannot meet, tyres that differ from those of the trials, parameters without interval, too few
+/// samples (`few-samples`), heading commands without rate limit, and scrub (`scrub-simulated`,
+/// `turned-by-sides`). A part has the same findings as the whole comparison. `rate` is the requested
+/// limit of the heading rate.
 std::vector<Finding> compare_findings(const Model& model, const std::vector<Scenario>& scenarios,
                                       const CompareOptions& options, const Comparison& comparison,
                                       const HeadingRateChoice& rate);
 
 /// Returns a warning (`beyond-trials`) about the run with the highest yaw rate. Empty if no run
-/// turns clearly faster than the trials that yaw resistance was identified from. `provenance` is
-/// that of the comparison.
+/// turns more than 1.2 times as fast as the trials that yaw resistance was identified from, or if
+/// their yaw rate is unknown. `provenance` is that of the comparison.
 std::vector<Finding> extrapolation_findings(const Comparison& comparison,
                                             const Provenance& provenance);
 

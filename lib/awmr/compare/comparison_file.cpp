@@ -93,7 +93,8 @@ Json labels_json(const std::vector<Contender>& contenders) {
   return labels;
 }
 
-/// `all`: the changes of all scenarios, including those that could not be run.
+/// Decision on a scenario as JSON. `all`: changes of all scenarios, including those that could not
+/// be run; of these, the ones of this scenario are added with their reason.
 Json decision_json(const std::string& scenario, const Decision& decision,
                    const std::vector<Change>& all) {
   Json json = {{"kind", name_in(kDecisionKindNames, decision.kind())},
@@ -154,7 +155,8 @@ Json counted_once_json(const std::vector<EvaluatedScenario>& ranked) {
   return json;
 }
 
-/// By metric and contender: number of ranked scenarios in which it was best, or tied with the best.
+/// For each metric and contender, the number of ranked scenarios in which the contender was best or
+/// tied with the best.
 Json overall_json(const std::vector<EvaluatedScenario>& ranked) {
   Json json = Json::array();
   for (const MetricTally& one : tally(ranked)) {

@@ -35,9 +35,9 @@ double mean_log_loss(const ModeRows& rows, const ScoredMetric& scored) {
   return sum / static_cast<double>(rows.counted().size());
 }
 
-/// The weights w_k within kWeightFactor that are worst for `own` compared with `other`. Let d_k be
-/// the loss of own minus that of other in metric k, and m = ln(1 + relevance). Own is behind if
-///   sum w_k (d_k - m) > 0.
+/// Changes each weight w_k by kWeightFactor, so that `own` is worst compared with `other`. Let d_k be
+/// the mean loss of own minus that of other in metric k, and m = ln(1 + relevance). Own is behind if
+///   sum over k of w_k (d_k - m) > 0.
 /// Each term is maximised separately: w_k is multiplied by the factor if d_k > m, else divided.
 Preferences worst_weights(const ModeRows& own, const ModeRows& other,
                           const std::vector<ScoredMetric>& scoring,
@@ -53,7 +53,8 @@ Preferences worst_weights(const ModeRows& own, const ModeRows& other,
   return worst;
 }
 
-/// Contenders that have rank 1 with all weights within kWeightFactor.
+/// Finds the contenders that have rank 1 with every weight between 1/kWeightFactor and kWeightFactor
+/// times its value.
 Change change_of_weights(const ScenarioRows& scenario,
                          const std::vector<PairedDifference>& differences,
                          const Preferences& preferences, std::uint64_t seed) {
@@ -127,8 +128,8 @@ struct ChangedScenario {
   std::vector<NamedGains> gains;
 };
 
-/// Returns the scenarios to run for all changes, in the order of `scenarios`. Changes that cannot be
-/// run are added to `changes` with their reason.
+/// Returns one entry for each scenario and change of plant or gains that can be run, in the order of
+/// `scenarios`. Changes that cannot be run are added to `changes` with the reason.
 std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& gains,
                                                const std::vector<Scenario>& scenarios,
                                                const Tyres<double>& tyres,

@@ -1,5 +1,5 @@
-/// Decision: whether the best modes of a scenario stay the best on the other plant, with other
-/// weights and with other gains. Private to compare/.
+/// Decides whether the best modes of a scenario stay the best on the other plant (3-DOF model or
+/// four wheels), with other weights and with other gains. Private to compare/.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,11 @@
 
 namespace awmr {
 
-/// Each weight of the ranking is multiplied or divided by this factor, independently of the others.
+/// For the change of weights, each weight of the ranking is multiplied or divided by this factor,
+/// independently of the others.
 inline constexpr double kWeightFactor = 2.0;
-/// Factor by which the rates of both closed loops are multiplied or divided: sqrt(2).
+/// For the change of gains, the rates of heading and speed loop are multiplied or divided by this
+/// factor, sqrt(2).
 inline constexpr double kGainsFactor = 1.4142135623730951;
 
 enum class DecisionKind {
@@ -31,18 +33,18 @@ inline constexpr NameTable<DecisionKind, 3> kDecisionKindNames{
      {"level", DecisionKind::kLevel},
      {"undecided", DecisionKind::kUndecided}}};
 
-/// Result of a scenario: the modes of rank 1, and whether they keep it under every change.
+/// Decision on a scenario: the modes of rank 1, and their ranks under each change.
 struct Decision {
   std::vector<Contender> first;  ///< modes of rank 1 in the ranking
-  std::vector<Change> changes;   ///< changes with a ranking; never empty, because the change of
-                                 ///< weights needs no runs
+  std::vector<Change> changes;   ///< changes with a ranking: at least the change of weights, which
+                                 ///< needs no runs
 
   /// Contenders of rank 1 in the ranking and under every change.
   std::vector<Contender> never_behind() const;
   DecisionKind kind() const;
   /// True if one of `first` is of rank 1 under the change.
   bool survives(const Change& change) const;
-  /// Trials that discriminate between the two plants, if their best modes differ.
+  /// Names of trials that would show which plant is right, if the best modes differ between plants.
   std::vector<std::string_view> deciding_trials() const;
 };
 
@@ -51,25 +53,26 @@ inline constexpr std::string_view kDifferentialTurns = "differential-turns";
 inline constexpr std::string_view kSteerWhileCoasting = "steer-while-coasting";
 
 /// Ranks the modes on the other plant and, for a single set of gains, with slower and faster gains.
-/// Uses the draws of the comparison, at most kBatchRuns samples. If a scenario cannot be run in a
-/// setting, its Change has the reason (Change::not_run).
+/// Uses the first kBatchRuns samples of the comparison, or all if there are fewer. If a scenario
+/// cannot be run in a setting, its Change has the reason (Change::not_run). Open-loop scenarios have
+/// no Change, because nothing is ranked.
 std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedGains>& gains,
                                     const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options);
 
-/// Decides a scenario. `ranking`: rank() of the same scenario, not empty. Changes of other scenarios
-/// are ignored.
+/// Makes the Decision on a scenario. `ranking`: result of rank() for this scenario, not empty.
+/// `changes` can contain changes of other scenarios, which are ignored.
 Decision decide(const ScenarioRows& scenario, const std::vector<PairedDifference>& differences,
                 const std::vector<RankedMode>& ranking, const std::vector<Change>& changes,
                 const Preferences& preferences, std::uint64_t seed);
 
-/// End of a verdict: "; undecided: ...", or "; combined keeps a first place ...", then the modes
-/// that complete no run under a change.
+/// End of a verdict: "; undecided: ...", or "; combined keeps a first place ...". Then follow the
+/// modes that complete no run under a change, and the trials that would decide between the plants.
 std::string decision_text(const Decision& decision);
 
 /// Verdict on a scenario in one sentence: the best mode, how far the others are behind, and how
-/// robust the result is. A single mode of rank 1 that loses it with another plant, weights or gains
-/// is called "ahead here", not "best".
+/// robust the result is. A single mode of rank 1 is called "ahead here" instead of "best" if it does
+/// not keep rank 1 with another plant, other weights or other gains.
 std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking,
                        const std::optional<Decision>& decision,
                        const std::vector<PairedDifference>& differences,

@@ -38,12 +38,12 @@ enum class MetricId {
 struct MetricColumn {
   MetricId id;
   std::string_view name;  ///< in comparison.csv and comparison.json
-  std::string_view head;  ///< heading in the table for a terminal, at most 7 characters; empty: not
-                          ///< in the table
+  std::string_view head;  ///< column heading in the terminal's table, at most 7 characters; empty:
+                          ///< the metric is not in that table
   std::string_view unit;
   std::variant<double Metrics::*, std::optional<double> Metrics::*> figure;
-  /// Difference in the metric's unit that is too small to matter, >= 0 (scoring.h). A metric with a
-  /// floor above 0 can rank modes; lower values are better. 0: the metric is not used in rankings.
+  /// Largest difference that does not matter, in the metric's unit, >= 0 (scoring.h). A metric with
+  /// a floor above 0 can rank modes, and lower values are better. 0: the metric never ranks modes.
   double ranking_floor = 0.0;
   double default_weight = 0.0;  ///< weight in the ranking if the user gives none
 
@@ -57,9 +57,9 @@ struct MetricColumn {
   }
 };
 
-/// Weight 1 by default: accuracy (heading or cross-track error), time (settled or finished), speed
-/// drop, mechanical work and tyre wear. Weight 0 by default, for example: sideslip, because it
-/// follows from the geometry of the turn; control variation, because it is nearly 0 in some modes.
+/// All metrics. Default weight 1: heading and cross-track error, settling and finishing time, speed
+/// drop, mechanical work and tyre work. All others have 0, for example sideslip, because it follows
+/// from the geometry of the turn, and control variation, because it is nearly 0 in some modes.
 inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1,
      1.0},

@@ -1,5 +1,5 @@
-/// Summary over all scenarios: how often each mode is best in a metric, and how many rankings are
-/// decided. Private to compare/.
+/// Summary over all scenarios: the number of scenarios in which each mode is best in a metric, and
+/// in which the ranking is decided. Private to compare/.
 #pragma once
 
 #include <cstdint>
@@ -38,22 +38,22 @@ std::vector<EvaluatedScenario> evaluate_scenarios(const Comparison& comparison,
 /// Returns the scenarios that have a ranking.
 std::vector<EvaluatedScenario> ranked_of(const std::vector<EvaluatedScenario>& scenarios);
 
-/// For each scenario, the index of the first scenario with identical runs (all metrics of all modes
-/// and samples are equal); its own index if there is none before it. Summaries count only these
-/// first scenarios.
+/// Returns for each scenario the index of the first scenario with identical runs: all metrics of
+/// all modes and samples are equal. Without such an earlier scenario, this is its own index.
+/// Summaries count only these first scenarios.
 std::vector<std::size_t> first_with_same_runs(const std::vector<EvaluatedScenario>& scenarios);
 
-/// Counts for each metric that can rank, over the ranked scenarios; scenarios with identical runs
-/// count once. A contender is worse than another in a metric if its mean is higher by a relevant
-/// difference, or if only the other has a value.
+/// Counts, for each metric that can rank, the scenarios in which a contender is not worse than any
+/// other. A contender is worse if its mean is higher by a relevant difference, or if only the other
+/// has a value. Scenarios with identical runs count once. `scenarios`: those with a ranking.
 std::vector<MetricTally> tally(const std::vector<EvaluatedScenario>& scenarios);
 
-/// Number of scenarios with each kind of decision, and number of scenarios in which a mode keeps
-/// rank 1 under all changes of a kind. Scenarios with identical runs count once.
+/// Number of scenarios with each kind of decision, and number of scenarios whose rank 1 survives
+/// all changes of a kind (Decision::survives()). Scenarios with identical runs count once.
 struct DecisionTally {
   std::map<DecisionKind, int> scenarios;
   struct Share {
-    int count = 0;  ///< scenarios in which a mode keeps rank 1
+    int count = 0;  ///< scenarios in which, under each such change, a mode of rank 1 keeps rank 1
     int of = 0;     ///< scenarios with a change of this kind
   };
   std::map<ChangeKind, Share> survived;

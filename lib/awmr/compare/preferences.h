@@ -14,18 +14,18 @@ namespace awmr {
 inline constexpr double kMaximumWeight = 1000.0;
 
 struct Preferences {
-  /// By name of the metric, in [0, kMaximumWeight]. Other metrics have their default weight
-  /// (metric_columns.h).
+  /// Weights by name of the metric, in [0, kMaximumWeight]. A metric that is not listed has its
+  /// default weight (metric_columns.h).
   std::map<std::string, double, std::less<>> weights;
-  /// Relative difference that is too small to matter, in [0, 1], dimensionless. Differences below
-  /// the metric's floor do not matter either.
+  /// Largest relative difference that does not matter, in [0, 1], dimensionless. Differences up to
+  /// the metric's floor (MetricColumn::ranking_floor) do not matter either.
   double relevance = 0.05;
   friend bool operator==(const Preferences&, const Preferences&) = default;
 };
 
-/// Reads weights of the form "NAME=WEIGHT". Errors (input): another form; a metric that is unknown
-/// or cannot rank (the message has the nearest name); a weight outside its range; a duplicate name;
-/// no metric with a weight above 0; `relevance` outside [0, 1].
+/// Reads weights of the form "NAME=WEIGHT". Errors (input): a text of another form; a metric that
+/// is unknown or cannot rank (the message has the nearest name); a weight outside its range; a
+/// metric with two weights; no metric with a weight above 0; `relevance` outside [0, 1].
 Result<Preferences> preferences_of(const std::vector<std::string>& weights, double relevance);
 
 /// Names of the metrics that can have a weight, in the order of comparison.csv.

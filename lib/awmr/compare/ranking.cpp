@@ -13,8 +13,8 @@
 namespace awmr {
 namespace {
 
-/// Random streams of the bootstrap of scores and of the random weightings. They differ from the
-/// streams of the bootstrap of differences (statistics.cpp) and of the samples.
+/// Random streams of the bootstrap of scores and of the random weightings. Both differ from the
+/// streams of the samples and of the bootstrap of differences (statistics.cpp).
 constexpr std::uint64_t kScoreStream = std::uint64_t{3} << 62U;
 constexpr std::uint64_t kWeightStream = std::uint64_t{5} << 61U;
 constexpr int kWeightings = 1000;
@@ -24,7 +24,7 @@ struct Entry {
   const ModeRows* rows = nullptr;
   std::vector<double> log_scores;   ///< log_score() of each counted run
   std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() of the counted runs
-  bool completes = true;            ///< completes not significantly less often than the best
+  bool completes = true;            ///< false: completes significantly less often than the best
 
   double log_score() const { return mean(log_scores); }
 
@@ -61,7 +61,8 @@ bool complete_alike(const ModeRows& a, const ModeRows& b) {
   return mcnemar_p(only_first, only_second) >= kSignificance;
 }
 
-/// Order of tied modes: by mode, then by name of the gains, whatever the order of the given gains.
+/// Order of modes with equal scores: by mode, then by name of the gains. It does not depend on the
+/// order in which the gains are given.
 bool is_before(const ModeRows& a, const ModeRows& b) {
   return std::tie(a.contender.mode, a.contender.gains) <
          std::tie(b.contender.mode, b.contender.gains);
@@ -92,7 +93,8 @@ std::vector<Entry> sorted_entries(const ScenarioRows& scenario,
   return entries;
 }
 
-/// Bootstrap of the score of `own` minus that of the leader: means of the resamples, ascending.
+/// Bootstrap of the mean difference of log scores, `own` minus `leader`: the means of the
+/// resamples, ascending.
 std::vector<double> resampled_differences(const Entry& own, const Entry& leader, Random random) {
   const std::size_t n = own.log_scores.size();
   std::vector<double> means;
@@ -131,13 +133,14 @@ Behind behind(const Entry& own, const Entry& leader, double relevance, Random ra
   return {ratio, within ? Conclusion::kEquivalent : Conclusion::kUndecided};
 }
 
-/// Adds 1 to the count of the entry with the smallest value among those that complete as often as
-/// the best. Entries within `margin` of it share that 1, because smaller differences do not matter.
+/// Divides a count of 1 equally among the entries whose value is within `margin` of the smallest,
+/// because smaller differences do not matter. Only entries that complete as often as the best are
+/// considered.
 template <class Value>
 void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
                 std::vector<double>& counts) {
   constexpr double kRounding = 1e-12;
-  double least = value(entries.front());  // the first of the list completes
+  double least = value(entries.front());  // the first of the list has `completes`
   for (const Entry& entry : entries) {
     if (entry.completes) least = std::min(least, value(entry));
   }
@@ -149,7 +152,8 @@ void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
   for (const std::size_t i : best) counts[i] += 1.0 / static_cast<double>(best.size());
 }
 
-/// For each entry, the share of weightings (uniform over all that sum to 1) for which it is best.
+/// For each entry, the share of random weightings for which it is best. The ratios of the weights
+/// are those of a uniform distribution over all weightings that sum to 1.
 std::vector<double> shares_by_weights(const std::vector<Entry>& entries, double margin,
                                       Random random) {
   std::vector<double> shares(entries.size(), 0.0);
@@ -210,8 +214,8 @@ bool dominates(const Contender& other, const Contender& own,
   return better;
 }
 
-/// Gives all modes that are tied for rank 1 the mean of their shares of weightings and, if they are
-/// equivalent, of samples: none of them alone has rank 1.
+/// Gives each mode that is tied for rank 1 the mean of the tied modes' shares of weightings and, if
+/// they are equivalent, of their shares of samples, because no mode alone has rank 1.
 void share_firsts_of_ties(std::vector<RankedMode>& ranking) {
   const auto end = std::find_if(ranking.begin(), ranking.end(),
                                 [](const RankedMode& mode) { return mode.rank > 1; });

@@ -23,7 +23,7 @@ namespace {
 const std::set<std::string, std::less<>> kFreeOptions{"samples", "weight", "relevance",
                                                       "break_even"};
 
-/// Largest accepted metric: sums of squares over the samples stay finite.
+/// Largest accepted value of a metric, so that sums of squares over the samples stay finite.
 constexpr double kLargest = 1e100;
 
 template <class Number>

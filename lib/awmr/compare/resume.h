@@ -1,4 +1,4 @@
-/// Files of a comparison: writes them, and reads them to resume a stopped comparison.
+/// Writes comparison.csv and comparison.json, and reads them to resume a stopped comparison.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@
 
 namespace awmr {
 
-/// Reads the rows of an existing comparison.csv. Its comparison.json must have the inputs and
-/// options of `provenance`, except for samples, weights, relevance and break-even, which may change.
-/// Errors (input): the files are missing or malformed, or from another comparison, program version
-/// or arithmetic.
+/// Reads the rows of an existing comparison.csv. The comparison.json beside it must have the inputs
+/// and options of `provenance`; only samples, weights, relevance and break-even may differ.
+/// Errors (input): a file is missing or malformed; the files are of another comparison, program
+/// version or arithmetic; comparison.csv is not the one of this comparison.json.
 Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
                                                  const Provenance& provenance);
 
@@ -23,7 +23,8 @@ Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& di
 /// other columns, or an invalid row.
 Result<std::vector<ComparisonRow>> comparison_rows(std::string_view text, const std::string& file);
 
-/// Checks the text of comparison.csv, as write_files() (core/file.h) requires after writing it.
+/// Checks that a text is a comparison.csv; write_files() (core/file.h) reads the file back with it.
+/// Errors: as comparison_rows().
 Status check_comparison_csv(std::string_view text, const std::string& file);
 
 /// Names of the files of a comparison in its directory.

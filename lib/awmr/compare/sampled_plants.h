@@ -18,10 +18,11 @@ struct SampledPlants {
   }
 };
 
-/// Sample 0 is the model itself, samples 1 ... options.samples are drawn from its covariance
-/// (simulate/plant_sampler.h). A scenario with a corner (parameters moved to the ends of their
-/// intervals) applies it to every sample. Errors (input): the model lacks a parameter, a covariance,
-/// or an interval that a corner needs.
+/// Makes the plants of all samples. Sample 0 is the model itself; samples 1 ... options.samples are
+/// drawn from the model's covariance (simulate/plant_sampler.h). A scenario with a corner
+/// (parameters moved to the ends of their intervals) applies the corner to every sample. Errors
+/// (input): the model lacks a parameter, a covariance (with samples), or an interval that a corner
+/// needs; as check_scenario().
 Result<SampledPlants> sample_plants(const Model& model, const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options);
 

@@ -1,4 +1,4 @@
-/// Score of a run, computed from the metrics that rank modes. Private to compare/.
+/// Score of a run, computed from the metrics that rank modes; lower is better. Private to compare/.
 #pragma once
 
 #include <vector>
@@ -16,22 +16,23 @@ struct ScoredMetric {
   const MetricColumn* metric = nullptr;
   double weight = 0.0;   ///< w, in (0, 1]; the weights of a scenario sum to 1
   double offset = 0.0;   ///< f of log_loss(), in the metric's unit, > 0
-  double missing = 0.0;  ///< value for a run without the metric: the worst of all runs
+  double missing = 0.0;  ///< value for a run without the metric: the largest of all counted runs
 };
 
 /// Returns the metrics with a weight above 0 that any run of the scenario has.
 std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Preferences& preferences);
 
-/// Loss of one metric: ln(x + f), x its value, f its floor divided by the relevance. A difference of
-/// floor + relevance x then changes the ratio (x + f) by the relevance for every x, and ratios of
-/// small values do not dominate.
+/// Loss of one metric: ln(x + f). x: value of the metric, 0 if negative. f: the metric's floor
+/// divided by the relevance, or the floor if the relevance is 0. Adding floor + relevance x to x
+/// multiplies x + f by 1 + relevance, whatever x is. Therefore ratios of small values do not
+/// dominate the score.
 double log_loss(const Metrics& metrics, const ScoredMetric& scored);
 
-/// Score of a run: the sum of w ln(x + f). For two runs, exp(difference of the scores) is the
-/// weighted geometric mean of the ratios of their metrics, independent of other runs.
+/// Score of a run: the sum of w ln(x + f) over the metrics. For two runs, exp(difference of their
+/// scores) is the weighted geometric mean of the ratios of their x + f.
 double log_score(const Metrics& metrics, const std::vector<ScoredMetric>& scoring);
 
-/// Scores of the counted runs of a mode (ModeRows::counted).
+/// log_score() of each counted run of a mode (ModeRows::counted).
 std::vector<double> log_scores(const ModeRows& rows, const std::vector<ScoredMetric>& scoring);
 
 }  // namespace awmr

@@ -1,5 +1,5 @@
-/// Comparison on several machines: each runs a part of the samples, and merge_shards() combines the
-/// parts to the output of a single comparison, byte for byte.
+/// Comparison on several machines: each machine runs a part (shard) of the samples. merge_shards()
+/// combines the parts; the output equals that of a single comparison, byte for byte.
 #pragma once
 
 #include <filesystem>
@@ -13,24 +13,24 @@
 
 namespace awmr {
 
-/// Files of one part (shard) of a comparison: comparison.csv has the rows of its samples.
+/// Describes the files of a part: shard.json, and comparison.csv with the rows of its samples.
 const ShardKind& comparison_shards();
 
-/// Text of the part of a comparison that options.shard selects.
+/// Texts of the files of the part that options.shard selects.
 PartText comparison_part(const Comparison& part, const CompareOptions& options,
                          const Provenance& provenance, const std::vector<Finding>& findings = {});
 
 /// A whole comparison with the data that its files need.
 struct Merged {
   Comparison comparison;
-  CompareOptions options;  ///< samples, seed and preferences
+  CompareOptions options;  ///< only samples, seed and preferences are set
   Provenance provenance;
   /// extrapolation_findings() of all runs, then the findings of the first part.
   std::vector<Finding> findings;
 };
 
-/// Combines the parts in these directories, in any order. Errors (input): as read_parts(); a row of
-/// another part, or a missing row.
+/// Combines the parts in these directories, in any order. Errors (input): as read_parts(); a row is
+/// invalid, belongs to another part, is missing or appears twice.
 Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directories);
 
 }  // namespace awmr

@@ -14,8 +14,8 @@
 namespace awmr {
 namespace {
 
-/// Random stream of the bootstrap. It differs from the streams of the draws, which are the sample
-/// numbers.
+/// Random stream of the bootstrap. It differs from the streams of the drawn samples, which have the
+/// sample's number.
 constexpr std::uint64_t kBootstrapStream = std::uint64_t{1} << 63U;
 
 double mean_of(std::span<const double> values) {
@@ -29,8 +29,8 @@ std::optional<double> difference(const MetricColumn& metric, const Metrics& a, c
   return *x - *y;
 }
 
-/// Differences of all metrics and pairs (rows) by sample (columns), so that a bootstrap resample is
-/// a sum of columns.
+/// Differences of all metrics and pairs. A row of the arrays is a metric of a pair, a column is a
+/// sample, so that a bootstrap resample is a sum of columns.
 struct Differences {
   std::vector<PairedDifference> results;
   Eigen::ArrayXXd values;  ///< 0 if a contender of the pair has no value

@@ -56,11 +56,11 @@ Summary summarise(const ModeRows& rows, const MetricColumn& metric);
 /// True if any mode has the metric in any counted run.
 bool any_has(const ScenarioRows& scenario, const MetricColumn& metric);
 
-/// Share of the sorted bootstrap means to cut off on each side, so that the interval misses the
-/// value with the probability `tail` on that side (Hesterberg's expanded percentiles):
+/// Share of the sorted bootstrap means to cut off on each side, so that the interval misses the true
+/// mean on that side with the probability `tail` (Hesterberg's expanded percentiles):
 ///   Phi(-t sqrt(n/(n-1))),  t: the 1 - tail quantile of Student's t with n - 1 degrees of freedom
-/// n is `count`. Plain percentiles give too narrow intervals for few values. Below kFewSamples
-/// values the coverage is still too low.
+/// Phi is the standard normal distribution function, n is `count`. Cutting off `tail` itself gives
+/// too narrow intervals for few values. Below kFewSamples values, coverage is too low even so.
 double bootstrap_tail(std::size_t count, double tail);
 
 /// The p quantile, linear between order statistics (type 7 of Hyndman and Fan). `sorted` is not
@@ -73,8 +73,8 @@ inline constexpr NameTable<Conclusion, 3> kConclusionNames{{{"relevant", Conclus
                                                             {"equivalent", Conclusion::kEquivalent},
                                                             {"undecided", Conclusion::kUndecided}}};
 
-/// Difference of a metric between two contenders, first minus second, by sample: both have the same
-/// drawn vehicle and noise.
+/// Difference of a metric between two contenders, first minus second. It is computed sample by
+/// sample, because both have the same drawn vehicle and noise in a sample.
 struct PairedDifference {
   Contender first;
   Contender second;
@@ -84,14 +84,14 @@ struct PairedDifference {
   std::optional<double> mean;     ///< over these samples, in the metric's unit
   std::optional<Interval> ci95;   ///< of the mean; absent for fewer than 2 samples
   std::optional<double> p;        ///< of the paired t test, in [0, 1]; absent for fewer than 2
-  /// p with Holm's correction for all differences of the scenario. Below 0.05 the difference is
-  /// significant; the risk of any false positive in the scenario is then at most 5 %.
+  /// p with Holm's correction for the number of differences in the scenario. Below 0.05 the
+  /// difference is significant. The risk of any false positive in the scenario is then at most 5 %.
   std::optional<double> p_holm;
   /// Largest difference that does not matter, in the metric's unit, >= 0: the larger of the metric's
   /// floor and the relevance times the smaller of the two means.
   double margin = 0.0;
-  /// p-value of two one-sided t tests (TOST), in [0, 1]: below 0.05 the difference is within the
-  /// margin. Absent below 2 samples.
+  /// p-value of two one-sided t tests (TOST), in [0, 1]. Below 0.05 the absolute difference is
+  /// significantly smaller than the margin. Absent below 2 samples.
   std::optional<double> p_equivalent;
   /// kRelevant if p_holm is below 0.05 and the whole interval ci95 is beyond the margin; for a
   /// single run, if the difference is beyond the margin. Absent without a mean.
@@ -107,11 +107,11 @@ inline constexpr double kSignificance = 0.05;
 /// Holm's step-down correction of p-values. Returns them in the given order.
 std::vector<double> holm(std::span<const double> p);
 
-inline constexpr int kResamples = 1000;
+inline constexpr int kResamples = 1000;  ///< number of bootstrap resamples
 /// Computes the differences of every metric between every pair of contenders with the same gains or
-/// the same mode. Intervals are by the percentile bootstrap with kResamples resamples of whole
-/// samples. Every metric, pair and scenario uses the same resamples, so no interval depends on the
-/// order of the scenarios.
+/// the same mode. Intervals are by the bootstrap: samples are drawn with replacement, each with all
+/// its metrics and contenders. Every metric, pair and scenario uses the same resamples, so no
+/// interval depends on the order of the scenarios.
 std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario,
                                                  const Preferences& preferences,
                                                  std::uint64_t seed);

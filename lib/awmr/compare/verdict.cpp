@@ -19,8 +19,8 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-/// The metric with a weight in which `other` is behind `best` by the largest relevant difference,
-/// as a multiple of the metric's margin. Null if there is none.
+/// Finds, among the metrics with a weight, the one in which `other` is behind `best` most: by the
+/// largest multiple of the metric's margin. Null if no difference is relevant.
 const PairedDifference* widest_gap(const std::vector<PairedDifference>& differences,
                                    const Preferences& preferences, const Contender& best,
                                    const Contender& other) {
@@ -100,7 +100,7 @@ std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided
 
 /// Robustness of rank 1: "; combined is best for 83 % of all metric weightings and in 97 % of the samples"
 std::string stability_text(const RankedMode& best) {
-  if (!best.tied_with.empty()) return {};  // no mode is first
+  if (!best.tied_with.empty()) return {};  // no mode alone has rank 1
   std::string text = fmt::format("; {} is best for {:.0f} % of all metric weightings",
                                  best.contender.label(), 100.0 * best.first_by_weights);
   if (best.first_by_samples) {
