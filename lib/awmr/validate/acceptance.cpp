@@ -132,7 +132,7 @@ PredictedBand prediction_of(const DriveChannel& channel, const std::vector<Windo
     for (const WindowMeans& draw : draws) squares += std::pow(draw.mean[w] - series.mean[w], 2);
     series.spread[w] = std::sqrt(squares / (n - 1.0));
   }
-  // A lower bound keeps the distance finite if all draws are equal, like a command at its limit.
+  // A lower bound keeps the distance finite if all draws are equal, as for a command at its limit.
   const double most = *std::max_element(series.spread.begin(), series.spread.end());
   double size = channel.noise;
   for (const double mean : series.mean) size = std::max(size, std::abs(mean));
@@ -167,7 +167,7 @@ struct Compared {
   WindowMeans measured;
   PredictedBand predicted;
   std::vector<double> largest;  ///< by draw: its largest distance in this channel
-  double usual = 0.0;           ///< distance that 95 % of the draws do not exceed in this channel
+  double usual = 0.0;           ///< limit that contains the distances of 95 % of the draws
 };
 
 Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> draws,
@@ -187,7 +187,7 @@ Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> d
   return one;
 }
 
-/// For each draw, the largest ratio of its distance to the usual distance over all channels.
+/// For each draw, the largest ratio of its distance to Compared::usual over all channels.
 std::vector<double> factors_of_draws(const std::vector<Compared>& channels, std::size_t draws) {
   std::vector<double> factors(draws);
   for (const Compared& one : channels) {
@@ -247,7 +247,8 @@ void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
     result.channels.push_back(evaluate(one, allowed));
     reached = std::max(reached, result.channels.back().distance / one.usual);
   }
-  // The drive itself is counted too: if the model is right, all n + 1 ranks are equally likely.
+  // The logged drive is counted, too: if the model is right, its rank among all n + 1 drives is
+  // uniformly distributed.
   const auto as_far = std::count_if(factors.begin(), factors.end(),
                                     [&](double factor) { return factor >= reached; });
   result.p_value = static_cast<double>(as_far + 1) / static_cast<double>(factors.size() + 1);

@@ -18,7 +18,7 @@ namespace awmr {
 
 struct AcceptanceOptions {
   YawMode mode = YawMode::kCombined;
-  /// Number of predicted drives, 39 ... 10000. Fewer cannot resolve a probability of 1/20.
+  /// Number of predicted drives, 39 ... 10000. Fewer than 39 cannot resolve a p-value of 0.05.
   int draws = 200;
   std::uint64_t seed = 1;
   /// Time in the log, s, at which the scenario begins. Absent: the first row with a command.
@@ -34,23 +34,24 @@ struct ChannelAcceptance {
   std::string unit;
   int samples = 0;              ///< number of rows compared
   double noise = 0.0;           ///< standard deviation of the noise of a reading, in the unit
-  bool noise_from_log = false;  ///< the noise was estimated from the log, because neither scenario
-                                ///< nor vehicle gives it
-  double distance = 0.0;        ///< largest distance of a window
-  double allowed = 0.0;         ///< limit of the distance: 95 % of the predicted drives are within
-                                ///< the limits of all channels
+  bool noise_from_log = false;  ///< true: `noise` was estimated from the log, because neither
+                                ///< scenario nor vehicle gives it
+  double distance = 0.0;        ///< largest distance of a window, >= 0
+  double allowed = 0.0;         ///< limit of the distance. The limits of all channels together
+                                ///< contain 95 % of the predicted drives
   bool inside = false;          ///< distance <= allowed
   /// Scenario time, s, of the first window with a larger distance than allowed; absent if inside.
   std::optional<double> outside_since_s = {};
   double difference = 0.0;  ///< measured minus predicted in the window of `distance`, in the unit
 };
 
-/// A single change of the model that reduces its distance from the drive.
+/// A possible cause of the difference between drive and prediction: one change of the vehicle, its
+/// sensors, or the forces on it.
 struct FaultHypothesis {
   std::string what;    ///< "mass_norm", "bias of the yaw rate"
-  double value = 0.0;  ///< best value: a factor on the model's value, or a value in the unit
-  std::string unit;    ///< "times" for a factor
-  /// Fraction of the sum of squared distances removed by this change, in [0, 1].
+  double value = 0.0;  ///< value that explains the drive best: a factor if `unit` is "times"
+  std::string unit;    ///< unit of `value`; "times": a factor on the model's value
+  /// Fraction in [0, 1] of the sum of squared distances that disappears with this change.
   double explained = 0.0;
 };
 
@@ -62,22 +63,23 @@ struct Acceptance {
   double from_s = 0.0;      ///< time in the log at which the scenario begins
   double duration_s = 0.0;  ///< compared duration: to the end of the log or of the shortest run
   int draws = 0;
-  /// Fraction of all drives, the predicted ones and this one, that are at least as far from the
-  /// prediction as this one.
+  /// Fraction of all drives (the predicted ones and the logged one) that are at least as far from
+  /// the prediction as the logged one.
   double p_value = 0.0;
   bool inside = false;  ///< p_value > 0.05
   std::vector<ChannelAcceptance> channels = {};
-  /// If the drive is not inside: the changes that explain it best, best first; at most four.
+  /// The best hypotheses, best first, at most four; empty if the drive is inside.
   std::vector<FaultHypothesis> hypotheses = {};
 };
 
-/// Simulates the scenario for vehicles drawn from the model's covariance (without one: for the
-/// model), from the state at the beginning of the drive, and compares the drive with them. Sensor
-/// noise, sensor latency and motor lag are those of the scenario or the vehicle. If neither gives
-/// them, noise is estimated from the log, and latencies and lag are drawn between 0 and twice the
-/// defaults of LoopConditions.
-/// Errors (input): as simulate() and PlantSampler; the log has no command, no measured channel, or
-/// less than 2 s of the scenario; from_s is not within the log; options out of range.
+/// Simulates the scenario with vehicles drawn from the model's covariance, or with the model itself
+/// if it has none, and compares the logged drive with these predicted drives. All start from the
+/// state at the beginning of the logged drive. Sensor noise, sensor latency and motor lag are those
+/// of the scenario or the vehicle. If neither gives them, noise is estimated from the log, and
+/// latencies and lag are drawn between 0 and twice the defaults of LoopConditions.
+/// Errors (input): as simulate(), controller_for() and PlantSampler; the vehicle does not have the
+/// mode; the log has no command, or less than 2 s of the scenario; from_s is not within the log;
+/// options.draws is out of range.
 Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
                                 const Gains<double>& gains, const Scenario& scenario,
                                 const AcceptanceOptions& options);

@@ -33,8 +33,8 @@ struct ModeRun {
 };
 using ModeRuns = std::array<ModeRun, std::size(kYawModes)>;
 
-/// simulate(). If it returns an error, the result is a run of one row that ends as kFailed, so that
-/// the claim is not reproduced.
+/// Calls simulate(). If simulate() returns an error, the result is a run of one row that ends as
+/// kFailed, so that the claim is not reproduced.
 Run run_or_failed(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                   YawMode mode);
 /// Common inputs of the claims' simulations.
@@ -77,24 +77,25 @@ Claim check_time_constants(const std::optional<Gains<double>>& gains);
 /// C3 to C7 from one set of runs, and C13.                            [paper 4.3, section 6]
 std::vector<Claim> check_heading_claims(const ClaimSetting& setting);
 
-/// C8 to C12: waypoints, line, obstacles, timed path, best modes. Returns the claims of each setting;
-/// precondition as run_all().                                            [paper 5, section 7]
+/// C8 to C12: waypoints, line, obstacles, timed path, best modes. Returns the claims of each setting.
+/// Precondition: as run_all().                                           [paper 5, section 7]
 std::vector<std::vector<Claim>> check_guidance_claims(std::span<const ClaimSetting> settings);
 
-/// Longest settling time that counts as fast in C3, s: the time for the step at the mode's largest
-/// steady yaw rate, plus 4 (T1 + 2 T2) with the paper's gains. S decays with 2 T2, then the heading
-/// error with T1; after four time constants e^-4 = 1.8 % is left, within the 2 % settling band.
+/// Longest settling time that counts as fast in C3, s. It is the time for the step at the mode's
+/// largest steady yaw rate, plus 4 (T1 + 2 T2) with the paper's gains. The sliding variable S decays
+/// with the time constant 2 T2, then the heading error with T1. After four time constants
+/// e^-4 = 1.8 % is left, which is within the settling band of 2 %.
 double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, YawMode mode,
                           double step_rad, double speed_mps);
-/// Number of times that a signal reverses, that is, returns by more than `band` from its last
-/// extreme.
+/// Number of reversals of a signal. A reversal is a return by more than `band` from the signal's
+/// last maximum or minimum.
 int reversals(std::span<const double> signal, double band);
 
 /// Checks all claims, in the paper's order; without gains, only those that need no gains.
 std::vector<Claim> check_claims(const Model& model, const std::optional<Gains<double>>& gains,
                                 const BatchArithmetic& arithmetic);
-/// check_claims() for each model, with the same control and sample time. Precondition: each model has
-/// a plant.
+/// check_claims() for each model, with the given control. Precondition: each model has every
+/// parameter, and all have the same sample time.
 std::vector<std::vector<Claim>> check_claims_of(std::span<const Model> models,
                                                 const std::optional<Gains<double>>& gains,
                                                 const BatchArithmetic& arithmetic,

@@ -14,10 +14,12 @@
 namespace awmr {
 namespace {
 
-/// Standard deviation sigma of white noise, from second differences, which smooth motion hardly
-/// changes:
+/// Standard deviation sigma of white noise in the values x_k, from their second differences, which
+/// smooth motion hardly changes:
 ///   Var(x_(k+1) - 2 x_k + x_(k-1)) = 6 sigma^2
-/// The result is at least q/sqrt(12), q the quantisation step `quantum`.
+/// The variance is estimated by the median absolute deviation, which ignores outliers. The result
+/// is at least q/sqrt(12), with the quantisation step q = `quantum`; it is that for fewer than 10
+/// values.
 double white_noise(const std::vector<double>& values, double quantum) {
   const double least = quantum / std::sqrt(12.0);
   if (values.size() < 10) return least;
@@ -29,7 +31,7 @@ double white_noise(const std::vector<double>& values, double quantum) {
   return std::max(least, spread / std::sqrt(6.0));
 }
 
-/// A sensor of the controller: member pointers to its errors in the scenario and to its reading.
+/// A sensor of the controller: where the scenario has its errors, and a run its reading.
 struct ControllersSensor {
   Channel Sensors::*errors;
   double Measurement<double>::*reading;
@@ -51,8 +53,8 @@ std::size_t window_of(double t_s) {
   return static_cast<std::size_t>(std::floor(t_s / kWindow_s + 1e-9));
 }
 
-/// Value of the channel in the row of the run that is nearest in time; after the end of the run, in
-/// the last row.
+/// Value of the channel in the row of the run that is nearest to the time t_s. After the end of the
+/// run it is the value in the last row.
 double at_time(const DriveChannel& channel, const Run& run, double sample_time_s, double t_s) {
   const auto row = static_cast<std::size_t>(t_s / sample_time_s + 0.5);
   return channel.of_run(run.rows[std::min(row, run.rows.size() - 1)]);
@@ -75,7 +77,8 @@ WindowMeans means(const DriveChannel& channel, double duration_s, const Value& v
   return windows;
 }
 
-/// Adds time and value of the rows with `counts(row)` to the channel, from row `first` on.
+/// Adds time and value of each row for which `counts(row)` is true to the channel, over duration_s
+/// from row `first`.
 template <class Counts, class Value>
 void take_rows(const DrivingLog& log, std::size_t first, double duration_s, const Counts& counts,
                const Value& value, DriveChannel& channel) {

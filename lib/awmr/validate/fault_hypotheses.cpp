@@ -20,7 +20,7 @@ struct PerturbedModel {
   Scenario scenario;
 };
 
-/// A fault hypothesis: a change of the model or scenario by one value.
+/// A fault hypothesis to be tried: a change of the model or the scenario by one value.
 struct Change {
   std::string what;
   std::string unit;
@@ -39,7 +39,7 @@ constexpr std::size_t kMostNamed = 4;
 void add_parameters(const Model& model, std::vector<Change>& changes) {
   for (const ParameterInfo& parameter : parameter_table()) {
     const ParameterId id = parameter.id;
-    // An exponent and its coefficient change the same curve; only the coefficient is varied.
+    // Only the coefficient of a resistance is varied, because its exponent changes the same curve.
     const bool exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
     if (exponent || !model[id].value || *model[id].value <= 0.0) continue;
     changes.push_back({std::string(parameter.name), "times", kFactor, 1.0,
@@ -119,7 +119,7 @@ Scenario without_noise(Scenario scenario) {
   return scenario;
 }
 
-/// Search for the value of a change that explains the drive best.
+/// Searches the value of a change that explains the drive best.
 struct Search {
   const Model& model;
   const Controller<double>& controller;
@@ -128,7 +128,8 @@ struct Search {
   double duration_s;
   const std::vector<EvidenceChannel>& evidence;
 
-  /// Mean squared distance of the drive from the run of the changed vehicle, summed over channels.
+  /// Mean over the windows of the squared distance between the drive and the run of the changed
+  /// vehicle, summed over channels. The largest double if the run fails.
   double distance(const Change& change, double value) const {
     constexpr double kNever = std::numeric_limits<double>::max();
     PerturbedModel changed{model, scenario};

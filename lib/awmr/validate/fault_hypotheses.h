@@ -1,5 +1,5 @@
-/// Search for single faults (changes of the vehicle, its sensors or forces) that explain a drive.
-/// Private to validate/.
+/// Searches for single causes that explain a drive outside of the prediction: a change of the
+/// vehicle, its sensors, or the forces on it. Private to validate/.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace awmr {
 /// Mean and standard deviation of a channel over the predicted drives, by window.
 struct PredictedBand {
   std::vector<double> mean;
-  std::vector<double> spread;
+  std::vector<double> spread;  ///< standard deviation, with a small lower bound > 0
 };
 
 /// A channel of the drive, measured and predicted.
@@ -23,10 +23,11 @@ struct EvidenceChannel {
   const PredictedBand* predicted;
 };
 
-/// Tries each fault hypothesis: each parameter, the motors, the biases and latencies of the sensors,
-/// constant external forces. For each, the value is searched that minimises the squared distance of
-/// the simulated run from the drive. Returns the hypotheses that remove at least 30 % of it, best
-/// first, at most four. The controller stays the same.
+/// Tries each fault hypothesis: a parameter (the exponents excepted), force or lag of the motors,
+/// bias or latency of a sensor, a constant external force or moment. For each, it searches the value
+/// that minimises the squared distance of the simulated run from the drive; the controller stays the
+/// same. Returns the hypotheses that remove at least 30 % of that distance, best first, at most
+/// four.
 std::vector<FaultHypothesis> fault_hypotheses(const Model& model,
                                               const Controller<double>& controller,
                                               const Scenario& scenario,

@@ -17,10 +17,11 @@ namespace {
 /// Criterion for "d tends to 0": largest distance from the line in the last quarter of the run, as a
 /// fraction of the lane's half width.
 constexpr double kOnTheLineShare = 0.01;
-/// Criterion for "alike": largest relative difference of the finishing times from the shortest one.
+/// Criterion for "alike": the longest finishing time of a mode exceeds the shortest by at most this
+/// fraction.
 constexpr double kAlikeShare = 0.10;
-/// Criterion for "followed": a twentieth of the path's width of 20 m, which is about the resolution
-/// of a printed figure.
+/// Criterion for "followed": largest distance from the path's point, a twentieth of the path's width
+/// of 20 m. Less is hardly visible in a printed figure.
 constexpr double kPathTolerance_m = 1.0;
 /// A value counts as equal to the best one if it is at most this fraction larger.
 constexpr double kAsGoodShare = 0.01;
@@ -78,7 +79,7 @@ Claim waypoints_reached(const ModeRuns& runs) {
   return claim;
 }
 
-/// Largest |e| over the last quarter of the run.
+/// Largest cross-track error |e| over the last quarter of the run, m.
 double final_cross_track_m(const ModeRun& run) {
   double largest = 0.0;
   const auto& rows = run.run.rows;
@@ -154,7 +155,7 @@ double off_path_m(const ModeRun& run) {
   return largest;
 }
 
-/// The path's smallest radius of curvature, |p_dot|^3/|p_dot x p_ddot|.
+/// The path's smallest radius of curvature, m: |p_dot|^3/|p_dot x p_ddot| = speed/(yaw rate).
 double least_radius_m(const Lissajous<double>& path, double duration_s) {
   double least = 1e300;
   for (double t_s = 0.0; t_s < duration_s; t_s += 0.1) {
@@ -164,7 +165,7 @@ double least_radius_m(const Lissajous<double>& path, double duration_s) {
   return least;
 }
 
-/// off_path_m() by mode. Only these numbers are kept, because the runs need much memory.
+/// off_path_m() by mode. The runs themselves are not kept, because they need much memory.
 using OffPath = std::map<YawMode, double>;
 OffPath off_path_by_mode(const ModeRuns& runs) {
   OffPath off;

@@ -15,8 +15,8 @@ namespace {
 
 const std::vector<double> kDriven_deg{30.0, 45.0};  ///< headings of the experiment     [paper 6]
 
-/// Criterion for "without overshoot": an overshoot that is not visible in a printed figure. It is also
-/// the smallest settling band of metrics.h.
+/// Criterion for "without overshoot": largest overshoot, which is not visible in a printed figure. The
+/// settling band (simulate/metrics.h) is at least as wide.
 constexpr double kNoOvershoot_deg = 0.5;
 /// Criterion for "chattering": a command reverses by more than 1 % of its range more than once per
 /// second, on average over the run. A discontinuous law reverses up to every second sample: 50 times
@@ -85,8 +85,8 @@ bool same_heading_gains(const HeadingGains<double>& a, const HeadingGains<double
          1e-9;
 }
 
-/// C6. The sideslip in differential mode depends on the yaw rate, which depends on the gains.
-/// Therefore the result with the paper's gains is shown in addition to that with other gains.
+/// C6. The sideslip in differential mode depends on the yaw rate, and so on the gains. With other
+/// gains than the paper's, the result with the paper's gains is therefore added.
 Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
   const auto sideslip = [](const ModeRun& run) -> std::optional<double> {
     return run.metrics.sideslip_max_deg;

@@ -17,12 +17,13 @@ namespace awmr {
 
 inline constexpr double kSpeed_mps = 1.0;                      ///< u_d               [paper 4.3]
 inline const std::vector<double> kSimulated_deg{30.0, -30.0};  ///< headings      [paper 4.3]
-inline constexpr double kLargestStep_deg = 60.0;               ///< largest step of the claims' runs
+inline constexpr double kLargestStep_deg = 60.0;               ///< the step from 30 to -30 deg
 
-/// Rounds a result to 1e-4, because smaller differences are rounding errors.
+/// Rounds a result to 1e-4, because smaller digits depend on rounding errors. -0 becomes 0.
 inline double to_figure(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
 
-/// Text of a value by mode: "differential 0.1, steering 0.2, combined 0.3 UNIT".
+/// Text of a value in each mode: "differential 0.1, steering 0.2, combined 0.3 UNIT". `value`
+/// computes it from a run; "none" if it is absent.
 template <class Value>
 std::string by_mode(const ModeRuns& runs, const std::string& unit, Value value) {
   std::string text;
@@ -44,8 +45,8 @@ struct HeadingSetting : ClaimSetting {
   double allowed_s(YawMode mode) const {
     return allowed_settling_s(plant, model.vehicle, mode, radians(kLargestStep_deg), kSpeed_mps);
   }
-  /// Time that each heading is commanded, s: 1.5 times the longest allowed settling time of a mode,
-  /// from 10 s to 120 s.
+  /// Time for which each heading is commanded, s: 1.5 times the longest allowed settling time of all
+  /// modes, at least 10 s and at most 120 s.
   double hold_s() const {
     double longest_s = 10.0;
     for (const YawMode mode : kYawModes) longest_s = std::max(longest_s, 1.5 * allowed_s(mode));
@@ -58,9 +59,10 @@ struct HeadingSetting : ClaimSetting {
   }
 };
 
-/// C4. `runs`: headings of 30, then -30 deg.
+/// C4: the speed converges to u_d. `runs`: headings of 30, then -30 deg.
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs);
-/// C5, from the same runs. Runs with other force limits are added to Claim::figure only.
+/// C5: the speed drop by mode, from the same runs. The drops with other force limits are only
+/// reported, in Claim::figure.
 Claim check_speed_held(const HeadingSetting& setting, const ModeRuns& runs);
 
 }  // namespace awmr

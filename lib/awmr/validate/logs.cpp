@@ -46,7 +46,7 @@ Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   return part;
 }
 
-/// Largest number of readings of a channel in its series, and in the chart.
+/// Largest number of readings of a channel in its computed series, and in the chart.
 constexpr std::size_t kMostInSeries = 100000;
 constexpr std::size_t kMostDrawn = 1000;
 

@@ -18,7 +18,7 @@ struct ChannelValidation {
   int samples = 0;
   PredictionError one_step;      ///< of the prediction from each measured row to the next
   PredictionError long_horizon;  ///< of the prediction from the commands over windows of horizon_s
-  PredictedSeries series = {};   ///< that prediction, reduced to the points that a chart needs
+  PredictedSeries series = {};   ///< long-horizon prediction, reduced to the points for a chart
 };
 
 /// Result of validate_log().
@@ -26,19 +26,20 @@ struct LogValidation {
   std::string file;
   double horizon_s = 0.0;
   std::vector<ChannelValidation> channels;
-  bool passed = false;  ///< the long-horizon NRMSE of every channel is within the tolerance
+  bool passed = false;  ///< true: the long-horizon NRMSE of every channel is within the tolerance
 };
 
 /// Predicts the channels of the log from its commands. A channel that does not vary (vehicle at rest)
-/// has no NRMSE and is left out. `motor_lag_s`: time constant of the motors.
+/// has no NRMSE and is left out. `tolerance`: largest accepted NRMSE. `motor_lag_s`: time constant of
+/// the motors, s, >= 0.
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
                            double tolerance, double motor_lag_s = 0.0);
 
-/// The same for a model that can be incomplete. A model of straight motion only
-/// (Model::simulated_motion()) predicts the speed of a log that drives straight.
-/// Errors (input): the replay diverges; g1 or m' is missing; the model has straight motion only, and
-/// the log turns or has no speed_mps. The message names the row at which the log turns and the
-/// missing parameters.
+/// The same for a model, which may lack parameters. If it covers straight motion only
+/// (Model::simulated_motion()), it predicts the speed of a log that drives straight.
+/// Errors (input): g1 or m' is missing; the model is too stiff for a replay, or the replay diverges;
+/// no channel can be predicted within the horizon; the model covers straight motion only, and the
+/// log turns (the message names the row and the missing parameters) or has no speed_mps.
 Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, double horizon_s,
                                    double tolerance);
 

@@ -17,7 +17,7 @@
 namespace awmr {
 namespace {
 
-/// Factor on m' with which tyres of friction 0.8 carry the full thrust (open_cases.h).
+/// Factor on m' with which a friction of 0.8 is just enough for the full thrust (open_cases.h).
 double mass_factor(const Model& model) {
   const double least_mass_norm = kFullThrust / (kTyreFriction * kGravity_mps2);
   return least_mass_norm / *model[ParameterId::kMassNorm].value;
@@ -39,7 +39,7 @@ ControlOptions control_in(const ClaimCase& open) {
 }
 
 /// Divides the indices of the cases into batches with the same allocation and split. A batch has at
-/// most two cases, because the rows of their six runs of C11 take 120 MB.
+/// most two cases, because the six runs of C11 (two cases in three modes) take 120 MB.
 std::vector<std::vector<std::size_t>> batches_of(const std::vector<ClaimCase>& cases) {
   constexpr std::size_t kCasesMax = 2;
   std::map<std::pair<AllocationForm, CombinedSplit>, std::vector<std::size_t>> open;
@@ -73,8 +73,8 @@ Key key_of(const ClaimCase& open) {
           open.mass_factor, static_cast<int>(open.split)};
 }
 
-/// Number of combinations of the other settings in which the verdict depends on this setting, and
-/// number of all these combinations.
+/// Returns the number of combinations of the other settings in which the verdict depends on this
+/// setting, and the number of all combinations of the other settings.
 std::pair<int, int> places_decided(const std::vector<ClaimCase>& cases, const Setting& setting) {
   std::map<Key, std::pair<bool, bool>> places;  // reproduced in a case; not reproduced in a case
   for (const ClaimCase& open : cases) {

@@ -6,8 +6,8 @@ namespace awmr {
 namespace {
 
 constexpr double kPathSpeed_mps = 1.0;  ///< [paper 5.1]
-/// Acceptance radius and Delta of line of sight. They are chosen here, because the paper gives no
-/// acceptance radius, lane width or Delta.
+/// Acceptance radius, and Delta of line following. Both are chosen here, because the paper does not
+/// print them.
 constexpr double kAcceptance_m = 1.0;
 constexpr double kDelta_deg = 60.0;
 

@@ -10,10 +10,10 @@
 namespace awmr {
 namespace {
 
-/// Criterion for "without overshoot", "without steady error" and "constant": a fraction of u_d that is
-/// not visible in a printed figure.
+/// Criterion for "without overshoot", "without steady error" and "constant": largest difference from
+/// u_d, as a fraction of u_d. It is not visible in a printed figure.
 constexpr double kNoSpeedError = 0.01;
-/// Criterion for a "slight" drop: largest fraction of u_d.
+/// Criterion for a "slight" drop: largest drop, as a fraction of u_d.
 constexpr double kSlightDrop = 0.20;
 
 /// The range of the speed u between `from_s` and `to_s`.
@@ -29,8 +29,9 @@ Interval speed_range(const ModeRun& run, double from_s, double to_s) {
 
 }  // namespace
 
-/// Convergence is evaluated from rest up to the second heading, when the speed has settled. The effect
-/// of the heading step on the speed is evaluated in C5; the excess is also reported here.
+/// Evaluates the overshoot from rest to the second heading, and the error at the end of the run. How
+/// much the heading step lowers the speed is evaluated in C5. By how much the speed then exceeds u_d
+/// is reported here, but does not count.
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs) {
   const double step_s = setting.hold_s();
   const auto excess = [](Interval range) { return std::max(0.0, range.hi - kSpeed_mps); };
@@ -72,8 +73,8 @@ Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs)
 
 namespace {
 
-/// Commanded speed minus the smallest speed after the second heading step, m/s, >= 0. Not
-/// Metrics::speed_drop_mps, because that includes the time from rest to the step.
+/// Commanded speed minus the smallest speed after the second heading step, m/s, >= 0.
+/// Metrics::speed_drop_mps also includes the time before that step.
 double speed_drop(const ModeRun& run, double step_s) {
   return std::max(0.0, kSpeed_mps - speed_range(run, step_s, run.run.rows.back().t_s).lo);
 }

@@ -6,7 +6,7 @@
 
 namespace awmr {
 
-/// Wraps text to indented lines of 100 characters.
+/// Wraps text to lines of 100 characters, all indented by `indent` spaces.
 std::string wrapped(const std::string& text, std::size_t indent);
 
 }  // namespace awmr

@@ -13,7 +13,7 @@
 namespace awmr::tyre_fit {
 namespace {
 
-/// Minimum number of windows with each kind of turn.
+/// Minimum number of windows with each kind of turn (by wheel forces, by steering).
 constexpr std::size_t kFewestTurns = 3;
 
 /// Half width of the 95 % interval in standard errors, by Student's t.
@@ -63,14 +63,15 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
                  : "by wheel forces at several speeds"));
 }
 
-/// Squared errors of both plants on windows that the tyres were not fitted to.
+/// Sums of squared errors of both plants on windows that the tyres were not fitted to.
 struct HeldOutSums {
   ErrorSums model;
   ErrorSums four_wheel;
   std::vector<std::pair<ErrorSums, ErrorSums>> by_window;  ///< model, four wheels
 };
 
-/// Cross-validation over every other window.
+/// Cross-validation: fits the tyres to one half of the windows (every other one) and predicts the other
+/// half, both ways. Empty if a fit does not converge or a window cannot be replayed.
 std::optional<HeldOutSums> held_out(const Windows& windows, const Plants& plants,
                                     const ShownFit& shown) {
   HeldOutSums sums;
@@ -160,7 +161,7 @@ std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, 
 
 /// True if a log has fewer rows than the controller has samples, so that commands between rows are lost.
 bool lose_commands(const std::vector<DrivingLog>& logs, double sample_time_s) {
-  constexpr double kLonger = 1.2;  // than the sample time: beyond jitter
+  constexpr double kLonger = 1.2;  // a factor on the sample time that jitter does not reach
   return std::ranges::any_of(
       logs, [&](const DrivingLog& log) { return log.median_step_s() > kLonger * sample_time_s; });
 }
@@ -178,9 +179,9 @@ std::vector<DrivingLog> with_half_of_the_commands(std::vector<DrivingLog> logs) 
   return logs;
 }
 
-/// Adds the error due to commands between the rows to the standard errors. The error is half the change
-/// of the fit if every other logged command is dropped, so that a 95 % interval includes this change.
-/// Returns false if that fit does not converge.
+/// Increases the standard errors by the error due to commands between the rows (tyre_fit.h). That error
+/// is half the change of the fit if every other logged command is dropped, so that a 95 % interval
+/// includes the change. Returns false if the fit without these commands does not converge.
 bool add_error_of_lost_commands(const std::vector<DrivingLog>& logs, const Plant<double>& plant,
                                 double motor_lag_s, const Plants& plants, ShownFit& shown) {
   const std::vector<DrivingLog> halved = with_half_of_the_commands(logs);

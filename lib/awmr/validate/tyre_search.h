@@ -1,4 +1,4 @@
-/// Least-squares search for the tyre parameters with the smallest cost (tyre_fit.h). Private to
+/// Least-squares search for the tyre parameters that minimise the cost of tyre_fit.h. Private to
 /// validate/.
 #pragma once
 
@@ -10,20 +10,20 @@
 
 namespace awmr::tyre_fit {
 
-/// Whether a parameter is fitted (else held), by kFriction and kCornering.
+/// For kFriction and kCornering, true: the parameter is fitted; false: it is held at a value.
 using IsFree = std::array<bool, 2>;
 
 /// Result of a search.
 struct Fit {
   LogTyres at;
   Weights weights{};
-  double cost = 0.0;  ///< sum of n_c log(sum e^2 / n_c)
+  double cost = 0.0;  ///< sum over the channels c of n_c log(sum e^2 / n_c) (tyre_fit.h)
   bool converged = false;
   std::string stop_reason = {};
 };
 
-/// Searches the tyres with the smallest cost from the start `from`. Parameters that are not free stay at
-/// their start. Empty if the windows cannot be replayed with the start.
+/// Searches the tyres with the smallest cost, starting at `from`. Parameters that are not free keep
+/// their value in `from`. Empty if the windows cannot be replayed with `from`.
 std::optional<Fit> fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                        const LogTyres& from);
 
@@ -36,8 +36,9 @@ struct ShownFit {
 
 LogTyres default_tyres();
 
-/// Fits both parameters from several starts, then holds those that the windows do not determine. Empty
-/// if the windows cannot be replayed from any start.
+/// Fits both parameters from several starts. Then holds a parameter that the windows do not determine at
+/// its default and fits again. Returns early with a fit that did not converge (Fit::converged). Empty if
+/// the windows cannot be replayed from any start.
 std::optional<ShownFit> fit_what_is_shown(const Windows& windows, const Plants& plants);
 
 }  // namespace awmr::tyre_fit

@@ -31,8 +31,8 @@ std::vector<double> steering_angles(const DrivingLog& log, const Plant<double>& 
   return angles;
 }
 
-/// True for rows whose errors count: all but the first second, in which errors of the unmeasured part of
-/// the initial state decay.
+/// True for rows whose errors count: all rows after the first second of the window. In that second,
+/// errors of the unmeasured part of the initial state decay.
 bool counts(const LogWindow& rows, std::size_t row) {
   constexpr double kBegin_s = 1.0;
   return rows.log->t_s[row] - rows.log->t_s[rows.begin] >= kBegin_s;
@@ -52,8 +52,8 @@ struct ErrorsByRow {
   Eigen::Index count = 0;
 };
 
-/// Subtracts the mean from the errors of heading and position, because their initial values in the window
-/// are not exactly known.
+/// Subtracts from the errors of heading and position their mean, because their initial values in the
+/// window are not exactly known.
 Eigen::VectorXd about_their_mean(const ReplayedWindow& window, Eigen::VectorXd errors) {
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
     double sum = 0.0;
@@ -126,7 +126,7 @@ Turns turns_in(const LogWindow& rows, const Plant<double>& plant) {
   constexpr double kLittleForce = 0.02;
   constexpr double kMuchMore = 3.0;
   const DrivingLog& log = *rows.log;
-  double by_sides = 0.0;  // sums of squares of moments over F_max
+  double by_sides = 0.0;  // sum over the rows of the squared differential moment, m^2
   double by_steering = 0.0;
   double angles = 0.0;
   double apart = 0.0;

@@ -30,6 +30,7 @@ struct ReplayedLog {
   std::vector<double> angles_rad;
 
   ReplayedLog(const DrivingLog& log, const Plant<double>& plant, double motor_lag_s);
+  /// Forces after the lag of the motors; nullptr without a lag.
   const LaggedForces* motors() const { return lagged ? &*lagged : nullptr; }
   /// Measured state at the first of the rows, with the simulated steering angle.
   State<double> state_before(const LogWindow& rows) const;
@@ -49,14 +50,16 @@ struct ReplayedWindow {
 
 using Windows = std::vector<const ReplayedWindow*>;
 
-/// Divides the logs into windows of kWindow_s. Windows without a measurement are left out.
+/// Divides the logs into windows of kWindow_s. A window without a measurement after its first second is
+/// left out.
 std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
                                        const std::vector<ReplayedLog>& replayed);
 
 /// All windows, or 60 of them, evenly chosen, because more make the fit slow and hardly better.
 Windows evenly_chosen(const std::vector<ReplayedWindow>& all);
 
-/// Whether the wheel forces or the steering turn the vehicle in a window. A turn by both is neither.
+/// What turns the vehicle in a window: the difference of left and right wheel forces, or the steering.
+/// At most one is true: its yaw moments have at least 3 times the sum of squares of the other's.
 struct Turns {
   bool by_sides = false;
   bool by_steering = false;
@@ -72,7 +75,8 @@ struct Plants {
         four_wheel_step_s(replay_step_s(on_tyres(plant))),
         body(resolved_at_rest_on_tyres(on_tyres(plant), four_wheel_step_s)) {}
 
-  /// The plant without g2 and g3, which tyres replace and which would need short steps.
+  /// Returns the plant with negligible g2 and g3. The tyres replace them, and g3 would require short
+  /// steps.
   static Plant<double> on_tyres(Plant<double> plant) {
     plant.sway_alpha = 0.0;
     plant.yaw = {.alpha = 1e-9, .beta = 1.0};
@@ -84,13 +88,14 @@ struct Plants {
   Plant<double> body;
 };
 
-/// Errors (predicted minus measured) of the 3-DOF model; not finite if it diverges.
+/// Errors (predicted minus measured) of the 3-DOF model in a window; not finite if the replay diverges.
 Eigen::VectorXd errors_of_model(const ReplayedWindow& window, const Plants& plants);
-/// Errors on four wheels with these tyres. Empty if no integration step is short enough.
+/// Errors of the four-wheel plant with these tyres in a window. Empty if no integration step is short
+/// enough, or if the replay diverges.
 std::optional<Eigen::VectorXd> errors_on_tyres(const ReplayedWindow& window, const Plants& plants,
                                                const LogTyres& tyres);
 
-/// 1/(root mean square error) by channel; 0 for a channel without errors.
+/// Weights of the errors by channel: 1/(RMS error); 0 for a channel without errors.
 using Weights = std::array<double, kChannelCount>;
 
 /// Number and sum of squares of the errors, by channel.
@@ -124,6 +129,7 @@ struct ErrorSums {
   }
 };
 
+/// Sums over all windows for the four-wheel plant with these tyres. Empty as errors_on_tyres().
 std::optional<ErrorSums> sums_on_tyres(const Windows& windows, const Plants& plants,
                                        const LogTyres& tyres);
 

@@ -101,9 +101,9 @@ void set_verdict(Validation& validation, double tolerance) {
   }
 }
 
-/// Checks the claims that are possible with vehicle and model. All but C1 and C14 compare the three
-/// modes, so they need four driven wheels with steering and a whole model. C1 needs a model of straight
-/// motion. Errors (input): with gains, the model lacks a parameter; as batch_arithmetic().
+/// Checks the claims that are possible with vehicle and model. C1 needs a model of straight motion, C14
+/// nothing. All others compare the three modes and need every parameter, four driven wheels and steering.
+/// Errors (input): with gains, the model lacks a parameter; as batch_arithmetic().
 Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
                   const ValidateOptions& options, Validation& validation) {
   const auto whole = model.plant();
@@ -134,7 +134,7 @@ Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
   return {};
 }
 
-/// Adds the result for logs or drives to `passed` and, as a sentence, to the verdict.
+/// Adds the result for logs or drives to Validation::passed and, as a sentence, to the verdict.
 void take_into_verdict(Validation& validation, bool passed, const std::string& sentence) {
   const bool first = validation.trials.empty() && validation.logs.empty();
   validation.passed = first ? passed : validation.passed && passed;

@@ -17,14 +17,14 @@
 
 namespace awmr {
 
-/// Measured and predicted value of one trial row.
+/// Measured and predicted value of one trial, a row of a table.
 struct TrialResidual {
   TrialKind kind = TrialKind::kSurge;
   std::string file;
   int line = 0;
   std::string unit;
   double measured = 0.0;
-  /// Absent if the model gives no prediction (predicted_measurement()).
+  /// In `unit`; absent if the model gives no prediction (predicted_measurement()).
   std::optional<double> predicted;
   std::optional<double> relative_error;  ///< (predicted - measured)/measured
 };
@@ -32,7 +32,7 @@ struct TrialResidual {
 /// A combination of settings that the paper leaves open, and the verdict on a claim with them.
 struct ClaimCase {
   AllocationForm allocation = AllocationForm::kExact;
-  Interval wheel_force;      ///< F' of one wheel
+  Interval wheel_force;      ///< limits of F', the force of one wheel divided by F_max
   double mass_factor = 1.0;  ///< factor on m' and I'z, > 0
   CombinedSplit split = CombinedSplit::kRedistribute;
   bool reproduced = false;
@@ -53,7 +53,7 @@ struct Claim {
   std::string figure;                   ///< simulated numbers
   std::string tolerance;                ///< criterion for "reproduced"
   std::string why;                      ///< reason for the verdict
-  std::vector<ClaimInMode> modes = {};  ///< verdict by mode; empty if the claim compares modes
+  std::vector<ClaimInMode> modes = {};  ///< verdicts by mode; empty: no verdict for a single mode
   /// Verdict by combination of open settings, if requested (ValidateOptions::open_cases).
   std::vector<ClaimCase> cases = {};
   std::string decided_by = {};  ///< settings that decide the verdict (decisive_settings())
@@ -62,8 +62,8 @@ struct Claim {
 /// Result of validate(), add_logs() and add_drives().
 struct Validation {
   std::vector<TrialResidual> trials;
-  /// Root mean square of the relative errors of a kind of trial; absent if the model has no such
-  /// trial, or no prediction for one of them.
+  /// RMS of the relative errors of the surge, turning and coast-down trials. Absent if the model has
+  /// no trial of the kind, or gives no prediction for one of them.
   std::optional<double> surge_rms_relative_error;
   std::optional<double> turning_rms_relative_error;
   std::optional<double> coastdown_rms_relative_error;
@@ -72,7 +72,7 @@ struct Validation {
   std::vector<Acceptance> drives;  ///< results for drives of a scenario under the controller
   std::vector<Claim> claims;
   /// True if every kind of trial and every log is predicted within its tolerance, and every drive of
-  /// a scenario is within the prediction. False if there is none of them.
+  /// a scenario agrees with the prediction. False if there are neither trials, logs nor drives.
   bool passed = false;
   std::string verdict;  ///< one sentence
 };
@@ -95,10 +95,12 @@ struct ValidateOptions {
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial);
 
 /// Predicts the model's trials and checks the paper's claims. Claims do not affect `passed`, because a
-/// claim that is not reproduced is a result about the paper. Without gains, only the claims that need
-/// no gains and for which the model has the parameters are checked; the verdict names the others.
-/// Errors (input): the model lacks a parameter that its trials measure, or with gains any
-/// parameter; a trial is of an unknown kind or not positive; the tolerance is not positive.
+/// claim that is not reproduced is a result about the paper. Without gains, only C1, C2 and C14 are
+/// checked. The verdict names the claims that are left out because the model lacks parameters, or
+/// because the vehicle does not have four driven wheels and steering.
+/// Errors (input): the model lacks a parameter that its trials measure or, with gains, any
+/// parameter; input or measurement of a trial is not above 0; the tolerance is not above 0; as
+/// batch_arithmetic().
 Result<Validation> validate(const Model& model, const std::optional<Gains<double>>& gains,
                             const ValidateOptions& options);
 

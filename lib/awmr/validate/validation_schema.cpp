@@ -1,4 +1,4 @@
-// Reader of validation.json: makes its JSON Schema, and reads `/tyres`.
+// Reader of validation.json. Makes the JSON Schema of the whole file, and reads `/tyres` from one.
 #include <limits>
 #include <string>
 
