@@ -30,8 +30,8 @@ TableShape shape_of(const EmittedTable& table) {
 /// The value as a float on the chip; -0 becomes 0.
 float single(double value) { return static_cast<float>(value) + 0.0F; }
 
-/// Range of the wheel force that the allocation can request: the limits minus the dead zone of the
-/// motors, as in make_controller().
+/// Range of F' that the allocation can request: the force limits, reduced by the dead zone of the
+/// motors as in make_controller().
 Interval force_beyond_dead_zone(const Plant<double>& plant, const Vehicle& vehicle) {
   const Controller<double> controller = make_controller(plant, vehicle, {});
   return {controller.limits.force_min, controller.limits.force_max};
@@ -44,8 +44,8 @@ bool is_power_law(const Plant<double>& plant) {
   return !has_terms(plant.surge) && !has_terms(plant.yaw);
 }
 
-/// Parameters at rest and of the motors; none for a law without friction at rest and motors without
-/// dead zone or back-EMF.
+/// Parameters of the friction at rest, the motors' dead zone and their back-EMF; absent if the
+/// model has none of these.
 std::optional<RestBlock> rest_of(const Plant<double>& plant, const Gains<double>& gains) {
   const bool jumps = plant.surge.coulomb > 0.0 || plant.yaw.coulomb > 0.0;
   if (!jumps && !(plant.wheel_dead_zone > 0.0) && !(plant.back_emf_s_per_m > 0.0)) return {};
@@ -102,7 +102,8 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Ga
   return block;
 }
 
-/// Returns AWMR_ROUTE_SPEED_MPS, m/s. At full force no force would be left for turning.
+/// Returns AWMR_ROUTE_SPEED_MPS: 1 m/s, but at most 0.6 times the top speed, because at the top
+/// speed no force would be left for turning.
 double route_speed_mps(const Plant<double>& plant, double full_force) {
   constexpr double kUsual_mps = 1.0;
   constexpr double kShare = 0.6;
@@ -111,8 +112,8 @@ double route_speed_mps(const Plant<double>& plant, double full_force) {
   return std::min(kUsual_mps, kShare * top_mps);
 }
 
-/// Fastest steady yaw rate of the vehicle at a speed, rad/s; with steering, by steering only.
-/// Absent if the yaw moment does not exceed the resistance at rest.
+/// Fastest steady yaw rate of the vehicle at a speed, rad/s: by steering if the vehicle has it,
+/// else by the wheel forces. Absent if the yaw moment does not exceed the resistance at rest.
 ///   tau_turn = l_f tau_speed tan(d_max/2)                                      [paper (41)]
 ///   tau_turn = d (4 F'max - tau_speed)                              by the wheel forces
 std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle& vehicle,
@@ -129,8 +130,9 @@ double unequal_moment_m(const Plant<double>& plant, double speed_mps) {
   return 0.08 * plant.half_track_m * plant.surge.at(speed_mps);
 }
 
-/// Fastest steady yaw rate that the heading law commands at a speed, rad/s, if the resistance is
-/// 1.4 times the model's and the motors differ by 16 %. Outside of the boundary layer, sat = 1:
+/// Fastest steady yaw rate that the heading law reaches at a speed, rad/s, if the resistance is 1.4
+/// times the model's and the motors differ by 16 %. Outside of the boundary layer (sat = 1) it is
+/// the solution r of
 ///   1.4 g3(r) + 0.08 d tau_speed = g3(r) + I'z (mu - lambda r)                 [paper (89)]
 std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains<double>& gains,
                                   double speed_mps) {
@@ -140,7 +142,7 @@ std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains
                      plant.inertia_norm * gains.lambda / kMore);
 }
 
-/// Steady error of the heading with motors that differ by 16 %, rad. In the boundary layer of the
+/// Steady heading error e with motors that differ by 16 %, rad. In the boundary layer of the
 /// heading law (heading_law.h), at r = 0:
 ///   0.08 d tau_speed = I'z lambda (mu/epsilon) e
 double steady_error_rad(const Plant<double>& plant, const HeadingGains<double>& gains,
@@ -154,11 +156,11 @@ double on_course_rad(double error_rad) {
   return std::clamp(2.0 * error_rad, radians(15.0), kMostOnCourse_rad);
 }
 
-/// Returns AWMR_OFF_COURSE_MRAD, the limit of the integral of (heading error - e0) over the
-/// distance (control/motion_check.h), m rad. A turn by 180 deg with the radius R adds R (pi -
-/// e0)^2/2 to that integral; 10 m rad are added for the distance until the turn begins. R is the
-/// largest radius at speeds from a quarter of the route's on, because friction at rest makes slow
-/// turns wide.
+/// Returns AWMR_OFF_COURSE_MRAD, m rad: the limit of the integral of (heading error - e0) over the
+/// distance (control/motion_check.h), with e0 = `on_course_rad`. A turn by 180 deg with the radius
+/// R adds R (pi - e0)^2/2 to that integral. The limit is this plus 10 m rad for the distance until
+/// the turn begins, but at most 90 m rad. R is the largest turning radius at 1/4, 1/2, 3/4 and all
+/// of the route's speed, because friction at rest can make slow turns wide.
 double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
                        const HeadingGains<double>& gains, double full_force, double route_mps,
                        double on_course_rad) {
@@ -203,13 +205,13 @@ Status check_family(const Plant<double>& plant, ResistanceForm form) {
   return {};
 }
 
-/// A resistance in the form for the chip.
+/// A resistance law with the data that its table needs.
 struct ChipLaw {
   std::string name;   ///< for messages
   ResistanceLaw law;  ///< g1, dimensionless, or g3, m
   double full_scale;  ///< the largest possible force or moment, in the unit of g
-  double top;         ///< m/s or rad/s: above every speed that the vehicle can reach
-  double rest_speed;  ///< m/s or rad/s: below it the table is not used
+  double top;         ///< top speed of the table (table_top()), m/s or rad/s
+  double rest_speed;  ///< speed below which the chip does not use the table, m/s or rad/s
 };
 
 ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_scale,
@@ -220,7 +222,8 @@ ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_sc
   return chip;
 }
 
-/// The largest float below `top`: the top itself has no cell in the table.
+/// The largest float below `top`, the end of the table's last cell, which the cell does not
+/// include.
 float largest_below(double top) { return std::nextafter(static_cast<float>(top), 0.0F); }
 
 /// Adds both tables to the parameters. Errors (refused): no table is within the bound.

@@ -90,10 +90,10 @@ double speed_at(const Plant<double>& plant, double throttle) {
   return steady_or_never(plant.surge, 4.0 * beyond_dead_zone(throttle, plant.wheel_dead_zone));
 }
 
-/// Adds the gains of the speed loop, a PI controller of the throttle that has the closed-loop time
-/// constant T of the speed law inside its boundary layer:
+/// Adds the gains of the autopilot's speed loop, a PI controller of the throttle. Its closed loop
+/// has the time constant T that awmr's speed law has inside its boundary layer:
 ///   T = eps_s/mu_s,   K_p = m'/(4 T),   K_i = g1'(u)/(4 T)
-/// Its zero cancels the plant's pole, m' du/dt = 4 dF' - g1'(u) du.
+/// The zero of the PI controller cancels the pole of the plant, m' du/dt = 4 dF' - g1'(u) du.
 /// [Skogestad 2003, J. Process Control 13, 291]
 void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throttle,
                     std::optional<Interval> usual = {}) {
@@ -117,7 +117,7 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
       usual);
 }
 
-/// Reports tuned features that these autopilots do not have.
+/// Lists a tuned disturbance observer among the parameters that are left out.
 void leave_out_observer(Autopilot& pilot) {
   if (!pilot.source.gains || !pilot.source.gains->observer.is_on()) return;
   pilot.leave_out("the disturbance observer",
@@ -142,8 +142,8 @@ Status check_surge(const Model& model) {
           back_emf));
 }
 
-/// Adds ATC_STR_RAT_FF: ArduPilot's steering output divided by the turn rate, at half of the
-/// largest output.
+/// Adds ATC_STR_RAT_FF: ArduPilot's steering output s divided by the yaw rate r that it causes, at
+/// half of the largest output.
 void add_steering_feed_forward(Autopilot& pilot, double throttle) {
   constexpr const char* kName = "ATC_STR_RAT_FF";
   constexpr Interval kUsual{0.0, 3.0};
@@ -159,8 +159,8 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
         kUsual);
     return;
   }
-  // s/r with l_f g1(u) tan(s d_max/2) = g3(r); above MOT_SPD_SCA_BASE = 1 m/s ArduPilot divides s
-  // by u
+  // s/r with l_f g1(u) tan(s d_max/2) = g3(r). Above MOT_SPD_SCA_BASE = 1 m/s, ArduPilot divides
+  // the output by u, so the value is multiplied by u.
   pilot.add(
       kName, "1/(rad/s)",
       "s/r with l_f g1(u) tan(s d_max/2) = g3(r) at s = 0.5 and CRUISE_SPEED, times u above "
@@ -174,7 +174,7 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
       kUsual);
 }
 
-/// Yaw rate at full commands, limited to the range in which yaw resistance was measured:
+/// Yaw rate r at full commands, but at most the highest yaw rate at which resistance was measured:
 ///   skid:     g3(r) = 2 d (F'max - F'min)
 ///   steered:  g3(r) = 2 l_f F'max sin d_max
 double largest_yaw_rate(const Plant<double>& plant, const Vehicle& vehicle,
@@ -188,13 +188,14 @@ double largest_yaw_rate(const Plant<double>& plant, const Vehicle& vehicle,
   return measured_degps ? std::min(rate, radians(*measured_degps)) : rate;
 }
 
-/// Adds the gains of the yaw-rate loop of skid steering. T is the time constant of the yaw rate
-/// under the heading law inside its boundary layer, T = 1/(lambda + mu/epsilon):
+/// Adds the gains of PX4's yaw-rate loop for skid steering. Its closed loop has the time constant T
+/// that the yaw rate has with awmr's heading law inside the boundary layer, T = 1/(lambda +
+/// mu/epsilon):
 ///   K_p = I'z/(4 d T),   K_i = g3'(r)/(4 d T)
 void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
   const bool known = pilot.source.gains && pilot.knows(ParameterId::kInertiaNorm);
   if (!known) {
-    const char* why = pilot.source.gains ? kNoMass : kNoGains;
+    const char* why = pilot.source.gains ? "the model lacks inertia_norm" : kNoGains;
     pilot.leave_out("RO_YAW_RATE_P", why);
     return pilot.leave_out("RO_YAW_RATE_I", why);
   }
@@ -211,8 +212,8 @@ void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
             });
 }
 
-/// PX4 uses the feed-forward s = RO_YAW_RATE_CORR r d/RO_MAX_THR_SPEED, but 4 d s = g3(r) is
-/// necessary:
+/// Adds the parameters of a skid-steered rover. PX4's feed-forward of the steering output is
+/// s = RO_YAW_RATE_CORR r d/RO_MAX_THR_SPEED. The model needs 4 d s = g3(r), so that
 ///   RO_YAW_RATE_CORR = g3(r) u_max/(4 d^2 r)
 void add_skid(Autopilot& pilot, const OfPlant& rate) {
   pilot.add("RD_WHEEL_TRACK", "m", "2 d",

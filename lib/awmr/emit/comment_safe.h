@@ -1,4 +1,4 @@
-/// Makes names from files safe inside comments of other languages. Private to emit/.
+/// Makes names that come from files safe inside comments of emitted files. Private to emit/.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-/// Writes the calibration constants of a compass as a header for the emitted sketches.
+/// Makes awmr_compass.h, a header with the calibration constants of a compass for the emitted
+/// sketches.
 #pragma once
 
 #include <string>
@@ -9,8 +10,9 @@
 
 namespace awmr {
 
-/// Text of awmr_compass.h, which the sketches include from the library's src/; `record` is the file
-/// of the calibration data. Errors (input): a constant is neither a normal float32 nor 0.
+/// Text of awmr_compass.h, which the sketches include from src/ of the library. `record`: the file
+/// with the recorded calibration data. Errors (input): a constant is neither 0 nor a normal
+/// float32.
 Result<std::string> compass_header(const CompassCalibration& calibration, const InputFile& record);
 
 }  // namespace awmr

@@ -1,5 +1,5 @@
-/// Firmware output: awmr_params.h, a header with the identified model and the tuned gains, and the
-/// Arduino library around it.
+/// Firmware output: makes awmr_params.h, a header with the identified model and the tuned gains,
+/// and an Arduino library that contains it.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@
 
 namespace awmr {
 
-/// Hashes, gains file and certificate that the emitted files name, in addition to the model's file.
+/// What the emitted files state about their origin, in addition to the name of the model's file.
 struct EmitInputs {
   std::string model_sha256;               ///< SHA-256 of the model file, lower-case hexadecimal
   std::string gains_sha256;               ///< SHA-256 of the gains file, lower-case hexadecimal
@@ -29,21 +29,22 @@ struct EmitInputs {
   std::optional<CertifiedGains> certificate = {};  ///< robustness certificate of the gains, if any
 };
 
-/// Returns AWMR_PARAMS_SHA256: the SHA-256 of 128 characters, which are the hexadecimal SHA-256 of
-/// the model followed by that of the gains.
+/// Returns the value of AWMR_PARAMS_SHA256: the SHA-256 of a text of 128 characters, which is the
+/// hexadecimal SHA-256 of the model followed by that of the gains.
 std::string params_sha256(const EmitInputs& inputs);
 
-/// Text of awmr_params.h: C89 and C++98 and later, in ASCII. Each value is rounded to float32 once
-/// and written with nine significant digits, which read back to the same float. Errors (input): the
-/// model lacks a parameter; a value is not a normal float32, or out of its range (all such values
-/// are reported). Errors (refused): T2 >= T1 in float32.
+/// Text of awmr_params.h in ASCII, valid in C89, C++98 and later. Each value is rounded to float32
+/// once and written with nine significant digits, which read back to the same float. Errors
+/// (input): the model lacks a parameter; values do not fit a float32 or are out of their range (all
+/// are reported); the smallest wheel force is not below the largest; the steering stop is not below
+/// 90 deg; the observer is too fast for the sample time. Errors (refused): T2 >= T1 in float32.
 Result<std::string> params_header(const Model& model, const Gains<double>& gains,
                                   const EmitInputs& inputs);
 
 /// Method by which the firmware computes the resistances g1 and g3.
 enum class ResistanceForm {
-  kTable,  ///< an interpolated table in flash: much faster
-  kPowf    ///< the power law by the C library's powf
+  kTable,  ///< interpolates a table in flash: much faster, more flash
+  kPowf    ///< computes the power law with the C library's powf
 };
 inline constexpr NameTable<ResistanceForm, 2> kResistanceFormNames{
     {{"table", ResistanceForm::kTable}, {"powf", ResistanceForm::kPowf}}};
@@ -65,32 +66,33 @@ inline constexpr NameTable<FirmwarePart, 6> kFirmwarePartNames{
      {"shaping", FirmwarePart::kShaping},
      {"observer", FirmwarePart::kObserver}}};
 
-/// Default table error, negligible compared with a model's uncertainty.
+/// Default bound on the relative error of a table, far below the uncertainty of a model.
 inline constexpr double kTableError = 5e-4;
 
 /// Options of the firmware.
 struct EmitOptions {
-  /// kPowf if flash is scarce and the control step has time to spare; only for a power law.
+  /// Choose kPowf if flash is scarce and the control step has time to spare; for a power law only.
   ResistanceForm resistance = ResistanceForm::kTable;
-  /// Largest error of a table, > 0, relative to the larger of the resistance and a tenth of the
-  /// largest force (4 F'max, surge) or moment (4 d F'max, yaw). A larger value gives a smaller
-  /// table. Absent: kTableError, or the smallest error that a table achieves.
+  /// Bound on the relative error of a table, > 0. The error is relative to the resistance, or to a
+  /// tenth of the largest force (surge: 4 F'max) or moment (yaw: 4 d F'max) where the resistance is
+  /// smaller than that. A larger bound gives a smaller table. Absent: kTableError or, if no table
+  /// meets it, the smallest error possible.
   std::optional<double> table_error = {};
-  /// Parts to compile in. Each needs flash, RAM and, while in use, time in every step.
+  /// Optional features to compile in. Each needs flash, RAM and, while in use, time in every step.
   std::set<FirmwarePart> parts = {};
-  /// Law of the part kLine: its index in LineLaws.
+  /// Guidance law of the part kLine, as an index in LineLaws.
   std::size_t line_law = 0;
-  /// Combined mode, if steering or wheel forces saturate.
+  /// How the combined mode divides the yaw moment when steering or wheel forces saturate.
   CombinedSplit split = CombinedSplit::kRedistribute;
-  /// Maximum age of heading and yaw rate, ms, > 0. Longer for a slow compass.
+  /// Maximum age of heading and yaw rate, ms, > 0. A slow compass needs a larger value.
   std::uint32_t heading_timeout_ms = 100;
-  /// Maximum age of speed and position, ms, > 0; the default permits two failed fixes of a 5 Hz
+  /// Maximum age of speed and position, ms, > 0. The default permits two missing fixes of a 5 Hz
   /// GPS.
   std::uint32_t speed_timeout_ms = 600;
-  /// Maximum age of the last command, ms, > 0; then the motors stop. Longer for an unreliable radio
-  /// link.
+  /// Maximum age of the last command, ms, > 0; when it is exceeded, the motors stop. An unreliable
+  /// radio link needs a larger value.
   std::uint32_t command_timeout_ms = 1000;
-  /// Longest time between two steps, ms; 0: three sample times.
+  /// Maximum time between two control steps, ms; 0: three sample times.
   std::uint32_t step_timeout_ms = 0;
 };
 
@@ -99,23 +101,24 @@ struct EmittedTable {
   std::vector<ResistanceLine> lines;  ///< ResistanceTable::lines
   std::uint16_t first = 0;            ///< ResistanceTable::first
   std::uint8_t mantissa_bits = 0;     ///< ResistanceTable::mantissa_bits
-  double lowest_speed = 0.0;          ///< start of the first cell; below it, a line to the origin
+  double lowest_speed = 0.0;          ///< below it, a line through the origin replaces the cells
   double top_speed = 0.0;             ///< end of the last cell
   double split = 0.0;                 ///< a tenth of the largest force or moment, in the unit of g
   double worst_error = 0.0;           ///< where g is below `split`: absolute, in the unit of g
   double worst_relative_error = 0.0;  ///< where g is above `split`: relative to g
 
-  /// The worst error relative to g, or to `split` where g is below it.
+  /// The worst relative error: relative to g, or to `split` where g is below `split`.
   double worst_share() const;
-  /// The table in the chip's form. It refers to this object's lines.
+  /// The table as the chip reads it. The result refers to the lines of this object.
   ResistanceTable view() const;
 };
 
-/// Default noise of a fix, m, and its latency, s.
+/// Default noise (standard deviation) of a GPS fix, m, and its default latency, s.
 inline constexpr double kUsualFixNoise_m = 1.5;
 inline constexpr double kUsualFixLatency_s = 0.2;
 
-/// Upper bound of AWMR_ON_COURSE_RAD, the steady heading error that the sketches accept, rad.
+/// Upper bound of AWMR_ON_COURSE_RAD, the heading error up to which the sketches count a vehicle as
+/// on course, rad.
 inline constexpr double kMostOnCourse_rad = radians(45.0);
 
 /// The firmware's numbers in the chip's form.
@@ -129,10 +132,10 @@ struct AutopilotParameters {
   EmittedTable surge;                                  ///< of g1; without lines for kPowf
   EmittedTable yaw;                                    ///< of g3; without lines for kPowf
   ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
-  double table_error = 0.0;                            ///< bound for both tables
+  double table_error = 0.0;                            ///< bound on the errors of both tables
   float sample_time_s = 0.0F;                          ///< as in awmr_params.h
   float route_speed_mps = 0.0F;                        ///< AWMR_ROUTE_SPEED_MPS of the sketches
-  double steady_error_rad = 0.0;          ///< heading error with motors that differ by 16 %
+  double steady_error_rad = 0.0;          ///< steady heading error if the motors differ by 16 %
   float on_course_rad = 0.0F;             ///< AWMR_ON_COURSE_RAD of the sketches
   float off_course_mrad = 0.0F;           ///< AWMR_OFF_COURSE_MRAD, GpsLimits::off_course_mrad
   PositionFilter<float> position{};       ///< filter of the GPS fixes
@@ -143,20 +146,20 @@ struct AutopilotParameters {
   std::uint32_t crc = 0;                               ///< crc32_of_parameters() of all parameters
 };
 
-/// Computes the firmware's numbers for this model and these gains. Errors: as params_header;
-/// (input) a friction model that the firmware does not support; (refused) a table that cannot be
-/// within its bound.
+/// Computes the firmware's numbers for this model and these gains. Errors: as params_header();
+/// (input) small-angle allocation, front-wheel drive, or kPowf for a resistance other than the
+/// power law; (refused) no table is within options.table_error.
 Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains<double>& gains,
                                                  const EmitInputs& inputs,
                                                  const EmitOptions& options);
 
-/// Text of awmr_autopilot_params.h: the parts, tables with their errors, limits of the safety
-/// checks, the check sum over all parameters.
+/// Text of awmr_autopilot_params.h: the optional features, the tables with their errors, the limits
+/// of the safety checks, and the checksum of all parameters.
 std::string autopilot_header(const AutopilotParameters& parameters);
 
 /// A file of the emitted library.
 struct EmittedFile {
-  std::string path;  ///< relative, with '/'
+  std::string path;  ///< relative to the output directory, with '/'
   std::string bytes;
 };
 

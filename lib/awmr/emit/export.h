@@ -37,9 +37,10 @@ struct ExportSource {
   std::span<const InputFile> inputs = {};  ///< model and gains, named in the file's header
 };
 
-/// Text of the file: ASCII, every value with its unit, 95 % interval and origin. Unknown quantities
-/// are omitted; the autopilots' files list them in comments with the reason. Errors (input), for
-/// the autopilots: the model lacks the surge law.
+/// Text of the file in ASCII: every value with its unit, 95 % interval and origin. Unknown
+/// quantities are omitted; files for autopilots list them in comments, each with the reason. Errors
+/// (input), only for autopilots: the model lacks the surge law or has back-EMF; not all four wheels
+/// are driven.
 Result<std::string> export_text(const ExportSource& source, ExportFormat format);
 
 }  // namespace awmr

@@ -22,15 +22,17 @@ struct ExportedValue {
   std::optional<Interval> ci95 = {};
 };
 
-/// The identified quantities, also in SI units, the vehicle and the gains; only known values.
+/// Returns the identified quantities (also in SI units), the vehicle and the gains; unknown values
+/// are left out.
 std::vector<ExportedValue> exported_values(const ExportSource& source);
 
-/// Values of an autopilot's parameter file, and the parameters that cannot be derived.
+/// Values for an autopilot's parameter file, and the parameters that cannot be derived.
 struct AutopilotValues {
-  std::vector<ExportedValue> values;  ///< `meaning` is the derivation
+  std::vector<ExportedValue> values;  ///< ExportedValue::meaning has the derivation
   std::vector<std::string> left_out;  ///< "NAME: reason"
 };
-/// Errors (input): the model lacks the surge law.
+/// Derives the parameters of ArduPilot Rover and of PX4's rovers. Errors (input): the model lacks
+/// the surge law or has back-EMF; not all four wheels are driven.
 Result<AutopilotValues> ardupilot_values(const ExportSource& source);
 Result<AutopilotValues> px4_values(const ExportSource& source);
 

@@ -18,7 +18,8 @@ architectures=*
 includes=awmr.h
 )";
 
-/// Metadata for PlatformIO, which would otherwise require an Arduino: the library runs on any chip.
+/// Metadata for PlatformIO. Without it PlatformIO would require an Arduino board, but the library
+/// runs on any chip.
 constexpr std::string_view kLibraryJson = R"({{
   "name": "awmr",
   "version": "{}",

@@ -8,7 +8,8 @@
 
 namespace awmr {
 
-/// Sorted by path within each part.
+/// Returns the files: the control sources, then those of assets/, each sorted by path; then
+/// LICENSE.
 const std::vector<EmbeddedFile>& embedded_files();
 
 }  // namespace awmr

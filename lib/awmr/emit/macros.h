@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// Permitted range of a macro's value.
+/// Permitted range of a macro's value: > 0, >= 0, or any.
 enum class MacroRange { kPositive, kNotNegative, kAnySign };
 
 /// One macro of awmr_params.h.
@@ -20,14 +20,15 @@ struct Macro {
   MacroRange range = MacroRange::kPositive;
 };
 
-/// File name of the model without its directory, as used in the emitted files and in errors.
+/// Name of the model's file without its directory, as the emitted files and errors have it.
 std::string file_name(const Model& model);
 
 /// The macros in the order of the header. Precondition: the model has all their values.
 std::vector<Macro> macros_of(const Model& model, const Gains<double>& gains,
                              const EmitInputs& inputs);
 
-/// Errors (input): not a normal float32 (0 is permitted if the range includes it), or out of range.
+/// Checks the values. Errors (input), for each value: it is neither 0 nor a normal float32, or it
+/// is outside its range.
 Status check_macros(const std::vector<Macro>& macros);
 
 }  // namespace awmr

@@ -14,7 +14,7 @@ namespace awmr {
 namespace {
 
 constexpr std::string_view kEmitSchema = "awmr.emit/1";
-/// First characters of generated headers.
+/// Beginnings of the headers that emit writes, by which a file without manifest is recognised.
 constexpr std::string_view kMarks[] = {"/* awmr_params.h: ", "/* awmr_autopilot_params.h, "};
 
 /// Hashes by path.
@@ -43,7 +43,8 @@ Hashes read_manifest(JsonObject& json) {
   return hashes;
 }
 
-/// Empty if there is no manifest. Errors (input): it is invalid.
+/// Reads the hashes in the manifest; empty if there is none. Errors (input): the manifest is
+/// invalid.
 Result<Hashes> hashes_in(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / kManifest;
   AWMR_ASSIGN_OR_RETURN(const bool exists, regular_file_exists(path));
@@ -56,7 +57,7 @@ Result<Hashes> hashes_in(const std::filesystem::path& directory) {
   return hashes;
 }
 
-/// Reason why a file must not be replaced; empty: it can be.
+/// Reason why a file must not be replaced; empty if it may be replaced.
 std::string fault_of(const EmittedFile& file, const std::string& bytes, const Hashes& written) {
   if (bytes == file.bytes) return {};
   const auto known = written.find(file.path);

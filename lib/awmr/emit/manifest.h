@@ -1,5 +1,6 @@
-/// Manifest of an emitted directory: lists each file that emit wrote, with its hash. A file that is
-/// not listed, or was edited since, belongs to the user and is never replaced.
+/// Manifest of an emitted directory: lists each file that `awmr emit` wrote, with its hash. A file
+/// that the manifest does not list, or that was edited later, belongs to the user and is not
+/// replaced.
 #pragma once
 
 #include <filesystem>
@@ -16,21 +17,22 @@ namespace awmr {
 
 inline constexpr const char* kManifest = "awmr_emit.json";
 
-/// Text of the manifest: origin, `figures`, the findings, and every file with its SHA-256. Files in
-/// the manifest of `directory` that are not written again stay in it. Precondition: `figures` is
-/// empty or a JSON object.
+/// Text of the manifest: origin, `figures`, the findings, and every file with its SHA-256. It also
+/// keeps the files of the existing manifest in `directory` that are not written this time.
+/// `figures`: empty, or the text of a JSON object whose keys are added.
 std::string manifest_text(const std::filesystem::path& directory,
                           const std::vector<EmittedFile>& files, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);
 
 /// Checks that the files may be written to `directory`. An existing file may be replaced if it has
-/// the same content, if it matches the manifest, or if the manifest does not list it and it is a
-/// header that begins with emit's first line. Errors (input): an invalid manifest; each other file.
+/// the same content or the hash in the manifest. A file that the manifest does not list may be
+/// replaced if it begins like a header that emit wrote. Errors (input): an invalid manifest; each
+/// existing file that may not be replaced, or is not a regular file.
 Status check_replaceable(const std::filesystem::path& directory,
                          const std::vector<EmittedFile>& files);
 
-/// The files of the whole library as in firmware_library(), for check_replaceable() before a model
-/// exists: files that depend on the model are empty.
+/// The files of firmware_library() with empty contents where they depend on the model.
+/// check_replaceable() can check these before a model exists.
 std::vector<EmittedFile> library_outline();
 
 /// The JSON Schema of the manifest.

@@ -98,8 +98,8 @@ std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inp
                     params_sha256(inputs));
 }
 
-/// Checks the order of the values. It compares the written values, because rounding to float32 can
-/// make two of them equal.
+/// Checks the relations between values: F'min < F'max, d_max < 90 deg, T2 < T1. Compares the values
+/// as written, because rounding to float32 can make two of them equal.
 Status check_relations(const Model& model, const Gains<double>& gains, const EmitInputs& inputs) {
   const Vehicle& vehicle = model.vehicle;
   std::vector<Fault> faults;
@@ -114,7 +114,8 @@ Status check_relations(const Model& model, const Gains<double>& gains, const Emi
   }
   if (!faults.empty()) return input_errors(std::move(faults));
 
-  // A compiler can fold the product in float or exactly: the check must hold in both cases.
+  // The user's compiler can evaluate the product in float or exactly; T2 < T1 must hold in both
+  // cases.
   const float epsilon = static_cast<float>(gains.heading.epsilon);
   const float lambda = static_cast<float>(gains.heading.lambda);
   const float mu = static_cast<float>(gains.heading.mu);
@@ -146,9 +147,9 @@ std::string comment_safe(std::string_view text) {
   return safe;
 }
 
-/// %.9g and `f`: nine significant digits read back to the same float. `3f` is not a C literal, so a
-/// point or an exponent is always present. A sign needs parentheses, because a macro's value must
-/// bind tighter than its context.
+/// The float as %.9g and `f`: nine significant digits read back to the same float. `3f` is not a C
+/// literal, so a point is added to a text without point or exponent. A negative value is in
+/// parentheses, because a macro can stand behind an operator.
 std::string float_literal(double value) {
   const float rounded = static_cast<float>(value) + 0.0F;  // -0 + 0 = 0
   std::string text = fmt::format("{:.9g}", static_cast<double>(rounded));

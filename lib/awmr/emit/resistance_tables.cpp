@@ -14,11 +14,11 @@ namespace awmr {
 namespace {
 
 constexpr int kMaxMantissaBits = 7;
-constexpr int kLowestExponent = -20;  ///< first entry at 2^-20 = 1e-6 m/s or rad/s or above
+constexpr int kLowestExponent = -20;  ///< the first entry is at 2^-20 = 1e-6 m/s or rad/s, or above
 constexpr int kMaxLines = 1024;       ///< 8 KiB of flash
 constexpr int kSamplesPerCell = 64;
 
-/// The chord of the law between two speeds; g(0) = 0.
+/// The straight line through the law at two speeds, with g(0) = 0.
 ResistanceLine chord(const ResistanceLaw& law, double from, double to) {
   const double start = from > 0.0 ? law(from) : 0.0;
   const double slope = (law(to) - start) / (to - from);
@@ -45,7 +45,7 @@ EmittedTable table_between(const ResistanceLaw& law, int lowest_exponent, int to
   return table;
 }
 
-/// Largest errors of a table in a range of speeds; EmittedTable has those of the whole.
+/// Largest errors of a table in a range of speeds, defined as in EmittedTable for the whole table.
 struct TableErrors {
   double absolute = 0.0;
   double relative = 0.0;
@@ -102,7 +102,7 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
   EmittedTable closest;              // the one with the smallest error
   std::map<int, TableErrors> below;  // errors below the first entry, the same for all mantissa bits
   for (int bits = 0; bits <= kMaxMantissaBits; ++bits) {
-    TableErrors from_first;  // summed by octave, whose lines do not depend on the table's beginning
+    TableErrors from_first;  // errors from the first entry on; each pass adds the next lower octave
     for (int lowest = top_exponent - 1; lowest >= kLowestExponent; --lowest) {
       const int lines = (top_exponent - lowest) * (1 << bits) + 1;
       if (lines > kMaxLines) break;

@@ -1,5 +1,5 @@
-/// Converts a resistance law to the smallest table that meets the error bound, which the chip
-/// interpolates (control/resistance_table.h). Private to emit/.
+/// Converts a resistance law to a table that the chip interpolates (control/resistance_table.h):
+/// the smallest one that meets an error bound. Private to emit/.
 #pragma once
 
 #include <functional>
@@ -13,18 +13,20 @@
 
 namespace awmr {
 
-/// g as a function of a speed >= 0: g1 of m/s or g3 of rad/s.
+/// A resistance as a function of a speed >= 0: g1(u) with u in m/s, or g3(r) with r in rad/s.
 using ResistanceLaw = std::function<double(double)>;
 
 /// Returns the top speed of a table: the smallest power of two, from 1 to 64 m/s or rad/s, at which
-/// g exceeds 1.5 times the largest force or moment. The vehicle cannot reach a higher speed.
+/// g is at least 1.5 times the largest force or moment (`full_scale`), so that the vehicle cannot
+/// reach it. 64 if there is none.
 double table_top(const ResistanceLaw& law, double full_scale);
 
-/// Returns the smallest table of `law` up to `top` that meets the error bound in the chip's
-/// arithmetic. The error is relative to the law, or to a tenth of `full_scale` where the law is
-/// smaller; its bound is `error_share`. Without `error_share`, the bound is kTableError or, if no
-/// table achieves that, the smallest possible error. The table is not used below `rest_speed`.
-/// `name` is for the message. Errors (refused): even the largest table exceeds the bound.
+/// Returns the smallest table of `law` up to the speed `top` whose error, in the chip's arithmetic,
+/// is at most `error_share`. The error is relative to the law, or to a tenth of `full_scale` where
+/// the law is smaller than that. Without `error_share` the bound is kTableError; if no table meets
+/// it, the table with the smallest error is returned. Errors below `rest_speed` do not count,
+/// because the chip does not use the table there. `name`: "surge" or "yaw", for the message. Errors
+/// (refused): no table is within `error_share`.
 Result<EmittedTable> resistance_table(const std::string& name, const ResistanceLaw& law,
                                       double full_scale, double top,
                                       std::optional<double> error_share, double rest_speed);

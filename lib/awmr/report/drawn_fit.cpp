@@ -21,15 +21,15 @@ constexpr double kWithin99 = 2.576;
 /// Half width of a 95 % interval in standard errors, for a normal distribution.
 constexpr double kNormalQuantile95 = 1.96;
 
-/// Half width of the 95 % interval of the exponent in standard errors, which is the Student quantile of
-/// the fit; kNormalQuantile95 if the exponent has no interval.
+/// Half width of the exponent's 95 % interval divided by its standard error. This is the quantile of
+/// Student's t in the fit. kNormalQuantile95 if the exponent has no interval.
 double quantile_of_exponent(const Estimate& beta) {
   if (!beta.std_error || !(*beta.std_error > 0.0) || !beta.ci95) return kNormalQuantile95;
   return (beta.ci95->hi - beta.ci95->lo) / (2.0 * *beta.std_error);
 }
 
-/// Computes the curve from rest to 1.05 times the fastest row, with more points at low rates, where it
-/// is steep.
+/// Computes the curve from rest to 1.05 times the fastest run, with more points at low rates, where the
+/// curve is steep.
 void add_curve(const Model& model, TrialKind kind, DrawnFit& fit) {
   const auto law = fitted_law(model, kind);
   if (!law) return;
@@ -60,13 +60,13 @@ void add_left_over(const Model& model, DrawnFit& fit) {
     squares += fit.left_over.back().percent * fit.left_over.back().percent;
   }
   if (fit.left_over.size() < 3) return fit.left_over.clear();
-  // Two parameters of the law were fitted to the rows.
+  // n - 2 degrees of freedom: alpha and beta of the law were fitted to the runs.
   fit.bound_percent =
       kWithin99 * std::sqrt(squares / static_cast<double>(fit.left_over.size() - 2));
 }
 
-/// Pairs of initial speed and longest stop time of the coast-downs. Each speed occurs once, ascending;
-/// of many speeds, kMostCoastdowns evenly spaced ones are kept.
+/// Pairs of initial speed and longest stop time of the coast-downs, by ascending speed. Each speed
+/// occurs once. If there are more than kMostCoastdowns, as many are kept, evenly chosen.
 std::vector<std::pair<double, double>> coasts_of(const Model& model) {
   std::vector<std::pair<double, double>> coasts;
   for (const TrialPoint& trial : model.record.trials) {
@@ -74,7 +74,7 @@ std::vector<std::pair<double, double>> coasts_of(const Model& model) {
       coasts.emplace_back(trial.input, std::max(trial.measured, trial.predicted.value_or(0.0)));
     }
   }
-  // The longest stop of each speed is first and is kept.
+  // Sorted so that the longest stop time of each speed is first: unique() keeps the first.
   std::sort(coasts.begin(), coasts.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : a.second > b.second;
   });

@@ -16,7 +16,8 @@
 namespace awmr {
 namespace {
 
-/// Reads which form of T2 < T1 was required, and its margin, from the limit margin/lambda.
+/// Reads from the constraints which form of T2 < T1 was required. The margin follows from the limit
+/// of the strict form, which is margin/lambda.
 void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context) {
   for (JsonObject& constraint : gains.optional_objects("constraints")) {
     const bool strict = constraint.string("name") == "T2 < T1 (strict)";
@@ -35,7 +36,7 @@ struct Draws {
   UnmodelledVariation open = {};
 };
 
-/// Reads noise, latency and lag with which robust gains were tuned, and the draws.
+/// Reads the noise, latency and motor lag for which robust gains were tuned, and their draws.
 Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   JsonObject latency = robust.object("latency");
   const double latest_s = std::max(latency.number("heading_s", kNonNegative),

@@ -1,4 +1,4 @@
-/// Initial numbers of the interactive part (sliders) of the page. Private to report/.
+/// Data with which the interactive part (sliders) of the page starts. Private to report/.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,11 @@
 
 namespace awmr {
 
-/// Returns LiveSetup (live/setup.h) as numbers; empty if the model has no turning motion. `gains` is
-/// gains.json. The page computes the constraints with the conditions in it (`/robust`,
-/// `/constraints`, `/limits`, `/examined`). Errors (input): gains.json does not have the format of
-/// `awmr tune`.
+/// Returns LiveSetup (live/setup.h) as a list of numbers; empty if the model has no turning motion.
+/// `gains`: content of gains.json. The page computes the constraints of tuning with the conditions
+/// in `/robust`, `/constraints`, `/limits` and `/examined` of that file. Precondition: the scenario
+/// commands headings. Errors (input): gains.json does not have the format of `awmr tune`; its
+/// latency is more than 20 samples; a parameter lacks what its draws need.
 Result<std::vector<double>> live_numbers(const Model& model, const Json& gains,
                                          const Scenario& scenario);
 

@@ -14,10 +14,11 @@ struct MetricWords {
   std::string unit;   ///< "s"; empty if dimensionless
 };
 
-/// Returns the words for a metric's name in comparison.json. An unknown metric keeps its name.
+/// Returns the words for the name that a metric has in comparison.json. For an unknown metric the
+/// words are that name.
 MetricWords metric_words(std::string_view name);
 
-/// The words of all metrics, as the page needs them: {"settling_time_s": "settling time, s", ...}.
+/// The words of all metrics as JSON for the page: {"settling_time_s": "settling time, s", ...}.
 Json metric_words_json();
 
 }  // namespace awmr

@@ -28,8 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Text of JSON for a script element of the page. `<` is escaped, so that no text in the data can close
-/// the element.
+/// JSON text for a script element of the page. `<` is escaped, so that no text in the data can end the
+/// element.
 std::string script_safe(const Json& json) {
   std::string text;
   for (const char c : json.dump()) {
@@ -42,8 +42,8 @@ std::string script_safe(const Json& json) {
   return text;
 }
 
-/// True if mass, box, axle and track are those of the paper's Table 1. The paper's claims are shown for
-/// this vehicle only.
+/// True if mass, length, width, l_f and d are those of the paper's Table 1. The page shows the paper's
+/// claims only for this vehicle.
 bool is_vehicle_of_paper(const Vehicle& vehicle) {
   const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-9 * b; };
   return near(vehicle.mass_kg, 37.0) && near(vehicle.length_m, 1.32) &&
@@ -70,8 +70,8 @@ void round_shown(Json& data) {
   }
 }
 
-/// Makes the page: replaces each `@name@` in page.html by the part of that name. Parts are not searched
-/// for further names.
+/// Makes the page: replaces each `@name@` in page.html by the part of that name. An `@` inside a part
+/// has no effect.
 std::string assembled(const Json& data) {
   const std::string json = script_safe(data);
   const std::array<std::pair<std::string_view, std::string_view>, 5> parts{
@@ -91,8 +91,8 @@ std::string assembled(const Json& data) {
   }
 }
 
-/// Adds the initial data of the interactive part, for the first scenario that it can run, or headings of
-/// 30 then -30 deg. Adds nothing without gains, or if the model has no turning motion.
+/// Adds the initial data of the interactive part. Its scenario is the first that is_plain_heading(),
+/// else headings of 30, then -30 deg. Adds nothing without gains, or if the model has no turning motion.
 Status add_live(const fs::path& directory, const Model& model, Json& data) {
   if (kLiveWasm.empty() || !data.contains("gains")) return {};
   Scenario scenario = heading_steps({30.0, -30.0}, {.name = "headings 30 then -30 deg"});

@@ -12,9 +12,10 @@
 
 namespace awmr {
 
-/// Returns the page for a directory. Reads model.json and, if present, gains.json, validation.json,
-/// comparison.json and .csv, pil.json, suggest.json, the scenarios `scenario_<scenario>.json` and the
-/// runs `run_<scenario>_<mode>_<tuned|paper>.csv` with their side files. Errors (input): there is no
+/// Returns the page for a directory of results. Reads model.json and, if present, gains.json,
+/// validation.json, comparison.json and .csv, pil.json, suggest.json, awmr_emit.json (also in
+/// `firmware`), the scenarios `scenario_<scenario>.json` and the runs
+/// `run_<scenario>_<mode>_<tuned|paper>.csv` with their side files. Errors (input): there is no
 /// model.json, or a file is invalid.
 Result<std::string> report_html(const std::filesystem::path& directory);
 
@@ -24,7 +25,7 @@ struct ReportPage {
   /// Results omitted because they do not belong to this directory's model, each with its reason.
   std::vector<Finding> left_out;
 };
-/// As report_html(), with these warnings.
+/// Returns the page as report_html(), and the warnings.
 Result<ReportPage> report_page(const std::filesystem::path& directory);
 
 /// Error (input) if a file of this name exists and is not a page that awmr wrote.
@@ -37,7 +38,7 @@ inline constexpr const char* kPlotName = "plot.py";
 /// with matplotlib.
 struct FigureSet {
   std::vector<OutputFile> files = {};     ///< the files, with paths relative to an output directory
-  std::vector<std::string> names = {};    ///< names of the figures: the CSV files without extension
+  std::vector<std::string> names = {};    ///< names of the figures: CSV file names, no extension
   std::vector<std::string> lacking = {};  ///< missing figures and the reasons, one sentence each
 };
 

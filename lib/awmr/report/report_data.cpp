@@ -31,7 +31,7 @@ struct Origin {
 };
 
 /// Finding if a result was made from another model or other gains than those in the directory. Empty if
-/// it was made from them, or does not name its inputs.
+/// the result was made from these, or does not name its inputs.
 std::optional<Finding> foreign_result(const std::string& result, const Json& json,
                                       const Origin& origin) {
   const std::optional<bool> is_of_model = is_made_from(json, origin.model_sha256);
@@ -60,8 +60,8 @@ void add_findings_of(const Json& json, std::vector<Finding>& findings) {
   if (faults.empty()) findings.insert(findings.end(), more.begin(), more.end());
 }
 
-/// Finding if a run must be omitted: it has no side file, or the side file has another hash or names
-/// another model. Otherwise empty, and the findings of the run are added to the list.
+/// Finding if a run must be omitted: its side file is missing, has the hash of another run, or names
+/// another model or other gains. Otherwise empty, and the findings of the run are added to the list.
 Result<std::optional<Finding>> foreign_run(const std::filesystem::path& directory,
                                            const std::string& name, const Origin& origin,
                                            std::vector<Finding>& findings) {
@@ -84,7 +84,7 @@ Result<std::optional<Finding>> foreign_run(const std::filesystem::path& director
   return foreign;
 }
 
-/// Findings for the page: each once, those with the largest effect on the numbers first.
+/// Findings for the page without repetitions, those with the largest effect on the numbers first.
 Json shown_findings(const std::vector<Finding>& findings) {
   std::vector<Finding> order;
   for (const Finding* finding : by_effect(findings)) {
@@ -137,7 +137,7 @@ Status read_own_samples(const std::filesystem::path& directory, ReportData& data
   return {};
 }
 
-/// Adds the findings of `awmr emit`. Its file awmr_emit.json is next to the results or in `firmware`.
+/// Adds the findings in awmr_emit.json, which `awmr emit` wrote next to the results or into `firmware`.
 Status add_emitted(const std::filesystem::path& directory, const Origin& origin,
                    std::vector<Finding>& findings) {
   for (const auto& folder : {directory, directory / "firmware"}) {

@@ -18,9 +18,9 @@ struct ReportData {
   /// "yaw_rate_measured_degps", and "findings" of all files, those with the largest effect on the
   /// numbers first.
   Json json;
-  /// A warning for each result that was made from another model or gains than those in the
-  /// directory (`result-of-another-model`), or whose side file is missing or belongs to another
-  /// file (`result-without-origin`). These results are not in `json`.
+  /// A warning for each result that is not in `json`: it was made from another model or other gains
+  /// than those in the directory (`result-of-another-model`), or the file that names its inputs is
+  /// missing or belongs to another result (`result-without-origin`).
   std::vector<Finding> left_out = {};
 };
 

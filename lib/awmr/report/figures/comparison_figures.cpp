@@ -16,8 +16,8 @@ std::optional<double> number_in(const Json& json, const char* key) {
   return json.at(key).get<double>();
 }
 
-/// Name of the scenario in file names (SCENARIO of scenario_SCENARIO.json), as in its other figures. If
-/// there is no such file, the scenario's own name.
+/// Name of a scenario in file names: SCENARIO of scenario_SCENARIO.json, as for the figures of its
+/// runs. Without such a file, it is the name inside the scenario.
 std::string stem_of(const Json& data, const std::string& name) {
   for (const auto& [stem, scenario] : data.at("scenarios").items()) {
     if (scenario.value("name", "") == name) return stem;
@@ -25,8 +25,8 @@ std::string stem_of(const Json& data, const std::string& name) {
   return name;
 }
 
-/// Difference of a metric between two modes, with its 95 % interval, in percent of the larger of both
-/// means. There is no row if both means are 0.
+/// Difference of a metric between two modes with its 95 % interval, both in percent of the larger of
+/// the two means. There is no row if both means are 0.
 struct DifferenceRow {
   std::string metric;
   double mean = 0.0;

@@ -11,14 +11,14 @@ namespace awmr {
 /// Role of a series, which determines its style in plot.py. The legend has the order of this list.
 enum class Role {
   kMeasured,
-  kDoubtful,  ///< measured, with a warning
+  kDoubtful,  ///< measured rows with a warning
   kModel,     ///< a fitted curve
   kPredicted,
   kDifferential,
   kSteering,
   kCombined,
   kReference,
-  kMinor,  ///< of less importance: grey
+  kMinor,  ///< drawn in grey, because it is less important
 };
 
 enum class SeriesShape {
@@ -45,7 +45,7 @@ struct Series {
 struct Axis {
   std::string quantity = {};
   std::string unit = {};               ///< empty if dimensionless
-  bool zero = false;                   ///< the range includes 0, with a line at 0
+  bool zero = false;                   ///< true: the range includes 0 and has a line there
   std::vector<std::string> rows = {};  ///< names of the rows 0, 1, 2, ... from the top; else empty
 };
 

@@ -9,7 +9,8 @@
 namespace awmr {
 namespace {
 
-/// A channel of validation.json, with the axis on which it is drawn and the factor from SI to its unit.
+/// A channel of validation.json, the axis on which it is drawn, and the factor from SI units to those
+/// of the axis.
 struct ChannelAxis {
   std::string_view channel;
   const char* quantity;
@@ -36,7 +37,8 @@ Series channel_series(const Json& series, const char* key, Role role, double per
   return one;
 }
 
-/// Figure of a log with one panel per channel. It has no panels if an older version validated the log.
+/// Figure of a log with one panel per channel. There are no panels if validation.json has no series, as
+/// from an older version.
 Figure log_figure(const Json& log) {
   const std::string file = log.at("file");
   Figure figure{.name = figure_name("log", std::filesystem::path(file).stem().string()),

@@ -60,8 +60,8 @@ Series reference_of(const Json& run, const char* y) {
           .y = column(run, y)};
 }
 
-/// The reference heading, shifted by whole turns to be nearest to the heading of the run, because the
-/// heading is continuous and the reference is not.
+/// The reference heading, shifted by whole turns so that it is nearest to the heading of the run. The
+/// heading is continuous, but the reference can jump by a turn.
 Series heading_reference_of(const Json& run) {
   Series reference = reference_of(run, "psi_ref_deg");
   const std::vector<double> psi_deg = column(run, "psi_deg");

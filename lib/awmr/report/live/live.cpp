@@ -101,7 +101,7 @@ using namespace awmr;
 
 #define AWMR_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
-/// Returns an array for `count` numbers of the setup.
+/// Returns an array into which the page writes the `count` numbers of the setup.
 AWMR_EXPORT(live_setup) double* live_setup(int count) {
   numbers.assign(static_cast<std::size_t>(count), 0.0);
   return numbers.data();
@@ -112,9 +112,9 @@ AWMR_EXPORT(live_begin) void live_begin() {
   visit_numbers(setup, [&](double& x) { x = numbers[next++]; });
 }
 
-/// Simulates one run. mode: as YawMode. mass and friction: factors on the plant, not on the model that
-/// the controller uses. observer_radps: bandwidth, 0 without an observer. Returns false if the run
-/// diverges.
+/// Simulates one run and computes constraints and metrics. mode: as YawMode. mass: factor on m' and
+/// I'z of the plant, friction: factor on its a1 and a3; the controller keeps the model's values.
+/// observer_radps: bandwidth of the observer, 0 for none. Returns false if the run diverges.
 AWMR_EXPORT(live_run)
 bool live_run(double lambda, double mu, double epsilon, double speed_mu, double speed_epsilon,
               double observer_radps, int mode, double sample_time_s, double mass, double friction,

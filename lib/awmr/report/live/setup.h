@@ -1,6 +1,6 @@
-/// Input of the interactive part of the page, as a list of numbers. The program writes the list from
-/// model.json and gains.json, and the part (live.cpp, WebAssembly) reads it with the same code. Private
-/// to report/.
+/// Input of the page's interactive part (live.cpp, WebAssembly) as a list of numbers. The program
+/// writes the list from model.json and gains.json, and the interactive part reads it with the same
+/// code. Private to report/.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,13 @@
 
 namespace awmr {
 
-/// The inputs of the constraints, with plant and limits of the vehicle, and a heading scenario.
+/// Input of the interactive part: the inputs of the tuning constraints (with plant and force limits of
+/// the vehicle) and a heading scenario.
 struct LiveSetup {
   ConstraintContext context;  ///< its plant is the nominal one of the model
   double allocation_form = 0.0;
-  double observer_yaw_max_m = 0.0;  ///< limit of the observer, if one was tuned with the gains
+  /// Largest yaw moment, m, and surge force that a tuned observer compensates; 0 without an observer.
+  double observer_yaw_max_m = 0.0;
   double observer_surge_max = 0.0;
   double speed_mps = 0.0;  ///< u_d of the scenario
   double duration_s = 0.0;
@@ -41,7 +43,7 @@ void visit_plant(Plant<double>& plant, Visit&& visit) {
   }
 }
 
-/// Visits a value of another type as a double.
+/// Visits a value that is not a double (bool, enumeration) as a double.
 template <class T, class Visit>
 void visit_as_number(T& value, Visit&& visit) {
   double number = static_cast<double>(value);
