@@ -14,7 +14,7 @@
 
 namespace awmr::cli {
 
-/// Force allocation that overrides the vehicle and the scenarios; empty: no override.
+/// Allocation form that overrides those of the vehicle and the scenarios; empty: no override.
 using AllocationChoice = std::optional<AllocationForm>;
 
 inline void add_allocation(CLI::App& command, AllocationChoice& choice) {
@@ -29,7 +29,7 @@ inline void add_allocation(CLI::App& command, AllocationChoice& choice) {
       ->check(one_of(names_in(kAllocationFormNames)));
 }
 
-/// Entry for the options recorded in an output; empty without a choice.
+/// Returns the choice for the list of options in an output file; empty without a choice.
 inline std::vector<std::pair<std::string, std::string>> options_of(const AllocationChoice& choice) {
   if (!choice) return {};
   return {{"allocation", std::string(name_in(kAllocationFormNames, *choice))}};

@@ -43,7 +43,8 @@ bool is_null_at(const Json& document, const std::string& file, const std::string
   return document.contains(pointer) && document.at(pointer).is_null();
 }
 
-/// Reads a JSON file of the project. A null value is one that the user still has to fill in.
+/// Reads a JSON file of the project. Null values count as missing: the user still has to fill them
+/// in.
 template <class T>
 std::optional<T> read_filled(const fs::path& path, Result<T> (*read)(const fs::path&),
                              Check& check) {
@@ -175,7 +176,7 @@ void add_mapping_hints(const TrialFiles& files, std::vector<Fault>& faults) {
 void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const bool nothing = !files.surge && !files.turning && files.coastdowns.empty();
   if (nothing && files.logs.empty()) return;
-  // A mapping may refer to a file that has no rows yet.
+  // A mapping may name a file that is not read here, because it has no rows yet.
   for (ColumnMapping& mapping : files.options.columns) mapping.standing |= !all_recorded;
   files.steady_from_logs = files.steady_from_logs && !files.logs.empty();
   const bool as_is = files.options.as_is;

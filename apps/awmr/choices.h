@@ -1,4 +1,4 @@
-/// Options that take one name from a table.
+/// Command-line options whose value is one name from a table.
 #pragma once
 
 #include <fmt/format.h>

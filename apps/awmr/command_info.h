@@ -1,5 +1,5 @@
-/// Description of all commands as data, extracted from the definitions that parse the options and
-/// print `--help`. Completions and manual pages are generated from it.
+/// Describes all commands as data, from which completions and manual pages are generated. The data
+/// come from the CLI11 definitions that also parse the options and print `--help`.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ class App;
 
 namespace awmr::cli {
 
-/// Kind of value for shell completion.
+/// Kind of an option's value; shell completion depends on it.
 enum class ValueKind {
   kNone,    ///< a flag, without a value
   kOther,   ///< free number or text
@@ -21,7 +21,7 @@ enum class ValueKind {
 };
 
 struct OptionInfo {
-  std::string name;        ///< "--output"; of a positional argument "PROJECT"
+  std::string name;        ///< "--output"; for a positional argument "PROJECT"
   std::string short_name;  ///< "-o", or empty
   ValueKind kind = ValueKind::kNone;
   std::string value;                 ///< placeholder of the value: "FILE", "INT", ...

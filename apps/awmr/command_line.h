@@ -11,8 +11,8 @@ namespace awmr::cli {
 /// Returns "; did you mean 'NAME'?" with the closest name; empty if none is close.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
-/// Describes the command-line error. Adds to CLI11's message the unknown command or option and the
-/// closest known name. `app` must be in the state that its parse left.
+/// Describes the command-line error: CLI11's message, the unknown command or option, and the
+/// closest known name. Precondition: `app` is as the failed parse left it.
 std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
 
 }  // namespace awmr::cli

@@ -1,5 +1,5 @@
-/// The commands. Each has its options, a function that executes it and a function that adds it to
-/// the command line. `run` calls the same functions.
+/// The commands of the program. For each: its options, execute(), which runs it, and add_NAME(),
+/// which adds it to the command line. `run` calls the same execute() functions.
 #pragma once
 
 #include <filesystem>
@@ -48,24 +48,24 @@ struct IdentifyCommand {
   std::vector<fs::path> coastdowns;
   std::optional<fs::path> turning;
   std::vector<fs::path> logs;
-  /// convert steady stretches of the logs into surge and turning rows
+  /// true: also use steady stretches of the logs as surge and turning runs
   bool steady_from_logs = false;
   IdentifyOptions identify;
   TrialOptions trials;
   fs::path output;
-  InputNames names = {};  ///< set by `run`: names of the inputs in the output; the same below
+  InputNames names = {};  ///< names of the inputs in the output file; set by `run`, also below
 };
 Result<Outcome> execute(const IdentifyCommand& command);
 void add_identify(CLI::App& app, Session& session);
 
 /// Records a drive, checks and fits it while it is recorded, and identifies the model at its end.
 struct LiveCommand {
-  IdentifyCommand identify;  ///< settings for the recording; execute() sets its `logs`
+  IdentifyCommand identify;  ///< options of the identification; execute() sets `logs`
   StreamSource source = {};
-  std::optional<fs::path> record = {};  ///< default: next to the model
+  std::optional<fs::path> record = {};  ///< file of the recording; default: next to the model
   double every_s = 5.0;                 ///< interval between two updates, > 0
   double budget_s = 5.0;                ///< time limit of an interim fit, > 0
-  double enough = 0.1;                  ///< sufficient half width, see precision.h, > 0
+  double enough = 0.1;                  ///< sufficient half width of an interval (precision.h), > 0
   bool until_enough = false;            ///< stop when every half width is at most `enough`
   double duration_s = 0.0;              ///< stop after this time; 0: no limit
   double idle_s = 0.0;                  ///< stop after this time without data; 0: no limit
@@ -78,7 +78,7 @@ struct RecoverCommand {
   RecoverOptions recover;
   ShardChoice shard = {};
   bool resume = false;                  ///< skip a shard that is already finished
-  std::optional<fs::path> output = {};  ///< recover.json; the directory of a shard
+  std::optional<fs::path> output = {};  ///< recover.json; with a shard, its directory
 };
 Result<Outcome> execute(const RecoverCommand& command);
 void add_recover(CLI::App& app, Session& session);
@@ -123,13 +123,13 @@ struct ValidateCommand {
   AllocationChoice allocation = {};
   std::vector<fs::path> logs = {};
   TrialOptions trials = {};    ///< column mappings of the logs
-  bool other_columns = false;  ///< mappings may refer to files that this command does not read
+  bool other_columns = false;  ///< true: mappings may name files that this command does not read
   double horizon_s = 10.0;
   double log_tolerance = 0.3;
   bool tyres = false;   ///< fit the four-wheel plant to the logs
   bool claims = false;  ///< print all fourteen claims, each with tolerance and reason
-  std::optional<fs::path> claims_table = {};  ///< output file in Markdown
-  std::optional<fs::path> scenario = {};      ///< scenario that the logs are drives of
+  std::optional<fs::path> claims_table = {};  ///< Markdown file for the claims
+  std::optional<fs::path> scenario = {};      ///< set: the logs are drives of this scenario
   AcceptanceOptions acceptance = {};
   InputNames names = {};
 };
@@ -158,7 +158,7 @@ struct CompareCommand {
   AllocationChoice allocation = {};
   HeadingRateChoice heading_rate_limit = {};
   PlantChoice plant = {.checks_other = true};
-  bool resume = false;     ///< continue from the output directory
+  bool resume = false;     ///< continue the comparison in the output directory
   ShardChoice shard = {};  ///< as in `compare`
   InputNames names = {};
 };
@@ -177,8 +177,8 @@ struct EmitCommand {
   fs::path gains;
   fs::path output;
   EmitOptions emit = {};
-  bool header_only = false;  ///< awmr_params.h alone, without the library
-  bool as_is = false;        ///< accept contradictory dimensions
+  bool header_only = false;  ///< write only awmr_params.h, without the library
+  bool as_is = false;        ///< accept implausible dimensions of the vehicle
 };
 Result<Outcome> execute(const EmitCommand& command);
 void add_emit(CLI::App& app, Session& session);
@@ -234,12 +234,12 @@ Result<Outcome> execute(const RunCommand& command);
 void add_run(CLI::App& app, Session& session);
 
 struct ExplainCommand {
-  std::optional<std::string> code;  ///< of a finding; empty: all
+  std::optional<std::string> code;  ///< finding code to explain; empty: all codes
 };
 Result<Outcome> execute(const ExplainCommand& command);
 void add_explain(CLI::App& app, Session& session);
 
-/// Help heading of the commands for the shell and other programs.
+/// Heading in the help above `schema`, `completion` and `man`.
 inline constexpr const char* kServiceGroup = "For the shell and other programs";
 
 void add_schema(CLI::App& app, Session& session);

@@ -31,8 +31,8 @@ namespace {
 /// Set by Ctrl-C. Runs in progress finish, no new run starts.
 std::atomic<bool> stop_requested = false;
 
-/// Handles SIGINT during its lifetime: the first requests a stop, the second has its previous
-/// effect.
+/// Handles SIGINT during its lifetime. The first one requests a stop; a second one acts as without
+/// this object.
 class StopOnInterrupt {
  public:
   StopOnInterrupt() {
@@ -135,8 +135,8 @@ Result<Comparison> compare_until_interrupted(const ComparedInputs& inputs, Compa
   return compare(inputs.model, inputs.gains, inputs.scenarios, options);
 }
 
-/// Prints how to resume, then ends the program by the signal, so that the caller sees the usual
-/// exit status.
+/// Prints how to resume, then ends the program by SIGINT, so that the caller sees the usual exit
+/// status.
 void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
   const std::string file = (command.output / kComparisonTable).string();
   const std::string text =
@@ -148,7 +148,7 @@ void end_interrupted(const CompareCommand& command, const Comparison& comparison
   std::raise(SIGINT);
 }
 
-/// Option values as typed, parsed when the command runs.
+/// Option values that are still text; they are parsed when the command runs.
 struct Texts {
   std::optional<std::string> shard;
   std::vector<std::string> weights;
@@ -191,7 +191,7 @@ void add_preferences(CLI::App& command, Texts& texts) {
       ->check(within(0.0, 1.0));
 }
 
-/// Describes the heading-rate limit, with the rate that the model gives.
+/// Describes the heading-rate limit; for 'measured', with the rate from the model.
 std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
   if (rate != kMeasuredRate) return words_of_rate(rate);
   return fmt::format(
@@ -214,7 +214,7 @@ Result<std::vector<Finding>> findings_of(const CompareCommand& command,
   return findings;
 }
 
-/// Table of a whole comparison, with the settings that are not in it.
+/// Table of a whole comparison, followed by the heading-rate limit and the plant.
 std::string table_of(const CompareCommand& command, const ComparedInputs& inputs,
                      const Comparison& comparison) {
   std::string table =

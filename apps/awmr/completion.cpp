@@ -47,7 +47,7 @@ std::vector<std::string> names_of(const std::vector<CommandInfo>& commands) {
   return names;
 }
 
-// ---- bash: the previous word determines the candidates for the current one
+// ---- bash: the previous word determines the candidates for the current word
 
 std::string bash_action(const OptionInfo& option) {
   switch (option.kind) {

@@ -13,8 +13,7 @@ enum class Shell { kBash, kZsh, kFish };
 inline constexpr NameTable<Shell, 3> kShellNames{
     {{"bash", Shell::kBash}, {"zsh", Shell::kZsh}, {"fish", Shell::kFish}}};
 
-/// Returns the completion script. `commands` is the result of commands_of(), the program itself
-/// first.
+/// Returns the completion script for a shell. `commands`: result of commands_of().
 std::string completion_text(Shell shell, const std::vector<CommandInfo>& commands);
 
 }  // namespace awmr::cli

@@ -47,8 +47,8 @@ int to_stdout(const std::string& text, int exit_code) {
   return 2;
 }
 
-/// Prints the titles of the summary in bold: lines at the left margin that are one word or precede
-/// indented lines.
+/// Makes the titles of the summary bold. Titles are lines at the left margin that are one word, or
+/// that precede indented lines.
 std::string styled(const std::string& summary, const Style& style) {
   std::istringstream lines(printable_lines(summary));
   std::string text;
@@ -60,8 +60,8 @@ std::string styled(const std::string& summary, const Style& style) {
   return text;
 }
 
-/// Prints the findings: with `--quiet` only the errors behind a refusal, with `--verbose` all, else
-/// grouped.
+/// Prints the findings: all with `--verbose`, with `--quiet` only the errors that explain a
+/// refusal, else as findings_text().
 void tell_findings(const Outcome& outcome, Manner manner) {
   const Style style(stderr);
   std::string text;
@@ -95,8 +95,8 @@ int report(const std::string& command, const Result<Outcome>& result, Manner man
   return exit_code;
 }
 
-/// Shows the command's name while it takes more than a second and reports no progress of its own.
-/// `live` has its own screen.
+/// Executes the command and shows its name as progress, until the command reports its own. `live`
+/// has its own screen.
 Result<Outcome> watched(const std::string& name, const std::function<Result<Outcome>()>& execute) {
   if (name == "live") return execute();
   const Working working("awmr " + name);

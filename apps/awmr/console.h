@@ -1,4 +1,4 @@
-/// Common to all commands: outcome, registration on the command line, terminal output.
+/// What all commands share: their outcome, their registration on the command line, terminal output.
 #pragma once
 
 #include <filesystem>
@@ -21,14 +21,14 @@ namespace awmr::cli {
 
 /// Result of a command as presented to the user.
 struct Outcome {
-  std::string summary = {};  ///< for stdout: results first, one screen
-  /// printed below the summary with `--verbose`; the files contain it too
+  std::string summary = {};  ///< text for stdout: results first, at most one screen
+  /// printed below the summary with `--verbose`; the output files contain the same numbers
   std::string details = {};
   std::string closing = {};            ///< last line: files written
-  std::string brief = {};              ///< short form of the summary, for `run`
+  std::string brief = {};              ///< short summary that `run` prints instead
   std::vector<Finding> findings = {};  ///< printed on stderr
   bool refused = false;                ///< the work completed with a negative result: exit code 1
-  std::string document = {};           ///< for `--json`: content of the output file, written or not
+  std::string document = {};           ///< content of the output file, for `--json`
   std::vector<std::filesystem::path> written = {};  ///< files written by the command
 };
 
@@ -37,8 +37,8 @@ struct Session {
   int exit_code = 0;
 };
 
-/// Adds a subcommand with `--quiet`, `--verbose`, `--json`, `--version` and an example below its
-/// help. `execute` runs it.
+/// Adds a subcommand with the options `--quiet`, `--verbose`, `--json` and `--version`, and with an
+/// example below its help. `execute` runs the command.
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
                       const std::string& description, const std::string& example,
                       std::function<Result<Outcome>()> execute);
@@ -53,12 +53,12 @@ CLI::Option* add_output_directory(CLI::App& command, std::filesystem::path& path
 /// known and before writing the document.
 void put_findings_into_document(Outcome& outcome);
 
-/// Adds the findings to the outcome's JSON document, writes it if a path is given and adds the file
-/// to the summary. `read_back` verifies the file; by default it is parsed as JSON.
+/// Adds the findings to the outcome's JSON document. With a path, also writes the document and adds
+/// the file to the summary. `read_back` verifies the written file; by default it is parsed as JSON.
 Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome,
                       const ReadBack& read_back = {});
 
-/// Like check_output(), for files in a directory that may not exist yet. Creates nothing.
+/// check_output() for files of these names in a directory that may not exist yet. Creates nothing.
 Status check_outputs(const std::filesystem::path& directory, const std::vector<std::string>& names,
                      std::span<const std::filesystem::path> inputs);
 

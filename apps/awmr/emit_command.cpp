@@ -30,8 +30,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Writes each file to `DIR/PATH` and creates directories as needed; all files or none. Errors
-/// (input), before anything is written: as check_replaceable().
+/// Writes each file to `DIR/PATH` and creates directories as needed. Writes all files or none. Errors:
+/// as make_directory(), check_output() and write_files().
 Status write_emitted(const EmitCommand& command, const std::vector<EmittedFile>& files,
                      const std::string& manifest) {
   const fs::path inputs[] = {command.model, command.gains};
@@ -70,7 +70,7 @@ Json table_json(const EmittedTable& table) {
           {"worst_relative_error", table.worst_relative_error}};
 }
 
-/// Adds a warning if the selected resistance table is less accurate than usual.
+/// Adds a warning if no resistance table meets the default error, and none was requested.
 void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& command,
                 Outcome& outcome) {
   if (command.emit.table_error || table.worst_share() <= kTableError) return;
@@ -81,7 +81,7 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
                    name, 100.0 * table.worst_share(), 100.0 * kTableError)});
 }
 
-/// Returns a warning if the gains make a sampled loop unstable for any vehicle.
+/// Returns a warning for each closed loop that is unstable at this sample time, whatever the vehicle.
 std::vector<Finding> unstable_gains(const Gains<double>& gains, double sample_time_s,
                                     const EmitCommand& command) {
   constexpr double kMost = 2.0;  // stability limit of a sampled integrator
@@ -99,7 +99,8 @@ std::vector<Finding> unstable_gains(const Gains<double>& gains, double sample_ti
   return findings;
 }
 
-/// Warns if motors that differ by 16 % turn the vehicle further than the sketches allow (fault 17).
+/// Warns if motors that differ by 16 % turn the vehicle off its heading by more than the sketches
+/// allow (fault 17).
 void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& command,
                       Outcome& outcome) {
   if (2.0 * parameters.steady_error_rad <= kMostOnCourse_rad) return;
@@ -112,7 +113,8 @@ void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& 
            degrees(parameters.steady_error_rad))});
 }
 
-/// Warns if samples are shorter than the chip's longest step, or longer than half the heading timeout.
+/// Warns if the sample time is shorter than the chip's longest step, or longer than half of the
+/// heading timeout.
 std::vector<Finding> sample_time(double sample_time_s, const EmitCommand& command) {
   constexpr double kLongestStep_s = 20000.0 / 16e6;
   const double oldest_s = 1e-3 * command.emit.heading_timeout_ms;
@@ -136,7 +138,8 @@ std::vector<Finding> sample_time(double sample_time_s, const EmitCommand& comman
   return findings;
 }
 
-/// Errors (input): impossible sizes, each with its place in the model's file.
+/// Checks the dimensions of the vehicle. Errors (input): implausible values, each with its place in
+/// the model's file.
 Status check_vehicle(const EmitCommand& command, const Vehicle& vehicle) {
   if (command.as_is) return {};
   return check_plausible(
@@ -144,7 +147,8 @@ Status check_vehicle(const EmitCommand& command, const Vehicle& vehicle) {
       "Correct vehicle.json and identify again, or give " + option_text("as-is"));
 }
 
-/// Warns of weak gains, and reports the accuracy of the resistance tables; powf has none.
+/// Warns of weak gains, and reports the accuracy of the resistance tables (not with powf, which needs
+/// none).
 Status add_parameters(const Model& model, const Gains<double>& gains, const EmitInputs& inputs,
                       const EmitCommand& command, Outcome& outcome) {
   AWMR_ASSIGN_OR_RETURN(const auto parameters,

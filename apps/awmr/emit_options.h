@@ -12,10 +12,11 @@ class App;
 
 namespace awmr::cli {
 
-/// Adds `--resistance`, `--table-error`, `--with`, `--split` and the timeouts.
+/// Adds `--resistance`, `--table-error`, `--with`, `--split` and the four `--...-timeout-ms`.
 void add_emit_options(CLI::App& command, EmitOptions& options);
 
-/// Returns the names and hashes of the two input files.
+/// Returns the hashes of the two input files, the name of the gains file, and the certificate in
+/// it.
 Result<EmitInputs> emit_inputs(const std::filesystem::path& model,
                                const std::filesystem::path& gains);
 

@@ -7,7 +7,7 @@
 
 namespace awmr {
 
-/// One file.
+/// Returns a list with this one file.
 const std::vector<EmbeddedFile>& findings_file();
 
 }  // namespace awmr

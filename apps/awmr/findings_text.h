@@ -12,8 +12,9 @@ namespace awmr::cli {
 /// Formats a finding as `warning: FILE:LINE: MESSAGE [CODE]`, like a compiler.
 std::string to_text(const Finding& finding, const Style& style);
 
-/// If there are few findings, one line each, largest effect first. Otherwise every error and the
-/// first of the others, at least three, then the count of each further code.
+/// Text of the findings, those with the largest effect first. Few findings have a line each. Of
+/// many, only the errors (at least three findings) have a line; a last line has the numbers of the
+/// others by code.
 std::string findings_text(const std::vector<Finding>& findings, const Style& style);
 
 }  // namespace awmr::cli

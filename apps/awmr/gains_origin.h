@@ -12,10 +12,11 @@
 namespace awmr::cli {
 
 /// Adds a warning if the gains were tuned for another model or another mode.
-/// `gains-of-another-model`: the gains file records the SHA-256 of its inputs, and that of the
-/// model is not among them. Gains written by hand record no inputs, and a pipe can be read only
-/// once: these have no finding. `gains-of-another-mode`: the gains were tuned for one mode and are
-/// used in another. `mode`: the mode of use; absent: all modes. Errors: as read_json_file.
+/// `gains-of-another-model`: the gains file lists the SHA-256 of its inputs, and that of the model
+/// is not among them. `gains-of-another-mode`: the gains were tuned for one mode and are used in
+/// another. `mode`: the mode in which they are used; absent: all modes. Gains written by hand list
+/// no inputs and have no finding; nor has a pipe, which can be read only once. Errors: as
+/// read_json_file().
 Status note_other_model(const std::filesystem::path& gains, const std::filesystem::path& model,
                         std::vector<Finding>& findings, std::optional<YawMode> mode = {});
 

@@ -24,15 +24,15 @@ inline void add_heading_rate_limit(CLI::App& command, HeadingRateChoice& choice,
       ->check(CLI::Validator(fault_of_rate, "measured, none or deg/s", ""));
 }
 
-/// Entry for the options recorded in an output; empty without a choice.
+/// Returns the choice for the list of options in an output file; empty without a choice.
 inline std::vector<std::pair<std::string, std::string>> options_of_rate(
     const HeadingRateChoice& choice) {
   if (choice.empty()) return {};
   return {{kRateName, choice}};
 }
 
-/// Describes the heading-rate limit when the model is not available; empty if only the scenarios
-/// define it.
+/// Describes the heading-rate limit without the number of 'measured', which needs the model. Empty
+/// if only the scenarios limit the rate.
 inline std::string words_of_rate(const HeadingRateChoice& choice) {
   if (choice == kNoRate) return {};
   if (choice == kMeasuredRate)

@@ -59,8 +59,8 @@ std::string names_of(const EstimatorReport& report) {
   return report.family.empty() ? name : name + " " + report.family;
 }
 
-/// Describes the scrub moment of differential turns in addition to yaw resistance, if trials show
-/// it.
+/// Describes the scrub moment of differential turns, which adds to yaw resistance. Empty if the
+/// trials do not determine it.
 std::string scrub_text(const Model& model) {
   if (!model.yaw_scrub) return {};
   const YawScrub& scrub = *model.yaw_scrub;

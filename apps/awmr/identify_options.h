@@ -1,4 +1,4 @@
-/// Names of the options of identify, one table for the command line and the project file.
+/// Parses and describes options of `identify`, for both the command line and the project file.
 #pragma once
 
 #include <string>
@@ -11,8 +11,9 @@
 
 namespace awmr::cli {
 
-/// Parses `NAME` (surge and yaw), `surge=NAME` or `yaw=NAME`; NAME is a family or `auto`. Errors:
-/// an unknown name, listing the known ones; a subject given twice; `yaw=dead-zone`.
+/// Parses a resistance family: `NAME` (for surge and yaw), `surge=NAME` or `yaw=NAME`. NAME is a
+/// family or `auto`. Errors: an unknown name (the message lists the known ones); surge or yaw given
+/// twice; `yaw=dead-zone`.
 Status add_family(std::string_view text, IdentifyOptions& options);
 
 /// Adds a parameter to fit: its name, `all`, `input_delay_s` or `bias.CHANNEL`
@@ -31,11 +32,11 @@ Status check_used(const TrialOptions& trials);
 /// Returns the options as text for the model's provenance.
 std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options);
 
-/// Appends the parts of the logs that are used, if not all.
+/// Appends the parts of the logs that are used, unless the whole logs are used.
 void describe_parts(const TrialOptions& trials,
                     std::vector<std::pair<std::string, std::string>>& words);
 
-/// Appends the options with which the trials were read.
+/// Appends the options with which the trials were read to `words`, as text.
 void describe_reading(const TrialOptions& trials, bool steady_from_logs,
                       std::vector<std::pair<std::string, std::string>>& words);
 

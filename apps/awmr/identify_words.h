@@ -1,5 +1,4 @@
-/// Command-line options of a fit, shared by `identify` and by `live`, which ends with an
-/// identification.
+/// Command-line options of a fit, shared by `identify` and `live`.
 #pragma once
 
 #include <string>
@@ -10,7 +9,7 @@
 
 namespace awmr::cli {
 
-/// The command and its options that are still unparsed text.
+/// The command, and those of its options that are still text.
 struct IdentifyWords {
   IdentifyCommand command;
   ColumnWords columns;
@@ -23,7 +22,8 @@ struct IdentifyWords {
   std::vector<std::string> excluded;
 };
 
-/// Errors: a malformed column mapping or span of time; an unknown parameter or family.
+/// Parses the options that are text. Errors: a malformed column mapping or span of time; an unknown
+/// parameter or family.
 Result<IdentifyCommand> command_of(const IdentifyWords& words);
 
 /// Adds `--vehicle` and the tables.

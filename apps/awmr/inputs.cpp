@@ -13,7 +13,7 @@ InputNames names_in_project(const std::vector<std::filesystem::path>& paths,
                             const std::filesystem::path& project) {
   InputNames names;
   for (const std::filesystem::path& path : paths) {
-    // Empty if one path is absolute and the other is relative.
+    // The result is empty if one path is absolute and the other is relative.
     const auto relative =
         path.lexically_normal().lexically_relative(project.parent_path().lexically_normal());
     if (!relative.empty()) names[path] = relative.generic_string();

@@ -34,7 +34,7 @@ std::string error_text(const Error& error);
 std::string result_schema();
 std::string error_schema();
 
-/// Combines several documents into one object under their names; empty ones are omitted.
+/// Combines JSON documents into one object: each under its name, empty ones omitted.
 std::string joined(const std::vector<std::pair<std::string, std::string>>& documents);
 
 /// True if `--json` is among the arguments, even if other arguments are invalid.

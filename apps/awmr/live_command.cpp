@@ -36,7 +36,8 @@ constexpr NameTable<LiveEnd, 6> kLiveEndWords{{{"the stream ended", LiveEnd::kSt
                                                {"enough was recorded", LiveEnd::kEnough},
                                                {"the recording is full", LiveEnd::kFull}}};
 
-/// Updates come every second during this time, so that a wrong unit is reported early.
+/// During this time from the start, updates come every second, so that a wrong unit is reported
+/// early.
 constexpr double kAtFirst_s = 20.0;
 
 std::vector<fs::path> inputs_of(const LiveCommand& command) {
@@ -48,8 +49,7 @@ std::vector<fs::path> inputs_of(const LiveCommand& command) {
   return paths;
 }
 
-/// File of the recording: the requested one, or one next to the model that overwrites no other
-/// file.
+/// Returns the file of the recording: the requested one, or a new one next to the model.
 Result<fs::path> record_of(const LiveCommand& command) {
   fs::path record =
       command.record.value_or(fs::path(command.identify.output).replace_extension("csv"));
@@ -120,7 +120,7 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
   };
   std::optional<LiveEnd> end;
   while (!end) {
-    // Data that arrived during an update count, for every end of the recording.
+    // Data that arrived during an update are added first, whatever then ends the recording.
     const std::string bytes = stream.take(std::chrono::milliseconds(100));
     followed.recording.add(bytes);
     if (!bytes.empty()) last_byte = Clock::now();

@@ -42,7 +42,7 @@ LiveFit::LiveFit(const LiveCommand& command, Vehicle vehicle)
              .options = command.identify.trials},
       options_(command.identify.identify),
       enough_(command.enough) {
-  // Diagnostics that do not change the values are left to the final fit.
+  // Diagnostics that do not change the estimates are computed only by the final fit.
   options_.time_limit_s = command.budget_s;
   options_.bootstrap = 0;
   options_.cross_validate = false;

@@ -1,4 +1,4 @@
-/// Interim identification of a growing recording.
+/// Interim identification of a recording that is still growing, for `awmr live`.
 #pragma once
 
 #include <string>
@@ -10,18 +10,19 @@
 
 namespace awmr::cli {
 
-/// Describes the manoeuvre that would help most; empty if there is no recommendation.
+/// Describes the manoeuvre that would improve the model most; empty if there is no recommendation.
 std::string next_manoeuvre(const Model& model);
 
-/// True if every requested parameter is known precisely enough.
+/// True if the interval of every requested parameter has at most the half width LiveUpdate::enough.
 bool has_enough(const LiveUpdate& update);
 
-/// Checks and fits the recording so far as `identify` does, but within the time budget.
+/// Checks and fits the rows recorded so far as `identify` does, but within LiveCommand::budget_s.
 class LiveFit {
  public:
   LiveFit(const LiveCommand& command, Vehicle vehicle);
 
-  /// Writes the recording first, so that the file remains if the program is killed.
+  /// Returns the interim result. Writes the recording first, so that the file remains if the
+  /// program is killed.
   LiveUpdate update(const Recording& recording) const;
 
  private:

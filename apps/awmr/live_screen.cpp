@@ -25,7 +25,7 @@ std::string half_width_text(const Precision& precision) {
                                                   : fmt::format("+-{:.2g} %", 100.0 * half);
 }
 
-/// Progress bar of a half width on a logarithmic scale: full at 100 %, empty when narrow enough.
+/// Bar for the half width of an interval on a logarithmic scale: full at 100 %, empty at `enough`.
 std::string bar_of(const Precision& precision, double enough) {
   constexpr int kWidth = 10;
   const double half = std::clamp(precision.half_width.value_or(1.0), 1e-9, 1.0);

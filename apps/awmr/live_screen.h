@@ -1,4 +1,4 @@
-/// Display of `live`: a screen that is redrawn on a terminal, otherwise lines.
+/// Display of `awmr live`: a screen that is redrawn on a terminal, otherwise a line per update.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +14,13 @@ namespace awmr::cli {
 
 /// Interim result for the recording so far.
 struct LiveUpdate {
-  double span_s = 0.0;  ///< duration by the log's time column
+  double span_s = 0.0;  ///< duration of the recording by its time column
   std::size_t rows = 0;
   std::size_t set_aside = 0;
   std::vector<Fault> faults = {};   ///< reasons why the log cannot be used yet
   std::optional<Model> model = {};  ///< result of the last completed fit
-  bool out_of_time = false;         ///< the fit exceeded its budget: `model` is the previous one
-  std::string next = {};            ///< the manoeuvre that would help most
+  bool out_of_time = false;         ///< true: the fit was too slow; `model` is the previous one
+  std::string next = {};            ///< the manoeuvre that would improve the model most
   double enough = 0.1;              ///< sufficient half width of the intervals
   std::vector<ParameterId> requested = {};
 };
@@ -33,7 +33,7 @@ std::string verdict_text(const LiveUpdate& update);
 
 class LiveScreen {
  public:
-  /// `title` is the first line: the place of the recording.
+  /// `title`: first line of the screen, which names the file of the recording.
   explicit LiveScreen(std::string title) : title_(std::move(title)) {}
   void show(const LiveUpdate& update);
   /// Prints a permanent line above the screen.

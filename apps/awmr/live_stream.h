@@ -1,4 +1,4 @@
-/// Reads a recorder's data stream in its own thread, so that nothing is lost during a fit.
+/// Reads the data of a recorder in a separate thread, so that nothing is lost during a fit.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace awmr::cli {
 
-/// Source of the data: exactly one of the two.
+/// Source of the data: exactly one of `port` and `log` is set.
 struct StreamSource {
   std::optional<std::filesystem::path> port = {};  ///< a serial port
   unsigned baud = 115200;
@@ -59,9 +59,9 @@ class RecorderStream {
   std::thread reader_;  ///< last member: it uses all of the above
 };
 
-/// During its lifetime SIGINT, SIGTERM and SIGHUP (terminal closed) are recorded instead of ending
-/// the program. After a SIGHUP all further ones are ignored, because kernel and shell each send one
-/// and the results must still be written. One object at a time.
+/// During its lifetime SIGINT, SIGTERM and SIGHUP (terminal closed) do not end the program; came()
+/// tells whether one arrived. After a SIGHUP, further ones are ignored, because kernel and shell
+/// each send one and the results must still be written. Only one object may exist at a time.
 class Interruption {
  public:
   Interruption();

@@ -57,8 +57,8 @@ int end_of_parsing(const CLI::App& app, const CLI::ParseError& error, int argc, 
     app.exit(error);
     return std::cout.flush() ? 0 : 2;
   }
-  // Without arguments, shows the commands and returns the exit code of a usage error. A script with
-  // an empty variable then fails.
+  // Without arguments, shows the commands and returns the exit code of a usage error, so that a
+  // script with an empty variable fails.
   const std::string what = awmr::printable(awmr::cli::what_is_wrong(app, error, argc, argv));
   if (awmr::cli::asks_for_json(argc, argv)) {
     std::fputs(

@@ -20,7 +20,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Alternative sets of columns, each sufficient for a trial.
+/// Alternative sets of columns; each set is sufficient for a trial.
 using Ways = std::vector<std::vector<const char*>>;
 std::vector<Ways> needs_of(TrialKind kind) {
   const Ways speed{{"speed_mps"}, {"distance_m", "elapsed_s"}};
@@ -39,8 +39,8 @@ std::vector<Ways> needs_of(TrialKind kind) {
   return {};
 }
 
-/// Returns the required columns without a guess. Of several alternative sets it uses the one that
-/// lacks fewest.
+/// Returns the required columns for which no column of the file was guessed. Of alternative sets,
+/// the one that lacks the fewest columns counts.
 std::vector<std::string> open_columns(const std::vector<ColumnGuess>& guesses, TrialKind kind) {
   std::set<std::string> found;
   for (const ColumnGuess& guess : guesses) found.insert(guess.column);

@@ -1,4 +1,4 @@
-/// Options whose value is a file or directory. Help, manual and completions show which.
+/// Command-line options whose value is a file or a directory, as help, manual and completions show.
 #pragma once
 
 #include <CLI/CLI.hpp>

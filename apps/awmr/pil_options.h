@@ -1,4 +1,4 @@
-/// Options of `awmr pil`, shared with awmr-pil, which executes it.
+/// Options of `awmr pil`, shared with the program awmr-pil, which executes that command.
 #pragma once
 
 #include <cstdint>
@@ -32,17 +32,17 @@ enum class Injection {
   kInfinite,        ///< measured speed is infinite
   kRange,           ///< measured speed beyond the largest that the vehicle can have
   kMode,            ///< undefined mode
-  kHeadingStale,    ///< heading no longer updated
-  kSpeedStale,      ///< speed no longer updated
-  kCommandTimeout,  ///< reference no longer updated
+  kHeadingStale,    ///< the time of the last heading is 10 s old
+  kSpeedStale,      ///< the time of the last speed is 10 s old
+  kCommandTimeout,  ///< the time of the last command is 10 s old
   kStepLate,        ///< a pause before a step
   kParameters,      ///< a bit flipped in the parameters in flash, before the start
-  kReset,           ///< reset of the chip, as by a supply drop; the run continues from the start-up
+  kReset,           ///< reset of the chip, as by a supply drop, after which it starts again
   // Sensor failures, detected by the checks of the sketches (control/heading_check.h, gps_check.h).
   kCompassSilent,      ///< no new field measurement
   kCompassFrozen,      ///< raw values repeat
   kCompassJump,        ///< offset of 57 deg
-  kCompassStuck,       ///< heading at the start of the failure, with noise
+  kCompassStuck,       ///< the heading at the start of the failure is kept, with noise
   kGyroSilent,         ///< no raw value
   kGyroFrozen,         ///< raw value repeats
   kGyroRange,          ///< switched to another range
@@ -56,19 +56,19 @@ enum class Injection {
   kGpsJump,            ///< off by 20 m
   kGpsSpeedZero,       ///< a speed that is stuck at 0
   kGpsPositionFrozen,  ///< the same position, with a speed
-  kMotorsReversed,     ///< each side drives the wrong way, turning the right one
+  kMotorsReversed,     ///< the vehicle drives in the wrong direction, but turns as commanded
   kSidesSwapped,       ///< left and right motors exchanged
   kGyroReversed,       ///< yaw rate of the wrong sign
   kSteeringStuck,      ///< the servo is stuck straight
   kServoReversed,      ///< the servo turns the wrong way
-  kCompassTurning,     ///< turned away by 2.5 deg/s
+  kCompassTurning,     ///< the measured heading drifts by 2.5 deg/s
   // Failures of the operator's line, read as the sketches do (control/command_line.h).
   kCommandSilence,        ///< no command
   kCommandNoise,          ///< characters without a line end
   kCommandUnknown,        ///< unknown commands
   kCommandRepeatedFrame,  ///< the same frame
   kStop,                  ///< STOP
-  kStopInNoise            ///< STOP within noise, without a line end
+  kStopInNoise            ///< STOP within other characters, without a line end
 };
 inline constexpr NameTable<Injection, 40> kInjectionNames{
     {{"none", Injection::kNone},
@@ -121,17 +121,19 @@ struct PilOptions {
   std::optional<std::filesystem::path> port;  ///< serial port of a real board, with kUart
   unsigned baud = 500000;
   EmitOptions emit;
-  /// absent: size for paths, obstacles and two optional parts or more, else speed
+  /// absent: size for a mission with a timed path, obstacles, or two optional parts or more; else
+  /// speed
   std::optional<Optimize> optimize;
-  /// absent: 12,000 by table, 24,000 by powf; with optional parts 75 % of the sample time
+  /// Bound on the cycles of a step. Absent: 12,000 by table, 24,000 by powf; with optional parts 75
+  /// % of the sample time.
   std::optional<unsigned> cycles_max;
-  unsigned flash_max = 20480;  ///< bytes
-  unsigned ram_max = 1024;     ///< bytes, without the stack
+  unsigned flash_max = 20480;  ///< bound on the flash, bytes
+  unsigned ram_max = 1024;     ///< bound on the RAM without the stack, bytes
   /// bound on the difference from the host's float run; absent: 0 by table, 1e-6 by powf
   std::optional<double> difference_max;
   /// Bound on the heading difference from the host's double run, at the same or a neighbouring
-  /// sample, deg. Absent: 0.05; 2 if obstacles are avoided or sensors simulated, because one run
-  /// may then detect a path change one sensor sample earlier.
+  /// sample, deg. Absent: 0.05, or 2 if obstacles are avoided or sensors simulated. One of the runs
+  /// can then change its path one sensor sample earlier.
   std::optional<double> heading_max_deg;
   Injection injection = Injection::kNone;
   unsigned hostile_steps = 6000;  ///< steps with hostile inputs after the scenario; 0: none

@@ -1,4 +1,4 @@
-/// `--plant`, shared by commands that simulate scenarios.
+/// `--plant` and `--tyres`, shared by commands that simulate scenarios.
 #pragma once
 
 #include <fmt/format.h>
@@ -22,19 +22,20 @@
 namespace awmr::cli {
 
 struct PlantChoice {
-  std::optional<PlantKind> kind = {};  ///< overrides the scenarios'; empty: no override
+  std::optional<PlantKind> kind = {};  ///< plant of every scenario; empty: each scenario's own
   /// validation.json whose tyres override the scenarios' and the defaults.
   std::optional<std::filesystem::path> tyres_file = {};
-  bool checks_other = false;  ///< for `compare`: without a `kind`, the other plant runs as well
+  bool checks_other = false;  ///< true (`compare`): without `kind`, the other plant runs as well
   bool runs_other() const { return checks_other && !kind; }
 };
 
 inline constexpr const char* kPlantOption = "--plant";
 inline constexpr const char* kTyresOption = "--tyres";
-/// Key of the plant among the options recorded in an output.
+/// Name of the plant in the list of options in an output file.
 inline constexpr const char* kPlantName = "plant";
 
-/// For `compare`: the plants of the scenarios, with a check whether the others change the ranking.
+/// Value of `--plant` for `compare`: each scenario on its own plant, with a check of the ranking on
+/// the other plant.
 inline constexpr const char* kBothPlants = "both";
 
 inline void add_plant_of(CLI::App& command, PlantChoice& choice, std::vector<std::string> names,
@@ -59,7 +60,7 @@ inline void add_plant(CLI::App& command, PlantChoice& choice) {
                "four-wheel if a scenario has tyres, else model");
 }
 
-/// --plant of `compare`, whose default checks each verdict on the other plant.
+/// Adds `--plant` for `compare`, with `both` as default.
 inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
   std::vector<std::string> names = names_in(kPlantKindNames);
   names.emplace_back(kBothPlants);
@@ -68,8 +69,8 @@ inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
                "on the other plant and with slower and faster gains");
 }
 
-/// Reads the tyres of the file; without a file, the defaults. Adds a finding on their prediction
-/// errors (`tyres-simulated`). Errors: as read_tyres().
+/// Reads the tyres from the file and adds a finding on their prediction errors (`tyres-simulated`).
+/// Without a file, returns the default tyres. Errors: as read_tyres().
 inline Result<Tyres<double>> tyres_of(const PlantChoice& choice, std::vector<Finding>& findings) {
   if (!choice.tyres_file) return Tyres<double>{};
   AWMR_ASSIGN_OR_RETURN(const TyreFit fit, read_tyres(*choice.tyres_file));
@@ -113,7 +114,7 @@ inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
   return {};
 }
 
-/// Describes the plant: once if all scenarios share it, else per scenario.
+/// Describes the plant: once if it is the same for all scenarios, else for each scenario.
 inline std::string plants_text(std::span<const Scenario> scenarios) {
   std::vector<std::string> plants;
   for (const Scenario& scenario : scenarios) plants.push_back(plant_text(scenario));
@@ -127,8 +128,8 @@ inline std::string plants_text(std::span<const Scenario> scenarios) {
   return text;
 }
 
-/// Entry for the options recorded in an output; empty if all scenarios use the model's plant and
-/// there is no choice.
+/// Returns the plant for the list of options in an output file. Empty if `--plant` is not given and
+/// all scenarios use the 3-DOF model.
 inline std::vector<std::pair<std::string, std::string>> options_of(
     const PlantChoice& choice, std::span<const Scenario> scenarios) {
   const bool is_model = std::none_of(scenarios.begin(), scenarios.end(),

@@ -1,4 +1,4 @@
-/// Progress display of long work: one line on a terminal, from the first second on.
+/// Progress display of long work: one line on a terminal, shown after the first second.
 #pragma once
 
 #include <chrono>
@@ -11,14 +11,14 @@
 
 namespace awmr::cli {
 
-/// Sets the display of progress.
+/// Which kinds of progress are shown.
 struct ProgressManner {
-  bool on_terminal = true;  ///< redrawn lines on a terminal; not with `--quiet`
-  bool in_lines = true;     ///< plain lines of `live` without a terminal; not with `--json` either
+  bool on_terminal = true;  ///< a redrawn line on a terminal; false with `--quiet`
+  bool in_lines = true;     ///< lines of `live` without a terminal; false with `--quiet`, `--json`
 };
 void show_progress(ProgressManner manner);
 
-/// True if progress is enabled and stderr can be redrawn.
+/// True if progress is shown on a terminal, that is, enabled and stderr is a terminal.
 bool draws_progress();
 bool tells_progress_in_lines();
 /// Prints a line on stderr on why the next step takes long; not with `--quiet` or `--json`.
@@ -27,10 +27,10 @@ void print_notice(std::string_view text);
 /// Width of the terminal; longer lines would wrap and could not be redrawn.
 std::size_t terminal_columns();
 
-/// During its lifetime the terminal's last line shows the current work and the elapsed time. Once
-/// parts are reported, it also shows the fraction done and the time left; otherwise the longest
-/// expected duration, if known. Nothing is drawn if stderr is not a terminal. Of several objects
-/// the latest is displayed; they end in reverse order.
+/// During its lifetime the terminal's last line shows the current work and the elapsed time. With
+/// reported parts it also shows the fraction done and the time left, else the longest expected
+/// duration, if known. Nothing is drawn if stderr is not a terminal. Of several objects the latest
+/// is displayed; they must be destroyed in reverse order.
 class Working {
  public:
   /// `most_s`: approximate longest duration, s; 0 if unknown.
@@ -41,6 +41,7 @@ class Working {
 
   /// Sets the current work and restarts the count of its parts.
   void doing(std::string_view what);
+  /// Reports that `done` of `total` parts of the current work are done.
   void operator()(std::size_t done, std::size_t total);
 
  private:

@@ -65,7 +65,7 @@ Status check_output_of(const RecoverCommand& command) {
                        : check_output(*command.output, inputs);
 }
 
-/// The command and its options that are still unparsed text.
+/// The command, and those of its options that are still text.
 struct RecoverWords {
   RecoverCommand command;
   std::string plan = "tables";
@@ -76,7 +76,7 @@ struct RecoverWords {
   std::vector<std::string> requested;
 };
 
-/// Errors (input): an unknown parameter or an invalid shard.
+/// Parses the options that are text. Errors (input): an unknown parameter, or an invalid shard.
 Result<RecoverCommand> command_of(const RecoverWords& words) {
   RecoverCommand command = words.command;
   RecoverOptions& options = command.recover;

@@ -98,9 +98,9 @@ Result<Trials> read_trials(const Project& project) {
                       .options = project.trials});
 }
 
-/// Returns every input file. Errors, before anything is written: an invalid file, an implausible
-/// vehicle, two scenarios with the same run names, an output that is an input or that awmr did not
-/// write.
+/// Returns every input file, after checks before anything is written. Errors: an invalid file; an
+/// implausible vehicle; two scenario files of the same name; an output that is also an input, or an
+/// existing file that awmr did not write.
 Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Project& project) {
   TuneConfig tune;
   std::vector<Fault> faults;
@@ -145,7 +145,8 @@ Status report_step(const RunCommand& command, Outcome& total) {
   return {};
 }
 
-/// Writes the Arduino library. A note reports a vehicle that the firmware does not support.
+/// Writes the Arduino library. If this fails, for example because the firmware does not support the
+/// vehicle, adds the warning `no-library` instead of an error.
 void emit_library(const fs::path& model, const fs::path& gains, const fs::path& output, bool as_is,
                   Outcome& total) {
   const Result<Outcome> emitted =
@@ -159,8 +160,8 @@ void emit_library(const fs::path& model, const fs::path& gains, const fs::path& 
                                 plain_text(awmr::to_text(emitted.error()))});
 }
 
-/// True if tune would refuse the model. A parameter that was refused can have a given or an assumed
-/// value.
+/// True if `tune` would refuse the model because it lacks a parameter. A parameter that `identify`
+/// refused may still have a given or an assumed value.
 Result<bool> lacks_parameters(const Outcome& identified, const fs::path& model) {
   if (!identified.refused) return false;
   AWMR_ASSIGN_OR_RETURN(const Model fitted, read_model(model));

@@ -1,5 +1,5 @@
-/// Output files of `run`: writes the simulated runs that the report shows, lists all files, and
-/// checks that no file of another program is overwritten.
+/// Output files of `run`: lists their names, checks that `run` would not overwrite files that awmr
+/// did not write, and writes the simulated runs for the report.
 #pragma once
 
 #include <filesystem>
@@ -15,15 +15,18 @@ namespace awmr::cli {
 /// Directory of the Arduino library in the output directory.
 inline constexpr const char* kLibrary = "firmware";
 
-/// Names of all files that `run` writes directly into its output directory.
+/// Names of all files that `run` writes directly into its output directory; those in its
+/// subdirectories `firmware` and `figures` are not listed.
 std::vector<std::string> run_outputs(const Project& project);
 
-/// Errors (input): each file that `run` would overwrite and that no awmr command wrote. Results name
-/// their command; emitted files are listed in their manifest.
+/// Checks that the files in the directory may be overwritten. Errors (input): each file that `run`
+/// would overwrite and that no awmr command wrote. A result of awmr names its command; an emitted
+/// file is in the manifest.
 Status check_own_results(const std::filesystem::path& directory);
 
-/// Writes every scenario, and its runs in every mode with the tuned and with the paper's gains.
-/// Reads model.json and gains.json from the directory. Returns the paths.
+/// Writes every scenario, and its runs in every mode with the tuned gains and with the paper's
+/// gains. Reads model.json and gains.json from the directory. Returns the paths of the written
+/// files.
 Result<std::vector<std::filesystem::path>> write_runs(const Project& project,
                                                       const InputNames& names,
                                                       const std::filesystem::path& directory);

@@ -13,7 +13,7 @@
 
 namespace awmr::cli {
 
-/// Shard of the work to run; empty: all of it, written to the files of a single run.
+/// Part (shard) of the work to run; empty: all work.
 using ShardChoice = std::optional<Shard>;
 
 inline CLI::Option* add_shard(CLI::App& command, std::optional<std::string>& text) {
@@ -21,13 +21,14 @@ inline CLI::Option* add_shard(CLI::App& command, std::optional<std::string>& tex
                             "I/N: run part I of N, for N machines; awmr merge combines the parts");
 }
 
-/// Errors (input): text that is not I/N.
+/// Parses I/N. Errors (input): the text is not of this form.
 Result<ShardChoice> shard_of(const std::optional<std::string>& text);
 
-/// Outcome if `--resume` finds a finished part, which remains unchanged.
+/// Outcome when `--resume` finds that the part is already finished; its files remain unchanged.
 Result<Outcome> finished_part(const Shard& shard, const std::filesystem::path& directory);
 
-/// Writes a part into the directory. `content` describes it: "5 runs". Errors: as write_part().
+/// Writes a part into the directory. `content` describes the part: "5 runs". Errors: as
+/// write_part().
 Result<Outcome> written_part(const ShardKind& kind, const Shard& shard,
                              const std::filesystem::path& directory, const PartText& part,
                              const std::string& content, std::vector<Finding> findings = {});

@@ -26,7 +26,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Describes how the run ended, if its guidance has an end.
+/// Describes how the run ended; empty if its guidance has no end.
 std::string end_of(const Run& run, const Scenario& scenario) {
   if (run.end == RunEnd::kNoPassage) {
     return "  no passage: obstacles block the way to the guidance target; stopped\n";
@@ -60,7 +60,7 @@ std::string summary_of(const Run& run, const Scenario& scenario, const SimulateC
          plant + end_of(run, scenario) + resets_of(run);
 }
 
-/// Returns the main metrics as text; those that the run does not have are omitted.
+/// Returns the main metrics as text. Metrics that the run does not have are omitted.
 std::string figures_of(const Metrics& metrics) {
   std::string text;
   const auto add = [&text](const char* name, const std::optional<double>& value, const char* unit) {
@@ -80,7 +80,8 @@ constexpr NameTable<RunEnd, 4> kRunEndNames{{{"duration", RunEnd::kDuration},
                                              {"no-passage", RunEnd::kNoPassage},
                                              {"failed", RunEnd::kFailed}}};
 
-/// Metrics under their names in comparison.csv, and the last row under the names of run.csv.
+/// JSON of the run: metrics under their names in comparison.csv, last row under the names in
+/// run.csv.
 std::string document_of(const Run& run, const Scenario& scenario, YawMode mode,
                         const Metrics& metrics) {
   Json json;
@@ -115,7 +116,7 @@ Result<Provenance> provenance_of(const SimulateCommand& command, const Scenario&
   return Provenance{"simulate", std::move(options), std::move(inputs)};
 }
 
-/// False for a pipe or a device.
+/// True if a side file is written with the run: not for a pipe or a device.
 bool has_side_file(const fs::path& output) {
   std::error_code ignored;
   const fs::file_status status = fs::status(output, ignored);
@@ -172,7 +173,7 @@ Result<Outcome> execute(const SimulateCommand& command) {
     AWMR_RETURN_IF_ERROR(write_file(command.output, csv, check_run_text));
     return outcome;
   }
-  // The last file contains the hash of the first.
+  // The side file is last because it contains the hash of the run.
   const OutputFile files[] = {{command.output, csv, check_run_text},
                               {run_side_path(command.output), side, check_json_text}};
   AWMR_RETURN_IF_ERROR(write_files(files));

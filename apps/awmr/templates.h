@@ -1,4 +1,4 @@
-/// Files that `awmr init` writes, embedded from templates/.
+/// Files that `awmr init` writes, embedded from the folder templates/.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,9 @@
 
 namespace awmr {
 
-/// Sorted by path. A line that begins with `@NAME ` applies only to the drive of that name
-/// (model/vehicle.h); the mark itself is removed.
+/// Returns the files, sorted by path. A line that begins with `@NAME ` is written only for that
+/// kind of drive, without the mark: NAME is a drive (model/vehicle.h), or `steered` for drives with
+/// steering.
 const std::vector<EmbeddedFile>& project_templates();
 
 }  // namespace awmr

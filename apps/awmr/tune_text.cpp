@@ -45,7 +45,7 @@ std::string sensitivity_text(const RobustTuning& robust) {
   return text;
 }
 
-/// Describes the active constraints and the range of equivalent gains.
+/// Describes the active constraints and the range of gains that are equally good.
 std::string active_text(const Tuning& tuning) {
   std::string held;
   for (const ActiveConstraint& one : tuning.active) {
@@ -75,7 +75,8 @@ std::string open_text(const UnmodelledVariation& open) {
   return text + '\n';
 }
 
-/// Worst damping and delay margin of the heading loop, over the confidence set.
+/// Text of the worst damping and delay margin of the heading loop over the confidence set of the
+/// model's parameters, by mode.
 std::string certificate_text(const Certificate& certificate) {
   std::string by_mode;
   for (const ModeCertificate& one : certificate.modes) {

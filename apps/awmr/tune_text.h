@@ -11,8 +11,8 @@ namespace awmr::cli {
 /// Table of the tuned gains and the baseline, with time constants and objective.
 std::string gains_table(const Tuning& tuning);
 
-/// Metrics of the gains on draws not used for tuning, per scenario if there are several; empty
-/// without fresh draws.
+/// Metrics of the gains on fresh draws (vehicles not used for tuning), also by scenario if there
+/// are several; empty without fresh draws.
 std::string evaluation_table(const std::vector<EvaluatedGains>& all,
                              const std::vector<EvaluatedGains>& by_scenario);
 
@@ -22,7 +22,7 @@ std::string goals_text(const std::vector<EvaluatedGoal>& all);
 /// All tables of a tuning.
 std::string tuning_summary(const Tuning& tuning, const TuneOptions& options);
 
-/// Scores, constraints and the end of the search, for `--verbose`.
+/// Scores, constraints, and why the search ended, for `--verbose`.
 std::string tuning_details(const Tuning& tuning);
 
 }  // namespace awmr::cli

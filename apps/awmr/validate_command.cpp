@@ -102,7 +102,8 @@ Status add_evaluated_logs(const ValidateCommand& command, const Model& model,
   return {};
 }
 
-/// Gains of the file, or without one the paper's if claims are checked.
+/// Returns the gains of the file; without a file, the paper's gains if claims are checked, else
+/// none.
 Result<std::optional<Gains<double>>> gains_of(const ValidateCommand& command, const Model& model) {
   if (command.gains) return read_gains_for(*command.gains, model.vehicle.sample_time_s);
   if (command.claims) return kPaperGains;
@@ -138,9 +139,8 @@ Result<Provenance> provenance_of(const ValidateCommand& command) {
   return Provenance{"validate", std::move(options), std::move(inputs)};
 }
 
-/// Adds the warning `log-of-the-fit` for each log that the model was fitted to. Compares the
-/// SHA-256 of the validation's inputs, of which the first is the model, with those of the model's
-/// inputs.
+/// Adds the warning `log-of-the-fit` for each log that the model was fitted to: its SHA-256 is
+/// among those of the model's inputs. The first input of the validation is the model itself.
 void note_fitted_logs(const Model& model, const Provenance& provenance,
                       std::vector<Finding>& findings) {
   for (const InputFile& input : provenance.inputs) {

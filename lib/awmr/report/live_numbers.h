@@ -14,7 +14,7 @@ namespace awmr {
 /// `gains`: content of gains.json. The page computes the constraints of tuning with the conditions
 /// in `/robust`, `/constraints`, `/limits` and `/examined` of that file. Precondition: the scenario
 /// commands headings. Errors (input): gains.json does not have the format of `awmr tune`; its
-/// latency is more than 20 samples; a parameter lacks what its draws need.
+/// latency is more than 20 samples. Also as vehicles_of() (tune/robust.h).
 Result<std::vector<double>> live_numbers(const Model& model, const Json& gains,
                                          const Scenario& scenario);
 
