@@ -17,7 +17,7 @@ std::string frame(unsigned sequence, const std::string& text) {
   return fmt::format("#{}*{:04X}\n", body, crc16_of(bytes, body.size()));
 }
 
-/// Characters of one transmission; a failed line sends one every kPeriod_ms.
+/// Characters that a failed line delivers every kPeriod_ms.
 std::string failed_line(Injection injection) {
   switch (injection) {
     case Injection::kCommandNoise:

@@ -1,5 +1,5 @@
-// Failures of the operator's line: its characters, read as in the sketches
-// (control/command_line.h).
+// Injects failures of the operator's line: generates its characters and reads them as the sketches
+// do (control/command_line.h).
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ class CheckedCommands {
  public:
   explicit CheckedCommands(cli::Injection injection) : injection_(injection) {}
 
-  /// One step: stores the time of the last complete command in `times`. `fails`: the injection is
-  /// active.
+  /// Executes one step: stores the time of the last complete command in `times`, and disarms at
+  /// STOP. `fails`: true while the line fails.
   void step(bool fails, Arming& arming, InputTimes& times);
 
  private:

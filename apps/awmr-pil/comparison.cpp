@@ -54,7 +54,7 @@ Sample sample_of(const LoopRow& row) {
           .fault = static_cast<double>(out.fault)};
 }
 
-/// Returns the command as the chip output it, before the actuators, which could hide a difference.
+/// Returns the command as the chip output it, because the actuators could hide a difference.
 Sample raw_sample_of(const LoopRow& row) {
   const Allocation<float>& command = row.step.output.command;
   Sample sample = sample_of(row);
@@ -74,8 +74,8 @@ Sample sample_of(const RunRow& row) {
           .fault = 0.0};
 }
 
-/// Absolute difference of two values; of reference angles, which may differ by whole turns, modulo
-/// one turn.
+/// Absolute difference of two values of a signal. For reference angles, which may differ by whole
+/// turns, it is computed modulo one turn.
 double apart(const Signal& signal, double a, double b) {
   if (std::isfinite(a) != std::isfinite(b)) return std::numeric_limits<double>::infinity();
   const double off = a - b;
@@ -110,7 +110,7 @@ std::vector<Sample> samples_of(const std::vector<Row>& rows, Of of) {
 double Difference::largest() const {
   double largest = 0.0;
   for (const auto& [name, value] : signals) {
-    // The bound is for SI units; psi_rad covers heading_deg in radians.
+    // The bound is for SI units. heading_deg is the same signal as psi_rad, in degrees.
     if (name != "heading_deg") largest = std::max(largest, value);
   }
   return largest;

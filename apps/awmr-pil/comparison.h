@@ -26,11 +26,12 @@ Difference difference(const std::vector<LoopRow>& a, const std::vector<LoopRow>&
 /// Compares a run of run_loop() with a run of simulate(), which computes in double.
 Difference difference(const std::vector<LoopRow>& a, const Run& b);
 
-/// Largest difference of a heading of `a` from the closest heading of `b` at the same, the previous
-/// or the next sample, deg. Because of rounding, a leg may end one sample earlier in one of the
-/// runs. Infinite if only one heading is finite.
+/// Largest distance of a heading in `a` from the range of the headings in `b` at the previous, the
+/// same and the next sample, deg, >= 0. Because of rounding, one of the runs may turn to its next
+/// leg one sample earlier. Infinite if a heading is not finite.
 double heading_apart_deg(const std::vector<LoopRow>& a, const Run& b);
 
+/// Cycles per control step.
 struct Cycles {
   unsigned min = 0;
   double mean = 0.0;

@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::uint32_t kRamOffset = 0x800000;  ///< offset of RAM addresses in an ELF file
 constexpr std::uint8_t kPaint = 0xC5;
-/// Maximum number of cycles that simavr runs per call; if unset, it returns after every
-/// instruction. Timers and interrupts stay exact because a run ends where one is due.
+/// Maximum number of cycles that simavr runs per call. Without it simavr returns after every
+/// instruction. Timers and interrupts stay exact, because simavr ends a run where one is due.
 constexpr avr_cycle_count_t kRunCycles = 1000;
 
 /// The only emulator: callbacks of this simavr version take no user data.
@@ -83,9 +83,9 @@ void Emulator::sleep(avr_t* avr, std::uint64_t) {
   self.asleep_ = true;
 }
 
-/// An interrupt that is raised between sei and the following sleep is served before the instruction
-/// after the sleep [ATmega2560 data sheet, 7.7]. simavr 1.6 executes that instruction first. If it
-/// is cli, the interrupt is never served.
+/// The chip serves an interrupt that is raised between `sei` and `sleep` before the instruction
+/// after the sleep [ATmega2560 data sheet, 7.7]. simavr 1.6 executes that instruction first; if it
+/// is `cli`, the interrupt is never served. This function serves the interrupt as the chip does.
 void Emulator::serve_interrupt_after_sleep() {
   constexpr unsigned kSleep = 0x9588;  // opcode of sleep
   if (avr_->state != cpu_Running || avr_->sreg[S_I] == 0 || avr_->pc < 2) return;

@@ -18,13 +18,14 @@ namespace awmr::pil {
 
 inline constexpr double kClockHz = 16e6;
 
-/// Clock cycles between an interrupt and the first instruction of its vector, on a chip with a
-/// 3-byte program counter. simavr 1.6 does not count them. [ATmega2560 data sheet, 7.7.1]
+/// Clock cycles from an interrupt to the first instruction of its vector, on a chip with a 3-byte
+/// program counter. simavr 1.6 does not count these cycles. [ATmega2560 data sheet, 7.7.1]
 inline constexpr unsigned kInterruptEntryCycles = 5;
 
 class Emulator {
  public:
-  /// Errors (input): the file is not firmware for this chip. Only one emulator may exist at a time.
+  /// Loads firmware. Only one emulator may exist at a time. Errors (input): the file is not
+  /// firmware for this chip; (fault) libsimavr lacks the chip.
   static Result<std::unique_ptr<Emulator>> load(const std::filesystem::path& elf);
   ~Emulator();
   Emulator(const Emulator&) = delete;
@@ -41,9 +42,11 @@ class Emulator {
 
   /// Resets the chip like its reset pin: RAM is kept and the time continues.
   void reset();
-  /// Runs until the chip sleeps. Errors (fault): it crashed or is still awake after `cycle_limit`.
+  /// Runs until the chip sleeps. Errors (fault): the chip crashed, or is still awake after
+  /// `cycle_limit` cycles.
   Status run_to_sleep(std::uint64_t cycle_limit);
-  /// Runs until `done`, called after each batch of instructions, returns true. Errors: as above.
+  /// Runs until `done` returns true; it is called before each batch of instructions. Errors: as
+  /// run_to_sleep().
   Status run_until(const std::function<bool()>& done, std::uint64_t cycle_limit);
   /// Cycles of the last interrupt, from its entry (included) to the next sleep.
   unsigned last_interrupt_cycles() const { return last_interrupt_cycles_; }
@@ -54,7 +57,7 @@ class Emulator {
   /// Bytes from the top of RAM down to the lowest address written since paint_stack().
   unsigned stack_bytes() const;
 
-  /// Sets the callback for bytes that USART0 sends.
+  /// Sets the callback for the bytes that USART0 sends.
   void on_uart_output(std::function<void(std::uint8_t)> receive) { receive_ = std::move(receive); }
   /// Connects USART0 to the callback and to send_to_uart(); call once.
   void connect_uart();
@@ -69,7 +72,7 @@ class Emulator {
   void feed_uart();
 
   avr_t* avr_ = nullptr;
-  avr_irq_t* uart_input_ = nullptr;  ///< once connect_uart() is called
+  avr_irq_t* uart_input_ = nullptr;  ///< set by connect_uart()
   std::map<std::string, std::uint32_t> symbols_;
   unsigned flash_bytes_ = 0;
   unsigned ram_bytes_ = 0;

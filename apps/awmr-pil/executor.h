@@ -26,7 +26,7 @@ class Executor {
   /// Starts the controller and returns the fault of its start-up check. Errors: the link or the
   /// chip fails.
   virtual Result<std::uint8_t> start() = 0;
-  /// Resets the chip during the run; the next step restarts it with the same points.
+  /// Resets the chip during the run; the next step restarts the controller with the same points.
   virtual Status reset() = 0;
   /// Follows these points as waypoints or as a line, depending on the mission.
   virtual Status follow(const Points& points) = 0;
@@ -57,13 +57,12 @@ Result<std::unique_ptr<Chip>> memory_link(const std::filesystem::path& elf, bool
 /// bits and loses the same fraction of the bytes, in both directions.
 Result<std::unique_ptr<Chip>> uart_link(const std::filesystem::path& elf, bool damage_parameters,
                                         std::uint32_t parameters_crc, double noise);
-/// Exchanges data through a serial port. `elf` is the firmware that the board must have been
-/// flashed with.
+/// Exchanges data through a serial port. `elf`: the firmware with which the board was flashed.
 Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
                                         const std::filesystem::path& elf,
                                         std::uint32_t parameters_crc);
-/// Connects an emulated chip's USART to a pseudo-terminal, prints its name on stdout and returns
-/// when the other end is closed.
+/// Connects an emulated chip's USART to a pseudo-terminal and prints the terminal's name on stdout.
+/// Returns when the other end is closed.
 Status serve_terminal(const std::filesystem::path& elf);
 
 }  // namespace awmr::pil

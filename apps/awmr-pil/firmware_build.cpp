@@ -35,7 +35,8 @@ constexpr const char* kFlags[] = {"-mmcu=atmega2560",
                                   "-Isrc",
                                   "-Ipil",
                                   "src/awmr.cpp"};
-/// Options for few cycles: those after -O2 keep more in registers and save 350 of 9,700 cycles.
+/// Compiler options for few cycles. Those after -O2 keep more values in registers, which saves 350
+/// of 9,700 cycles.
 constexpr const char* kForSpeed[] = {"-O2", "-mstrict-X", "-fno-tree-pre",
                                      "-fno-move-loop-invariants"};
 constexpr const char* kForSize[] = {"-Os", "-mcall-prologues"};
@@ -45,7 +46,8 @@ std::span<const char* const> flags_for(cli::Optimize optimize) {
   return kForSpeed;
 }
 
-/// Time limit of the compiler, s: a hundred times a usual build, for a busy machine.
+/// Time limit of the compiler, s: a hundred times the usual duration, because a machine can be
+/// busy.
 constexpr double kTimeLimit_s = 200.0;
 
 /// Writes a file of the temporary folder without flushing it to the disk.
@@ -58,7 +60,7 @@ Status put_temporary(const fs::path& path, std::string_view bytes) {
                      fmt::format("cannot write the file: {}", std::strerror(errno)));
 }
 
-/// Errors: a symbolic link on the path from `kept` to `file`.
+/// Checks the path from `kept` to `file`. Errors (input): it contains a symbolic link.
 Status check_no_link(const fs::path& kept, const fs::path& file) {
   fs::path place = kept;
   for (const fs::path& part : file) {

@@ -1,4 +1,4 @@
-// The firmware of one model, built with avr-gcc.
+// Builds the firmware for one model with avr-gcc.
 #pragma once
 
 #include <filesystem>
@@ -17,20 +17,21 @@ enum class LinkKind { kMemory, kUart };
 struct FirmwareKind {
   LinkKind link = LinkKind::kMemory;
   cli::Optimize optimize = cli::Optimize::kSpeed;
-  std::string mission;        ///< mission_header()
-  bool is_directed = false;   ///< the speed sensor has no sign: the firmware finds the direction
-  bool is_estimated = false;  ///< positions are GPS fixes: the firmware estimates in between
+  std::string mission;        ///< content of mission.h, by mission_header()
+  bool is_directed = false;   ///< true: the firmware finds the sign of a speed without sign
+  bool is_estimated = false;  ///< true: the firmware estimates positions between GPS fixes
 };
 
-/// Writes the emitted library and the link's program to `directory`, which is private and empty,
-/// and builds them there. Returns the ELF file. Errors: (input) no avr-g++ in PATH, with the
-/// package to install; (fault) compilation fails, with the compiler's output, or takes minutes.
+/// Writes the emitted library and the program of the link to `directory`, which is private and
+/// empty, and builds them there. Returns the ELF file. Errors: (input) avr-g++ is not in PATH (the
+/// message names the package to install); (fault) compilation fails (the message has the compiler's
+/// output) or takes minutes.
 Result<std::filesystem::path> build_firmware(const std::filesystem::path& directory,
                                              const std::vector<EmittedFile>& library,
                                              const FirmwareKind& kind);
 
-/// Creates the directory in which the firmware is kept. Errors (input): the name looks like an
-/// option; it cannot be created or written to.
+/// Creates the directory in which the firmware is kept. Errors (input): its name looks like an
+/// option; the directory cannot be created or written to.
 Status prepare_to_keep(const std::filesystem::path& kept);
 
 /// Copies the build from `directory` to `kept`. Errors (input): a file cannot be written; `kept`

@@ -8,10 +8,11 @@
 namespace awmr::pil {
 namespace {
 
-/// Attempts for one request. If one bit in a thousand is damaged, 40 % of the exchanges succeed,
-/// and 40 in a row fail once in 1e9.
+/// Attempts for one request. If one bit in a thousand is damaged, 40 % of the attempts succeed, and
+/// 40 attempts in a row fail with a probability of 1e-9.
 constexpr int kAttempts = 40;
-/// Attempts for the first request, which is short; there may be no board at all.
+/// Attempts for the first request. Fewer are enough, because it is short, and there may be no
+/// board.
 constexpr int kStartAttempts = 10;
 
 /// Encodes a request as a frame.
@@ -51,7 +52,8 @@ class FrameLink : public Chip {
     return ask(::pil::kFollow, writer.bytes(), 0);
   }
 
-  /// A reset chip answers only a new start, so a silent chip is restarted.
+  /// Executes one step. A chip that does not answer is started again, because after a reset it
+  /// answers no request before a start.
   Result<Step> step(const AutopilotInput& input) override {
     const std::vector<std::uint8_t> request = pack(input);
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(::pil::kStep, request, kStepBytes));
@@ -95,7 +97,7 @@ class FrameLink : public Chip {
     return type == ::pil::kHello ? kStartAttempts : kAttempts;
   }
 
-  /// Exchange whose failure is an error.
+  /// Exchanges a request for its answer; no answer is an error.
   Status ask(std::uint8_t type, std::span<const std::uint8_t> bytes, std::size_t length) {
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(type, bytes, length));
     if (answered) return {};
@@ -119,7 +121,8 @@ class FrameLink : public Chip {
     return false;
   }
 
-  /// Reads until the answer to the current request is complete; false: the line fell silent before.
+  /// Reads until the answer to the current request is complete. False: the line became silent
+  /// before.
   Result<bool> is_answered(std::uint8_t type, std::size_t length) {
     const Patience patience = type == ::pil::kHello ? Patience::kStart : Patience::kAnswer;
     reader_.reset();

@@ -11,8 +11,9 @@ struct HostParts : AllParts<split> {
   typedef AnyLineFollower<float> Line;
 };
 
-/// The control step on this machine, with all optional parts compiled in and those that the mission
-/// does not need disabled. Its results must equal those of a firmware without these parts.
+/// Executes the control step on this machine. All optional parts are compiled in, and those that
+/// the mission does not need are disabled. The results must equal those of a firmware that does not
+/// contain these.
 template <class G, CombinedSplit split>
 class HostExecutor : public Executor {
  public:

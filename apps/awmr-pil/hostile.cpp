@@ -45,7 +45,8 @@ float largest_of(const SafetyLimits& limits, int field) {
   return largest[field];
 }
 
-/// Random value of any magnitude up to `largest`; sometimes a limit, a subnormal or arbitrary bits.
+/// Random value of any magnitude up to `largest`; sometimes `largest` itself, a subnormal or random
+/// bits.
 float hostile_value(Random& random, float largest) {
   const float sign = (random.bits() & 1U) != 0 ? -1.0F : 1.0F;
   switch (random.bits() % 32) {
@@ -63,15 +64,15 @@ float hostile_value(Random& random, float largest) {
   }
 }
 
-/// Random waypoint, usually within a metre of the vehicle: it counts as reached at once, and the
-/// same step evaluates the next one.
+/// Random waypoint, usually so near to the vehicle that it counts as reached at once. The same step
+/// then also evaluates the next waypoint.
 Position<float> hostile_point(Random& random, const Position<float>& vehicle_m) {
   const float reach_m = random.bits() % 8 == 0 ? 1000.0F : kAcceptance_m;
   const auto off = [&] { return reach_m * static_cast<float>(2.0 * random.uniform() - 1.0); };
   return {vehicle_m.x_m + off(), vehicle_m.y_m + off()};
 }
 
-/// A new fix, mostly up to 2 s old, else of any time; or no new fix.
+/// Sets the time of the fix: usually to a new fix up to 2 s old, sometimes of any time; or keeps it.
 void receive_fix(AutopilotInput& in, Random& random) {
   in.position_is_fix = 1;
   const std::uint32_t kind = random.bits() % 8;
@@ -114,7 +115,7 @@ bool same(const AutopilotOutput& a, const AutopilotOutput& b) {
          a.command.steering_powerless == b.command.steering_powerless;
 }
 
-/// Executes one step on both and counts it in `found`. Returns the chip's cycles.
+/// Executes one step on chip and host and counts it in `found`. Returns the chip's cycles.
 Result<unsigned> tried(Executor& chip, Executor& host, const Attack& attack, Hostile& found) {
   if (!attack.points.points_m.empty()) {
     AWMR_RETURN_IF_ERROR(chip.follow(attack.points));
@@ -135,8 +136,8 @@ Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limi
                         const Mission& mission, const HostileSearch& search,
                         const Progress& progress) {
   Hostile found;
-  // All steps have time 0. The first one, after the jump of the time, is not counted. Its invalid
-  // mode raises a fault, which resets the memory of earlier motion on chip and host.
+  // All steps have the time 0. The first step is not counted: its time jumps, and its invalid mode
+  // raises a fault that resets the memory of earlier motion on chip and host.
   AutopilotInput first{};
   first.mode = 3;
   AWMR_RETURN_IF_ERROR(chip.step(first));

@@ -1,4 +1,4 @@
-// Search for the inputs that make a control step take the most cycles.
+// Searches for the inputs with which a control step takes the most cycles.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,17 @@ struct Hostile {
   std::size_t differing = 0;  ///< steps whose outputs differ from the host's in any bit
 };
 
+/// Options of the search.
 struct HostileSearch {
-  std::size_t steps = 6000;  ///< each mode gets a third, rounded up
-  bool has_fixes = false;    ///< true: the firmware estimates its position from fixes
+  std::size_t steps = 6000;  ///< number of steps; each mode gets a third, rounded up
+  bool has_fixes = false;    ///< true: the firmware estimates its position from GPS fixes
 };
 
-/// Searches for the slowest inputs: at and beyond the limits, tiny, subnormal, not finite, headings
-/// of many turns, moving references. If the mission has points, they are replaced by points on the
-/// vehicle or anywhere. Fixes are new, repeated, up to 2 s old or of any time. The slowest input so
-/// far is mutated repeatedly. The sequence is deterministic. Errors: those of the executors.
+/// Searches for the inputs with the slowest step, by repeatedly changing the slowest input so far.
+/// Values are at and beyond the limits, tiny, subnormal or not finite; headings have many turns.
+/// Points of the mission are replaced by points near the vehicle or anywhere. A fix is new (up to
+/// 2 s old, or of any time) or repeated. The sequence is deterministic. Errors: those of the
+/// executors.
 Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
                         const Mission& mission, const HostileSearch& search,
                         const Progress& progress = {});

@@ -1,4 +1,4 @@
-// Evaluation of a run with an injected fault.
+// Evaluates a run with an injected fault.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@
 
 namespace awmr::pil {
 
-/// Samples before which the chip was restarted.
+/// Returns the samples before which the chip was restarted.
 std::vector<std::size_t> restarts_of(const std::vector<LoopRow>& rows);
 
-/// Compares the faults and commands of a run with those that its injection has to cause.
+/// Compares the faults and commands of a run with those that its injection must cause.
 Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows);
 
 }  // namespace awmr::pil

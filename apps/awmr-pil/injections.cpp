@@ -9,8 +9,8 @@ namespace {
 
 using cli::Injection;
 
-// Faults of the autopilot after a rejected heading sensor: the vehicle is disarmed (no commands),
-// and the heading becomes stale. Either may come first.
+// Faults of the autopilot after a rejected heading (or speed) sensor. The vehicle is disarmed, so
+// commands time out, and the reading becomes stale; either fault may come first.
 constexpr std::uint8_t kHeading = kFaultHeadingStale | kFaultCommandTimeout;
 constexpr std::uint8_t kSpeed = kFaultSpeedStale | kFaultCommandTimeout;
 
@@ -26,15 +26,16 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kCommandTimeout, Duration::kTwentySteps, kFaultCommandTimeout},
     {Injection::kStepLate, Duration::kOneStep, kFaultStepLate},
     {Injection::kParameters, Duration::kWholeRun, kFaultParameters},
-    // Limits of time: detection plus the autopilot's timeout. In a turn, gyroscope and compass
-    // contradict each other before a frozen value has been repeated often enough.
+    // The last number limits the time to the safe command: detection plus the autopilot's timeout.
+    // In a turn, a frozen value contradicts the other sensor (kHeadingOutOfStep) before it has been
+    // repeated often enough for the check of frozen values.
     {Injection::kCompassSilent, Duration::kFromTheMiddle, kHeading, kCompassSilent, kSensorGood,
      1.5},
     {Injection::kCompassFrozen, Duration::kFromTheMiddle, kHeading, kCompassFrozen,
      kHeadingOutOfStep, 1.5},
     {Injection::kCompassJump, Duration::kFromTheMiddle, kHeading, kHeadingOutOfStep, kSensorGood,
      1.5},
-    // Detected in the next turn.
+    // A stuck heading is detected in the next turn.
     {Injection::kCompassStuck, Duration::kFromTheMiddle, kHeading, kHeadingOutOfStep, kSensorGood,
      40.0},
     {Injection::kGyroSilent, Duration::kFromTheMiddle, kHeading, kGyroSilent, kSensorGood, 1.5},
@@ -50,17 +51,17 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kGpsRepeated, Duration::kFromTheMiddle, kSpeed, kGpsRepeated, kSensorGood, 1.5},
     {Injection::kGpsLate, Duration::kFromTheMiddle, kSpeed, kGpsSilent, kSensorGood, 1.5},
     {Injection::kGpsJump, Duration::kFromTheMiddle, kSpeed, kGpsJump, kSensorGood, 1.5},
-    // Detected from the motion after 2 to 6 m, during which the vehicle may only creep.
+    // Motion checks detect these after 2 to 6 m, which take long if the vehicle creeps.
     {Injection::kGpsSpeedZero, Duration::kFromTheMiddle, kFaultCommandTimeout, kGpsInconsistent,
      kSensorGood, 40.0},
     {Injection::kGpsPositionFrozen, Duration::kFromTheMiddle, kFaultCommandTimeout,
      kGpsInconsistent, kSensorGood, 5.0},
     {Injection::kMotorsReversed, Duration::kFromTheMiddle, kFaultCommandTimeout, kWrongWay,
      kSensorGood, 40.0},
-    // Detected in the next turn.
+    // Exchanged sides are detected in the next turn.
     {Injection::kSidesSwapped, Duration::kFromTheMiddle, kHeading, kWrongTurn, kSensorGood, 40.0},
-    // Detected because the filtered heading departs from the compass, or the vehicle turns against
-    // the commanded moment.
+    // A reversed gyroscope is detected because the filtered heading departs from the compass, or
+    // because the vehicle seems to turn against the commanded moment.
     {Injection::kGyroReversed, Duration::kFromTheMiddle, kHeading, kHeadingOutOfStep, kWrongTurn,
      40.0},
     {Injection::kSteeringStuck, Duration::kFromTheMiddle, kFaultCommandTimeout, kOffCourse,
@@ -68,7 +69,8 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kServoReversed, Duration::kFromTheMiddle, kHeading, kWrongTurn, kOffCourse, 60.0},
     {Injection::kCompassTurning, Duration::kFromTheMiddle, kFaultCommandTimeout, kOffHeading,
      kWrongWay, 40.0},
-    // The command time-out and the wait between two commands; STOP acts in the next step.
+    // The limit is the command timeout plus the interval between two commands. STOP acts in the
+    // next step.
     {Injection::kCommandSilence, Duration::kFromTheMiddle, kFaultCommandTimeout, kSensorGood,
      kSensorGood, 1.4},
     {Injection::kCommandNoise, Duration::kFromTheMiddle, kFaultCommandTimeout, kSensorGood,

@@ -23,23 +23,24 @@ enum class Duration {
 struct InjectionEffect {
   cli::Injection injection;
   Duration duration;
-  std::uint8_t fault;  ///< expected fault bits of the autopilot; one of them must be raised
-  /// Sensor check that must detect it; kSensorGood: not a sensor failure.
+  std::uint8_t fault;  ///< expected fault bits of the autopilot; at least one must be raised
+  /// Sensor check that must detect the failure; kSensorGood: not a sensor failure.
   SensorFault cause = kSensorGood;
-  SensorFault other_cause = kSensorGood;  ///< another check, which may detect it first
-  /// Longest time to the safe command, s, for failures that disarm the vehicle; else 0.
+  SensorFault other_cause = kSensorGood;  ///< another check that may detect the failure first
+  /// Longest time to the safe command, s, for failures that disarm the vehicle; 0 for the others.
   double within_s = 0.0;
 };
 
 const InjectionEffect& effect_of(cli::Injection injection);
 
-/// True for failures of a sensor, of the motors or of the operator's line. The checks of the
-/// sketches detect them and disarm the vehicle.
+/// True for failures of a sensor, the motors, the servo or the operator's line, which the checks of
+/// the sketches detect and answer by disarming the vehicle.
 bool disarms(cli::Injection injection);
 /// True for failures of the operator's line.
 bool is_command_failure(cli::Injection injection);
 
-/// True if this injection may raise `cause` first; kSensorGood for failures of the operator's line.
+/// True if `cause` is a check that may detect this injection first. `cause` is kSensorGood for
+/// failures of the operator's line.
 bool is_expected_cause(cli::Injection injection, SensorFault cause);
 
 /// Samples at which an injection acts: [first, last).

@@ -23,9 +23,9 @@ using cli::Injection;
 
 float single(double value) { return static_cast<float>(value); }
 
-/// Returns the chip's input. Guidance, avoidance and shaping run on the chip, so its heading is the
-/// one before avoidance and shaping; a chip that follows points or a path ignores the heading. The
-/// speed is 0 at the end of the path, or if obstacles leave no passage.
+/// Returns the chip's input. Its reference heading is the one before avoidance and shaping, because
+/// these run on the chip. A chip that follows points or a path ignores the reference heading. The
+/// reference speed is 0 at the end of the path, or if obstacles leave no passage.
 AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed,
                         const GuidanceOutput& output) {
   const bool stops = output.finished || output.no_passage;
@@ -76,7 +76,7 @@ void inject(Injection injection, AutopilotInput& in) {
   }
 }
 
-/// Injects a pause before a step: advances the time from this step on.
+/// Injects a pause before a step: advances all times by `by_ms`.
 void delay(std::uint32_t by_ms, InputTimes& times) {
   times.now_ms += by_ms;
   times.heading_ms += by_ms;
@@ -84,7 +84,8 @@ void delay(std::uint32_t by_ms, InputTimes& times) {
   times.command_ms += by_ms;
 }
 
-/// Applies the actuators to the chip's command.
+/// Sets the row's forces and steering command: the chip's command, rounded to the actuators'
+/// resolution.
 void command(const LoopSetup& setup, LoopRow& row) {
   const Allocation<float>& requested = row.step.output.command;
   row.force = {static_cast<double>(requested.force.left),
@@ -95,13 +96,13 @@ void command(const LoopSetup& setup, LoopRow& row) {
   }
 }
 
-/// Each side gets the negated force of the other: the vehicle turns as commanded but drives in the
-/// opposite direction.
+/// Gives each side the negated force of the other: the vehicle turns as commanded, but drives in
+/// the opposite direction.
 void reverse_motors(LoopRow& row) { row.force = {-row.force.right, -row.force.left}; }
 
 void swap_sides(LoopRow& row) { row.force = {row.force.right, row.force.left}; }
 
-/// Failures of motors and servo.
+/// Applies an injected failure of motors or servo to the row's command.
 void fail_actuators(Injection injection, LoopRow& row) {
   if (injection == Injection::kMotorsReversed) reverse_motors(row);
   if (injection == Injection::kSidesSwapped) swap_sides(row);
@@ -168,7 +169,7 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
   Sensing sensing(setup.scenario.sensors, setup.sample_time_s, run_seed(setup.scenario.seed, 0, 0));
   Positioning positioning(setup.scenario, setup.sample_time_s);
   Sensed sensed = sensing.at(0, physics.state());
-  Sensed located = sensed;  // for the guidance in double; the chip estimates the position itself
+  Sensed located = sensed;  // for the guidance in double: the chip estimates its own position
   located.position_m = positioning.step(0.0, sensed);
   ScenarioGuidance guidance(setup.scenario, setup.sample_time_s, located);
   if (!setup.mission.points.points_m.empty()) {

@@ -1,4 +1,5 @@
-// Closed loop of the vehicle simulated as in simulate/ and an Executor's control step, in float.
+// Closed loop of the vehicle, simulated as in simulate/, and the control step of an Executor, in
+// float.
 #pragma once
 
 #include <vector>
@@ -30,16 +31,16 @@ struct LoopRow {
   double t_s = 0.0;
   State<double> state{};
   Step step;
-  SensorFault cause = kSensorGood;    ///< first rejected sensor, with injected failures
-  SideForces<double> force{};         ///< of this step, limited by the actuators
-  double steering_command_rad = 0.0;  ///< likewise
+  SensorFault cause = kSensorGood;    ///< reason why a sensor was rejected first, with an injection
+  SideForces<double> force{};         ///< forces that the actuators receive in this step
+  double steering_command_rad = 0.0;  ///< steering angle that the servo receives in this step
 };
 
-/// Copies the noise and latency of the scenario's GPS to the model's vehicle, so that firmware and
+/// Copies noise and latency of the scenario's GPS to the model's vehicle, so that firmware and
 /// simulator have the same position filter.
 void know_receiver(const Gps& gps, Model& model);
 
-/// True if the simulated speed sensor gives |u|, so that the firmware computes the direction.
+/// True if the simulated speed sensor gives |u|, so that the firmware has to find the direction.
 bool has_unsigned_speed(const Scenario& scenario);
 
 /// Errors (input): the scenario uses a feature that the firmware does not support.

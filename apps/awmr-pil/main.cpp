@@ -1,4 +1,4 @@
-// awmr-pil: implementation of `awmr pil`, a separate program because libsimavr is under the GPL-3.
+// Program awmr-pil, which executes `awmr pil`. It is separate because libsimavr is under the GPL-3.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>

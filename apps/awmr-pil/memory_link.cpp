@@ -10,7 +10,7 @@
 namespace awmr::pil {
 namespace {
 
-/// Limit of the start-up, which computes a checksum of the parameters: 1 s, ten times its duration.
+/// Time limit of the start-up in cycles: 1 s, ten times what the checksum of the parameters takes.
 constexpr std::uint64_t kStartCycles = 16'000'000;
 
 class MemoryLink : public Chip {
@@ -43,14 +43,14 @@ class MemoryLink : public Chip {
     Writer writer;
     for (const Position<float>& point : points.points_m) writer.put(point.x_m).put(point.y_m);
     put("pil_points", writer);
-    // The firmware of a line has no acceptance radius.
+    // A firmware that follows a line has no acceptance radius.
     if (points.acceptance_m > 0.0F) put("pil_acceptance_m", Writer().put(points.acceptance_m));
     put("pil_point_count", Writer().put(static_cast<std::int16_t>(points.points_m.size())));
     points_ = points;
     return {};
   }
 
-  /// Executes one step. The chip sleeps since its last step, so it does not read while the host
+  /// Executes one step. The chip has slept since its last step, so it does not read while the host
   /// writes.
   Result<Step> step(const AutopilotInput& input) override {
     const std::vector<std::uint8_t> bytes = pack(input);

@@ -1,4 +1,5 @@
-// Mission of the firmware: the guidance features that a scenario needs, as floats like on the chip.
+// Mission of the firmware: the guidance features that a scenario needs, with values in float as on
+// the chip.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +22,7 @@ struct Points {
   float acceptance_m = 0.0F;
 };
 
-/// Law of a line, without its corners.
+/// Guidance law for a line; the line's corners are in Mission::points.
 struct LineMission {
   LineLaws<std::variant, float> law{};
   std::size_t place = 0;  ///< index of the law in LineLaws
@@ -34,7 +35,7 @@ struct PathMission {
   float gain_per_s = 0.0F;
 };
 
-/// All guidance features. An absent optional is disabled.
+/// All guidance features of a mission. An absent feature is disabled.
 struct Mission {
   Points points;  ///< empty: neither waypoints nor a line
   bool skip_passed = false;
@@ -47,7 +48,7 @@ struct Mission {
   std::optional<Observers<float>> observers;
   CombinedSplit split = CombinedSplit::kRedistribute;
 
-  /// True if the chip computes the guidance; else it receives headings.
+  /// True if the chip computes the guidance; false if it receives reference headings.
   bool leads() const { return !points.points_m.empty() || path.has_value(); }
 };
 
@@ -56,10 +57,10 @@ Mission mission_of(const Scenario& scenario);
 /// Firmware parts that the mission needs.
 std::set<FirmwarePart> parts_of(const Mission& mission);
 
-/// Maximum number of points in these firmware programs.
+/// Maximum number of points that the firmware for `awmr pil` can follow.
 inline constexpr std::size_t kMaxPoints = 16;
 
-/// Generates mission.h of the firmware: its capacity for points, and the functions that set up the
+/// Generates mission.h of the firmware: the capacity for points, and functions that set up the
 /// mission and follow points. All missions without optional parts have the same mission.h.
 std::string mission_header(const Mission& mission);
 

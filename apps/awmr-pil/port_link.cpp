@@ -16,9 +16,9 @@
 namespace awmr::pil {
 namespace {
 
-constexpr int kStartTimeout_ms = 500;   ///< the check of the parameters takes 50
+constexpr int kStartTimeout_ms = 500;   ///< the check of the parameters takes 50 ms
 constexpr int kAnswerTimeout_ms = 300;  ///< 140 bytes take 146 ms at 9600 baud
-/// A Mega 2560 resets when its port is opened, and its boot loader waits.
+/// Waiting time after opening the port: a Mega 2560 then resets, and its boot loader waits.
 constexpr int kBootTime_ms = 2000;
 
 class Port : public Line {
@@ -84,7 +84,7 @@ class Port : public Line {
 Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
                                         const std::filesystem::path& elf,
                                         std::uint32_t parameters_crc) {
-  // The ELF file gives the use of flash and RAM.
+  // Flash and RAM use are read from the ELF file.
   const auto emulator = Emulator::load(elf);
   if (!emulator) return tl::unexpected(emulator.error());
   return frame_link(

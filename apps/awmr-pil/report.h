@@ -25,7 +25,7 @@ struct ChipRun {
   double real_time_factor = 0.0;  ///< simulated time divided by elapsed time
 };
 
-/// A value and its bound.
+/// A check of a run: a value and its upper bound.
 struct Check {
   std::string name;
   double value = 0.0;
@@ -34,13 +34,14 @@ struct Check {
   std::string unit;
 };
 
-/// Effect of an injected fault.
+/// Effect of an injected fault. The window is that of injection_window(); for a failure that
+/// disarms the vehicle it extends from the first fault to the end.
 struct Injected {
-  std::uint8_t expected = 0;
-  std::uint8_t seen = 0;  ///< bits set on every sample of the window
-  bool worked = false;    ///< the fault was raised, or the chip was restarted after its reset
-  bool safe = true;       ///< forces 0 and wheels straight during the whole window
-  bool quiet = true;      ///< no fault outside the window
+  std::uint8_t expected = 0;  ///< fault bits of which at least one must be raised
+  std::uint8_t seen = 0;      ///< bits set on every sample of the window, or by the first fault
+  bool worked = false;        ///< an expected fault was raised in time, or the chip restarted
+  bool safe = true;           ///< forces 0 and wheels straight during the whole window
+  bool quiet = true;          ///< no fault outside the window, or before the failure
 };
 
 /// Results of a run and the checks that it must pass.
@@ -50,7 +51,7 @@ struct Report {
   std::vector<std::size_t> restarts;  ///< samples before which the chip was restarted
   Difference from_float;
   std::optional<Difference> from_double;  ///< absent with an injection
-  double heading_apart_deg = 0.0;         ///< heading_apart_deg() from the double run
+  double heading_apart_deg = 0.0;         ///< heading_apart_deg() of chip and host's double run
   std::optional<Difference> by_float32;   ///< host runs: float with powf compared with double
   std::optional<Difference> by_table;     ///< host runs in float: tables compared with powf
   std::optional<Injected> injected;
@@ -62,7 +63,8 @@ struct Report {
 };
 
 /// Adds the checks of cycles, memory, differences and faults to the report, each with its bound.
-/// `period_cycles` is the sample time in cycles of the chip's clock.
+/// `period_cycles`: sample time in cycles of the chip's clock. Precondition: `options` has the
+/// bounds of cycles and heading.
 void evaluate(const cli::PilOptions& options, double period_cycles, Report& report);
 
 /// Returns the content of pil.json. Errors (input): an input cannot be read again.

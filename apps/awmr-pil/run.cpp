@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 using cli::Injection;
 using cli::PilOptions;
 
-/// Inputs and values derived from them.
+/// Contents of the input files, and values derived from them.
 struct Inputs {
   Model model;
   EmitOptions emit;  ///< the options, with the parts that the scenario needs
@@ -42,10 +42,10 @@ struct Inputs {
   AutopilotParameters parameters;
 };
 
-/// Errors (input): a sample time beyond the timer of pil_memory.cpp, which counts at clock/8 in
-/// 16 bits.
+/// Checks the sample time. Errors (input): the timer of pil_memory.cpp cannot count it, which has
+/// 16 bits and counts at clock/8 (at most 32 ms).
 Status check_sample_time(const Model& model) {
-  // Computed in float and rounded as in the firmware.
+  // The number of counts is computed in float and rounded as in the firmware.
   const float counts = static_cast<float>(model.vehicle.sample_time_s) * 2e6F + 0.5F;
   if (counts >= 2.0F && counts < 65537.0F) return {};
   return input_error(
@@ -118,7 +118,7 @@ Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
   return run_loop(setup, *host);
 }
 
-/// Places the injection in the middle of the run, whose length is that without injection.
+/// Places the injection in the middle of the run: at half the length of a run without injection.
 Status place_injection(Inputs& in) {
   Inputs undisturbed = in;
   undisturbed.setup.injection = Injection::kNone;
@@ -168,8 +168,8 @@ Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Input
   return std::optional(hostile);
 }
 
-/// Returns the processor time of this process, s, which is the duration of the emulation; with a
-/// real board the wall-clock time.
+/// Returns a time, s, to measure durations: the processor time of this process for an emulated
+/// chip, the wall-clock time for a real board.
 double elapsed_s(bool emulated) {
   timespec now{};
   ::clock_gettime(emulated ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &now);
@@ -211,7 +211,7 @@ Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in, const Watc
   return run;
 }
 
-/// Fills in the defaults that depend on scenario and firmware.
+/// Returns the options, with the defaults that depend on scenario and firmware filled in.
 PilOptions resolved(PilOptions options, const Inputs& in) {
   const std::set<FirmwarePart>& parts = in.emit.parts;
   const bool avoids = parts.contains(FirmwarePart::kAvoidance);

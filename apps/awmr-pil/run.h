@@ -20,13 +20,15 @@ struct Outcome {
   std::vector<Finding> findings = {};
 };
 
-/// Progress callbacks: the current work, and the fraction done.
+/// Progress callbacks. `doing` is called when a new stage begins, `progress` with the fraction
+/// done.
 struct Watch {
   std::function<void(std::string_view)> doing = [](std::string_view) {};
   Progress progress = {};
 };
 
-/// Writes pil.json. Errors: invalid input, no compiler, failure of the chip or the link.
+/// Executes `awmr pil` and writes pil.json. Errors: invalid input; no compiler; the chip or the
+/// link fails.
 Result<Outcome> run_pil(const cli::PilOptions& options, const Watch& watch);
 
 }  // namespace awmr::pil

@@ -10,11 +10,11 @@ using cli::Injection;
 
 /// Resolution of the boards' gyroscope (range +-500 deg/s), rad/s per count.
 constexpr float kRadpsPerWord = 500.0F / 32768.0F * 0.0174532925F;
-/// RMS noise of a working gyroscope, counts.
+/// RMS noise of a working gyroscope and of a working compass, counts.
 constexpr double kGyroNoise = 5.0;
 constexpr double kFieldNoise = 3.0;
 constexpr double kFieldSize = 250.0;
-/// Time constant of the complementary filter, s.
+/// Time constant of the complementary filter (gyroscope and compass), s.
 constexpr double kLean_s = 2.0;
 constexpr double kFixPeriod_s = 0.2;
 constexpr double kCompassJump_rad = 1.0;
@@ -53,7 +53,7 @@ CheckedSensors::CheckedSensors(Injection injection, double sample_time_s, const 
   heading_.begin(0);
   heading_.turn.begin(kRadpsPerWord, static_cast<float>(sample_time_s));
   gps_.begin(0);
-  // At rest before the run.
+  // Calibrates the gyroscope at rest, as a board does before it drives.
   for (int i = 0; i < 100; ++i) {
     heading_.calibration.take(rounded(kGyroNoise * std::normal_distribution<double>()(random_)),
                               kRadpsPerWord, false, 0.0F);
@@ -68,7 +68,7 @@ SensorFault CheckedSensors::step(std::size_t k, bool fails, const Commanded& bef
     in.measured.r_radps = -in.measured.r_radps;
   }
   if (fails && injection_ == Injection::kCompassTurning) {
-    // The heading filter follows the compass.
+    // The controller's heading drifts as well, because the heading filter follows the compass.
     turned_rad_ += kCompassTurning_radps * sample_time_s_;
     in.measured.psi_rad =
         float_math::wrapped(in.measured.psi_rad + static_cast<float>(turned_rad_));

@@ -1,5 +1,6 @@
-// Sensor failures: raw readings derived from the simulated motion, and the checks of the sketches
-// (control/heading_check.h, gps_check.h). A rejected sensor keeps its old time, as on the board.
+// Injects sensor failures: derives raw readings from the simulated motion, and applies the checks
+// of the sketches (control/heading_check.h, gps_check.h). The reading of a rejected sensor keeps
+// its old time, as on the board.
 #pragma once
 
 #include <deque>
@@ -15,7 +16,7 @@ namespace awmr::pil {
 
 /// Commands of the autopilot in the previous step.
 struct Commanded {
-  float moment_m;     ///< yaw moment; 0: the motors are off
+  float moment_m;     ///< commanded yaw moment, m; 0: the motors are off
   float psi_ref_rad;  ///< commanded heading
 };
 
@@ -24,8 +25,8 @@ class CheckedSensors {
  public:
   CheckedSensors(cli::Injection injection, double sample_time_s, const GpsLimits& limits);
 
-  /// The k-th step: stores the times of the accepted readings in `in`. `fails`: the injection is
-  /// active.
+  /// Executes the k-th step: stores the times of the last accepted readings in `in`. Returns why a
+  /// sensor is rejected, else kSensorGood. `fails`: true while the injection acts.
   SensorFault step(std::size_t k, bool fails, const Commanded& before, AutopilotInput& in);
 
  private:
@@ -39,7 +40,7 @@ class CheckedSensors {
   double heading_rad_ = 0.0;  ///< output of the complementary filter
   bool has_heading_ = false;
   std::optional<double> stuck_rad_;  ///< heading that the compass keeps
-  double turned_rad_ = 0.0;          ///< angle of a compass that turns away
+  double turned_rad_ = 0.0;          ///< error so far of a compass whose heading drifts
   std::optional<GpsFix> fix_;
   Position<float> fix_m_{};
   bool has_position_ = false;

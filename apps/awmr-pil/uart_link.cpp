@@ -9,13 +9,13 @@
 namespace awmr::pil {
 namespace {
 
-/// Timeout of the start in cycles: ten times the duration of the parameter check.
+/// Timeout of the start in cycles: 1 s, ten times the duration of the parameter check.
 constexpr std::uint64_t kLineStartCycles = 16'000'000;
 /// Timeout of an answer in cycles: 30 ms. A request, its step and its answer take 3 ms, and the
 /// chip discards an incomplete frame after 20 ms.
 constexpr std::uint64_t kLineAnswerCycles = 480'000;
 
-/// Damages transmitted bytes; the sequence is deterministic.
+/// Damages or loses transmitted bytes, in a deterministic sequence.
 class Noise {
  public:
   explicit Noise(double share) : share_(share) {}

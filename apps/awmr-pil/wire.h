@@ -1,4 +1,5 @@
-// Byte layout of awmr_input and awmr_output on the chip: little-endian, without padding.
+// Converts the host's input and output of a control step from and to the byte layout of awmr_input
+// and awmr_output on the chip: little-endian, without padding.
 #pragma once
 
 #include <cstdint>

@@ -30,12 +30,14 @@ constexpr std::string_view kPrefix = "awmr-pil-";
 constexpr int kEndingSignals[] = {SIGINT,  SIGTERM, SIGHUP,    SIGQUIT, SIGALRM,
                                   SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ};
 
-/// Locked while the folder is created or removed. The thread that ends the program keeps the lock.
+/// Locked while the folder is created or removed. The thread that ends the program never unlocks
+/// it.
 std::mutex folder_mutex;
-/// Folder of this run; empty if none. Never destroyed: a signal may arrive during exit.
+/// Folder of this run; empty if there is none. Never destroyed, because a signal may arrive during
+/// exit.
 fs::path& folder = *new fs::path;
 
-bool can_end = false;  ///< the thread that ends the program at a signal was started
+bool can_end = false;  ///< true: the thread that ends the program at a signal was started
 sem_t not_ending;      ///< posted by that thread to answer question(): no signal came before
 
 /// True for `awmr-pil-NUMBER-XXXXXX`, where NUMBER is a process ID.
@@ -55,8 +57,8 @@ int lock_folder(const fs::path& path) {
 }
 
 /// True for a folder of this user (no link) that no process has locked. The process ID in its name
-/// proves nothing: by now it may belong to another process, to a zombie, or to a process in another
-/// container with the same TMPDIR.
+/// is not used: by now it may belong to another process, also in another container with the same
+/// TMPDIR.
 bool is_left_over(const fs::path& path) {
   if (!is_run_folder(path.filename().string())) return false;
   struct stat status {};
@@ -67,7 +69,7 @@ bool is_left_over(const fs::path& path) {
   return lock >= 0;
 }
 
-/// Repeats the removal if the main thread or the compiler, which survives a killed run, was still
+/// Removes the folder. Repeats this if the main thread, or the compiler of a killed run, is still
 /// writing into the folder.
 void remove_folder(const fs::path& path) {
   for (int attempt = 0; attempt < 20; ++attempt) {
@@ -101,8 +103,8 @@ sigset_t handled_signals() {
 /// the lowest number is delivered first, so the thread answers only if no other signal is pending.
 int question() { return SIGRTMIN; }
 
-/// Discards all further output on stderr: errors of the main thread (a killed compiler, a missing
-/// file) are now consequences of the shutdown. The emulator's library writes to stderr by itself.
+/// Discards all further output on stderr, because errors (a killed compiler, a missing file) are
+/// now consequences of the shutdown. The emulator's library writes to stderr, too.
 void silence_errors() {
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere < 0) return;

@@ -1,4 +1,4 @@
-// Private temporary folder for one run, and its removal.
+// Private temporary folder for one run, which is removed however the run ends.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 namespace awmr::pil {
 
 /// Folder in TMPDIR that only this user can enter. The destructor removes the folder, and so does a
-/// signal that ends the program (see clean_up_at_signals). If the program was killed, the next run
-/// removes the folder: the lock on it ended with the process.
+/// signal that ends the program (clean_up_at_signals()). If the program is killed, the next run
+/// removes the folder, because the lock on the folder ended with the process.
 class WorkFolder {
  public:
   /// Removes the folders of finished runs, then creates this run's folder. Only one may exist at a
@@ -27,9 +27,9 @@ class WorkFolder {
   int lock_ = -1;
 };
 
-/// From here on a signal that ends the program (SIGINT, SIGTERM, SIGHUP, ...) first ends the
-/// compiler and removes the work folder. The program then ends by that signal. Call once, before
-/// any other thread exists. Ignored signals stay ignored (nohup).
+/// After this call, a signal that ends the program (SIGINT, SIGTERM, SIGHUP, ...) first ends the
+/// compiler and removes the work folder; then the program ends by that signal. Call once, before
+/// any other thread exists. Signals that were ignored (nohup) stay ignored.
 void clean_up_at_signals();
 
 /// Waits for the end of the program if a signal is about to end it, so that errors caused by the

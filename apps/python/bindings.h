@@ -1,4 +1,4 @@
-/// Common to all parts of the Python module.
+/// Functions and types that all parts of the Python module share.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -39,7 +39,8 @@ T value_or_raise(Result<T> result) {
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-/// Returns the value for a name. Raises InputError for an unknown name and lists the known ones.
+/// Returns the value for a name. Raises InputError for an unknown name; the message lists the known
+/// ones.
 template <class Value, std::size_t N>
 Value value_of(const NameTable<Value, N>& names, const std::string& name, const char* what) {
   if (const auto value = value_in(names, name)) return *value;
@@ -73,7 +74,8 @@ void bind_read(py::module_& module, const char* name, Read read, const char* tex
       py::arg("path"), text);
 }
 
-/// Vehicle and the file from which it was read, which a model made from it names.
+/// A vehicle and the file from which it was read. A model that is identified with it names this
+/// file.
 struct VehicleOfFile : Vehicle {
   InputFile file;
 };

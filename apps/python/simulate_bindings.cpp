@@ -33,7 +33,7 @@ EvaluatedRun simulated(const Model& model, const Gains<double>& gains, const Sce
   return evaluated;
 }
 
-/// Columns of run.csv.
+/// Columns of run.csv as a dict of arrays.
 py::dict run_columns(const EvaluatedRun& evaluated) {
   const std::vector<RunRow>& rows = evaluated.run.rows;
   std::vector<std::string_view> names;

@@ -86,7 +86,8 @@ py::list curves_of(const TrialsOfFiles& trials) {
   return all;
 }
 
-/// Time, commands and channels in SI units; NaN in rows where a channel was not measured.
+/// Columns of a log as a dict of arrays: time, commands and channels in SI units. NaN in rows in
+/// which a channel was not measured.
 py::dict columns_of(const DrivingLog& log) {
   py::dict columns;
   columns["line"] = to_array(log.line);

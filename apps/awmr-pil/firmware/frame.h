@@ -1,4 +1,4 @@
-// Frames exchanged by host and chip over a serial line; both compile this file.
+// Frames that host and chip exchange over a serial line; both compile this file. A frame is
 //   start, type, sequence, length, payload of `length` bytes, CRC-16 of all bytes between the start
 //   and the CRC (low byte first)
 // The chip answers each request of the host once, with the same type and sequence number. If the
@@ -26,7 +26,8 @@ constexpr uint8_t kFollow = 'F';  // acceptance_m, points as x_m, y_m -> nothing
 constexpr uint8_t kStep = 'S';    // awmr_input -> awmr_output, cycles (16 bit)
 
 /// Reads frames byte by byte. take() returns true when its byte completes a valid frame, which can
-/// be read until the next call. Inside a damaged frame the reader searches for the next start.
+/// be read until the next call. When a frame is damaged, the reader searches its bytes for the next
+/// start.
 struct FrameReader {
   uint8_t bytes[kMaxFrame];  // of this frame, after its start
   uint8_t count;             // bytes received
@@ -65,7 +66,7 @@ struct FrameReader {
     if (count < kHeadBytes) return true;
     return length() <= kMaxPayload && count < kHeadBytes + length() + 2;
   }
-  /// True for a complete frame with the right CRC. Bytes behind it, which exist only after a
+  /// True for a complete frame with the right CRC. Bytes behind the frame, which exist only after a
   /// damaged frame, are lost.
   bool is_whole() const {
     if (length() > kMaxPayload) return false;

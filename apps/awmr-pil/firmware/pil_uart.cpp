@@ -21,7 +21,8 @@ volatile uint8_t ring_head;
 uint8_t ring_tail;
 
 // Pause after which an incomplete frame is discarded: 20 ms plus the time of 20 bytes, in counts of
-// timer 3 (F_CPU/64). Pauses of USB inside a frame are shorter; the host repeats a request later.
+// timer 3 (F_CPU/64). Pauses inside a frame, from USB, are shorter. The host repeats a request only
+// later.
 const uint16_t kPause =
     static_cast<uint16_t>(F_CPU / 64UL / 50UL + 20UL * 10UL * (F_CPU / 64UL) / PIL_BAUD);
 
@@ -35,8 +36,8 @@ struct {
   uint8_t length;
   uint8_t payload[sizeof(awmr_output) + sizeof(uint16_t)];
 } reply;
-bool is_answered;  // `reply` is the answer to a request
-bool is_greeted;   // a hello came since the reset; before it no other request is answered
+bool is_answered;  // true: `reply` is the answer to the last request
+bool is_greeted;   // true: a hello came since the reset; before it no other request is answered
 
 void send(uint8_t byte) {
   while ((UCSR0A & _BV(UDRE0)) == 0) {
