@@ -196,7 +196,7 @@ std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
   if (rate != kMeasuredRate) return words_of_rate(rate);
   return fmt::format(
       "heading commands limited to {:.3g} deg/s, the highest yaw rate of the turning trials\n"
-      "(--heading-rate-limit {}: no limit but the scenarios' own)\n",
+      "(--heading-rate-limit {}: only the limits in the scenarios)\n",
       *measured_yaw_rate_degps(model), kNoRate);
 }
 

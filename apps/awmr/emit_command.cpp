@@ -131,8 +131,8 @@ std::vector<Finding> sample_time(double sample_time_s, const EmitCommand& comman
   }
   if (sample_time_s > 0.5 * oldest_s) {
     add(
-        fmt::format("sample_time_s is {:g} s, and a heading older than {:g} s is a fault: give {} "
-                    "of two samples or more",
+        fmt::format("sample_time_s is {:g} s, and a heading older than {:g} s is a fault: set {} "
+                    "to at least two sample times",
                     sample_time_s, oldest_s, option_text("heading-timeout-ms")));
   }
   return findings;

@@ -32,13 +32,13 @@ void add_emit_options(CLI::App& command, EmitOptions& options) {
               options.parts.insert(*value_in(kFirmwarePartNames, name));
             }
           },
-          "Parts to compile in beyond heading hold and waypoints")
+          "Optional parts to compile in, in addition to heading hold and waypoints")
       ->delimiter(',')
       ->check(one_of(names_in(kFirmwarePartNames)));
   add_choice(
       command, "--split", options.split, kCombinedSplitNames,
-      "Combined mode, if steering or wheel forces reach their limit: the other one makes the "
-      "rest of the yaw moment, or the rest is lost")
+      "Combined mode, when steering or wheel forces reach their limit: redistribute gives the "
+      "rest of the yaw moment to the other one; with fixed_half the rest is lost")
       ->default_str("redistribute");
   const auto timeout = [&](const char* name, std::uint32_t& value, const char* meaning) {
     command.add_option(name, value, meaning)
@@ -46,14 +46,15 @@ void add_emit_options(CLI::App& command, EmitOptions& options) {
         ->capture_default_str();
   };
   timeout("--heading-timeout-ms", options.heading_timeout_ms,
-          "Largest age of a heading; an older one is a fault");
+          "Largest age of a heading, ms; an older one is a fault");
   timeout("--speed-timeout-ms", options.speed_timeout_ms,
-          "Largest age of speed and position; older ones are a fault");
+          "Largest age of speed and position, ms; older ones are a fault");
   timeout("--command-timeout-ms", options.command_timeout_ms,
-          "Largest time between two commands; a longer pause is a fault");
+          "Largest time between two commands, ms; a longer pause is a fault");
   command
-      .add_option("--step-timeout-ms", options.step_timeout_ms,
-                  "Longest time between two steps; a longer one is a fault [three sample times]")
+      .add_option(
+          "--step-timeout-ms", options.step_timeout_ms,
+          "Largest time between two steps, ms; a longer one is a fault [three sample times]")
       ->check(within<std::uint32_t>(1, 3600000));
 }
 

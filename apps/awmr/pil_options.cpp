@@ -65,8 +65,8 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
           [&options](const std::string& name) {
             options.optimize = *value_in(kOptimizeNames, name);
           },
-          "Compile the firmware for few cycles or for little flash [speed; size for paths, "
-          "obstacles, and two parts or more]")
+          "Compile the firmware for few cycles or for little flash [size for a timed path, "
+          "obstacles, or two optional parts or more; else speed]")
       ->check(one_of(names_in(kOptimizeNames)));
   add_bounds(command, options);
   command
@@ -76,7 +76,8 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
           "0: none")
       ->check(within(0U, 10000000U))
       ->capture_default_str();
-  add_choice(command, "--inject", options.injection, kInjectionNames, "A fault to inject half-way")
+  add_choice(command, "--inject", options.injection, kInjectionNames,
+             "Fault to inject, most of them from the middle of the run on")
       ->default_str("none");
   command
       .add_option("--line-noise", options.line_noise,

@@ -48,7 +48,8 @@ std::vector<std::string_view> weighable_metrics() {
 Result<Preferences> preferences_of(const std::vector<std::string>& weights, double relevance) {
   const std::string place = option_text("weight");
   if (!(relevance >= 0.0 && relevance <= 1.0)) {
-    return input_error(ErrorCode::kOutOfRange, option_text("relevance"), "is not in 0 ... 1");
+    return input_error(ErrorCode::kOutOfRange, option_text("relevance"),
+                       fmt::format("is {:g}; give a number from 0 to 1", relevance));
   }
   Preferences preferences;
   preferences.relevance = relevance;

@@ -110,7 +110,8 @@ Result<std::vector<ComparisonRow>> comparison_rows(std::string_view text, const 
   const bool with_gains = head.back() == "gains";
   if (head != comparison_columns(with_gains)) {
     return input_error(ErrorCode::kStaleResult, file + ":1:1",
-                       "these are not the columns of a comparison");
+                       "the file does not have the columns of comparison.csv; compare into another "
+                       "directory");
   }
   while (!rest.empty()) {
     const std::string_view before = text.substr(0, text.size() - rest.size());

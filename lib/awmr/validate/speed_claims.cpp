@@ -58,7 +58,7 @@ Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs)
                             by_mode(runs, "m/s", overshoot), by_mode(runs, "m/s", error),
                             by_mode(runs, "m/s", later)),
       .tolerance = fmt::format("overshoot from rest and error at the end at most {} m/s each; the "
-                               "excess after a heading step is for information",
+                               "excess after a heading step does not count",
                                kAccepted_mps),
       .why = none_over && no_error
                  ? "the speed loop is of first order, and its law has the exact resistance; the "

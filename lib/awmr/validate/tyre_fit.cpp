@@ -200,8 +200,8 @@ Status check_vehicle(const Model& model) {
   if (model.vehicle.driven_wheels() == 4) return {};
   return input_error(
       ErrorCode::kUnsupported, option_text("tyres"),
-      fmt::format("the four-wheel plant has four driven wheels, a vehicle of drive \"{}\" has not; "
-                  "leave the option out",
+      fmt::format("the four-wheel plant needs four driven wheels, which a vehicle of drive \"{}\" "
+                  "does not have; leave the option out",
                   name_in(kDriveNames, model.vehicle.drive)));
 }
 
