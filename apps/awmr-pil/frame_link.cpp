@@ -46,7 +46,7 @@ class FrameLink : public Chip {
     for (const Position<float>& point : points.points_m) writer.put(point.x_m).put(point.y_m);
     if (writer.bytes().size() > 4 + 16 * 8) {
       return input_error(ErrorCode::kTooLarge, "",
-                         fmt::format("the firmware has room for 16 waypoints, there are {}",
+                         fmt::format("the firmware has room for 16 waypoints, found {}; use fewer",
                                      points.points_m.size()));
     }
     return ask(::pil::kFollow, writer.bytes(), 0);

@@ -116,8 +116,8 @@ Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) 
   if (physics.resolved()) return {};
   return input_error(
       ErrorCode::kDiverges, fmt::format("scenario '{}'", scenario),
-      fmt::format("the simulation cannot continue after {:g} s: resistance is too stiff there "
-                  "for any step, or a number is not finite",
+      fmt::format("the simulation cannot continue after {:g} s: resistance is too stiff for any "
+                  "integration step, or a number is not finite; check the model and the gains",
                   row.t_s));
 }
 
@@ -154,9 +154,9 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
   }
   const std::size_t points = mission_of(scenario).points.points_m.size();
   if (points > kMaxPoints) {
-    faults.push_back(
-        {ErrorCode::kTooLarge, file + ":/guidance/points_m",
-         fmt::format("the firmware has room for {} points, there are {}", kMaxPoints, points)});
+    faults.push_back({ErrorCode::kTooLarge, file + ":/guidance/points_m",
+                      fmt::format("the firmware has room for {} points, found {}; use fewer",
+                                  kMaxPoints, points)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};

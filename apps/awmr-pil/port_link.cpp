@@ -37,7 +37,8 @@ class Port : public Line {
 
   Status reset() override {
     return input_error(ErrorCode::kConflict, "--inject",
-                       "reset: only on the emulated chip; press the board's button");
+                       "'reset' is possible only on the emulated chip; on a board, press its reset "
+                       "button");
   }
 
   Status send(std::span<const std::uint8_t> bytes) override {

@@ -133,15 +133,17 @@ Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& i
   const bool damage = options.injection == Injection::kParameters;
   if (options.line_noise > 0.0 && (options.port || options.link != cli::PilLink::kUart)) {
     return input_error(ErrorCode::kConflict, "--line-noise",
-                       "is for --link uart on the emulated chip");
+                       "acts only on the emulated chip's serial line; add --link uart and remove "
+                       "--port, or remove this option");
   }
   if (options.port) {
     if (options.link != cli::PilLink::kUart) {
       return input_error(ErrorCode::kConflict, "--port",
-                         "is for --link uart: memory is the emulated chip's only");
+                         "needs --link uart, because a board's memory cannot be accessed; add it");
     }
     if (damage) {
-      return input_error(ErrorCode::kConflict, "--inject", "parameters: only on the emulated chip");
+      return input_error(ErrorCode::kConflict, "--inject",
+                         "'parameters' is possible only on the emulated chip; remove --port");
     }
     return port_link(*options.port, options.baud, elf,
                      in.parameters.crc ^ mission_crc(in.setup.mission));

@@ -159,7 +159,8 @@ Status read_texts(const Texts& texts, CompareCommand& command) {
   AWMR_ASSIGN_OR_RETURN(command.shard, shard_of(texts.shard));
   command.compare.shard = command.shard.value_or(Shard{});
   if (command.shard && command.compare.break_even) {
-    return input_error(ErrorCode::kConflict, "--break-even", "cannot be combined with --shard");
+    return input_error(ErrorCode::kConflict, "--break-even",
+                       "cannot be combined with --shard; remove one of them");
   }
   AWMR_ASSIGN_OR_RETURN(command.compare.preferences,
                         preferences_of(texts.weights, texts.relevance));

@@ -49,8 +49,9 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
     }
     options.yaw_family = choice;
   } else {
-    return input_error(ErrorCode::kUnknownName, "--family",
-                       fmt::format("'{}' is neither surge nor yaw", subject));
+    return input_error(
+        ErrorCode::kUnknownName, "--family",
+        fmt::format("'{}' is neither surge nor yaw; give surge=NAME or yaw=NAME", subject));
   }
   return {};
 }

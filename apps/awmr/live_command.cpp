@@ -223,7 +223,8 @@ Result<Outcome> execute(const LiveCommand& requested) {
     return input_error(
         ErrorCode::kTooFewData,
         command.source.port.value_or(command.source.log.value_or("")).string(),
-        fmt::format("{} before any data arrived", name_in(kLiveEndWords, followed.end)));
+        fmt::format("{} before any data arrived; check that the recorder writes to this source",
+                    name_in(kLiveEndWords, followed.end)));
   }
   screen.say(fmt::format("{}: {} rows are in {}; fitting all of it",
                          name_in(kLiveEndWords, followed.end), followed.recording.rows(),

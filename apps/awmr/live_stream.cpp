@@ -53,7 +53,8 @@ Result<OpenStream> open_stream(const StreamSource& source) {
   if (name == "-") {
     Descriptor input(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0));
     if (input.number() < 0) {
-      return input_error(ErrorCode::kCannotRead, "--log -", "standard input is closed");
+      return input_error(ErrorCode::kCannotRead, "--log -",
+                         "standard input is closed; pipe the recorder's data into awmr live");
     }
     return OpenStream{std::move(input)};
   }

@@ -19,7 +19,7 @@ Result<ShardChoice> shard_of(const std::optional<std::string>& text) {
     if (second == std::errc{} && rest == end) return shard;
   }
   return input_error(ErrorCode::kWrongType, "--shard",
-                     fmt::format("'{}' is no part: give I/N, as 1/4", *text));
+                     fmt::format("'{}' is not a part: give I/N, such as 1/4", *text));
 }
 
 Result<Outcome> finished_part(const Shard& shard, const std::filesystem::path& directory) {

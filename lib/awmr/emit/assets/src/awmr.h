@@ -1,7 +1,7 @@
 /* awmr: the autopilot of one vehicle as a C interface. C99 and C++11.
-   Angles in rad, counter-clockwise positive, x forward, y left; forces over F_max, the largest
-   force of one motor. No memory is allocated; there is one autopilot. Call from one thread (or one
-   interrupt).
+   Angles in rad, counter-clockwise positive, x forward, y left. Forces are divided by F_max, the
+   largest force of one motor. No memory is allocated. There is one autopilot: call it from one
+   thread or interrupt.
 
      awmr_init();
      every AWMR_SAMPLE_TIME_S: fill an awmr_input; awmr_step(&input, &output); drive the motors. */
@@ -24,10 +24,10 @@
 #endif
 #endif
 
-/* mode: method of making a yaw moment */
-#define AWMR_DIFFERENTIAL 0 /* by left and right wheel forces, wheels straight */
-#define AWMR_STEERING 1     /* by the front wheels, equal forces on both sides */
-#define AWMR_COMBINED 2     /* by both; what one cannot make goes to the other, unless
+/* mode: what makes the yaw moment */
+#define AWMR_DIFFERENTIAL 0 /* left and right wheel forces, wheels straight */
+#define AWMR_STEERING 1     /* the front wheels, equal forces on both sides */
+#define AWMR_COMBINED 2     /* both; what one cannot make goes to the other, unless
                                AWMR_FIXED_HALF */
 
 /* fault: reason for the safe command (forces 0, wheels straight). Bits, several can be set.
@@ -55,12 +55,12 @@ typedef struct awmr_input {
   float psi_ref_accel_radps2;
   float u_ref_mps;         /* speed to hold */
   float u_ref_accel_mps2;
-  uint32_t now_ms;         /* a clock in ms that can wrap, and the times on it */
-  uint32_t heading_ms;     /* at which psi_rad and r_radps were measured, */
-  uint32_t speed_ms;       /* at which u_mps, x_m and y_m were measured, */
-  uint32_t command_ms;     /* and of the last command */
+  uint32_t now_ms;         /* time now on a clock in ms, which may wrap */
+  uint32_t heading_ms;     /* time on it at which psi_rad and r_radps were measured */
+  uint32_t speed_ms;       /* time on it at which u_mps, x_m and y_m were measured */
+  uint32_t command_ms;     /* time on it of the last command */
   uint8_t speed_unsigned;  /* 1: u_mps is the magnitude of the speed, as from a GPS, and x_m, y_m
-                              are measured: the direction is computed. 0: u_mps has its sign */
+                              are measured: the direction is computed. 0: u_mps has a sign */
   uint8_t position_is_fix; /* 1: x_m, y_m are the last fix of a receiver, taken at fix_ms: the
                               position now is estimated from it, heading and speed. 0: they are the
                               position now */
