@@ -1,4 +1,4 @@
-// ATmega2560 emulated in this process by libsimavr.
+// An ATmega2560, emulated in this process by libsimavr.
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@ namespace awmr::pil {
 
 /// Results with inputs that no vehicle produces.
 struct Hostile {
-  unsigned cycles = 0;        ///< maximum over all steps, including the setup of new points
+  unsigned cycles = 0;        ///< cycles of the longest step, including the setup of new points
   std::size_t steps = 0;      ///< number of steps tried
   std::size_t differing = 0;  ///< steps whose outputs differ from the host's in any bit
 };

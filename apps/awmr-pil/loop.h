@@ -31,7 +31,7 @@ struct LoopRow {
   double t_s = 0.0;
   State<double> state{};
   Step step;
-  SensorFault cause = kSensorGood;    ///< reason why a sensor was rejected first, with an injection
+  SensorFault cause = kSensorGood;    ///< check that rejects a sensor, if a failure is injected
   SideForces<double> force{};         ///< forces that the actuators receive in this step
   double steering_command_rad = 0.0;  ///< steering angle that the servo receives in this step
 };
@@ -43,10 +43,12 @@ void know_receiver(const Gps& gps, Model& model);
 /// True if the simulated speed sensor gives |u|, so that the firmware has to find the direction.
 bool has_unsigned_speed(const Scenario& scenario);
 
-/// Errors (input): the scenario uses a feature that the firmware does not support.
+/// Checks that the firmware can run the scenario. Errors (input): the scenario uses a feature that
+/// the firmware does not support, or has more than kMaxPoints points.
 Status check_scenario(const Scenario& scenario, const std::string& file);
 
-/// Runs until the scenario or its path ends. Errors: the executor's.
+/// Runs the loop until the scenario or its path ends. Errors: those of the executor; (input) the
+/// simulation diverges.
 Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor,
                                       const Progress& progress = {});
 

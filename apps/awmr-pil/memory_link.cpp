@@ -74,7 +74,8 @@ class MemoryLink : public Chip {
     return emulator_->ram("pil_init_fault", 1)[0];
   }
 
-  /// Errors (input): the chip never sleeps because a step takes longer than the timer's period.
+  /// Runs until the chip sleeps. Errors (input): the chip never sleeps, because a step takes longer
+  /// than the timer's period.
   Status run_to_sleep() {
     const std::uint64_t begin = emulator_->cycles();
     const Status asleep = emulator_->run_to_sleep(kStartCycles);

@@ -1,4 +1,5 @@
-// Implementation of `awmr pil`: build, run, compare, check.
+// Implementation of `awmr pil`: builds the firmware, runs it, compares the runs and checks the
+// bounds.
 #pragma once
 
 #include "awmr/model/record.h"

@@ -32,8 +32,8 @@ class WorkFolder {
 /// any other thread exists. Signals that were ignored (nohup) stay ignored.
 void clean_up_at_signals();
 
-/// Waits for the end of the program if a signal is about to end it, so that errors caused by the
-/// signal are not reported. Returns at once otherwise.
+/// Never returns if a signal is about to end the program, so that errors caused by the signal are
+/// not reported. Returns at once otherwise.
 void end_if_told_to();
 
 }  // namespace awmr::pil

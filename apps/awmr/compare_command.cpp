@@ -248,7 +248,8 @@ Result<Outcome> whole_outcome(const CompareCommand& command, const ComparedInput
   return outcome;
 }
 
-/// Errors (input), before the work begins: an output that cannot be written, or is an input.
+/// Checks the outputs before the work begins. Errors (input): an output cannot be written, or is an
+/// input.
 Status check_outputs_of(const CompareCommand& command) {
   return cli::check_outputs(command.output,
                             command.shard

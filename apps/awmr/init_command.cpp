@@ -40,7 +40,8 @@ std::string for_drive(std::string_view text, Drive drive) {
   return lines;
 }
 
-/// Errors: each file that already exists.
+/// Returns the files of the new project. Errors (input): each file that already exists, or whose
+/// path cannot be looked up.
 Result<std::vector<OutputFile>> files_to_write(const InitCommand& command) {
   std::vector<OutputFile> files;
   std::vector<Fault> faults;

@@ -31,9 +31,11 @@ struct OpenStream {
   bool may_grow = false;  ///< another program may append to the file
 };
 
-/// Errors (input): the source cannot be opened, is a directory or is not a serial port.
+/// Opens the source. Errors (input): the source cannot be opened, is a directory, or is not a
+/// serial port.
 Result<OpenStream> open_stream(const StreamSource& source);
 
+/// Reads a source in a separate thread from construction to destruction.
 class RecorderStream {
  public:
   explicit RecorderStream(OpenStream source);

@@ -18,7 +18,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Errors (input): an output that cannot be written, or is a file of a part.
+/// Checks the outputs before the work begins. Errors (input): an output cannot be written, or is a
+/// file of a part.
 Status check_outputs_of(const MergeCommand& command, const ShardKind& kind,
                         const std::vector<std::string>& outputs) {
   std::vector<fs::path> inputs;

@@ -45,7 +45,7 @@ enum class Injection {
   kCompassStuck,       ///< the heading at the start of the failure is kept, with noise
   kGyroSilent,         ///< no raw value
   kGyroFrozen,         ///< raw value repeats
-  kGyroRange,          ///< switched to another range
+  kGyroRange,          ///< the sensor switches to another measuring range
   kGyroDrift,          ///< offset of 8.6 deg/s
   kGpsSilent,          ///< no sentence
   kGpsNoFix,           ///< sentences without a fix
@@ -53,7 +53,7 @@ enum class Injection {
   kGpsDamaged,         ///< sentences with a wrong checksum
   kGpsRepeated,        ///< the same sentence
   kGpsLate,            ///< sentences with 2 s latency
-  kGpsJump,            ///< off by 20 m
+  kGpsJump,            ///< the position is off by 20 m
   kGpsSpeedZero,       ///< a speed that is stuck at 0
   kGpsPositionFrozen,  ///< the same position, with a speed
   kMotorsReversed,     ///< the vehicle drives in the wrong direction, but turns as commanded

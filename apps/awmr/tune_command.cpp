@@ -86,7 +86,8 @@ Result<Provenance> provenance_of(const TuneCommand& command, const std::vector<f
   return Provenance{"tune", std::move(options), std::move(inputs)};
 }
 
-/// Errors (input), before the work begins: an output that cannot be written, or is an input.
+/// Checks the outputs before the work begins. Errors (input): an output cannot be written, or is an
+/// input.
 Status check_output_of(const TuneCommand& command, const std::vector<fs::path>& inputs) {
   return command.shard ? check_outputs(command.output, part_files(tune_shards()), inputs)
                        : check_output(command.output, inputs);

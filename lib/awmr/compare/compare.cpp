@@ -80,8 +80,8 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
   return faults;
 }
 
-/// Error (input) if there are more than kMaxRuns runs. To be called before memory is allocated for
-/// the samples. `per_sample`: number of runs of each sample.
+/// Checks the number of runs, before memory is allocated for the samples. Error (input): more than
+/// kMaxRuns runs. `per_sample`: number of runs of each sample.
 Status check_runs(std::size_t per_sample, int samples) {
   const std::size_t most = kMaxRuns / per_sample;
   if (at(samples) + 1 <= most) return {};

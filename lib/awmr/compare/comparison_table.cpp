@@ -76,7 +76,7 @@ std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>
   return text;
 }
 
-/// "decisions: 3 decided, 1 level, 2 undecided; survive a change of plant in 3 of 6, weights in 5 of 6"
+/// Text: "decisions: 3 decided, 1 level, 2 undecided; survive a change of plant in 3 of 6, ..."
 std::string decisions_of(const std::vector<EvaluatedScenario>& scenarios) {
   DecisionTally tally = tally_decisions(scenarios);
   std::string text;

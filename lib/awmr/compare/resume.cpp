@@ -61,7 +61,7 @@ struct Origin {
   Provenance provenance;
   std::string version;                    ///< of the program that wrote it
   std::string arithmetic;                 ///< of its rows; "scalar" if the key is missing
-  std::optional<std::string> csv_sha256;  ///< of comparison.csv; absent in older files
+  std::optional<std::string> csv_sha256;  ///< hash of comparison.csv; absent in older files
 };
 
 Origin origin_from_json(JsonObject& json) {

@@ -106,7 +106,8 @@ Result<std::vector<ComparisonRow>> rows_of(const std::vector<Part>& parts, int i
   return in_order_of_items(rows, items);
 }
 
-/// Error (input) unless each scenario, mode and set of gains has `items` consecutive rows.
+/// Checks that each scenario, mode and set of gains has `items` consecutive rows. Error (input):
+/// rows are missing or appear twice.
 Status check_groups(const std::vector<ComparisonRow>& rows, std::size_t items) {
   const auto group_of = [&](std::size_t i) {
     return std::tuple(rows[i].scenario, rows[i].gains, rows[i].mode);

@@ -179,7 +179,8 @@ double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
   return std::min(most, kMost_mrad);
 }
 
-/// Errors (input): allocations that only the simulated controller supports.
+/// Checks that the vehicle has the exact allocation. Errors (input): it has the small-angle
+/// allocation, which only the simulated controller supports.
 Status check_allocation(const Model& model) {
   if (model.vehicle.allocation == AllocationForm::kExact) return {};
   return input_error(ErrorCode::kUnsupported, file_name(model) + ":/vehicle/allocation",

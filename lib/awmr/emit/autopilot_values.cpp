@@ -149,7 +149,7 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
   constexpr Interval kUsual{0.0, 3.0};
   if (!knows_yaw(pilot)) return pilot.leave_out(kName, kNoYaw);
   if (!pilot.vehicle().has_steering()) {
-    // s/r with 4 d s = g3(r)
+    // The steering output s divided by the yaw rate r, with 4 d s = g3(r).
     const double s = 0.5 * pilot.vehicle().wheel_force.hi;
     pilot.add(
         kName, "1/(rad/s)", fmt::format("s/r with 4 d s = g3(r) at s = {:g}", s),
@@ -159,7 +159,7 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
         kUsual);
     return;
   }
-  // s/r with l_f g1(u) tan(s d_max/2) = g3(r). Above MOT_SPD_SCA_BASE = 1 m/s, ArduPilot divides
+  // s/r, with l_f g1(u) tan(s d_max/2) = g3(r). Above MOT_SPD_SCA_BASE = 1 m/s, ArduPilot divides
   // the output by u, so the value is multiplied by u.
   pilot.add(
       kName, "1/(rad/s)",

@@ -14,7 +14,7 @@ enum class MacroRange { kPositive, kNotNegative, kAnySign };
 /// One macro of awmr_params.h.
 struct Macro {
   std::string name;     ///< "AWMR_SURGE_ALPHA"
-  double value = 0.0;   ///< in the unit in the comment, before rounding to float32
+  double value = 0.0;   ///< in the unit that `comment` names, before rounding to float32
   std::string comment;  ///< symbol, unit, meaning, origin
   std::string place;    ///< `FILE:/json/pointer` of the value
   MacroRange range = MacroRange::kPositive;

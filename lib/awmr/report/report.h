@@ -28,7 +28,8 @@ struct ReportPage {
 /// Returns the page as report_html(), and the warnings.
 Result<ReportPage> report_page(const std::filesystem::path& directory);
 
-/// Error (input) if a file of this name exists and is not a page that awmr wrote.
+/// Checks that the page may be written. Error (input): a file of this name exists, and awmr did not
+/// write it.
 Status check_report_page(const std::filesystem::path& path);
 
 /// Name of the program that draws the figures.

@@ -166,7 +166,7 @@ struct Compared {
   DriveChannel channel;
   WindowMeans measured;
   PredictedBand predicted;
-  std::vector<double> largest;  ///< by draw: its largest distance in this channel
+  std::vector<double> largest;  ///< for each draw, its largest distance in this channel
   double usual = 0.0;           ///< limit that contains the distances of 95 % of the draws
 };
 

@@ -16,7 +16,7 @@
 namespace awmr {
 
 inline constexpr double kSpeed_mps = 1.0;                      ///< u_d               [paper 4.3]
-inline const std::vector<double> kSimulated_deg{30.0, -30.0};  ///< headings      [paper 4.3]
+inline const std::vector<double> kSimulated_deg{30.0, -30.0};  ///< commanded headings  [paper 4.3]
 inline constexpr double kLargestStep_deg = 60.0;               ///< the step from 30 to -30 deg
 
 /// Rounds a result to 1e-4, because smaller digits depend on rounding errors. -0 becomes 0.

@@ -61,7 +61,7 @@ PredictedSeries drawn(const PredictedSeries& all) {
   return some;
 }
 
-/// Error (input) if the replay gave numbers that are not finite.
+/// Checks that the replay gave finite numbers. Error (input): it did not, in some channel.
 Status check_finite(const LogValidation& validation) {
   for (const ChannelValidation& channel : validation.channels) {
     if (std::isfinite(channel.one_step.nrmse) && std::isfinite(channel.long_horizon.nrmse))

@@ -16,8 +16,8 @@ struct ChannelValidation {
   std::string channel;  ///< "yaw_rate_radps"
   std::string unit;
   int samples = 0;
-  PredictionError one_step;      ///< of the prediction from each measured row to the next
-  PredictionError long_horizon;  ///< of the prediction from the commands over windows of horizon_s
+  PredictionError one_step;      ///< errors of the prediction from each measured row to the next
+  PredictionError long_horizon;  ///< errors of the prediction over windows of horizon_s
   PredictedSeries series = {};   ///< long-horizon prediction, reduced to the points for a chart
 };
 

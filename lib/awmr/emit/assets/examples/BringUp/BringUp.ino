@@ -24,7 +24,7 @@ struct Wanted {
 Wanted wanted;
 awmr_output output;
 volatile bool shall_hang = false;
-float turned_rad = 0.0f; // turned by the gyroscope since it was set to 0
+float turned_rad = 0.0f; // angle turned since it was set to 0, by the gyroscope
 
 float cut(float force) { return constrain(force, -kForce, kForce); }
 
@@ -103,7 +103,7 @@ void prompt(const __FlashStringHelper* question) {
   if (!read_yes()) end(question);
 }
 
-// The stop rule: waits, but ends at the first character.
+// Waits for limit_ms; any character that arrives ends the bring-up.
 void wait_ms(uint32_t limit_ms) {
   const uint32_t start_ms = millis();
   while (Serial.available() > 0) Serial.read(); // rest of the last line
