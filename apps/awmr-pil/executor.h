@@ -16,7 +16,7 @@ namespace awmr::pil {
 
 struct Step {
   AutopilotOutput output{};
-  std::optional<unsigned> cycles;  ///< absent on the host
+  std::optional<unsigned> cycles;  ///< cycles of the chip; absent on the host
   bool restarted = false;          ///< the chip was reset and restarted before this step
 };
 

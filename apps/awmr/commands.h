@@ -102,7 +102,7 @@ struct TuneCommand {
   fs::path output;
   AllocationChoice allocation = {};
   bool nominal = false;
-  bool observer = false;                  ///< like `"observer": {}` in tune.json
+  bool observer = false;                  ///< also tune a disturbance observer
   std::optional<fs::path> baseline = {};  ///< replaces `baseline` of tune.json
   std::optional<YawMode> mode = {};       ///< replaces `mode` of tune.json
   std::optional<int> draws = {};
@@ -126,7 +126,7 @@ struct ValidateCommand {
   bool other_columns = false;  ///< true: mappings may name files that this command does not read
   double horizon_s = 10.0;
   double log_tolerance = 0.3;
-  bool tyres = false;   ///< fit the four-wheel plant to the logs
+  bool tyres = false;   ///< also fit the tyres of the four-wheel plant to the logs
   bool claims = false;  ///< print all fourteen claims, each with tolerance and reason
   std::optional<fs::path> claims_table = {};  ///< Markdown file for the claims
   std::optional<fs::path> scenario = {};      ///< set: the logs are drives of this scenario

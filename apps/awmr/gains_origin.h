@@ -1,4 +1,4 @@
-/// Check that gains were tuned on the model with which they are used.
+/// Warnings about gains that are used with another model or mode than they were tuned for.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-/// `--heading-rate-limit`, shared by commands that simulate scenarios (simulate/validity.h).
+/// Option `--heading-rate-limit`, shared by commands that simulate scenarios (simulate/validity.h).
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// `awmr completion` and `awmr man`.
+// Implements the commands `awmr completion` and `awmr man`.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

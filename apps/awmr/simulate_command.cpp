@@ -40,7 +40,7 @@ std::string end_of(const Run& run, const Scenario& scenario) {
                      run.missed_waypoints);
 }
 
-/// Reports resets of the position estimate.
+/// Text of the number of resets of the position estimate; empty if there were none.
 std::string resets_of(const Run& run) {
   if (run.position_resets == 0) return "";
   return fmt::format("  the position estimate was reset {} time(s), after rejected fixes\n",

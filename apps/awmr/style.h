@@ -1,4 +1,4 @@
-/// Colours on a terminal.
+/// Colours for text on a terminal.
 #pragma once
 
 #include <cstdio>

@@ -129,8 +129,8 @@ struct AutopilotParameters {
   /// For gains that were tuned with an observer; absent: off unless the sketch enables one.
   std::optional<ObserverBlock> observer;
   float steering_max_tan_half = 0.0F;                  ///< tan(d_max/2)
-  EmittedTable surge;                                  ///< of g1; without lines for kPowf
-  EmittedTable yaw;                                    ///< of g3; without lines for kPowf
+  EmittedTable surge;                                  ///< table of g1; empty for kPowf
+  EmittedTable yaw;                                    ///< table of g3; empty for kPowf
   ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
   double table_error = 0.0;                            ///< bound on the errors of both tables
   float sample_time_s = 0.0F;                          ///< as in awmr_params.h

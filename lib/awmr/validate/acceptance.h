@@ -33,7 +33,7 @@ struct ChannelAcceptance {
   std::string channel;  ///< "heading_rad", "force_left"
   std::string unit;
   int samples = 0;              ///< number of rows compared
-  double noise = 0.0;           ///< standard deviation of the noise of a reading, in the unit
+  double noise = 0.0;           ///< standard deviation of the noise of a reading, in `unit`
   bool noise_from_log = false;  ///< true: `noise` was estimated from the log, because neither
                                 ///< scenario nor vehicle gives it
   double distance = 0.0;        ///< largest distance of a window, >= 0
@@ -42,7 +42,7 @@ struct ChannelAcceptance {
   bool inside = false;          ///< distance <= allowed
   /// Scenario time, s, of the first window with a larger distance than allowed; absent if inside.
   std::optional<double> outside_since_s = {};
-  double difference = 0.0;  ///< measured minus predicted in the window of `distance`, in the unit
+  double difference = 0.0;  ///< measured minus predicted in the window of `distance`, in `unit`
 };
 
 /// A possible cause of the difference between drive and prediction: one change of the vehicle, its

@@ -104,7 +104,8 @@ std::optional<double> predicted_measurement(const Plant<double>& plant, const Tr
 Result<Validation> validate(const Model& model, const std::optional<Gains<double>>& gains,
                             const ValidateOptions& options);
 
-/// Adds the results for logs and includes them in the verdict.
+/// Adds the results for logs and includes them in the verdict. `tolerance`: the largest accepted
+/// NRMSE, which the verdict names.
 void add_logs(Validation& validation, std::vector<LogValidation> logs, double tolerance);
 
 /// Adds the results for drives of a scenario and includes them in the verdict.
