@@ -109,9 +109,9 @@ Status add_excluded(std::string_view text, TrialOptions& trials) {
 
 Status check_used(const TrialOptions& trials) {
   if (trials.used_s.lo < trials.used_s.hi) return {};
-  return input_error(
-      ErrorCode::kWrongOrder, "--until",
-      fmt::format("{:g} s is not after --from {:g} s", trials.used_s.hi, trials.used_s.lo));
+  return input_error(ErrorCode::kWrongOrder, "--until",
+                     fmt::format("{:g} s is not after --from {:g} s; give a later time",
+                                 trials.used_s.hi, trials.used_s.lo));
 }
 
 std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options) {

@@ -20,13 +20,14 @@ Status add_family(std::string_view text, IdentifyOptions& options);
 /// (`bias.yaw_rate_radps`, ...).
 Status add_requested(std::string_view name, IdentifyOptions& options);
 
-/// Times in s, as in the t_s of a log.
+/// Largest absolute value of a time in a log (column t_s), s.
 inline constexpr double kMostTime_s = 1e12;
 
-/// Adds `A:B`, a span of time that is left out of each log, s. Errors: no such span.
+/// Adds a span of time that is left out of each log: `A:B` in s, with A before B. Errors (input):
+/// the text is not of this form.
 Status add_excluded(std::string_view text, TrialOptions& trials);
 
-/// Errors: the used time does not end after its begin.
+/// Checks the part of the logs to use. Errors (input): `--until` is not after `--from`.
 Status check_used(const TrialOptions& trials);
 
 /// Returns the options as text for the model's provenance.

@@ -34,7 +34,7 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words);
 void add_log_options(CLI::App& sub, IdentifyCommand& command);
 /// Adds `--from`, `--until` and `--exclude`.
 void add_part_options(CLI::App& sub, TrialOptions& trials, std::vector<std::string>& excluded);
-/// Adds the last two.
+/// Adds `--until` and `--exclude`.
 void add_end_options(CLI::App& sub, TrialOptions& trials, std::vector<std::string>& excluded);
 /// Adds the options for reading files.
 void add_reading_options(CLI::App& sub, IdentifyWords& words);
