@@ -152,14 +152,16 @@ void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
   for (const std::size_t i : best) counts[i] += 1.0 / static_cast<double>(best.size());
 }
 
-/// For each entry, the share of random weightings for which it is best. The ratios of the weights
-/// are those of a uniform distribution over all weightings that sum to 1.
+/// For each entry, the share of random weightings for which it is best. The weightings have a uniform
+/// distribution over all that sum to 1, like those of log_score().
 std::vector<double> shares_by_weights(const std::vector<Entry>& entries, double margin,
                                       Random random) {
   std::vector<double> shares(entries.size(), 0.0);
   std::vector<double> weights(entries.front().mean_losses.size());
   for (int draw = 0; draw < kWeightings; ++draw) {
     for (double& weight : weights) weight = -std::log1p(-random.uniform());  // Dirichlet(1, ..., 1)
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (double& weight : weights) weight /= sum;
     const auto loss = [&](const Entry& entry) {
       return std::inner_product(weights.begin(), weights.end(), entry.mean_losses.begin(), 0.0);
     };
