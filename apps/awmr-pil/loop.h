@@ -1,5 +1,5 @@
-// Closed loop of the vehicle, simulated as in simulate/, and the control step of an Executor, in
-// float.
+// Closed loop of the vehicle, simulated in double as in simulate/, and the control step of an Executor,
+// computed in float.
 #pragma once
 
 #include <vector>

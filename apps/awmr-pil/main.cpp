@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const std::exception& error) {
     awmr::pil::end_if_told_to();
-    std::fprintf(stderr, "error: a fault of the program: %s [internal]\n", error.what());
+    std::fprintf(stderr, "error: bug in awmr-pil, please report it: %s [internal]\n", error.what());
     return 3;
   }
 }

@@ -50,10 +50,10 @@ Status check_sample_time(const Model& model) {
   if (counts >= 2.0F && counts < 65537.0F) return {};
   return input_error(
       ErrorCode::kOutOfRange, model.file + ":/vehicle/sample_time_s",
-      fmt::format("the emulated chip's timer starts a step every 1 us to {:.6g} ms, found {:.6g} "
-                  "ms; identify the vehicle with a sample time that the firmware can hold, or use "
-                  "--link uart",
-                  65536.0 * 8.0 / kClockHz * 1000.0, model.vehicle.sample_time_s * 1000.0));
+      fmt::format(
+          "the emulated chip's timer allows sample times from 1 us to {:.6g} ms, found {:.6g} "
+          "ms; identify the vehicle with such a sample time, or use --link uart",
+          65536.0 * 8.0 / kClockHz * 1000.0, model.vehicle.sample_time_s * 1000.0));
 }
 
 Result<Inputs> read_inputs(const PilOptions& options) {

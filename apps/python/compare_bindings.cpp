@@ -81,8 +81,9 @@ void bind_compare(py::module_& module) {
       py::arg("heading_rate_limit") = py::none(),
       "Compares the yaw-control modes on a list of scenarios, for the model's own values and "
       "`samples` draws from its covariance. The results equal those of `awmr compare`, for any "
-      "number of threads (0: all cores). heading_rate_limit: deg/s, \"measured\" or \"none\"; "
-      "default: measured, if the model has that rate. Raises InputError.");
+      "number of threads (0: all cores). heading_rate_limit: a number in deg/s, \"measured\" or "
+      "\"none\"; default: \"measured\" if the model has a measured yaw rate, else \"none\". Raises "
+      "InputError.");
 }
 
 }  // namespace awmr::python

@@ -79,7 +79,8 @@ void bind_simulate(py::module_& module) {
           "(over F_max), steering_rad, ...; the row at t has the command until the next row")
       .def_property_readonly(
           "metrics", [](const EvaluatedRun& evaluated) { return metrics_dict(evaluated.metrics); },
-          "as in comparison.csv, units in the names; None if a metric does not apply")
+          "dict of the metrics of comparison.csv, units in the names; None if a metric does not "
+          "apply")
       .def_property_readonly(
           "completed", [](const EvaluatedRun& evaluated) { return evaluated.metrics.completed; })
       .def_property_readonly(

@@ -43,7 +43,7 @@ constexpr Hazard kHazards[] = {
     {"gps-damaged", "GPS sentence with a wrong check sum", "strict reader", 9, 0.9},
     {"gps-repeated", "GPS repeats a sentence", "UTC does not advance", 10, 0.9},
     {"gps-late", "GPS latency of 2 s", "silence, then UTC behind the clock by 0.5 s", 8, 0.9},
-    {"gps-jump", "GPS position jumps by 20 m", "displacement beyond 1.5 u + 1 m/s and 3 m", 12,
+    {"gps-jump", "GPS position jumps by 20 m", "displacement above (1.5 u + 1 m/s) t + 3 m", 12,
      0.9},
     {"gps-position-frozen", "GPS position is stuck", "1.5 m by speed, none by position", 13, 2.5},
     {"gps-speed-zero", "GPS speed is stuck at 0", "6 m further along the heading than by speed", 13,

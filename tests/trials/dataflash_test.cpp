@@ -89,7 +89,7 @@ TEST(Dataflash, RefusesMalformedContent) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {dataflash_format(10, 15, "RCOU", "QHHH", "TimeUS,C1,C3"), "4 fields and 3 names"},
       {dataflash_format(10, 16, "RCOU", "QHH", "TimeUS,C1,C3"),
-       "declares 16 bytes, but its fields have 15"},
+       "declares 16 bytes, but header and fields have 15"},
       {dataflash_format(10, 0, "RCOU", "QHH", "TimeUS,C1,C3"), "declares 0 bytes"},
       {dataflash_format(10, 15, "RCOU", "Q?H", "TimeUS,C1,C3"), "unknown kind '?'"},
       {formats() + dataflash_format(10, 15, "RCOU", "QHH", "TimeUS,C1,C4"),

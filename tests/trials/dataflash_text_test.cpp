@@ -119,7 +119,8 @@ TEST(DataflashText, IncompleteLinesAreSkippedAndNoted) {
 TEST(DataflashText, RefusesMalformedContentWithItsLine) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"FMT, 10, 15, RCOU, QHHH, TimeUS,C1,C3\n", "a.log:1: RCOU has 4 fields and 3 names"},
-      {"FMT, 10, 16, RCOU, QHH, TimeUS,C1,C3\n", "declares 16 bytes, but its fields have 15"},
+      {"FMT, 10, 16, RCOU, QHH, TimeUS,C1,C3\n",
+       "declares 16 bytes, but header and fields have 15"},
       {"FMT, 10, 15, RCOU, Q?H, TimeUS,C1,C3\n", "unknown kind '?'"},
       {"FMT, 300, 15, RCOU, QHH, TimeUS,C1,C3\n", "a.log:1: invalid format line"},
       {"FMT, 10\n", "a.log:1: invalid format line"},

@@ -66,8 +66,8 @@ struct FrameReader {
     if (count < kHeadBytes) return true;
     return length() <= kMaxPayload && count < kHeadBytes + length() + 2;
   }
-  /// True for a complete frame with the right CRC. Bytes behind the frame, which exist only after a
-  /// damaged frame, are lost.
+  /// True for a complete frame with the right CRC. take() then drops the bytes after it; such bytes
+  /// exist only if a damaged frame came before.
   bool is_whole() const {
     if (length() > kMaxPayload) return false;
     const uint8_t covered = static_cast<uint8_t>(kHeadBytes + length());

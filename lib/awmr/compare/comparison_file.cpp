@@ -226,8 +226,9 @@ Json statistics_json(int samples) {
                                ? "of the share, exact (Clopper-Pearson)"
                                : "null: an interval needs at least 2 samples (option samples)";
   json["resamples"] = samples >= 2 ? Json(kResamples) : Json(nullptr);
-  json["quantiles"] = samples >= 2 ? "5, 50 and 95 %, linear between order statistics"
-                                   : "null: quantiles need at least 2 samples (option samples)";
+  json["quantiles"] = samples >= 2
+                          ? "5, 50 and 95 %, linearly interpolated between the sorted values"
+                          : "null: quantiles need at least 2 samples (option samples)";
   return json;
 }
 

@@ -73,7 +73,7 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
   }
   if (options.joint && (!data.surge || data.curves.empty())) {
     return input_error(ErrorCode::kMissing, option_text("joint"),
-                       "needs a surge trial and a coast-down curve");
+                       "needs surge runs and a coast-down curve");
   }
   return {};
 }

@@ -94,7 +94,7 @@ tl::expected<Format, std::string> format_of(std::string_view bytes) {
     end += kind->bytes;
   }
   if (format.bytes != end + kRecordHeaderBytes) {
-    return tl::unexpected(fmt::format("{} declares {} bytes, but its fields have {}", shown,
+    return tl::unexpected(fmt::format("{} declares {} bytes, but header and fields have {}", shown,
                                       format.bytes, end + kRecordHeaderBytes));
   }
   return format;

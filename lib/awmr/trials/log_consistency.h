@@ -38,8 +38,8 @@ struct Contradiction {
 
 /// Returns the columns with a wrong unit or sign; empty if all channels agree. `mappings`: column
 /// mappings with which the log was read, so that a correction names the file's own column. A
-/// comparison is skipped if its signals are weak: a straight drive, a vehicle at rest, fewer than
-/// 10 windows.
+/// comparison is skipped if its signals are weak (a straight drive, a vehicle at rest) or the log has
+/// too few windows.
 std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& vehicle,
                                           std::span<const ColumnMapping> mappings);
 

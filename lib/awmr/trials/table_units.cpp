@@ -151,8 +151,8 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehic
     const bool is_time = unit->times == 1000.0 && lengths <= kUsualLengthsPerSecond;
     if (is_time) unit = &kTableSpeedUnits[4];
     return wrong(first.line,
-                 fmt::format("speed_mps is {:.3g} times distance_m over elapsed_s: {}",
-                             median(ratios), unit->words),
+                 fmt::format("speed_mps is {:.3g} times distance_m/elapsed_s: {}", median(ratios),
+                             unit->words),
                  unit->column, unit->factor);
   }
   if (kLengthsPerSecond.contains(lengths) || !tells_lengths(vehicle)) return std::nullopt;
@@ -177,7 +177,7 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning) {
   const std::vector<double> ratios = printed_over_timed(turning.rows);
   if (const TableUnit* unit = unit_of(ratios, kTableTurnUnits)) {
     return wrong(first.line,
-                 fmt::format("yaw_rate_radps is {:.3g} times 2 pi turns over elapsed_s: {}",
+                 fmt::format("yaw_rate_radps is {:.3g} times 2 pi turns/elapsed_s: {}",
                              median(ratios), unit->words),
                  unit->column, unit->factor);
   }

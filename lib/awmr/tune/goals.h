@@ -2,9 +2,10 @@
 /// overshoot by at most 1 deg". Private to tune/.
 ///
 /// The excess of a run is e = max_i x_i/l_i: the largest ratio of a metric x_i to its limit l_i. It
-/// is infinite if the run breaks off. The excess of a draw is the largest over its scenarios. A
-/// goal with the share p is met in a mode if the p quantile of e over all draws is at most 1. The p
-/// quantile of n draws is the ceil(p n)-th smallest value, so with few draws it is the largest.
+/// is infinite if the run breaks off or a metric is not finite. The excess of a draw is the largest
+/// over its scenarios. In the search, a goal with the share p is met in a mode if the p quantile of e
+/// over all draws is at most 1; the verdict is by the 95 % interval of the share. The p quantile of n
+/// draws is the ceil(p n)-th smallest value, so with few draws it is the largest.
 #pragma once
 
 #include <span>

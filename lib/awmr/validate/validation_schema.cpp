@@ -177,7 +177,7 @@ Result<TyreFit> read_tyres(const std::filesystem::path& path) {
   std::optional<TyreFit> tyres = validation_from_json(root);
   if (faults.empty() && !tyres) {
     faults.push_back({ErrorCode::kMissing, path.string() + ":/tyres",
-                      "has no tyres; fit them with awmr validate --log FILE --tyres"});
+                      "is missing; use the output of awmr validate --tyres"});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return *std::move(tyres);

@@ -18,9 +18,9 @@ void add_curve_figures(EstimatorReport& report, const CoastFit& fit);
 /// logarithm. `half`: half width of the 95 % interval in standard errors (quantile of Student's t).
 EstimatorParameter by_logarithm(std::string name, double value, double error, double half);
 
-/// Estimates m'/a1, b1, c1/a1 and q1/a1 from coast-down curves alone, under the requested family
-/// (for `auto`: the one with the smallest AICc). Adds these values to `result`, with the reason why
-/// m' itself is not identified.
+/// Estimates m'/a1, and those of b1, c1/a1 and q1/a1 that the family has, from coast-down curves
+/// alone. Family: the requested one; for `auto` the one with the smallest AICc; else the power law.
+/// Adds these values to `result`, with the reason why m' itself is not identified.
 MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& vehicle,
                          const FamilyChoice& family, MassResult result);
 

@@ -259,10 +259,12 @@ Result<CompassFit> fit_compass(const FieldRecord& record, double declination_deg
   const std::vector<double> headings = headings_of(*ellipse, points);
   const auto [gap_begin, gap] = largest_gap_rad(headings);
   if (degrees(gap) > kLargestGapDeg) {
-    return refusal(ErrorCode::kCompassUnusable,
-                   fmt::format("{}: {:.0f} deg of the circle have no reading, from {:.0f} deg on, "
-                               "so the ellipse is uncertain there; turn through two whole circles",
-                               record.file, degrees(gap), degrees(gap_begin)));
+    return refusal(
+        ErrorCode::kCompassUnusable,
+        fmt::format("{}: no reading for {:.0f} deg of the circle, counter-clockwise from the "
+                    "magnetic heading {:.0f} deg, so the ellipse is uncertain there; "
+                    "turn through two whole circles",
+                    record.file, degrees(gap), degrees(gap_begin)));
   }
   const Known fit = known(*ellipse, points, headings);
   if (fit.residual > kNoEllipse) {

@@ -20,7 +20,7 @@ double aic_under(const NoiseLevels& noise, const LogFit& fit);
 double log_size_of_errors(const LogFit& fit);
 
 /// AIC of `b` minus AIC of `a`, under the noise of the fit with the smaller errors. > 0 if `a` is
-/// better. Infinite if only one fit is usable; 0 if neither is usable.
+/// better. Infinity if only `a` is usable, -infinity if only `b` is, 0 if neither is.
 double aic_lead(const LogFit& a, const LogFit& b);
 
 }  // namespace awmr

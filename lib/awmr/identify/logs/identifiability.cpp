@@ -69,8 +69,8 @@ bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
   return coordinate <= bounds.lo || coordinate >= bounds.hi;
 }
 
-/// Variances of the coordinates by the scatter of the scores s_b of m parts: the diagonal of
-/// m/(m - 1) C (sum s_b s_b^T) C.
+/// Variances of the coordinates from the scatter of the scores s_b of m blocks or logs: the diagonal
+/// of m/(m - 1) C (sum s_b s_b^T) C, with C = `covariance`.
 Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
                                      const std::vector<Eigen::VectorXd>& scores) {
   Eigen::VectorXd variances = Eigen::VectorXd::Zero(covariance.rows());
