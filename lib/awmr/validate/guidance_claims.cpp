@@ -247,7 +247,8 @@ Claim best_modes(const ModeRuns& points, const ModeRuns& path) {
               "combined is {} on waypoints and {} on the polyline{}; differential is {} for the "
               "speed. `awmr compare` gives intervals",
               place(at_waypoints), place(along_line),
-              differential_close ? ", differential within it of the least cross-track RMS" : "",
+              differential_close ? "; differential is as close to the least cross-track RMS on both"
+                                 : "",
               speed ? "best" : "not best: its forces make the whole turn and saturate first")};
 }
 
