@@ -99,7 +99,7 @@ TEST(BadNumber, IsRefusedAsATimeOfAProject) {
     return awmr("check " + project.string());
   };
   EXPECT_EQ(check(R"("from_s": 2, "until_s": 12, "exclude": ["5:6"])").exit_code, 0);
-  EXPECT_THAT(check(R"("from_s": 1e6)").err, HasSubstr("no row is used"));
+  EXPECT_THAT(check(R"("from_s": 1e6)").err, HasSubstr("no row is left"));
   EXPECT_THAT(check(R"("from_s": 9, "until_s": 3)").err, HasSubstr("/identify/until_s"));
   EXPECT_THAT(check(R"("exclude": ["5"])").err, HasSubstr("/identify/exclude"));
 }

@@ -98,7 +98,9 @@ TEST(Compass, ATurnThatDoesNotCoverTheCircleIsRefusedWithWhatIsMissing) {
   const auto most = fit_compass(record_of({}, {.from_deg = 0.0, .turned_deg = 300.0}), 0.0);
   ASSERT_FALSE(most);
   EXPECT_EQ(exit_code(most.error()), 1);
-  EXPECT_THAT(to_text(most.error()), HasSubstr("leaves 60 deg out, from -60 deg on"));
+  EXPECT_THAT(to_text(most.error()),
+              HasSubstr("no reading for 60 deg of the circle, counter-clockwise from the magnetic "
+                        "heading -60 deg"));
   EXPECT_TRUE(fit_compass(record_of({}, {.turned_deg = 340.0}), 0.0));
   for (const double little : {0.0, 1.0, 30.0, 90.0, 180.0}) {
     EXPECT_FALSE(fit_compass(record_of({}, {.turned_deg = little}), 0.0)) << little;

@@ -533,7 +533,18 @@ TEST(LogConsistency, OfTwoColumnsThatEitherExplainItOnlyOneIsToBeMapped) {
   const auto found = contradictions(log, vehicle(), {});
   ASSERT_EQ(found.size(), 2U);
   for (const Contradiction& one : found) {
-    EXPECT_THAT(one.message, HasSubstr("only one of steering_cmd_deg or yaw_rate_radps"));
+    EXPECT_THAT(one.message, HasSubstr("only steering_cmd_deg, or yaw_rate_radps"));
+  }
+}
+
+TEST(LogConsistency, ColumnsThatAreWrongTogetherAreNamedTogether) {
+  DrivingLog log = sound_log(1, {.position = false, .sides_apart = false});
+  scale(channel(log, LogChannel::kYawRate), -1.0);
+  scale(channel(log, LogChannel::kHeading), -1.0);
+  const auto found = contradictions(log, vehicle(), {});
+  ASSERT_FALSE(found.empty());
+  for (const Contradiction& one : found) {
+    EXPECT_THAT(one.message, HasSubstr("heading_deg"));
   }
 }
 

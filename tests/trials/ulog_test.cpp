@@ -118,7 +118,7 @@ TEST(Ulog, RefusesMalformedContent) {
       {h + v + ulog_topic(0, 1, "v") + ulog_data(1, ~std::uint64_t{0}, le(1.0)), "too large"},
       {h + ulog_message('B', "short"), "flags are too short"},
       {h + ulog_message('B', std::string(8, '\0') + "\x02" + std::string(31, '\0')),
-       "not supported"}};
+       "unsupported feature of ULog"}};
   for (const auto& [bytes, words] : cases)
     EXPECT_THAT(refusal_of(bytes), HasSubstr(words)) << words;
 }

@@ -42,7 +42,8 @@ TEST(GuidanceClaims, TheTimedPathIsTooTightForSteering) {
 
 TEST(GuidanceClaims, CombinedIsNotTheOnlyBestMode) {
   EXPECT_FALSE(claim_of("C12").reproduced);
-  EXPECT_THAT(claim_of("C12").why, HasSubstr("differential keeps closer"));
+  EXPECT_THAT(claim_of("C12").why,
+              HasSubstr("differential is as close to the least cross-track RMS"));
 }
 
 TEST(GuidanceClaims, AVehicleThatCannotTurnFails) {
