@@ -538,13 +538,13 @@ TEST(LogConsistency, OfTwoColumnsThatEitherExplainItOnlyOneIsToBeMapped) {
 }
 
 TEST(LogConsistency, ColumnsThatAreWrongTogetherAreNamedTogether) {
-  DrivingLog log = sound_log(1, {.position = false, .sides_apart = false});
+  DrivingLog log = sound_log(1, {.position = false});
   scale(channel(log, LogChannel::kYawRate), -1.0);
   scale(channel(log, LogChannel::kHeading), -1.0);
   const auto found = contradictions(log, vehicle(), {});
-  ASSERT_FALSE(found.empty());
+  ASSERT_GE(found.size(), 3U);
   for (const Contradiction& one : found) {
-    EXPECT_THAT(one.message, HasSubstr("heading_deg"));
+    EXPECT_THAT(one.message, HasSubstr("yaw_rate_radps and heading_deg"));
   }
 }
 
