@@ -17,8 +17,8 @@ struct Hostile {
 
 /// Options of the search.
 struct HostileSearch {
-  std::size_t steps = 6000;  ///< number of steps; each mode gets a third, rounded up
-  bool has_fixes = false;    ///< true: the firmware estimates its position from GPS fixes
+  std::size_t steps = 0;   ///< number of steps; each mode gets a third, rounded up
+  bool has_fixes = false;  ///< true: the firmware estimates its position from GPS fixes
 };
 
 /// Searches for the inputs with the slowest step, by repeatedly changing the slowest input so far.

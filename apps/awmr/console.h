@@ -1,4 +1,4 @@
-/// What all commands share: their outcome, their registration on the command line, terminal output.
+/// Functions that all commands use: their outcome, registration on the command line, terminal output.
 #pragma once
 
 #include <filesystem>

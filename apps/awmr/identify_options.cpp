@@ -114,6 +114,12 @@ Status check_used(const TrialOptions& trials) {
                                  trials.used_s.hi, trials.used_s.lo));
 }
 
+Status use_parts(const std::vector<std::string>& excluded, TrialOptions& trials) {
+  AWMR_RETURN_IF_ERROR(check_used(trials));
+  for (const std::string& span : excluded) AWMR_RETURN_IF_ERROR(add_excluded(span, trials));
+  return {};
+}
+
 std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options) {
   std::vector<std::pair<std::string, std::string>> words{
       {"method",

@@ -29,6 +29,8 @@ Status add_excluded(std::string_view text, TrialOptions& trials);
 
 /// Checks the part of the logs to use. Errors (input): `--until` is not after `--from`.
 Status check_used(const TrialOptions& trials);
+/// Both, for the options of the command line. Errors: as of check_used() and add_excluded().
+Status use_parts(const std::vector<std::string>& excluded, TrialOptions& trials);
 
 /// Returns the options as text for the model's provenance.
 std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options);

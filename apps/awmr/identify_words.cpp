@@ -12,10 +12,7 @@ namespace awmr::cli {
 Result<IdentifyCommand> command_of(const IdentifyWords& words) {
   IdentifyCommand command = words.command;
   AWMR_ASSIGN_OR_RETURN(command.trials.columns, column_mappings(words.columns));
-  AWMR_RETURN_IF_ERROR(check_used(command.trials));
-  for (const std::string& span : words.excluded) {
-    AWMR_RETURN_IF_ERROR(add_excluded(span, command.trials));
-  }
+  AWMR_RETURN_IF_ERROR(use_parts(words.excluded, command.trials));
   for (const std::string& name : words.requested) {
     AWMR_RETURN_IF_ERROR(add_requested(name, command.identify));
   }

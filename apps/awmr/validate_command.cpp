@@ -268,13 +268,10 @@ void add_validate(CLI::App& app, Session& session) {
       "awmr validate --model model.json --gains gains.json -o validation.json",
       [command, columns, excluded]() -> Result<Outcome> {
         AWMR_ASSIGN_OR_RETURN(command->trials.columns, column_mappings(*columns));
-        for (const std::string& span : *excluded) {
-          AWMR_RETURN_IF_ERROR(add_excluded(span, command->trials));
-        }
         if (command->acceptance.from_s && !command->scenario) {
           command->trials.used_s.lo = *command->acceptance.from_s;
         }
-        AWMR_RETURN_IF_ERROR(check_used(command->trials));
+        AWMR_RETURN_IF_ERROR(use_parts(*excluded, command->trials));
         command->validate.open_cases = command->claims;
         return execute(*command);
       });

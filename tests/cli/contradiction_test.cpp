@@ -70,7 +70,8 @@ TEST_F(Contradiction, SuggestRefusesAnExtremeModel) {
 TEST_F(Contradiction, RecoverReportsRunsWithoutAResult) {
   const std::string recover = "recover --runs 3 --model " + kept("model.json");
   expect_refused(awmr(recover + " --joint"), "--joint: needs");
-  expect_refused(awmr(recover + " --fit steering.time_constant_s"), "[not-recovered]", 1);
+  expect_refused(awmr(recover + " --fit steering.time_constant_s"),
+                 "has estimated steering.time_constant_s", 1);
   const ProcessResult requested = awmr(recover + " --fit surge.alpha -o " + path("recover.json"));
   ASSERT_EQ(requested.exit_code, 0) << requested.err;
   EXPECT_EQ(Json::parse(read_all(path("recover.json")))["parameters"].size(), 1U);
@@ -99,13 +100,13 @@ TEST_F(Contradiction, MergeRefusesAPartWithEditedRows) {
     std::size_t cell = row;
     for (int i = 0; i < 4; ++i) cell = csv.find(',', cell) + 1;
     with(csv.substr(0, cell) + number + csv.substr(csv.find(',', cell)));
-    expect_refused(merge(), "comparison.csv:2:1: ");
+    expect_refused(merge(), "comparison.csv:2:1: this line is not a row");
     EXPECT_FALSE(fs::exists(path("merged")));
   }
   std::string columns = csv;
   columns.replace(csv.find("overshoot_deg"), 13, "undershoot_de");
   with(columns);
-  expect_refused(merge(), "comparison.csv:1:1: ");
+  expect_refused(merge(), "comparison.csv:1:1: the file does not have the columns");
   with(csv);
   EXPECT_EQ(merge().exit_code, 0);
 }
@@ -131,7 +132,7 @@ TEST_F(Contradiction, RefusesAScenarioThatBeginsBeforeTheLog) {
       awmr(fmt::format("validate --model {} --gains {} --log datasets/synthetic/drive_2.csv {} "
                        "--draws 39 --from -5 -o {}",
                        kept("model.json"), kept("gains.json"), kScenario, path("v.json"))),
-      "[too-few-data]");
+      "the log begins at 0 s, but --from is -5 s");
   expect_refused(awmr(fmt::format("validate --model {} --log datasets/synthetic/drive_2.csv "
                                   "--horizon 0.01 -o {}",
                                   kept("model.json"), path("v.json"))),

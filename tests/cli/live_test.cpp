@@ -249,7 +249,7 @@ TEST_F(Live, RefusesSourcesThatItCannotRecord) {
       {live("--log " + path("")), "this is a directory"},
       {live("--port /dev/null"), "is not a serial port"},
       {live("--port nowhere"), "nowhere: No such file"},
-      {live("--port /dev/null --baud 12345"), "expected one of 9600"},
+      {live("--port /dev/null --baud 12345"), "--baud: found 12345; expected one of 9600"},
       {live(""), "give the source of the log"},
       {live("--log - --port /dev/null"), "give the source of the log"},
       {live("--log - --record " + path("live.json")), "it is the model's file"},

@@ -68,7 +68,8 @@ TEST(Explain, PrintsSeverityMeaningAndRemedyOfACode) {
   const ProcessResult one = awmr("explain few-samples");
   EXPECT_EQ(one.exit_code, 0);
   EXPECT_THAT(one.out, AllOf(HasSubstr("few-samples\n  severity warning\n"),
-                             HasSubstr("meaning  fewer than 6 samples"), HasSubstr("remedy   ")));
+                             HasSubstr("meaning  fewer than 6 samples"),
+                             HasSubstr("remedy   give --samples")));
   // The severity of each code of a row.
   EXPECT_THAT(awmr("explain held-samples").out, HasSubstr("severity note\n"));
   EXPECT_THAT(awmr("explain quantised-samples").out, HasSubstr("severity warning\n"));

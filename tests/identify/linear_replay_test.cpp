@@ -222,7 +222,7 @@ TEST(LinearReplay, DelayedStatesHaveTheDerivativesOfJets) {
   }
 }
 
-/// The log with ten rows for each, and its commands so many of these rows later.
+/// The log with each row divided into ten, and its commands `rows_later` of these rows later.
 DrivingLog refined(const DrivingLog& log, std::size_t rows_later) {
   constexpr std::size_t kParts = 10;
   DrivingLog fine;

@@ -12,7 +12,7 @@
 
 namespace awmr {
 
-/// Reads the rows of an existing comparison.csv. The comparison.json beside it must have the inputs
+/// Reads the rows of an existing comparison.csv. The comparison.json in the same directory must have the inputs
 /// and options of `provenance`; only samples, weights, relevance and break-even may differ.
 /// Errors (input): a file is missing or malformed; the files are of another comparison, program
 /// version or arithmetic; comparison.csv is not the one of this comparison.json.

@@ -79,6 +79,7 @@ struct Autopilot {
 
 constexpr const char* kNoGains = "it follows from the gains, which were not given";
 constexpr const char* kNoMass = "the model lacks mass_norm";
+constexpr const char* kNoInertia = "the model lacks inertia_norm";
 constexpr const char* kNoYaw = "the model lacks the yaw law";
 
 bool knows_yaw(const Autopilot& pilot) {
@@ -195,7 +196,7 @@ double largest_yaw_rate(const Plant<double>& plant, const Vehicle& vehicle,
 void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
   const bool known = pilot.source.gains && pilot.knows(ParameterId::kInertiaNorm);
   if (!known) {
-    const char* why = pilot.source.gains ? "the model lacks inertia_norm" : kNoGains;
+    const char* why = pilot.source.gains ? kNoInertia : kNoGains;
     pilot.leave_out("RO_YAW_RATE_P", why);
     return pilot.leave_out("RO_YAW_RATE_I", why);
   }

@@ -21,7 +21,7 @@
 
 namespace awmr {
 
-/// What the emitted files state about their origin, in addition to the name of the model's file.
+/// Origin that the emitted files state, in addition to the name of the model's file.
 struct EmitInputs {
   std::string model_sha256;               ///< SHA-256 of the model file, lower-case hexadecimal
   std::string gains_sha256;               ///< SHA-256 of the gains file, lower-case hexadecimal

@@ -55,18 +55,20 @@ struct LogSignals {
 /// Times closer than this, s, are equal.
 inline constexpr double kSameTime_s = 1e-9;
 
-/// The row whose commands act, from one change of the commands to the next.
+/// Walks over the rows of a log from one change of the commands to the next.
 class ActingRow {
  public:
-  /// Begins just before t_s: a change at t_s is the first one.
+  /// Begins at the row before t_s, so that a change at t_s is the first one.
   ActingRow(const std::vector<double>& row_times_s, double t_s)
       : t_s_(&row_times_s),
         row_(static_cast<std::size_t>(std::ranges::lower_bound(row_times_s, t_s - kSameTime_s) -
                                       row_times_s.begin())) {
     if (row_ > 0) --row_;
   }
+  /// The row whose commands act.
   std::size_t row() const { return row_; }
-  /// The time of the next change before to_s; `differ`(row, next row) is true if they differ.
+  /// Time of the next change before `to_s`. `differ(row, next)`: true if the commands of two rows
+  /// differ.
   template <class Differ>
   std::optional<double> next_change_s(double to_s, Differ differ) {
     while (row_ + 1 < t_s_->size() && (*t_s_)[row_ + 1] < to_s - kSameTime_s) {

@@ -50,46 +50,56 @@ SideForces<T> lagged_force(const LaggedForces& lagged, const LogSignals& signals
           side(mean.force.right, mean.by_delay.right, command.right)};
 }
 
+/// Moves `state` from `from_s` to `to_s`, times between `row` and the next one, with the commands of
+/// the row `acting`. Other arguments: see replay_rows().
+template <class T, class Step>
+State<T> step_between(const LogSignals& signals, std::size_t row, std::size_t acting,
+                      const T& from_s, const T& to_s, const Plant<T>& plant, const T* delay_s,
+                      double longest_step_s, State<T> state, const LaggedForces* lagged,
+                      Step step) {
+  const DrivingLog& log = *signals.log;
+  const bool servo = log.steering_command_rad.has_value();
+  const double row_s = log.t_s[row];
+  const double span_s = row + 1 < log.rows() ? log.t_s[row + 1] - row_s : 1.0;
+  const double share = (value_of(from_s) - row_s) / span_s;
+  const double end_share = (value_of(to_s) - row_s) / span_s;
+  const int steps = steps_in(value_of(to_s) - value_of(from_s), longest_step_s);
+  const T h = (to_s - from_s) / double(steps);
+  for (int i = 0; i < steps; ++i) {
+    SideForces<T> force{T(log.force_left[acting]), T(log.force_right[acting])};
+    if (lagged) {
+      const double at_s = value_of(from_s) + i * value_of(h);
+      force = lagged_force(*lagged, signals, at_s, value_of(h), delay_s, force, plant);
+    }
+    if (!servo) {
+      state.steering_rad =
+          T(signals.angle_after(row, share + (end_share - share) * ((i + 0.5) / steps)));
+    }
+    const T steering = servo ? T((*log.steering_command_rad)[acting]) : state.steering_rad;
+    state = step(state, h, force, steering);
+  }
+  return state;
+}
+
 /// Moves `state` from `from_s` to `to_s`, times between `row` and the next one. Steps end where a
-/// delayed command changes: the limits of the servo and the dead zone apply to the commands, not to
-/// their mean over a step. Other arguments: see replay_rows().
+/// delayed command changes, because servo limits and a dead zone apply to the commands, not to their
+/// mean over a step. Other arguments: see replay_rows().
 template <class T, class Step>
 State<T> advance_after_row(const LogSignals& signals, std::size_t row, T from_s, const T& to_s,
                            const Plant<T>& plant, const T* delay_s, double longest_step_s,
                            State<T> state, const LaggedForces* lagged, Step step) {
-  const DrivingLog& log = *signals.log;
-  const bool servo = log.steering_command_rad.has_value();
   const T delay = delay_s ? *delay_s : T(0.0);
-  const double row_s = log.t_s[row];
-  const double span_s = row + 1 < log.rows() ? log.t_s[row + 1] - row_s : 1.0;
-  const auto share_at = [&](const T& t_s) { return (value_of(t_s) - row_s) / span_s; };
   const double end_s = value_of(to_s) - value_of(delay);
-  ActingRow acting(log.t_s, value_of(from_s) - value_of(delay));
+  ActingRow acting(signals.log->t_s, value_of(from_s) - value_of(delay));
   const auto differ = [&](std::size_t a, std::size_t b) {
     return signals.forces_differ(a, b) || signals.steering_commands_differ(a, b);
   };
   for (;;) {
     const std::optional<double> change_s = acting.next_change_s(end_s, differ);
     const T until_s = change_s ? T(*change_s + delay) : to_s;
-    const double part_s = value_of(until_s) - value_of(from_s);
-    if (!change_s || part_s > kSameTime_s) {
-      const int steps = steps_in(part_s, longest_step_s);
-      const T h = (until_s - from_s) / double(steps);
-      for (int i = 0; i < steps; ++i) {
-        SideForces<T> force{T(log.force_left[acting.row()]), T(log.force_right[acting.row()])};
-        if (lagged) {
-          const double at_s = value_of(from_s) + i * value_of(h);
-          force = lagged_force(*lagged, signals, at_s, value_of(h), delay_s, force, plant);
-        }
-        if (!servo) {
-          const double share = share_at(from_s);
-          state.steering_rad = T(
-              signals.angle_after(row, share + (share_at(until_s) - share) * ((i + 0.5) / steps)));
-        }
-        const T steering =
-            servo ? T((*log.steering_command_rad)[acting.row()]) : state.steering_rad;
-        state = step(state, h, force, steering);
-      }
+    if (!change_s || value_of(until_s) - value_of(from_s) > kSameTime_s) {
+      state = step_between(signals, row, acting.row(), from_s, until_s, plant, delay_s,
+                           longest_step_s, state, lagged, step);
       from_s = until_s;
     }
     if (!change_s) return state;
@@ -97,9 +107,11 @@ State<T> advance_after_row(const LogSignals& signals, std::size_t row, T from_s,
   }
 }
 
-/// Calls visit(row, state) at every row of [begin, end), starting at `state`. Integrates in steps
-/// of at most `longest_step_s` by step(state, h_s, force, steering_rad). `delay_s` null: no delay.
-/// `lagged` null: motors without lag. A logged angle is used as it is: no lag.
+/// Simulates the rows [begin, end) from the initial `state`, and calls visit(row, state) at each
+/// row. `step(state, h_s, force, steering_rad)` returns the state after one integration step, which
+/// is at most `longest_step_s` long. `delay_s`: latency of the commands, null for none. `lagged`:
+/// forces of motors with lag, null for motors without. A logged steering angle is used as the
+/// actual angle, without delay.
 template <class T, class Visit, class Step>
 void replay_rows(const LogSignals& signals, std::size_t begin, std::size_t end,
                  const Plant<T>& plant, const T* delay_s, double longest_step_s, State<T> state,
@@ -122,21 +134,42 @@ Plant<T> without_stop_of_logged_angle(Plant<T> plant, const DrivingLog& log) {
   return plant;
 }
 
-/// replay_rows() with the 3-DOF model. Precondition: `plant` is a result of
-/// resolved_beside_friction().
+/// Integration step of the 3-DOF model along a log. Friction holds the vehicle at rest.
+template <class T>
+class ModelStep {
+ public:
+  /// Precondition: `plant` is a result of resolved_beside_friction().
+  ModelStep(const Plant<T>& plant, const DrivingLog& log)
+      : plant_(without_stop_of_logged_angle(plant, log)), friction_(friction_rates(plant_)) {
+    if (friction_.any()) plant_ = without_friction(plant_);
+  }
+  /// The plant without the friction at rest.
+  const Plant<T>& plant() const { return plant_; }
+  /// Rates of the state, with friction.
+  State<T> rates(const State<T>& at, const SideForces<T>& force, const T& steering) const {
+    const State<T> free = state_rates(plant_, at, force, steering);
+    return with_friction(friction_, sliding(friction_, at, free), free);
+  }
+  State<T> operator()(const State<T>& from, const T& h, const SideForces<T>& force,
+                      const T& steering) const {
+    return rk4_step_with_friction(friction_, from, h, [&](const State<T>& at) {
+      return state_rates(plant_, at, force, steering);
+    });
+  }
+
+ private:
+  Plant<T> plant_;
+  FrictionRates<T> friction_;
+};
+
+/// replay_rows() with the 3-DOF model. Precondition: as for ModelStep.
 template <class T, class Visit>
-void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant<T> plant,
+void replay(const LogSignals& signals, std::size_t begin, std::size_t end, const Plant<T>& plant,
             const T* delay_s, double longest_step_s, State<T> state, Visit visit,
             const LaggedForces* lagged = nullptr) {
-  plant = without_stop_of_logged_angle(plant, *signals.log);
-  const FrictionRates<T> friction = friction_rates(plant);
-  if (friction.any()) plant = without_friction(plant);
-  replay_rows(signals, begin, end, plant, delay_s, longest_step_s, state, visit, lagged,
-              [&](const State<T>& from, const T& h, const SideForces<T>& force, const T& steering) {
-                return rk4_step_with_friction(friction, from, h, [&](const State<T>& at) {
-                  return state_rates(plant, at, force, steering);
-                });
-              });
+  const ModelStep<T> step(plant, *signals.log);
+  replay_rows(signals, begin, end, step.plant(), delay_s, longest_step_s, state, visit, lagged,
+              step);
 }
 
 /// replay_rows() with the four-wheel model. Precondition: `vehicle` is a result of
@@ -165,35 +198,24 @@ bool replay(const LogSignals& signals, std::size_t begin, std::size_t end,
 /// replay().
 template <class T>
 State<T> earlier_state(const LogSignals& signals, std::size_t begin,
-                       const std::vector<State<T>>& states, Plant<T> plant, const T& delay_s,
+                       const std::vector<State<T>>& states, const Plant<T>& plant, const T& delay_s,
                        const T* input_delay_s, double longest_step_s) {
   const DrivingLog& log = *signals.log;
   const double now_s = log.t_s[begin + states.size() - 1];
   const double then_s = now_s - value_of(delay_s);
   std::size_t row = begin + states.size() - 1;
   while (row > begin && log.t_s[row] > then_s) --row;
-  plant = without_stop_of_logged_angle(plant, log);
-  const FrictionRates<T> friction = friction_rates(plant);
-  if (friction.any()) plant = without_friction(plant);
-  const auto rates = [&](const State<T>& s, const SideForces<T>& force, const T& steering) {
-    return state_rates(plant, s, force, steering);
-  };
-  State<T> state = states[row - begin];
+  const ModelStep<T> step(plant, log);
+  const State<T>& state = states[row - begin];
   const T to_s = T(now_s) - delay_s;
   if (value_of(to_s) < log.t_s[row]) {
     const double at_s = log.t_s[row] - (input_delay_s ? value_of(*input_delay_s) : 0.0);
     const SideForces<T> force{T(signals.left.at(at_s)), T(signals.right.at(at_s))};
     const T steering = log.steering_command_rad ? T(signals.steering.at(at_s)) : state.steering_rad;
-    const State<T> here = rates(state, force, steering);
-    return moved(state, with_friction(friction, sliding(friction, state, here), here),
-                 T(to_s - log.t_s[row]));
+    return moved(state, step.rates(state, force, steering), T(to_s - log.t_s[row]));
   }
-  return advance_after_row(
-      signals, row, T(log.t_s[row]), to_s, plant, input_delay_s, longest_step_s, state, nullptr,
-      [&](const State<T>& from, const T& h, const SideForces<T>& force, const T& steering) {
-        return rk4_step_with_friction(
-            friction, from, h, [&](const State<T>& at) { return rates(at, force, steering); });
-      });
+  return advance_after_row(signals, row, T(log.t_s[row]), to_s, step.plant(), input_delay_s,
+                           longest_step_s, state, nullptr, step);
 }
 
 /// Component of the state that a channel measures.

@@ -183,16 +183,16 @@ Contradiction sign_contradiction(const Evidence& evidence, Signed which) {
       scaled_mapping(evidence, "y_m", -1.0)};
 }
 
-/// The columns of each solution: "a, or b and c".
-std::string alternatives(const Evidence& evidence, const std::vector<unsigned>& solutions) {
+/// The columns of each solution: "a, or b and c". `columns`: by Signed.
+std::string alternatives(const std::array<std::string, kSignedCount>& columns,
+                         const std::vector<unsigned>& solutions) {
   std::string text;
   for (const unsigned flips : solutions) {
     text += text.empty() ? "" : ", or ";
     const char* joint = "";
     for (std::size_t s = 0; s < kSignedCount; ++s) {
-      const auto column = static_cast<Signed>(s);
-      if ((flips & bit(column)) == 0U) continue;
-      text += joint + sign_contradiction(evidence, column).column;
+      if ((flips & bit(static_cast<Signed>(s))) == 0U) continue;
+      text += joint + columns[s];
       joint = " and ";
     }
   }
@@ -205,16 +205,19 @@ std::vector<Contradiction> check_signs(const Evidence& evidence) {
   const std::vector<unsigned> solutions = smallest_flips(sign_relations(evidence), fixed);
   if (solutions.empty() || solutions.front() == 0U) return {};
   std::vector<Contradiction> found;
+  std::array<std::string, kSignedCount> columns;
   for (std::size_t s = 0; s < kSignedCount; ++s) {
     const auto column = static_cast<Signed>(s);
     const bool blamed = std::any_of(solutions.begin(), solutions.end(),
                                     [&](unsigned flips) { return (flips & bit(column)) != 0U; });
-    if (blamed) found.push_back(sign_contradiction(evidence, column));
+    if (!blamed) continue;
+    found.push_back(sign_contradiction(evidence, column));
+    columns[s] = found.back().column;
   }
   if (solutions.size() == 1) return found;
-  const std::string columns = alternatives(evidence, solutions);
+  const std::string named = alternatives(columns, solutions);
   for (Contradiction& one : found) {
-    one.message += fmt::format(" (correct only {}: each explains it)", columns);
+    one.message += fmt::format(" (correct only {}: each explains it)", named);
   }
   return found;
 }

@@ -40,7 +40,7 @@ void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
   }
 }
 
-/// What turns the vehicle in a row of the file: steering, or a force difference.
+/// Cause of the turn in a row of the file: steering, or a force difference.
 struct Turn {
   double left = 0.0;        ///< steering_deg or F'R - F'L: positive in a turn to the left
   std::string in_words;     ///< "steering_deg 5", for messages

@@ -29,9 +29,9 @@ Interval speed_range(const ModeRun& run, double from_s, double to_s) {
 
 }  // namespace
 
-/// Evaluates the overshoot from rest to the second heading, and the error at the end of the run. How
-/// much the heading step lowers the speed is evaluated in C5. By how much the speed then exceeds u_d
-/// is reported here, but does not count.
+/// Evaluates the overshoot from rest to the second heading, and the error at the end of the run. The
+/// drop of the speed at the heading step is evaluated in C5. The excess over u_d after the step is
+/// reported here, but does not count.
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs) {
   const double step_s = setting.hold_s();
   const auto excess = [](Interval range) { return std::max(0.0, range.hi - kSpeed_mps); };

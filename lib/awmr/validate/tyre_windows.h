@@ -58,7 +58,7 @@ std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
 /// All windows, or 60 of them, evenly chosen, because more make the fit slow and hardly better.
 Windows evenly_chosen(const std::vector<ReplayedWindow>& all);
 
-/// What turns the vehicle in a window: the difference of left and right wheel forces, or the steering.
+/// Cause of the turns in a window: the difference of left and right wheel forces, or the steering.
 /// At most one is true: its yaw moments have at least 3 times the sum of squares of the other's.
 struct Turns {
   bool by_sides = false;

@@ -132,6 +132,16 @@ std::string why_stopped(const FreeQuantity& q, double coordinate) {
   return why;
 }
 
+/// The reason of `dependent`, still empty, if `cause` is refused; else null.
+std::string* reason_to_add(const std::vector<FreeQuantity>& quantities, ParameterId dependent,
+                           ParameterId cause, Identifiability& found) {
+  const auto place = place_of(quantities, dependent);
+  const auto cause_place = place_of(quantities, cause);
+  if (!place || !cause_place || found.why_not[*cause_place].empty()) return nullptr;
+  std::string& why_not = found.why_not[*place];
+  return why_not.empty() ? &why_not : nullptr;
+}
+
 }  // namespace
 
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
@@ -189,21 +199,17 @@ Identifiability without_stopped(Identifiability found, const LogProblem& problem
         std::pair(ParameterId::kSurgeAlpha, ParameterId::kWheelDeadZone),
         std::pair(ParameterId::kYawAlpha, ParameterId::kYawCoulomb),
         std::pair(ParameterId::kYawAlpha, ParameterId::kYawQuadratic)}) {
-    const auto factor = place_of(quantities, alpha);
-    const auto part = place_of(quantities, term);
-    if (!factor || !part) continue;
-    if (!found.why_not[*factor].empty() || found.why_not[*part].empty()) continue;
-    found.why_not[*factor] = fmt::format("{} is not determined, and the resistance needs it: {}",
-                                         info(term).name, found.why_not[*part]);
+    if (std::string* const why = reason_to_add(quantities, alpha, term, found)) {
+      *why = fmt::format("{} is not determined, and the resistance needs it: {}", info(term).name,
+                         found.why_not[*place_of(quantities, term)]);
+    }
   }
   for (const auto& [alpha, beta] : {std::pair(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta),
                                     std::pair(ParameterId::kYawAlpha, ParameterId::kYawBeta)}) {
-    const auto factor = place_of(quantities, alpha);
-    const auto exponent = place_of(quantities, beta);
-    if (!factor || !exponent) continue;
-    if (found.why_not[*factor].empty() || !found.why_not[*exponent].empty()) continue;
-    found.why_not[*exponent] = fmt::format(
-        "{} is not determined, and the exponent has no meaning without it", info(alpha).name);
+    if (std::string* const why = reason_to_add(quantities, beta, alpha, found)) {
+      *why = fmt::format("{} is not determined, and the exponent has no meaning without it",
+                         info(alpha).name);
+    }
   }
   return found;
 }
