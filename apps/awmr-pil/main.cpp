@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 
 #include "awmr/core/option_text.h"
 #include "awmr/core/provenance.h"
@@ -28,6 +29,22 @@ awmr::Result<awmr::pil::Outcome> watched(const awmr::cli::PilOptions& options) {
   return awmr::pil::run_pil(
       options, {.doing = [&](std::string_view what) { working.doing(what); },
                 .progress = [&](std::size_t done, std::size_t total) { working(done, total); }});
+}
+
+int exit_code_of(const awmr::pil::Outcome& outcome) { return outcome.passed ? 0 : 1; }
+
+void print(const awmr::pil::Outcome& outcome, const std::filesystem::path& output, bool quiet,
+           bool json) {
+  const std::string text = json ? awmr::cli::result_text({.command = "pil",
+                                                          .exit_code = exit_code_of(outcome),
+                                                          .written = {output},
+                                                          .findings = outcome.findings,
+                                                          .document = outcome.document})
+                                : outcome.summary;
+  if (json || !quiet || !outcome.passed) std::fputs(text.c_str(), stdout);
+  if (json || quiet) return;
+  const std::string findings = awmr::cli::findings_text(outcome.findings, awmr::cli::Style(stderr));
+  std::fputs(findings.c_str(), stderr);
 }
 
 int run(int argc, char** argv) {
@@ -60,20 +77,8 @@ int run(int argc, char** argv) {
   awmr::cli::show_progress({.on_terminal = !quiet, .in_lines = false});
   const auto outcome = watched(options);
   if (!outcome) return report(outcome.error(), json);
-  const int exit_code = outcome->passed ? 0 : 1;
-  const std::string text = json ? awmr::cli::result_text({.command = "pil",
-                                                          .exit_code = exit_code,
-                                                          .written = {options.output},
-                                                          .findings = outcome->findings,
-                                                          .document = outcome->document})
-                                : outcome->summary;
-  if (json || !quiet || !outcome->passed) std::fputs(text.c_str(), stdout);
-  if (!json && !quiet) {
-    const std::string findings =
-        awmr::cli::findings_text(outcome->findings, awmr::cli::Style(stderr));
-    std::fputs(findings.c_str(), stderr);
-  }
-  return exit_code;
+  print(*outcome, options.output, quiet, json);
+  return exit_code_of(*outcome);
 }
 
 }  // namespace

@@ -168,6 +168,39 @@ Result<bool> lacks_parameters(const Outcome& identified, const fs::path& model) 
   return !fitted.plant();
 }
 
+/// The steps that need an identified model: tune, validate, emit, compare, simulate and report.
+Status steps_after_identify(const RunCommand& command, const Project& project,
+                            const InputNames& names, Steps& steps) {
+  const fs::path model = command.output / "model.json";
+  const fs::path gains = command.output / "gains.json";
+  AWMR_ASSIGN_OR_RETURN(
+      Outcome tuned, execute(TuneCommand{
+                         .model = model, .config = project.tune, .output = gains, .names = names}));
+  add_step(steps, "tune", std::move(tuned));
+  AWMR_ASSIGN_OR_RETURN(Outcome validated, validate_step(project, names, command.output));
+  add_step(steps, "validate", std::move(validated));
+  AWMR_ASSIGN_OR_RETURN(const Outcome emitted, execute(EmitCommand{.model = model,
+                                                                   .gains = gains,
+                                                                   .output = command.output,
+                                                                   .header_only = true,
+                                                                   .as_is = project.trials.as_is}));
+  add_written(steps.total, emitted.written);
+  emit_library(model, gains, command.output / kLibrary, project.trials.as_is, steps.total);
+  AWMR_ASSIGN_OR_RETURN(Outcome compared,
+                        execute(CompareCommand{.model = model,
+                                               .gains = {gains},
+                                               .scenarios = project.scenarios,
+                                               .compare = project.compare,
+                                               .output = command.output,
+                                               .heading_rate_limit = project.heading_rate_limit,
+                                               .names = names}));
+  add_step(steps, "compare", std::move(compared));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> runs,
+                        write_runs(project, names, command.output));
+  add_written(steps.total, runs);
+  return report_step(command, steps.total);
+}
+
 }  // namespace
 
 Result<Outcome> execute(const RunCommand& command) {
@@ -176,7 +209,6 @@ Result<Outcome> execute(const RunCommand& command) {
   AWMR_RETURN_IF_ERROR(
       make_directory(command.figures ? command.output / kFigures : command.output));
   const fs::path model = command.output / "model.json";
-  const fs::path gains = command.output / "gains.json";
   const InputNames names = names_in_project(inputs, command.project);
 
   Steps steps;
@@ -190,32 +222,7 @@ Result<Outcome> execute(const RunCommand& command) {
     put_findings_into_document(total);
     return total;
   }
-  AWMR_ASSIGN_OR_RETURN(
-      Outcome tuned, execute(TuneCommand{
-                         .model = model, .config = project.tune, .output = gains, .names = names}));
-  add_step(steps, "tune", std::move(tuned));
-  AWMR_ASSIGN_OR_RETURN(Outcome validated, validate_step(project, names, command.output));
-  add_step(steps, "validate", std::move(validated));
-  AWMR_ASSIGN_OR_RETURN(const Outcome emitted, execute(EmitCommand{.model = model,
-                                                                   .gains = gains,
-                                                                   .output = command.output,
-                                                                   .header_only = true,
-                                                                   .as_is = project.trials.as_is}));
-  add_written(total, emitted.written);
-  emit_library(model, gains, command.output / kLibrary, project.trials.as_is, total);
-  AWMR_ASSIGN_OR_RETURN(Outcome compared,
-                        execute(CompareCommand{.model = model,
-                                               .gains = {gains},
-                                               .scenarios = project.scenarios,
-                                               .compare = project.compare,
-                                               .output = command.output,
-                                               .heading_rate_limit = project.heading_rate_limit,
-                                               .names = names}));
-  add_step(steps, "compare", std::move(compared));
-  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> runs,
-                        write_runs(project, names, command.output));
-  add_written(total, runs);
-  AWMR_RETURN_IF_ERROR(report_step(command, total));
+  AWMR_RETURN_IF_ERROR(steps_after_identify(command, project, names, steps));
   total.summary += fmt::format(
       "wrote model.json gains.json validation.json awmr_params.h comparison.json comparison.csv,\n"
       "the runs, the Arduino library ({}){} and report.html to {}\n",

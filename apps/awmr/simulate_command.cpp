@@ -123,6 +123,52 @@ bool has_side_file(const fs::path& output) {
   return !fs::exists(status) || fs::is_regular_file(status);
 }
 
+/// The input files. Errors (input): an output cannot be written, or is an input.
+Result<std::vector<fs::path>> checked_inputs(const SimulateCommand& command) {
+  std::vector<fs::path> inputs{command.model, command.scenario};
+  if (command.gains) inputs.push_back(*command.gains);
+  if (command.plant.tyres_file) inputs.push_back(*command.plant.tyres_file);
+  AWMR_RETURN_IF_ERROR(check_output(command.output, inputs));
+  if (has_side_file(command.output)) {
+    AWMR_RETURN_IF_ERROR(check_output(run_side_path(command.output), inputs));
+    AWMR_RETURN_IF_ERROR(check_run_side(run_side_path(command.output)));
+  }
+  return inputs;
+}
+
+/// The gains of the command; any gains for an open-loop scenario, which uses none.
+Result<Gains<double>> gains_for(const SimulateCommand& command, const Scenario& scenario,
+                                const Model& model) {
+  if (command.gains) return read_gains_for(*command.gains, model.vehicle.sample_time_s);
+  if (std::holds_alternative<OpenLoop>(scenario.guidance)) return kPaperGains;
+  return input_error(ErrorCode::kMissing, "--gains",
+                     "the controller of this scenario needs gains: give --gains GAINS.json");
+}
+
+/// Adds the findings about the run, as far as they do not come from the choice of the plant.
+Status note_run(const SimulateCommand& command, const Scenario& scenario, const Model& model,
+                const Metrics& metrics, std::vector<Finding>& findings) {
+  if (command.gains) {
+    AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings, command.mode));
+  }
+  std::ranges::move(unattainable_requests(scenario, model), std::back_inserter(findings));
+  if (auto finding = tyres_differ(scenario, model)) findings.push_back(*finding);
+  note_extrapolation(model, metrics.yaw_rate_max_degps,
+                     fmt::format("{}, {}", scenario.name, name_of(command.mode)), findings);
+  return {};
+}
+
+/// Writes the run and its side file, if the output has one.
+Status write_run(const fs::path& output, const std::string& csv, Outcome& outcome) {
+  if (!has_side_file(output)) return write_file(output, csv, check_run_text);
+  // The side file is last because it contains the hash of the run.
+  const OutputFile files[] = {{output, csv, check_run_text},
+                              {run_side_path(output), outcome.document, check_json_text}};
+  AWMR_RETURN_IF_ERROR(write_files(files));
+  outcome.written.push_back(files[1].path);
+  return {};
+}
+
 }  // namespace
 
 Result<Outcome> execute(const SimulateCommand& command) {
@@ -134,50 +180,22 @@ Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_RETURN_IF_ERROR(choose(command.plant, tyres, std::span(&scenario, 1)));
   AWMR_RETURN_IF_ERROR(
       limit_heading_rate(command.heading_rate_limit, model, std::span(&scenario, 1)));
-  std::vector<fs::path> inputs{command.model, command.scenario};
-  if (command.gains) inputs.push_back(*command.gains);
-  if (command.plant.tyres_file) inputs.push_back(*command.plant.tyres_file);
-  AWMR_RETURN_IF_ERROR(check_output(command.output, inputs));
-  if (has_side_file(command.output)) {
-    AWMR_RETURN_IF_ERROR(check_output(run_side_path(command.output), inputs));
-    AWMR_RETURN_IF_ERROR(check_run_side(run_side_path(command.output)));
-  }
-  Gains<double> gains = kPaperGains;
-  if (command.gains) {
-    AWMR_ASSIGN_OR_RETURN(gains, read_gains_for(*command.gains, model.vehicle.sample_time_s));
-  } else if (!std::holds_alternative<OpenLoop>(scenario.guidance)) {
-    return input_error(ErrorCode::kMissing, "--gains",
-                       "the controller of this scenario needs gains: give --gains GAINS.json");
-  }
+  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> inputs, checked_inputs(command));
+  AWMR_ASSIGN_OR_RETURN(const Gains<double> gains, gains_for(command, scenario, model));
   AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, command.mode));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
   Metrics metrics = metrics_of(run, scenario, controller);
   metrics.electric_work_j = electric_work_j(metrics, model.vehicle, controller.mass_norm);
-  if (command.gains) {
-    AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings, command.mode));
-  }
-  std::ranges::move(unattainable_requests(scenario, model), std::back_inserter(findings));
-  if (auto finding = tyres_differ(scenario, model)) findings.push_back(*finding);
-  note_extrapolation(model, metrics.yaw_rate_max_degps,
-                     fmt::format("{}, {}", scenario.name, name_of(command.mode)), findings);
+  AWMR_RETURN_IF_ERROR(note_run(command, scenario, model, metrics, findings));
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, scenario, inputs));
   const std::string csv = run_csv(run, scenario);
-  const std::string side =
-      run_side_text(csv, provenance, document_of(run, scenario, command.mode, metrics), findings);
   Outcome outcome{.summary = summary_of(run, scenario, command) + figures_of(metrics) +
                              fmt::format("wrote {}\n", command.output.string()),
-                  .findings = std::move(findings),
-                  .document = side,
+                  .findings = findings,
+                  .document = run_side_text(
+                      csv, provenance, document_of(run, scenario, command.mode, metrics), findings),
                   .written = {command.output}};
-  if (!has_side_file(command.output)) {
-    AWMR_RETURN_IF_ERROR(write_file(command.output, csv, check_run_text));
-    return outcome;
-  }
-  // The side file is last because it contains the hash of the run.
-  const OutputFile files[] = {{command.output, csv, check_run_text},
-                              {run_side_path(command.output), side, check_json_text}};
-  AWMR_RETURN_IF_ERROR(write_files(files));
-  outcome.written.push_back(files[1].path);
+  AWMR_RETURN_IF_ERROR(write_run(command.output, csv, outcome));
   return outcome;
 }
 

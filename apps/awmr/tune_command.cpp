@@ -6,6 +6,7 @@
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/tune/option_table.h"
 #include "awmr/tune/tune_file.h"
 #include "awmr/tune/tune_findings.h"
 #include "awmr/tune/tune_shard.h"
@@ -130,7 +131,7 @@ CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
 void add_draws(CLI::App& sub, TuneCommand& command, CLI::Option* nominal) {
   sub.add_option("--draws", command.draws,
                  "Number of vehicles drawn from the model's covariance to tune for (default 32)")
-      ->check(within(0.0, 1000.0))
+      ->check(within(static_cast<int>(kDraws.min), static_cast<int>(kDraws.max)))
       ->excludes(nominal);
   sub.add_option("--sensitivity", command.sensitivity,
                  "Samples for a global sensitivity analysis (Sobol indices) of the tuned loop to "

@@ -138,6 +138,26 @@ void bind_model_class(py::module_& module) {
       py::arg("model"), py::arg("path"), "Writes model.json, whole or not at all.");
 }
 
+Gains<double> gains_from(double lambda, double mu, double epsilon, double speed_mu,
+                         double speed_epsilon, double bandwidth_radps, double yaw_max_m,
+                         double surge_max) {
+  for (const double gain : {lambda, mu, epsilon, speed_mu, speed_epsilon}) {
+    if (gain > 0.0 && gain < 1e9) continue;
+    throw Raised(input_error(ErrorCode::kOutOfRange, "gains",
+                             fmt::format("expected numbers above 0, found {}", gain))
+                     .value());
+  }
+  const ObserverGains<double> observer{bandwidth_radps, yaw_max_m, surge_max};
+  for (const double one : {bandwidth_radps, yaw_max_m, surge_max}) {
+    if (one >= 0.0 && one < 1e9 && (one > 0.0) == observer.is_on()) continue;
+    throw Raised(input_error(ErrorCode::kOutOfRange, "gains",
+                             "an observer has a bandwidth, yaw_max_m and surge_max above 0, or "
+                             "none of them")
+                     .value());
+  }
+  return {{lambda, mu, epsilon}, {speed_mu, speed_epsilon}, observer};
+}
+
 void bind_gains(py::module_& module) {
   using G = Gains<double>;
   py::class_<G>(
@@ -146,28 +166,10 @@ void bind_gains(py::module_& module) {
       "(rad/s). Speed law: speed_mu (m/s^2), speed_epsilon (m/s). All are > 0. Disturbance "
       "observer: observer_bandwidth_radps (0: none), observer_yaw_max_m (m), "
       "observer_surge_max.")
-      .def(py::init([](double lambda, double mu, double epsilon, double speed_mu,
-                       double speed_epsilon, double bandwidth_radps, double yaw_max_m,
-                       double surge_max) {
-             for (const double gain : {lambda, mu, epsilon, speed_mu, speed_epsilon}) {
-               if (gain > 0.0 && gain < 1e9) continue;
-               throw Raised(input_error(ErrorCode::kOutOfRange, "gains",
-                                        fmt::format("expected numbers above 0, found {}", gain))
-                                .value());
-             }
-             const ObserverGains<double> observer{bandwidth_radps, yaw_max_m, surge_max};
-             for (const double one : {bandwidth_radps, yaw_max_m, surge_max}) {
-               if (one >= 0.0 && one < 1e9 && (one > 0.0) == observer.is_on()) continue;
-               throw Raised(input_error(ErrorCode::kOutOfRange, "gains",
-                                        "an observer has a bandwidth, yaw_max_m and "
-                                        "surge_max above 0, or none of them")
-                                .value());
-             }
-             return G{{lambda, mu, epsilon}, {speed_mu, speed_epsilon}, observer};
-           }),
-           py::kw_only(), py::arg("lambda_"), py::arg("mu"), py::arg("epsilon"),
-           py::arg("speed_mu"), py::arg("speed_epsilon"), py::arg("observer_bandwidth_radps") = 0.0,
-           py::arg("observer_yaw_max_m") = 0.0, py::arg("observer_surge_max") = 0.0)
+      .def(py::init(&gains_from), py::kw_only(), py::arg("lambda_"), py::arg("mu"),
+           py::arg("epsilon"), py::arg("speed_mu"), py::arg("speed_epsilon"),
+           py::arg("observer_bandwidth_radps") = 0.0, py::arg("observer_yaw_max_m") = 0.0,
+           py::arg("observer_surge_max") = 0.0)
       .def_property_readonly(
           "lambda_", [](const G& g) { return g.heading.lambda; }, "1/s")
       .def_property_readonly(

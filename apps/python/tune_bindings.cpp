@@ -13,8 +13,6 @@ Tuning tuned(const Model& model, const std::optional<std::filesystem::path>& con
   options.nominal = options.nominal || nominal;
   if (observer && !options.observer) options.observer.emplace();
   if (draws) {
-    if (*draws < 0 || *draws > 1000)
-      throw Raised(input_error(ErrorCode::kOutOfRange, "draws", "0 to 1000").value());
     options.draws = *draws;
   }
   const py::gil_scoped_release released;

@@ -49,54 +49,62 @@ std::string decided(const std::vector<const BreakEven*>& all) {
   return text;
 }
 
+/// The line of one pair of modes, over all scenarios.
+std::string pair_text(const std::pair<YawMode, YawMode>& modes,
+                      const std::vector<const BreakEven*>& all) {
+  const BreakEven& least =
+      **std::min_element(all.begin(), all.end(), [](const auto* a, const auto* b) {
+        return a->yaw_coulomb_m.value_or(a->most_m) < b->yaw_coulomb_m.value_or(b->most_m);
+      });
+  const auto lasting = std::count_if(all.begin(), all.end(), [](const BreakEven* entry) {
+    return !entry->yaw_coulomb_m.has_value();
+  });
+  std::string text = fmt::format("  {} ahead of {} in {} scenario{}: ", name_of(modes.first),
+                                 name_of(modes.second), all.size(), all.size() == 1 ? "" : "s");
+  if (least.yaw_coulomb_m) {
+    text += fmt::format("until {:.3g} m ({})", *least.yaw_coulomb_m, least.scenario);
+  }
+  if (lasting > 0) {
+    text += fmt::format("{}in {} for any scrub up to {:.3g} m", least.yaw_coulomb_m ? "; " : "",
+                        lasting, least.most_m);
+  }
+  text += '\n';
+  return all.front()->measured_m ? text + decided(all) : text;
+}
+
+/// The scrub of this vehicle, as far as it was measured.
+std::string measured_text(const BreakEven& entry) {
+  if (!entry.measured_m) {
+    return "not measured in this vehicle.\n"
+           "  Record differential turns with straight wheels (awmr suggest lists them) in the "
+           "turning table\n";
+  }
+  if (!entry.measured_degps) {
+    return fmt::format(
+        "this vehicle: at least {:.3g} m,\n"
+        "  with which the vehicle did not turn (awmr suggest lists larger forces)\n",
+        entry.measured_m->lo);
+  }
+  return fmt::format("measured in this vehicle: {:.3g} to {:.3g} m\n", entry.measured_m->lo,
+                     entry.measured_m->hi);
+}
+
 }  // namespace
 
 std::string break_even_table(const std::vector<BreakEven>& entries) {
   std::string text =
       "break-even: tyre scrub (Coulomb yaw moment of a differential turn) at which a mode is no "
       "longer ahead\n";
-  if (entries.empty())
-    return text +
-           "  neither differential nor combined is ahead of another "
-           "mode\n";
+  if (entries.empty()) {
+    return text + "  neither differential nor combined is ahead of another mode\n";
+  }
   std::map<std::pair<YawMode, YawMode>, std::vector<const BreakEven*>> pairs;
   for (const BreakEven& entry : entries) pairs[{entry.mode, entry.against}].push_back(&entry);
-  for (const auto& [modes, all] : pairs) {
-    const auto least = std::min_element(all.begin(), all.end(), [](const auto* a, const auto* b) {
-      return a->yaw_coulomb_m.value_or(a->most_m) < b->yaw_coulomb_m.value_or(b->most_m);
-    });
-    const auto lasting = std::count_if(all.begin(), all.end(), [](const BreakEven* entry) {
-      return !entry->yaw_coulomb_m.has_value();
-    });
-    text += fmt::format("  {} ahead of {} in {} scenario{}: ", name_of(modes.first),
-                        name_of(modes.second), all.size(), all.size() == 1 ? "" : "s");
-    if ((*least)->yaw_coulomb_m) {
-      text += fmt::format("until {:.3g} m ({})", *(*least)->yaw_coulomb_m, (*least)->scenario);
-    }
-    if (lasting > 0) {
-      text += fmt::format("{}in {} for any scrub up to {:.3g} m",
-                          (*least)->yaw_coulomb_m ? "; " : "", lasting, (*least)->most_m);
-    }
-    text += '\n';
-    if (all.front()->measured_m) text += decided(all);
-  }
-  text += fmt::format("  largest possible scrub at tyre friction 0.8: {:.3g} m; ",
-                      entries.front().sliding_m);
-  const BreakEven& first = entries.front();
-  if (first.measured_m && !first.measured_degps) {
-    return text + fmt::format(
-                      "this vehicle: at least {:.3g} m,\n"
-                      "  with which the vehicle did not turn (awmr suggest lists larger forces)\n",
-                      first.measured_m->lo);
-  }
-  if (const auto& measured_m = first.measured_m) {
-    return text + fmt::format("measured in this vehicle: {:.3g} to {:.3g} m\n", measured_m->lo,
-                              measured_m->hi);
-  }
+  for (const auto& [modes, all] : pairs) text += pair_text(modes, all);
   return text +
-         "not measured in this vehicle.\n"
-         "  Record differential turns with straight wheels (awmr suggest lists them) in the "
-         "turning table\n";
+         fmt::format("  largest possible scrub at tyre friction 0.8: {:.3g} m; ",
+                     entries.front().sliding_m) +
+         measured_text(entries.front());
 }
 
 }  // namespace awmr

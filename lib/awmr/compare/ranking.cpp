@@ -9,6 +9,7 @@
 #include "awmr/core/binomial.h"
 #include "awmr/core/index.h"
 #include "awmr/core/random.h"
+#include "awmr/core/sample_quantile.h"
 
 namespace awmr {
 namespace {
@@ -124,12 +125,12 @@ Behind behind(const Entry& own, const Entry& leader, double relevance, Random ra
   }
   const std::vector<double> means = resampled_differences(own, leader, random);
   const double tail = bootstrap_tail(own.log_scores.size(), 0.025);
-  const Interval ci95{quantile(means, tail), quantile(means, 1.0 - tail)};
+  const Interval ci95{quantile_of_sorted(means, tail), quantile_of_sorted(means, 1.0 - tail)};
   const Interval ratio{std::exp(ci95.lo), std::exp(ci95.hi)};
   if (ci95.lo > margin) return {ratio, Conclusion::kRelevant};
   const double one_sided = bootstrap_tail(own.log_scores.size(), 0.05);
-  const bool within =
-      quantile(means, one_sided) >= -margin && quantile(means, 1.0 - one_sided) <= margin;
+  const bool within = quantile_of_sorted(means, one_sided) >= -margin &&
+                      quantile_of_sorted(means, 1.0 - one_sided) <= margin;
   return {ratio, within ? Conclusion::kEquivalent : Conclusion::kUndecided};
 }
 

@@ -10,6 +10,7 @@
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/random.h"
+#include "awmr/core/sample_quantile.h"
 
 namespace awmr {
 namespace {
@@ -153,7 +154,7 @@ std::optional<Interval> interval_of(Eigen::ArrayXXd::ConstRowXpr means, std::siz
   if (sorted.empty()) return std::nullopt;
   std::sort(sorted.begin(), sorted.end());
   const double tail = bootstrap_tail(values, 0.025);
-  return Interval{quantile(sorted, tail), quantile(sorted, 1.0 - tail)};
+  return Interval{quantile_of_sorted(sorted, tail), quantile_of_sorted(sorted, 1.0 - tail)};
 }
 
 Contender contender_of(const ComparisonRow& row) { return {row.mode, row.gains}; }
@@ -245,13 +246,6 @@ double bootstrap_tail(std::size_t count, double tail) {
   return normal_cdf(-t * std::sqrt(n / (n - 1.0)));
 }
 
-double quantile(std::span<const double> sorted, double p) {
-  const double position = p * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(std::floor(position));
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
 Summary summarise(const ModeRows& rows, const MetricColumn& metric) {
   Summary summary;
   summary.nominal = metric.value(rows.nominal());
@@ -264,9 +258,9 @@ Summary summarise(const ModeRows& rows, const MetricColumn& metric) {
   summary.mean = mean_of(values);
   if (values.size() < 2) return summary;
   std::sort(values.begin(), values.end());
-  summary.q05 = quantile(values, 0.05);
-  summary.q50 = quantile(values, 0.50);
-  summary.q95 = quantile(values, 0.95);
+  summary.q05 = quantile_of_sorted(values, 0.05);
+  summary.q50 = quantile_of_sorted(values, 0.50);
+  summary.q95 = quantile_of_sorted(values, 0.95);
   return summary;
 }
 

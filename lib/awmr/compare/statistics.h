@@ -63,10 +63,6 @@ bool any_has(const ScenarioRows& scenario, const MetricColumn& metric);
 /// too narrow intervals for few values. Below kFewSamples values, coverage is too low even so.
 double bootstrap_tail(std::size_t count, double tail);
 
-/// The p quantile, linear between order statistics (type 7 of Hyndman and Fan). `sorted` is not
-/// empty, p in [0, 1].
-double quantile(std::span<const double> sorted, double p);
-
 /// Conclusion about a difference between two modes, at a significance level of 5 %.
 enum class Conclusion { kRelevant, kEquivalent, kUndecided };
 inline constexpr NameTable<Conclusion, 3> kConclusionNames{{{"relevant", Conclusion::kRelevant},

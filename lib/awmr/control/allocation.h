@@ -47,6 +47,19 @@ AWMR_INLINE T steering_angle_rad(const SteeringGeometry& geometry, const Allocat
   return select(at_stop, stop_rad, math::saturate(geometry.to_angle_rad(q), c.steering_max_rad));
 }
 
+/// Computes the forces F'R,L = (tau_speed +- moment/d) k, each clipped to [F'min, F'max].
+template <class T>
+AWMR_INLINE void split_forces(const AllocationConstants<T>& c, const T& tau_speed,
+                              const T& moment_m, const T& k, Allocation<T>& a) {
+  const T difference = moment_m * c.half_track_inverse;
+  const T left = (tau_speed - difference) * k;
+  const T right = (tau_speed + difference) * k;
+  a.force.left = math::clamp(left, c.force_min, c.force_max);
+  a.force.right = math::clamp(right, c.force_min, c.force_max);
+  a.force_limited =
+      math::is_different(a.force.left, left) || math::is_different(a.force.right, right);
+}
+
 }  // namespace detail
 
 /// Computes the commands that make tau_speed (dimensionless, forward positive) and tau_turn (m,
@@ -79,13 +92,7 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
   if (any(leaves))
     moment_m = select(leaves, T(tau_turn_m - c.front_axle_m * speed * steering.q), moment_m);
   const T k = geometry.to_force_share(steering.q);
-  const T difference = moment_m * c.half_track_inverse;
-  const T left = (speed - difference) * k;
-  const T right = (speed + difference) * k;
-  a.force.left = math::clamp(left, c.force_min, c.force_max);
-  a.force.right = math::clamp(right, c.force_min, c.force_max);
-  a.force_limited =
-      math::is_different(a.force.left, left) || math::is_different(a.force.right, right);
+  detail::split_forces(c, speed, moment_m, k, a);
 
   // The moment that clipped forces do not make goes back to the steering, up to its stop. Clipped
   // forces make tau_speed = (F'L + F'R)/(2 k) and tau_diff = d (F'R - F'L)/(2 k). In

@@ -110,6 +110,19 @@ AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in,
   make_up_back_emf(motors, at_rest, measured, out.command.force);
 }
 
+/// Stops the motors and straightens the wheels. Avoidance, shaping and observers start anew in the
+/// next step without a fault.
+template <class G, class P>
+AWMR_INLINE void stop(Autopilot<G, P>& a, AutopilotOutput& out) {
+  reset(part_of<typename P::Avoidance>(a));
+  reset(part_of<typename P::Shaping>(a));
+  reset(part_of<typename P::Observation>(a));
+  out.command = safe_command<float>();
+  out.tau_speed = 0.0F;
+  out.tau_turn_m = 0.0F;
+  out.psi_ref_rad = 0.0F;
+}
+
 }  // namespace detail
 
 /// Performs one step. Call it once per sample time. On a fault of the input or of the command, the
@@ -151,13 +164,7 @@ void autopilot_step(Autopilot<G, P>& a, const AutopilotInput& in, AutopilotOutpu
     }
     out.fault = kFaultOutput;
   }
-  reset(part_of<typename P::Avoidance>(a));
-  reset(part_of<typename P::Shaping>(a));
-  reset(part_of<typename P::Observation>(a));
-  out.command = safe_command<float>();
-  out.tau_speed = 0.0F;
-  out.tau_turn_m = 0.0F;
-  out.psi_ref_rad = 0.0F;
+  detail::stop(a, out);
 }
 
 }  // namespace awmr

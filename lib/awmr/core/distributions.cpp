@@ -4,6 +4,7 @@
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <limits>
 
 namespace awmr {
 
@@ -30,6 +31,11 @@ double students_t_tail(double t, double degrees_of_freedom) {
 
 double students_t_quantile(double p, double degrees_of_freedom) {
   return math::quantile(StudentsT(degrees_of_freedom), p);
+}
+
+double t_quantile_95(double degrees_of_freedom) {
+  if (!(degrees_of_freedom > 0.0)) return std::numeric_limits<double>::infinity();
+  return students_t_quantile(0.975, degrees_of_freedom);
 }
 
 double chi_squared_tail(double x, double degrees_of_freedom) {

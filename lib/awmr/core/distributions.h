@@ -8,11 +8,17 @@ namespace awmr {
 double normal_cdf(double z);
 /// P(Z > z), accurate for large z too.
 double normal_tail(double z);
+/// 99.5 % quantile of the standard normal distribution: half width of a 99 % interval, in standard
+/// deviations.
+inline constexpr double kNormalQuantile995 = 2.576;
 
 /// P(T > t), T Student's t with degrees_of_freedom > 0.
 double students_t_tail(double t, double degrees_of_freedom);
 /// The t with P(T <= t) = p, 0 < p < 1.
 double students_t_quantile(double p, double degrees_of_freedom);
+/// 97.5 % quantile of Student's t: half width of a 95 % interval in standard errors. Infinity
+/// without degrees of freedom.
+double t_quantile_95(double degrees_of_freedom);
 
 /// P(X > x), X chi-squared with degrees_of_freedom > 0; x >= 0.
 double chi_squared_tail(double x, double degrees_of_freedom);

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -16,22 +15,13 @@
 
 #include "awmr/core/interval.h"
 #include "awmr/core/name_table.h"
+#include "awmr/core/number_rule.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 
 namespace awmr {
 
 using Json = nlohmann::ordered_json;
-
-/// Permitted range of a number.
-struct NumberRule {
-  double min = std::numeric_limits<double>::lowest();
-  double max = std::numeric_limits<double>::max();
-  bool min_excluded = false;  ///< true: strictly above `min`
-};
-inline constexpr NumberRule kAnyNumber{};
-inline constexpr NumberRule kPositive{.min = 0.0, .min_excluded = true};
-inline constexpr NumberRule kNonNegative{.min = 0.0};
 
 /// Parses a file. Errors: as read_input() and read_json_text().
 Result<Json> read_json_file(const std::filesystem::path& path);
@@ -71,9 +61,9 @@ class JsonObject {
   T choice(std::string_view key, const NameTable<T, N>& table) {
     return table[choice(key, std::span<const std::string>(names_in(table)))].value;
   }
-  /// `[lo, hi]` with lo <= hi.
-  Interval interval(std::string_view key);
-  std::optional<Interval> optional_interval(std::string_view key);
+  /// `[lo, hi]` with lo <= hi and both ends in the range of the rule.
+  Interval interval(std::string_view key, NumberRule rule = kAnyNumber);
+  std::optional<Interval> optional_interval(std::string_view key, NumberRule rule = kAnyNumber);
   std::optional<Interval> nullable_interval(std::string_view key);
   std::vector<double> numbers(std::string_view key, NumberRule rule = kAnyNumber);
   std::vector<std::string> strings(std::string_view key);

@@ -10,10 +10,6 @@ namespace awmr {
 
 /// Type and value as text: "number 3"; long values are shortened.
 std::string describe(const Json& value);
-/// Permitted range as text: "a number above 0".
-std::string describe(const NumberRule& rule);
-/// True if the value is in the permitted range.
-bool allows(const NumberRule& rule, double value);
 /// Code for a value that is not the expected number: kOutOfRange for a number, else kWrongType.
 ErrorCode number_error(const Json& value);
 /// Adds a fault at the JSON pointer `pointer` of the file.

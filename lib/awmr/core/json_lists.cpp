@@ -18,21 +18,6 @@ std::string describe(const Json& value) {
   return fmt::format("{} {}", value.type_name(), text);
 }
 
-std::string describe(const NumberRule& rule) {
-  const bool below = rule.min <= kAnyNumber.min;
-  const bool above = rule.max >= kAnyNumber.max;
-  const char* relation = rule.min_excluded ? "above" : "at least";
-  if (below && above) return "a number";
-  if (above) return fmt::format("a number {} {}", relation, format_number(rule.min));
-  if (below) return fmt::format("a number at most {}", format_number(rule.max));
-  return fmt::format("a number {} {} and at most {}", relation, format_number(rule.min),
-                     format_number(rule.max));
-}
-
-bool allows(const NumberRule& rule, double value) {
-  return value <= rule.max && (rule.min_excluded ? value > rule.min : value >= rule.min);
-}
-
 ErrorCode number_error(const Json& value) {
   return value.is_number() ? ErrorCode::kOutOfRange : ErrorCode::kWrongType;
 }
@@ -44,27 +29,32 @@ void add_fault(ErrorCode code, std::vector<Fault>& faults, const std::string& fi
       {code, pointer.empty() ? file : fmt::format("{}:{}", file, pointer), std::move(message)});
 }
 
-Interval JsonObject::interval(std::string_view key) {
-  if (shape_ != nullptr) shape_->type(key, interval_schema());
+Interval JsonObject::interval(std::string_view key, NumberRule rule) {
+  if (shape_ != nullptr) shape_->type(key, interval_schema(rule));
   const Json* value = find(key, true);
   if (value == nullptr) return {};
   if (value->is_array() && value->size() == 2 && (*value)[0].is_number() &&
       (*value)[1].is_number()) {
     const Interval interval{(*value)[0].get<double>(), (*value)[1].get<double>()};
-    if (interval.lo <= interval.hi) return interval;
+    if (allows(rule, interval)) return interval;
+    if (interval.lo <= interval.hi) {
+      fault(ErrorCode::kOutOfRange, key,
+            fmt::format("both ends must be {}, found {}", describe(rule), describe(*value)));
+      return {};
+    }
   }
   fault(ErrorCode::kWrongType, key,
         fmt::format("expected [lo, hi] with lo <= hi, found {}", describe(*value)));
   return {};
 }
 
-std::optional<Interval> JsonObject::optional_interval(std::string_view key) {
+std::optional<Interval> JsonObject::optional_interval(std::string_view key, NumberRule rule) {
   if (!has(key)) return std::nullopt;
-  return interval(key);
+  return interval(key, rule);
 }
 
 std::optional<Interval> JsonObject::nullable_interval(std::string_view key) {
-  if (shape_ != nullptr) shape_->type(key, or_null(interval_schema()));
+  if (shape_ != nullptr) shape_->type(key, or_null(interval_schema(kAnyNumber)));
   const Json* value = find(key, true);
   if (value == nullptr || value->is_null()) return std::nullopt;
   return interval(key);

@@ -32,7 +32,9 @@ Json schema_of(const NumberRule& rule) {
   Json schema{{"type", "number"}};
   if (rule.min > kAnyNumber.min)
     schema[rule.min_excluded ? "exclusiveMinimum" : "minimum"] = rule.min;
-  if (rule.max < kAnyNumber.max) schema["maximum"] = rule.max;
+  if (rule.max < kAnyNumber.max) {
+    schema[rule.max_excluded ? "exclusiveMaximum" : "maximum"] = rule.max;
+  }
   return schema;
 }
 
@@ -42,8 +44,8 @@ Json schema_of(long min, long max) {
 
 Json array_schema(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
 
-Json interval_schema() {
-  Json schema = array_schema(schema_of(kAnyNumber));
+Json interval_schema(const NumberRule& rule) {
+  Json schema = array_schema(schema_of(rule));
   schema["minItems"] = 2;
   schema["maxItems"] = 2;
   return schema;

@@ -92,7 +92,7 @@ class JsonShape {
 Json schema_of(const NumberRule& rule);
 Json schema_of(long min, long max);
 Json array_schema(Json items);
-Json interval_schema();
+Json interval_schema(const NumberRule& rule);
 Json or_null(const Json& schema);
 
 }  // namespace awmr

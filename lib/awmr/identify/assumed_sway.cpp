@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "awmr/core/gravity.h"
+#include "awmr/core/sample_quantile.h"
 #include "awmr/identify/identify.h"
 
 namespace awmr {
@@ -27,11 +28,7 @@ void take_fastest(const DrivingLog& log, double& fastest_mps) {
     if (speed->fresh[row]) speeds.push_back(std::abs(speed->value[row]));
   }
   if (speeds.empty()) return;
-  const auto place =
-      static_cast<std::size_t>(kFastestQuantile * static_cast<double>(speeds.size()));
-  std::nth_element(speeds.begin(), speeds.begin() + static_cast<std::ptrdiff_t>(place),
-                   speeds.end());
-  fastest_mps = std::max(fastest_mps, speeds[place]);
+  fastest_mps = std::max(fastest_mps, quantile(std::move(speeds), kFastestQuantile));
 }
 
 /// Highest speed of all trials, m/s; 0 if no trial has a speed.

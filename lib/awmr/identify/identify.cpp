@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "awmr/core/option_text.h"
+#include "awmr/core/sample_quantile.h"
 #include "awmr/identify/admissible.h"
 #include "awmr/identify/assumed_sway.h"
 #include "awmr/identify/main_values.h"
@@ -201,10 +202,8 @@ std::optional<double> fastest_logged_turn_radps(const std::vector<DrivingLog>& l
     }
   }
   if (rates.empty()) return std::nullopt;
-  const auto at =
-      rates.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(rates.size() - 1));
-  std::nth_element(rates.begin(), at, rates.end());
-  return *at > 0.0 ? std::optional(*at) : std::nullopt;
+  const double rate_radps = quantile(std::move(rates), kShare);
+  return rate_radps > 0.0 ? std::optional(rate_radps) : std::nullopt;
 }
 
 }  // namespace

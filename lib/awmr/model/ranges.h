@@ -1,9 +1,9 @@
 /// Valid ranges of the numbers in vehicle.json, model.json and gains.json, listed in VEHICLES.md of
 /// this folder. They are wider than for any vehicle, so that a wrong unit or a damaged file is
-/// detected when it is read. Include from .cpp files only.
+/// detected when it is read.
 #pragma once
 
-#include "awmr/core/json.h"
+#include "awmr/core/number_rule.h"
 #include "awmr/model/parameters.h"
 #include "awmr/model/resistance.h"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "awmr/trials/robust_ratio.h"
+#include "awmr/core/sample_quantile.h"
 
 namespace awmr {
 namespace {
@@ -17,13 +17,6 @@ constexpr double kRepeatedShare = 0.5;
 /// Fraction of repeated values above which the resolution is coarse. With fewer repeats, the steps
 /// are only those of the number format.
 constexpr double kSomeRepeats = 0.2;
-
-double quantile(std::vector<double> values, double share) {
-  const auto place =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 /// Rows at which the value changes, and the magnitude of each change.
 struct Changes {

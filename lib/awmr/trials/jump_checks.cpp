@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/trials/log_evidence.h"
 
@@ -43,9 +44,7 @@ std::vector<Move> moves_between(const DrivingLog& log, const std::vector<std::si
 double common_rate(const std::vector<Move>& moves) {
   std::vector<double> rates;
   for (const Move& move : moves) rates.push_back(move.size / move.span_s);
-  const auto place = static_cast<std::ptrdiff_t>(kQuantile * static_cast<double>(rates.size()));
-  std::nth_element(rates.begin(), rates.begin() + place, rates.end());
-  return rates[static_cast<std::size_t>(place)];
+  return quantile(std::move(rates), kQuantile);
 }
 
 /// The first jump: a change of more than kTimes the usual change, after which the signal does not

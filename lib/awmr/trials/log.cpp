@@ -8,10 +8,10 @@
 #include <iterator>
 
 #include "awmr/core/csv_text.h"
+#include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/trials/channel_quality.h"
 #include "awmr/trials/read_trials.h"
-#include "awmr/trials/robust_ratio.h"
 #include "awmr/trials/trial_columns.h"
 #include "constant_channels.h"
 #include "course_at_rest.h"

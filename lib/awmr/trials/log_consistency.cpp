@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "awmr/core/option_text.h"
+#include "awmr/core/sample_quantile.h"
 #include "awmr/trials/calibration_checks.h"
 #include "awmr/trials/log_evidence.h"
-#include "awmr/trials/robust_ratio.h"
 
 namespace awmr {
 

@@ -1,4 +1,5 @@
 #include "awmr/trials/robust_ratio.h"
+#include "awmr/core/sample_quantile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,19 +14,6 @@ constexpr double kLargestSpread = 0.6;
 constexpr double kSmallest = 1e-9;
 
 }  // namespace
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double median_absolute_deviation(std::span<const double> values, double middle) {
-  std::vector<double> deviations;
-  deviations.reserve(values.size());
-  for (const double value : values) deviations.push_back(std::abs(value - middle));
-  return median(std::move(deviations));
-}
 
 std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<const double> y) {
   std::vector<double> sizes;

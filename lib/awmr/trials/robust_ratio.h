@@ -1,5 +1,4 @@
-/// Median, median absolute deviation, and the ratio of two signals by medians, which tolerates
-/// about 10 % outliers.
+/// Ratio of two signals by medians, which tolerates about 10 % outliers.
 #pragma once
 
 #include <optional>
@@ -7,14 +6,6 @@
 #include <vector>
 
 namespace awmr {
-
-/// Median; for an even number of values the upper of the two middle ones. Precondition: not empty.
-double median(std::vector<double> values);
-
-/// Median of |value - middle|, where `middle` is the median of the values. Precondition: not empty.
-double median_absolute_deviation(std::span<const double> values, double middle);
-/// Ratio of the standard deviation to the median absolute deviation of a normal distribution.
-inline constexpr double kStdPerMad = 1.4826;
 
 struct RobustRatio {
   double ratio = 0.0;

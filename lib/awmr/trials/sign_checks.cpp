@@ -9,6 +9,7 @@
 #include <string>
 
 #include "awmr/core/option_text.h"
+#include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/trials/log_evidence.h"
 #include "awmr/trials/robust_ratio.h"

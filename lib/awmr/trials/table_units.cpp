@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "awmr/core/interval.h"
+#include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/model/plausibility.h"
-#include "awmr/trials/robust_ratio.h"
 
 namespace awmr {
 namespace {

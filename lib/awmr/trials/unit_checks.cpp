@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "awmr/core/option_text.h"
+#include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/trials/log_evidence.h"
@@ -165,11 +166,7 @@ double usual_largest(const Measured& channel) {
   for (std::size_t row = 0; row < channel.value.size(); ++row) {
     if (channel.fresh[row]) sizes.push_back(std::abs(channel.value[row]));
   }
-  if (sizes.empty()) return 0.0;
-  const auto place =
-      sizes.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(sizes.size() - 1));
-  std::nth_element(sizes.begin(), place, sizes.end());
-  return *place;
+  return sizes.empty() ? 0.0 : quantile(std::move(sizes), 0.95);
 }
 
 std::optional<Contradiction> check_rates(const Evidence& evidence) {
@@ -300,9 +297,7 @@ double position_variance_m2(const DrivingLog& log) {
     };
     squares.push_back(std::pow(bend(x.value), 2) + std::pow(bend(y.value), 2));
   }
-  const auto quartile = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 4);
-  std::nth_element(squares.begin(), quartile, squares.end());
-  return *quartile / (12.0 * std::log(4.0 / 3.0));
+  return quantile(std::move(squares), 0.25) / (12.0 * std::log(4.0 / 3.0));
 }
 
 /// Ratio of the distance between the ends of the windows to the integral of the speed. The noise

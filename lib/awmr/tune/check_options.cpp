@@ -15,46 +15,36 @@
 #include "awmr/core/option_text.h"
 #include "awmr/tune/global_sensitivity.h"
 #include "awmr/tune/goals.h"
+#include "awmr/tune/option_table.h"
 
 namespace awmr {
 namespace {
 
-bool is_positive(double value) { return value > 0.0 && std::isfinite(value); }
+/// Adds a fault for each number of option_table.h that is outside of its range.
+struct CheckOption {
+  std::vector<Fault>& faults;
+  std::string of = {};  ///< before the key in the message, as "limits: "
 
-void check_bounds(const std::optional<Interval>& range, const char* name,
-                  std::vector<Fault>& faults) {
-  if (!range || (range->lo > 0.0 && range->lo <= range->hi && std::isfinite(range->hi))) return;
-  faults.push_back({ErrorCode::kWrongOrder, "",
-                    fmt::format("bounds of {}: [{}, {}], but 0 < lo <= hi is needed", name,
-                                range->lo, range->hi)});
-}
-
-void check_observer(const std::optional<ObserverSearch>& observer, std::vector<Fault>& faults) {
-  if (!observer) return;
-  check_bounds(observer->bandwidth_radps, "the observer's bandwidth_radps", faults);
-  for (const auto& [name, limit] :
-       {std::pair("yaw_max_m", observer->yaw_max_m), std::pair("surge_max", observer->surge_max)}) {
-    if (!limit || (*limit > 0.0 && std::isfinite(*limit))) continue;
-    faults.push_back({ErrorCode::kOutOfRange, "",
-                      fmt::format("the observer's {}: {} is not above 0", name, *limit)});
+  template <class Value>
+  void operator()(const char* key, const Value& value, const NumberRule& rule) const {
+    if (!allows(rule, value)) fault(key, fmt::format("{}", value), rule);
   }
-}
-
-void check_weights(const ObjectiveWeights& w, std::vector<Fault>& faults) {
-  const double values[] = {w.settling,          w.itae,   w.overshoot,
-                           w.control_variation, w.effort, w.speed_itae};
-  double sum = 0.0;
-  for (const double value : values) {
-    if (!(value >= 0.0)) {
-      faults.push_back({ErrorCode::kOutOfRange, "", fmt::format("weights: {} is below 0", value)});
-    }
-    sum += value;
+  void operator()(const char* key, const Interval& value, const NumberRule& rule) const {
+    if (!allows(rule, value)) fault(key, fmt::format("[{}, {}]", value.lo, value.hi), rule);
   }
-  if (!(sum > 0.0) || !std::isfinite(sum)) {
+  template <class Value>
+  void operator()(const char* key, const std::optional<Value>& value,
+                  const NumberRule& rule) const {
+    if (value) (*this)(key, *value, rule);
+  }
+
+ private:
+  void fault(const char* key, const std::string& found, const NumberRule& rule) const {
     faults.push_back(
-        {ErrorCode::kOutOfRange, "", "weights: at least one has to be above 0, and all finite"});
+        {ErrorCode::kOutOfRange, "",
+         fmt::format("{}{}: found {}, but {} is needed", of, key, found, describe(rule))});
   }
-}
+};
 
 void check_scenarios(const std::vector<Scenario>& scenarios, bool observer_is_searched,
                      std::vector<Fault>& faults) {
@@ -91,43 +81,6 @@ void check_scenarios(const std::vector<Scenario>& scenarios, bool observer_is_se
                                     "name, so rename one",
                                     scenario.name)});
     }
-  }
-}
-
-void check_robustness(const TuneOptions& options, std::vector<Fault>& faults) {
-  if (options.draws < 0 || options.draws > 1000) {
-    faults.push_back(
-        {ErrorCode::kOutOfRange, "", fmt::format("draws: {} is not in 0 ... 1000", options.draws)});
-  }
-  if (options.evaluation_draws < 0 || options.evaluation_draws > 100000) {
-    faults.push_back(
-        {ErrorCode::kOutOfRange, "",
-         fmt::format("judged_draws: {} is not in 0 ... 100000", options.evaluation_draws)});
-  }
-  if (!(options.tail_share > 0.0 && options.tail_share <= 1.0)) {
-    faults.push_back({ErrorCode::kOutOfRange, "",
-                      fmt::format("tail_share: {} is not in (0, 1]", options.tail_share)});
-  }
-  if (options.activity_max && !is_positive(*options.activity_max)) {
-    faults.push_back({ErrorCode::kOutOfRange, "",
-                      fmt::format("activity_max: {} is not above 0", *options.activity_max)});
-  }
-}
-
-void check_limits(const TuningLimits& limits, std::vector<Fault>& faults) {
-  if (limits.steering_rate_rms_degps && !is_positive(*limits.steering_rate_rms_degps)) {
-    faults.push_back({ErrorCode::kOutOfRange, "",
-                      fmt::format("limits: steering_rate_rms_degps {} is not above 0",
-                                  *limits.steering_rate_rms_degps)});
-  }
-  const std::pair<const char*, double> shares[] = {{"damping", limits.damping},
-                                                   {"late_damping", limits.late_damping},
-                                                   {"delayed_damping", limits.delayed_damping},
-                                                   {"noise_share", limits.noise_share}};
-  for (const auto& [name, share] : shares) {
-    if (share > 0.0 && share <= 1.0) continue;
-    faults.push_back(
-        {ErrorCode::kOutOfRange, "", fmt::format("limits: {} {} is not in (0, 1]", name, share)});
   }
 }
 
@@ -271,25 +224,16 @@ Status check_options(const TuneOptions& options, const Vehicle& vehicle) {
   check_mode(options, vehicle, faults);
   check_goals(options, vehicle, faults);
   check_sensitivity(options, faults);
-  if (!(options.margin > 0.0 && options.margin < 1.0)) {
-    faults.push_back(
-        {ErrorCode::kOutOfRange, "", fmt::format("margin: {} is not in (0, 1)", options.margin)});
+  search_options(options, CheckOption{faults});
+  limit_options(options.limits, CheckOption{faults, "limits: "});
+  weight_options(options.weights, CheckOption{faults, "weights: "});
+  bound_options(options.bounds, CheckOption{faults, "bounds: "});
+  if (options.observer) observer_options(*options.observer, CheckOption{faults, "observer: "});
+  if (!has_weight(options.weights)) {
+    faults.push_back({ErrorCode::kOutOfRange, "", "weights: at least one has to be above 0"});
   }
-  if (options.global_evaluations < 1 || options.local_evaluations < 0) {
-    faults.push_back({ErrorCode::kOutOfRange, "",
-                      "global_evaluations must be at least 1, local_evaluations at least 0"});
-  }
-  check_robustness(options, faults);
-  check_limits(options.limits, faults);
   check_open(options, faults);
   check_part(options, faults);
-  check_weights(options.weights, faults);
-  check_bounds(options.bounds.lambda, "lambda", faults);
-  check_bounds(options.bounds.mu, "mu", faults);
-  check_bounds(options.bounds.epsilon, "epsilon", faults);
-  check_bounds(options.bounds.speed_mu, "speed_mu", faults);
-  check_bounds(options.bounds.speed_epsilon, "speed_epsilon", faults);
-  check_observer(options.observer, faults);
   check_scenarios(options.scenarios, options.observer.has_value(), faults);
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};

@@ -4,6 +4,7 @@
 #include "awmr/model/gains_json.h"
 #include "awmr/model/parameters.h"
 #include "awmr/tune/objective.h"
+#include "awmr/tune/option_table.h"
 #include "awmr/tune/tune.h"
 #include "awmr/tune/tune_json.h"
 
@@ -232,8 +233,14 @@ void describe_gains(JsonObject& json) {
   describe_constraints(json);
   if (auto examined = json.optional_object("examined")) read_examined(std::move(*examined));
   if (auto limits = json.optional_object("limits")) {
-    limits->optional_number("steering_rate_rms_degps", kPositive);
-    for (const LimitKey& key : kLimitKeys) limits->number(key.name, {.min = 0.0, .max = 1.0});
+    TuningLimits kept;
+    limit_options(kept, [&](const char* key, const auto& value, const NumberRule& rule) {
+      if constexpr (std::is_same_v<decltype(value), const double&>) {
+        limits->number(key, rule);
+      } else {
+        limits->optional_number(key, rule);
+      }
+    });
     limits->reject_unknown_keys();
   }
   if (auto certificate = json.optional_object("certificate")) describe_certificate(*certificate);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "awmr/core/binomial.h"
+#include "awmr/core/sample_quantile.h"
 
 namespace awmr {
 namespace {
@@ -122,13 +123,7 @@ std::vector<GoalInMode> by_mode(std::span<const TuningGoal> goals, std::span<con
 
 double quantile_of_excess(const GoalInMode& one, std::span<const RunOutcome> outcomes,
                           std::size_t scenarios) {
-  std::vector<double> all = excesses(one, outcomes, scenarios);
-  const auto n = static_cast<double>(all.size());
-  const auto rank =
-      std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(one.goal->share * n - 1e-9)));
-  const auto at = all.begin() + static_cast<std::ptrdiff_t>(rank - 1);
-  std::nth_element(all.begin(), at, all.end());
-  return *at;
+  return rank_quantile(excesses(one, outcomes, scenarios), one.goal->share);
 }
 
 EvaluatedGoal evaluate_goal(const GoalInMode& one, const EvaluatedRuns& runs,

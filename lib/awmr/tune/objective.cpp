@@ -205,10 +205,46 @@ Evaluation Objective::operator()(const Gains<double>& gains) const {
   return (*this)(std::span(&gains, 1)).front();
 }
 
+/// Adds the objective and the relative activity of one mode; returns ln J of the mode. The scores
+/// are by vehicle, then mode, then scenario.
+double Objective::evaluate_mode(std::span<const ModeScore> scores, std::size_t mode,
+                                Evaluation& evaluation) const {
+  const std::size_t scenarios = setting_.scenarios.size();
+  double log_objective = 0.0;
+  double variation = 0.0;
+  double of_baseline = 0.0;
+  for (std::size_t scenario = 0; scenario < scenarios; ++scenario) {
+    std::vector<double> by_vehicle;
+    for (std::size_t i = mode * scenarios + scenario; i < scores.size();
+         i += setting_.modes().size() * scenarios) {
+      by_vehicle.push_back(std::log(scores[i].objective));
+      variation += scores[i].metrics.control_variation;
+      of_baseline += baseline_scores_[i].metrics.control_variation;
+    }
+    log_objective += mean_and_tail(std::move(by_vehicle), setting_.tail_share);
+  }
+  log_objective /= static_cast<double>(scenarios);
+  evaluation.mode_objective.push_back(std::exp(log_objective));
+  evaluation.mode_activity.push_back(of_baseline > 0.0 ? variation / of_baseline : 1.0);
+  return log_objective;
+}
+
+/// Means over all runs.
+TradeOffPoint Objective::trade_off(std::span<const ModeScore> scores) const {
+  std::vector<double> settling_s, control_variation;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const Metrics& metrics = scores[i].metrics;
+    const Scenario& scenario = setting_.scenarios[i % setting_.scenarios.size()];
+    settling_s.push_back(metrics.settling_time_s.value_or(scenario.duration_s));
+    control_variation.push_back(metrics.control_variation);
+  }
+  return {mean_in_any_order(std::move(settling_s)),
+          mean_in_any_order(std::move(control_variation))};
+}
+
 Evaluation Objective::evaluate(std::vector<ModeScore> scores) const {
   const std::size_t scenarios = setting_.scenarios.size();
   const std::size_t modes = setting_.modes().size();
-  const std::size_t per_vehicle = modes * scenarios;
   Evaluation evaluation;
   evaluation.valid = true;
   for (std::size_t i = 0; i < scores.size(); ++i) {
@@ -218,22 +254,7 @@ Evaluation Objective::evaluate(std::vector<ModeScore> scores) const {
   }
   double log_of_all = 0.0;
   for (std::size_t mode = 0; mode < modes; ++mode) {
-    double log_objective = 0.0;
-    double variation = 0.0;
-    double of_baseline = 0.0;
-    for (std::size_t scenario = 0; scenario < scenarios; ++scenario) {
-      std::vector<double> by_vehicle;
-      for (std::size_t i = mode * scenarios + scenario; i < scores.size(); i += per_vehicle) {
-        by_vehicle.push_back(std::log(scores[i].objective));
-        variation += scores[i].metrics.control_variation;
-        of_baseline += baseline_scores_[i].metrics.control_variation;
-      }
-      log_objective += mean_and_tail(std::move(by_vehicle), setting_.tail_share);
-    }
-    log_objective /= static_cast<double>(scenarios);
-    evaluation.mode_objective.push_back(std::exp(log_objective));
-    evaluation.mode_activity.push_back(of_baseline > 0.0 ? variation / of_baseline : 1.0);
-    log_of_all += log_objective;
+    log_of_all += evaluate_mode(scores, mode, evaluation);
   }
   evaluation.objective = std::exp(log_of_all / static_cast<double>(modes));
   const std::vector<RunOutcome> outcomes =
@@ -244,16 +265,8 @@ Evaluation Objective::evaluate(std::vector<ModeScore> scores) const {
     if (one.goal->is_soft) evaluation.objective += std::max(0.0, quantile - 1.0);
   }
   if (!std::isfinite(evaluation.objective)) evaluation.valid = false;
-  std::vector<double> settling_s, control_variation;
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    const Metrics& metrics = scores[i].metrics;
-    settling_s.push_back(
-        metrics.settling_time_s.value_or(setting_.scenarios[i % scenarios].duration_s));
-    control_variation.push_back(metrics.control_variation);
-  }
-  evaluation.trade_off.settling_time_s = mean_in_any_order(std::move(settling_s));
-  evaluation.trade_off.control_variation = mean_in_any_order(std::move(control_variation));
-  scores.resize(per_vehicle);
+  evaluation.trade_off = trade_off(scores);
+  scores.resize(modes * scenarios);
   evaluation.scores = std::move(scores);
   return evaluation;
 }

@@ -117,6 +117,9 @@ class Objective {
 
  private:
   Evaluation evaluate(std::vector<ModeScore> scores) const;
+  double evaluate_mode(std::span<const ModeScore> scores, std::size_t mode,
+                       Evaluation& evaluation) const;
+  TradeOffPoint trade_off(std::span<const ModeScore> scores) const;
 
   ObjectiveSetting setting_;
   RunNoise noise_;

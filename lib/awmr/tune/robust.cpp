@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/plant_sampler.h"
 #include "awmr/tune/goals.h"
@@ -22,12 +23,10 @@ namespace {
 EvaluatedFigure figure_of(const std::string& name, std::vector<double> values, double tail_share) {
   std::sort(values.begin(), values.end());
   const auto n = static_cast<double>(values.size());
-  const auto quantile = [&](double p) {
-    return values[std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(p * n))) - 1];
-  };
   const auto tail = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(tail_share * n)));
   const double worst = std::accumulate(values.end() - eigen_index(tail), values.end(), 0.0);
-  return {name, quantile(0.5), quantile(0.95), worst / static_cast<double>(tail)};
+  return {name, rank_quantile(values, 0.5), rank_quantile(values, 0.95),
+          worst / static_cast<double>(tail)};
 }
 
 /// Statistics of one set of gains in one mode over all draws.

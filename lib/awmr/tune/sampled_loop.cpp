@@ -80,15 +80,13 @@ HeldPlant hold(const SampledHeadingLoop& loop, double part) {
   return plant;
 }
 
-}  // namespace
-
-double damping_ratio(const SampledHeadingLoop& loop) {
+/// The matrix of the closed loop. States: those of the plant, y of an observer, then the delayed
+/// commands, oldest first. The new command w is stored as the last delayed command, or acts on the
+/// plant if there is no delay.
+Eigen::MatrixXd closed_loop(const SampledHeadingLoop& loop) {
   const SplitDelay delay = split_delay(loop.command_delay_s, loop.sample_time_s);
   const HeldPlant plant = hold(loop, delay.part);
   const bool is_split = delay.part > 0.0;
-
-  // States: those of the plant, y of an observer, then the delayed commands, oldest first. The new
-  // command w is stored as the last delayed command, or acts on the plant if there is no delay.
   const double k = loop.reaching_rate;
   const double l = loop.observer_radps;
   const Eigen::Index states = l > 0.0 ? 5 : 4;
@@ -118,7 +116,13 @@ double damping_ratio(const SampledHeadingLoop& loop) {
     for (Eigen::Index i = 0; i + 1 < n; ++i) closed(states + i, states + 1 + i) = 1.0;
     closed.block(states + n - 1, 0, 1, states) = law;
   }
-  const Eigen::VectorXcd poles = eigenvalues(closed);
+  return closed;
+}
+
+}  // namespace
+
+double damping_ratio(const SampledHeadingLoop& loop) {
+  const Eigen::VectorXcd poles = eigenvalues(closed_loop(loop));
   double worst = 1.0;
   for (const std::complex<double>& z : poles) worst = std::min(worst, damping_of(z));
   return worst;

@@ -10,77 +10,40 @@
 #include "awmr/core/units.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/gains_json.h"
-#include "awmr/model/ranges.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/tune/objective.h"
+#include "awmr/tune/option_table.h"
 #include "awmr/tune/tune_json.h"
 
 namespace awmr {
 namespace {
 
-constexpr double kGainLimit = 1e6;
-constexpr long kEvaluationLimit = 1'000'000;
-
 void read_weights(JsonObject json, ObjectiveWeights& weights) {
-  double sum = 0.0;
-  for (const ObjectiveTerm& term : kObjectiveTerms) {
-    double& weight = weights.*term.weight;
-    weight = json.optional_number(term.name, kNonNegative).value_or(weight);
-    sum += weight;
-  }
-  if (sum <= 0.0) {
+  weight_options(weights, ReadOption{json});
+  if (!has_weight(weights)) {
     json.fault(ErrorCode::kOutOfRange, "itae", "all weights are 0: give at least one above 0");
   }
   json.reject_unknown_keys();
 }
 
-void read_bounds(JsonObject json, GainBounds& bounds) {
-  const std::pair<const char*, std::optional<Interval>*> entries[] = {
-      {"lambda", &bounds.lambda},
-      {"mu", &bounds.mu},
-      {"epsilon", &bounds.epsilon},
-      {"speed_mu", &bounds.speed_mu},
-      {"speed_epsilon", &bounds.speed_epsilon}};
-  for (const auto& [key, target] : entries) {
-    const std::optional<Interval> read = json.optional_interval(key);
-    if (!read) continue;
-    if (read->lo <= 0.0 || read->hi > kGainLimit) {
-      json.fault(ErrorCode::kOutOfRange, key, "both ends must be above 0 and at most 1e6");
-    }
-    *target = *read;
+/// Raises the default numbers of draws to a multiple of the combinations of `open`.
+void fit_draws_to(const UnmodelledVariation& open, TuneOptions& options) {
+  const auto combinations = static_cast<int>(open.combinations());
+  for (int* count : {&options.draws, &options.evaluation_draws}) {
+    *count = (*count + combinations - 1) / combinations * combinations;
   }
-  json.reject_unknown_keys();
 }
 
-void read_numbers(JsonObject& json, TuneOptions& options) {
+void read_search(JsonObject& json, TuneOptions& options) {
   if (json.has("mode")) options.mode = json.choice("mode", kYawModeNames);
   if (json.has("form")) options.form = json.choice("form", kReachingFormNames);
-  if (const auto margin =
-          json.optional_number("margin", {.min = 0.0, .max = 1.0, .min_excluded = true})) {
-    if (*margin >= 1.0) {
-      json.fault(ErrorCode::kOutOfRange, "margin", "must be below 1; give a number in (0, 1)");
-    }
-    options.margin = *margin;
-  }
-  options.global_evaluations =
-      static_cast<int>(json.optional_integer("global_evaluations", 1, kEvaluationLimit)
-                           .value_or(options.global_evaluations));
-  options.local_evaluations =
-      static_cast<int>(json.optional_integer("local_evaluations", 0, kEvaluationLimit)
-                           .value_or(options.local_evaluations));
   options.nominal = json.optional_boolean("nominal").value_or(options.nominal);
   if (json.has("goals")) options.evaluation_draws = kGoalDraws;
   if (auto open = json.optional_object("open")) {
     options.open = read_open(std::move(*open));
-    const auto turn = static_cast<int>(options.open.combinations());
-    for (int* count : {&options.draws, &options.evaluation_draws}) {
-      *count = (*count + turn - 1) / turn * turn;
-    }
+    fit_draws_to(options.open, options);
   }
-  options.draws = static_cast<int>(json.optional_integer("draws", 0, 1000).value_or(options.draws));
-  options.evaluation_draws =
-      static_cast<int>(json.optional_integer("judged_draws", json.has("goals") ? 1 : 0, 100'000)
-                           .value_or(options.evaluation_draws));
+  search_options(options, ReadOption{json});
   options.sensitivity =
       static_cast<int>(json.optional_integer("sensitivity", 0, kMostSamples).value_or(0));
   if (options.sensitivity > 0 && options.sensitivity < kFewestSamples) {
@@ -88,11 +51,6 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
                fmt::format("{} samples are too few; give 0, or at least {}", options.sensitivity,
                            kFewestSamples));
   }
-  options.tail_share =
-      json.optional_number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true})
-          .value_or(options.tail_share);
-  options.activity_max =
-      json.optional_number("activity_max", {.min = 0.0, .max = 1e6, .min_excluded = true});
   if (const auto seed = json.optional_integer("seed", 0, 4'294'967'295L)) {
     options.seed = static_cast<std::uint64_t>(*seed);
   }
@@ -122,14 +80,7 @@ void read_baseline(JsonObject& json, const std::filesystem::path& directory, Tun
 
 ObserverSearch read_observer(JsonObject json) {
   ObserverSearch observer;
-  if (const auto read = json.optional_interval("bandwidth_radps")) {
-    if (read->lo < kObserverBandwidth.min || read->hi > kObserverBandwidth.max) {
-      json.fault(ErrorCode::kOutOfRange, "bandwidth_radps", "both ends must be in [1e-6, 1e4]");
-    }
-    observer.bandwidth_radps = *read;
-  }
-  observer.yaw_max_m = json.optional_number("yaw_max_m", kObserverLimit);
-  observer.surge_max = json.optional_number("surge_max", kObserverLimit);
+  observer_options(observer, ReadOption{json});
   json.reject_unknown_keys();
   return observer;
 }
@@ -145,6 +96,10 @@ void read_goals(JsonObject& json, TuneOptions& options) {
   if (!options.goals.empty() && options.nominal) {
     json.fault(ErrorCode::kConflict, "goals",
                "need sampled plants, which nominal disables; remove one of the two");
+  }
+  if (!options.goals.empty() && options.evaluation_draws == 0) {
+    json.fault(ErrorCode::kConflict, "judged_draws",
+               "goals are evaluated on fresh draws; give a number above 0");
   }
 }
 
@@ -297,10 +252,9 @@ Json sensitivity_json(const GlobalSensitivity& sensitivity) {
 
 Json limits_json(const TuningLimits& limits) {
   Json json = Json::object();
-  if (limits.steering_rate_rms_degps) {
-    json["steering_rate_rms_degps"] = *limits.steering_rate_rms_degps;
-  }
-  for (const LimitKey& key : kLimitKeys) json[key.name] = limits.*key.limit;
+  limit_options(limits, [&](const char* key, const std::optional<double>& limit, const auto&) {
+    if (limit) json[key] = *limit;
+  });
   return json;
 }
 
@@ -335,11 +289,14 @@ TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& dir
                             std::vector<Fault>& faults) {
   TuneConfig config;
   object.schema(kTuneSchema);
-  read_numbers(object, config.options);
+  read_search(object, config.options);
   if (auto weights = object.optional_object("weights")) {
     read_weights(*weights, config.options.weights);
   }
-  if (auto bounds = object.optional_object("bounds")) read_bounds(*bounds, config.options.bounds);
+  if (auto bounds = object.optional_object("bounds")) {
+    bound_options(config.options.bounds, ReadOption{*bounds});
+    bounds->reject_unknown_keys();
+  }
   if (auto observer = object.optional_object("observer")) {
     config.options.observer = read_observer(std::move(*observer));
   }

@@ -9,6 +9,7 @@
 
 #include "awmr/model/model_json.h"
 #include "awmr/model/wheel_force_json.h"
+#include "awmr/tune/option_table.h"
 
 namespace awmr {
 namespace {
@@ -27,15 +28,29 @@ void put_quantiles(const EvaluatedGains& evaluated, Json& json) {
 
 }  // namespace
 
+void ReadOption::operator()(const char* key, double& value, const NumberRule& rule) const {
+  value = json.optional_number(key, rule).value_or(value);
+}
+void ReadOption::operator()(const char* key, std::optional<double>& value,
+                            const NumberRule& rule) const {
+  value = json.optional_number(key, rule);
+}
+void ReadOption::operator()(const char* key, int& value, const NumberRule& rule) const {
+  const auto min = static_cast<long>(rule.min);
+  const auto max = static_cast<long>(rule.max);
+  value = static_cast<int>(json.optional_integer(key, min, max).value_or(value));
+}
+void ReadOption::operator()(const char* key, Interval& value, const NumberRule& rule) const {
+  value = json.optional_interval(key, rule).value_or(value);
+}
+void ReadOption::operator()(const char* key, std::optional<Interval>& value,
+                            const NumberRule& rule) const {
+  value = json.optional_interval(key, rule);
+}
+
 TuningLimits read_limits(JsonObject json) {
   TuningLimits limits;
-  limits.steering_rate_rms_degps = json.optional_number(
-      "steering_rate_rms_degps", {.min = 0.0, .max = 1e6, .min_excluded = true});
-  for (const LimitKey& key : kLimitKeys) {
-    double& limit = limits.*key.limit;
-    limit = json.optional_number(key.name, {.min = 0.0, .max = 1.0, .min_excluded = true})
-                .value_or(limit);
-  }
+  limit_options(limits, ReadOption{json});
   json.reject_unknown_keys();
   return limits;
 }

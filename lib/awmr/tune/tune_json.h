@@ -10,15 +10,17 @@
 
 namespace awmr {
 
-/// A limit of TuningLimits in (0, 1], with its key in tune.json and gains.json.
-struct LimitKey {
-  const char* name;
-  double TuningLimits::*limit;
+/// Reads a number of option_table.h. If the key is absent, the value stays as it is; an absent
+/// optional number or interval becomes empty.
+struct ReadOption {
+  JsonObject& json;
+
+  void operator()(const char* key, double& value, const NumberRule& rule) const;
+  void operator()(const char* key, std::optional<double>& value, const NumberRule& rule) const;
+  void operator()(const char* key, int& value, const NumberRule& rule) const;
+  void operator()(const char* key, Interval& value, const NumberRule& rule) const;
+  void operator()(const char* key, std::optional<Interval>& value, const NumberRule& rule) const;
 };
-inline constexpr LimitKey kLimitKeys[] = {{"damping", &TuningLimits::damping},
-                                          {"late_damping", &TuningLimits::late_damping},
-                                          {"delayed_damping", &TuningLimits::delayed_damping},
-                                          {"noise_share", &TuningLimits::noise_share}};
 
 /// Reads the limits of tune.json or gains.json; missing ones get their default.
 TuningLimits read_limits(JsonObject json);

@@ -8,6 +8,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
+#include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/conditions.h"
 #include "awmr/simulate/plant_sampler.h"
@@ -29,13 +30,6 @@ Status check_options(const AcceptanceOptions& options) {
   if (options.draws >= 39 && options.draws <= 10000) return {};
   return input_error(ErrorCode::kOutOfRange, "draws",
                      fmt::format("expected 39 to 10000, got {}", options.draws));
-}
-
-/// The smallest value that at least a fraction `share` of the values do not exceed.
-double quantile_of(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
-  return values[std::max<std::size_t>(rank, 1) - 1];
 }
 
 State<double> moved_by(State<double> state, const State<double>& error, Random& random) {
@@ -183,7 +177,7 @@ Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> d
   one.predicted = prediction_of(channel, draws);
   for (const WindowMeans& draw : draws)
     one.largest.push_back(largest_distance(draw, one.predicted));
-  one.usual = quantile_of(one.largest, kLevel);
+  one.usual = rank_quantile(one.largest, kLevel);
   return one;
 }
 
@@ -241,7 +235,7 @@ std::vector<Compared> compare(const std::vector<DriveChannel>& channels,
 /// drive among the predicted drives.
 void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
   const std::vector<double> factors = factors_of_draws(channels, at(result.draws));
-  const double allowed = quantile_of(factors, kLevel);
+  const double allowed = rank_quantile(factors, kLevel);
   double reached = 0.0;
   for (const Compared& one : channels) {
     result.channels.push_back(evaluate(one, allowed));

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "awmr/core/index.h"
+#include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/trials/replay.h"
-#include "awmr/trials/robust_ratio.h"
 
 namespace awmr {
 namespace {

@@ -16,14 +16,9 @@ namespace {
 /// Minimum number of windows with each kind of turn (by wheel forces, by steering).
 constexpr std::size_t kFewestTurns = 3;
 
-/// Half width of the 95 % interval in standard errors, by Student's t.
-double t_quantile(double degrees_of_freedom) {
-  return students_t_quantile(0.975, degrees_of_freedom);
-}
-
 Estimate estimate_of(double log_value, double log_error, std::size_t windows) {
   const double value = std::exp(log_value);
-  const double factor = std::exp(t_quantile(static_cast<double>(windows) - 2.0) * log_error);
+  const double factor = std::exp(t_quantile_95(static_cast<double>(windows) - 2.0) * log_error);
   return {.value = value,
           .std_error = value * log_error,
           .ci95 = Interval{value / factor, value * factor},
@@ -111,7 +106,7 @@ std::optional<PlantKind> better_plant(const HeldOutSums& sums) {
   const auto count = static_cast<double>(differences.size());
   const Eigen::Map<const Eigen::VectorXd> d(differences.data(), rows_of(differences));
   const double mean = d.mean();
-  const double half = t_quantile(count - 1.0) *
+  const double half = t_quantile_95(count - 1.0) *
                       std::sqrt((d.array() - mean).square().sum() / (count - 1.0) / count);
   if (mean > half) return PlantKind::kFourWheel;
   if (mean < -half) return PlantKind::kModel;

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#include "awmr/core/distributions.h"
 #include "awmr/core/option_text.h"
 #include "awmr/identify/uncertainty/akaike.h"
 #include "awmr/identify/uncertainty/diagnostics.h"
-#include "awmr/identify/uncertainty/quantiles.h"
 #include "awmr/model/ratio_names.h"
 
 namespace awmr {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "awmr/core/distributions.h"
 #include "awmr/core/linear_algebra.h"
-#include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
 namespace {

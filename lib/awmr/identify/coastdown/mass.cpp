@@ -6,10 +6,10 @@
 #include <cmath>
 #include <iterator>
 
+#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/identify/coastdown/coast_alone.h"
-#include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
 namespace {

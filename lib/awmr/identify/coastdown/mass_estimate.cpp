@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "awmr/core/distributions.h"
-#include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
 namespace {

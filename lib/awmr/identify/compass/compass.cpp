@@ -9,10 +9,10 @@
 #include <optional>
 #include <utility>
 
+#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
 #include "awmr/core/units.h"
-#include "awmr/identify/uncertainty/quantiles.h"
 #include "ellipse.h"
 
 namespace awmr {

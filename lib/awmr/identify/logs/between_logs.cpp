@@ -12,7 +12,6 @@
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/identifiability.h"
-#include "awmr/identify/uncertainty/quantiles.h"
 #include "awmr/model/sensor_delay_name.h"
 
 namespace awmr {

@@ -5,6 +5,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/random.h"
+#include "awmr/core/sample_quantile.h"
 
 namespace awmr {
 namespace {
@@ -24,10 +25,6 @@ Eigen::VectorXd drawn_sum(const std::vector<Eigen::VectorXd>& scores, const Eige
     sum += scores[static_cast<std::size_t>(place)] - mean;
   }
   return sum;
-}
-
-double percentile(const std::vector<double>& sorted, double share) {
-  return sorted[at(std::lround(share * static_cast<double>(sorted.size() - 1)))];
 }
 
 /// Ratio of `std` to the standard deviation of the draws; 1 if all draws are equal.
@@ -57,8 +54,8 @@ std::vector<Interval> block_bootstrap(const BootstrapInput& input,
     const double x = input.coordinates[i];
     const double std = std::sqrt(input.covariance(eigen_index(i), eigen_index(i)));
     const double scale = scale_to(std, draws[i]);
-    intervals.push_back({q.value(x + scale * percentile(draws[i], 0.025)),
-                         q.value(x + scale * percentile(draws[i], 0.975))});
+    intervals.push_back({q.value(x + scale * quantile_of_sorted(draws[i], 0.025)),
+                         q.value(x + scale * quantile_of_sorted(draws[i], 0.975))});
   }
   return intervals;
 }

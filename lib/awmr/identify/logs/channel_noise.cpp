@@ -10,8 +10,8 @@
 #include <numbers>
 #include <utility>
 
+#include "awmr/core/sample_quantile.h"
 #include "awmr/identify/logs/whitener.h"
-#include "awmr/trials/robust_ratio.h"
 
 namespace awmr {
 namespace {

@@ -106,27 +106,49 @@ bool may_be_smoothed(LogChannel channel) {
   return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate;
 }
 
+/// The fit with the lowest AIC among those considered.
+class LowestAic {
+ public:
+  explicit LowestAic(const NoiseIteration& start) : criterion_(akaike_of(start)) {}
+
+  /// Keeps the fit if its AIC is lower by more than `by`; returns true if it was kept.
+  bool consider(NoiseIteration fit, double by = 0.0) {
+    const double criterion = akaike_of(fit);
+    if (!(criterion + by < criterion_)) return false;
+    criterion_ = criterion;
+    best_ = std::move(fit);
+    return true;
+  }
+  /// Empty if no fit had a lower AIC than the start.
+  std::optional<NoiseIteration>& best() { return best_; }
+
+ private:
+  std::optional<NoiseIteration> best_;
+  double criterion_;
+};
+
+/// Considers a filter of each channel, with its lag. A filter is kept only if it lowers AIC by more
+/// than kLikelierFilter.
+void consider_filters(const NoiseIteration& settled,
+                      const std::vector<std::pair<LogChannel, double>>& lags_s, Loss loss,
+                      LowestAic& lowest) {
+  constexpr double kLikelierFilter = 10.0;
+  // With the speed as the only channel, its filter has the same effect as a motor lag, which is
+  // more common.
+  if (settled.problem.model.noise.size() <= 1) return;
+  for (const auto& [channel, lag_s] : lags_s) {
+    lowest.consider(tried(settled, {{sensor_lag_of(channel), lag_s}}, loss), kLikelierFilter);
+  }
+}
+
 /// Fits each candidate term for one round and returns the fit with the lowest AIC. If no term
 /// lowers AIC, returns the fit of the first candidate if its score test is beyond doubt, else
 /// empty.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
-  // A filter is selected only if it lowers AIC by more than this. With the speed as the only
-  // channel no filter is tried, because a filter of the speed has the same effect as a motor lag,
-  // which is more common.
-  constexpr double kLikelierFilter = 10.0;
   constexpr double kComparable = 0.2;  // smallest significance relative to that of the strongest
-  const bool tells_filters = settled.problem.model.noise.size() > 1;
   constexpr double kBeyondDoubt = 20.0;
-  std::optional<NoiseIteration> best;
+  LowestAic lowest(settled);
   std::optional<NoiseIteration> strongest;  // of the first candidate, if its test is beyond doubt
-  double least = akaike_of(settled);
-  const auto consider = [&](NoiseIteration fit, double by = 0.0) {
-    const double criterion = akaike_of(fit);
-    if (!(criterion + by < least)) return false;
-    least = criterion;
-    best = std::move(fit);
-    return true;
-  };
   const bool may_lag = !settled.problem.model.vehicle.motor_time_constant_s &&
                        !has_kind(settled.problem.model.quantities, FreeQuantity::Kind::kMotorLag);
   bool has_sensor = false;
@@ -134,7 +156,8 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   const std::vector<CandidateTerm> terms = candidate_terms(settled);
   for (const CandidateTerm& candidate_term : terms) {
     // Much weaker candidates wait: they are tested again after the best term was added to the fit.
-    if (best && candidate_term.significance < kComparable * terms.front().significance) break;
+    if (lowest.best() && candidate_term.significance < kComparable * terms.front().significance)
+      break;
     const FreeQuantity& more = candidate_term.quantity;
     const bool is_sensor = more.kind == FreeQuantity::Kind::kSensorDelay;
     if (is_sensor && has_sensor) continue;
@@ -143,24 +166,22 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     if (&candidate_term == &terms.front() && candidate_term.significance > kBeyondDoubt) {
       strongest = fit;
     }
-    has_sensor |= consider(std::move(fit)) && is_sensor;
+    has_sensor |= lowest.consider(std::move(fit)) && is_sensor;
     // A motor lag can be better than any delay. In addition to the lag, the commands can be delayed
     // or their time stamps late.
     if (more.kind == FreeQuantity::Kind::kDelay && may_lag) {
       const double lag_s = 0.5 * std::abs(found_s);
-      consider(tried(settled, {{input_delay(), found_s - lag_s}, {motor_lag(), lag_s}}, loss));
-      if (found_s > 0.0) consider(tried(settled, {{motor_lag(), found_s}}, loss));
+      lowest.consider(
+          tried(settled, {{input_delay(), found_s - lag_s}, {motor_lag(), lag_s}}, loss));
+      if (found_s > 0.0) lowest.consider(tried(settled, {{motor_lag(), found_s}}, loss));
     }
-    if (!(found_s > 0.0)) continue;
-    if (is_sensor && tells_filters && may_be_smoothed(more.channel)) {
+    if (found_s > 0.0 && is_sensor && may_be_smoothed(more.channel)) {
       filters.emplace_back(more.channel, found_s);
     }
   }
-  for (const auto& [channel, found_s] : filters) {
-    consider(tried(settled, {{sensor_lag_of(channel), found_s}}, loss), kLikelierFilter);
-  }
+  consider_filters(settled, filters, loss, lowest);
   // One round can be too few to lower AIC if the drift had absorbed a large effect of the term.
-  return best ? std::move(best) : std::move(strongest);
+  return lowest.best() ? std::move(lowest.best()) : std::move(strongest);
 }
 
 bool is_of_turning(const FreeQuantity& q) {

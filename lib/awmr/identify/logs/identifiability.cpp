@@ -9,9 +9,9 @@
 #include <optional>
 #include <utility>
 
+#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
-#include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
 namespace {
@@ -103,7 +103,7 @@ void widen(const Scores& scores, Identifiability& found) {
   note_scatter(scores.blocks, 1.0, found);
   if (scores.logs.size() >= kEnoughLogs) {
     const double degrees = static_cast<double>(scores.logs.size() - 1);
-    note_scatter(scores.logs, chi_squared_quantile_95(degrees) / degrees, found);
+    note_scatter(scores.logs, chi_squared_quantile(0.95, degrees) / degrees, found);
   }
   const Eigen::Map<const Eigen::VectorXd> factor(found.factor.data(), rows_of(found.factor));
   found.covariance = factor.asDiagonal() * found.covariance * factor.asDiagonal();

@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/identify/uncertainty/diagnostics.h"
-#include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
 namespace {

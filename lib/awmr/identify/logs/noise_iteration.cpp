@@ -9,7 +9,6 @@
 #include "awmr/core/parallel.h"
 #include "awmr/identify/logs/ceres_problem.h"
 #include "awmr/identify/tables/robust.h"
-#include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "awmr/core/distributions.h"
 #include "awmr/identify/tables/steady_search.h"
 #include "awmr/identify/uncertainty/akaike.h"
-#include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
 namespace {

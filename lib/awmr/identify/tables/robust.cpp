@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "awmr/core/index.h"
-#include "awmr/trials/robust_ratio.h"
+#include "awmr/core/sample_quantile.h"
 
 namespace awmr {
 
@@ -26,10 +26,7 @@ std::unique_ptr<ceres::LossFunction> make_loss(Loss loss, double scale) {
 double median_scale(const Eigen::VectorXd& residuals) {
   std::vector<double> sizes(at(residuals.size()));
   for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::abs(residuals(eigen_index(i)));
-  std::sort(sizes.begin(), sizes.end());
-  const std::size_t half = sizes.size() / 2;
-  const double median = sizes.size() % 2 == 1 ? sizes[half] : 0.5 * (sizes[half - 1] + sizes[half]);
-  return kStdPerMad * median;
+  return kStdPerMad * quantile(std::move(sizes), 0.5);
 }
 
 double m_estimate_variance(const ceres::LossFunction& loss, const Eigen::VectorXd& residuals,

@@ -10,9 +10,9 @@
 #include <string>
 #include <utility>
 
+#include "awmr/core/distributions.h"
 #include "awmr/core/units.h"
 #include "awmr/identify/tables/subject.h"
-#include "awmr/identify/uncertainty/quantiles.h"
 #include "awmr/model/fitted_law.h"
 
 namespace awmr {

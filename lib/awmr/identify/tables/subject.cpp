@@ -1,10 +1,9 @@
 #include "awmr/identify/tables/subject.h"
+#include "awmr/core/distributions.h"
 
 #include <cmath>
 #include <limits>
 #include <numbers>
-
-#include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
 namespace {

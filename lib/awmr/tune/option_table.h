@@ -1,0 +1,76 @@
+/// Table of the numbers among the options of tune(): key in tune.json, value and permitted range.
+/// tune.json, `awmr tune`, Python and tune() take the ranges from here. Private to tune/ and apps/.
+///
+/// Each function calls field(key, value, rule) for every number of its options, in the order of the
+/// documentation. `value` is a double, an int, or an optional number or interval.
+#pragma once
+
+#include "awmr/core/number_rule.h"
+#include "awmr/model/ranges.h"
+#include "awmr/tune/objective.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+
+inline constexpr NumberRule kDraws{.min = 0.0, .max = 1000.0};
+inline constexpr NumberRule kEvaluationDraws{.min = 0.0, .max = 100'000.0};
+inline constexpr NumberRule kShareAboveZero{.min = 0.0, .max = 1.0, .min_excluded = true};
+inline constexpr NumberRule kBetweenZeroAndOne{
+    .min = 0.0, .max = 1.0, .min_excluded = true, .max_excluded = true};
+inline constexpr NumberRule kUpToAMillion{.min = 0.0, .max = 1e6, .min_excluded = true};
+
+template <class Options, class Field>
+void search_options(Options& options, const Field& field) {
+  field("margin", options.margin, kBetweenZeroAndOne);
+  field("global_evaluations", options.global_evaluations, NumberRule{.min = 1.0, .max = 1e6});
+  field("local_evaluations", options.local_evaluations, NumberRule{.min = 0.0, .max = 1e6});
+  field("draws", options.draws, kDraws);
+  field("judged_draws", options.evaluation_draws, kEvaluationDraws);
+  field("tail_share", options.tail_share, kShareAboveZero);
+  field("activity_max", options.activity_max, kUpToAMillion);
+}
+
+/// Keys of /limits in tune.json and gains.json.
+template <class Limits, class Field>
+void limit_options(Limits& limits, const Field& field) {
+  field("steering_rate_rms_degps", limits.steering_rate_rms_degps, kUpToAMillion);
+  field("damping", limits.damping, kShareAboveZero);
+  field("late_damping", limits.late_damping, kShareAboveZero);
+  field("delayed_damping", limits.delayed_damping, kShareAboveZero);
+  field("noise_share", limits.noise_share, kShareAboveZero);
+}
+
+/// Keys of /weights.
+template <class Weights, class Field>
+void weight_options(Weights& weights, const Field& field) {
+  for (const ObjectiveTerm& term : kObjectiveTerms) {
+    field(term.name, weights.*term.weight, kNonNegative);
+  }
+}
+
+/// True if at least one weight is above 0; all are required to be at least 0.
+inline bool has_weight(const ObjectiveWeights& weights) {
+  bool has = false;
+  weight_options(weights, [&](const char*, double weight, const auto&) { has |= weight > 0.0; });
+  return has;
+}
+
+/// Keys of /bounds: both ends of each interval are in the range.
+template <class Bounds, class Field>
+void bound_options(Bounds& bounds, const Field& field) {
+  field("lambda", bounds.lambda, kUpToAMillion);
+  field("mu", bounds.mu, kUpToAMillion);
+  field("epsilon", bounds.epsilon, kUpToAMillion);
+  field("speed_mu", bounds.speed_mu, kUpToAMillion);
+  field("speed_epsilon", bounds.speed_epsilon, kUpToAMillion);
+}
+
+/// Keys of /observer.
+template <class Search, class Field>
+void observer_options(Search& observer, const Field& field) {
+  field("bandwidth_radps", observer.bandwidth_radps, kObserverBandwidth);
+  field("yaw_max_m", observer.yaw_max_m, kObserverLimit);
+  field("surge_max", observer.surge_max, kObserverLimit);
+}
+
+}  // namespace awmr
