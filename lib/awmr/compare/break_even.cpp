@@ -35,8 +35,8 @@ struct ModeSetting {
   BatchArithmetic arithmetic;
 };
 
-/// Simulates the scenario in a mode with each of the scrub moments. Returns the metrics of each run;
-/// empty for a run that fails.
+/// Simulates the scenario in a mode with each of the scrub moments. Returns the metrics of each
+/// run; empty for a run that fails.
 std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawMode mode,
                                                 const std::vector<double>& moments_m) {
   std::vector<BatchRun> runs;
@@ -138,16 +138,18 @@ ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::stri
   return rows;
 }
 
-/// A pair of modes whose break-even scrub is to be computed: the inputs, and the entry to complete.
+/// A pair of modes whose break-even scrub is to be computed: the inputs, and the result to complete
+/// (`entry`).
 struct Question {
   ModeSetting setting;
   std::vector<ScoredMetric> scoring;
-  Metrics own;  ///< of the mode `setting.mode` without scrub
+  Metrics own;  ///< metrics of `setting.mode` without scrub
   BreakEven entry;
 };
 
-/// One question for each mode that has smaller wheel-force differences than `setting.mode` and a
-/// worse score. `rows`: those of sample 0.
+/// Returns a Question for each mode that has smaller wheel-force differences than `setting.mode`
+/// and a worse score, and does not complete if `setting.mode` does not. `rows`: the rows of sample
+/// 0.
 std::vector<Question> questions_of(const ModeSetting& setting, const ScenarioRows& rows,
                                    const std::vector<ScoredMetric>& scoring, BreakEven entry) {
   std::vector<Question> questions;
@@ -211,8 +213,8 @@ void add_measured(const Model& model, BreakEven& entry) {
   if (turns <= kMostTurns) entry.turns_to_decide = static_cast<int>(turns);
 }
 
-/// The questions of all scenarios and modes. `without`: rows of sample 0 without scrub. `entry`: the
-/// values that all questions share; the others are empty.
+/// The questions of all scenarios and modes. `without`: rows of sample 0 without scrub. `entry`:
+/// has the values that all questions share, most_m and sliding_m.
 Result<std::vector<Question>> all_questions(const Model& model, const Gains<double>& gains,
                                             const std::vector<Scenario>& scenarios,
                                             const std::vector<ComparisonRow>& without,

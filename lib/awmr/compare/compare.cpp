@@ -69,10 +69,10 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
     }
   }
   if (options.break_even && (gains.size() > 1 || options.shard.count > 1)) {
-    faults.push_back(
-        {ErrorCode::kConflict, option_text("break_even"),
-         fmt::format("needs one set of gains and a whole comparison; remove the other sets, and {}",
-                     option_text("shard"))});
+    faults.push_back({ErrorCode::kConflict, option_text("break_even"),
+                      fmt::format("needs one set of gains and a whole comparison; remove the other "
+                                  "sets of gains, and {}",
+                                  option_text("shard"))});
   }
   if (gains.empty()) {
     faults.push_back({ErrorCode::kMissing, option_text("gains"), "none given; give at least one"});
@@ -146,8 +146,9 @@ struct Block {
   Place place(std::size_t i) const { return {scenario, gains, mode, samples[i]}; }
 };
 
-/// Divides the samples of this part into blocks of kBatchRuns. The blocks of the same samples in all
-/// scenarios, gains and modes are consecutive, so that a stopped comparison has complete samples.
+/// Divides the samples of this part into blocks of kBatchRuns. The blocks of the same samples in
+/// all scenarios, gains and modes are consecutive, so that a stopped comparison has complete
+/// samples.
 std::vector<Block> blocks_of(const Layout& layout, const Shard& shard, const Slots& slots) {
   std::vector<std::size_t> samples;
   for (std::size_t sample = 0; sample < layout.samples; ++sample) {

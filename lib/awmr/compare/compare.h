@@ -53,8 +53,8 @@ struct Contender {
 /// With fewer samples than this, 95 % intervals cover less than 95 %.
 inline constexpr int kFewSamples = 6;
 
-/// Maximum number of runs of a comparison. The number of runs is scenarios x sets of gains x modes x
-/// samples (including the nominal one). A run takes about 2 kB of memory.
+/// Maximum number of runs of a comparison. The number of runs is scenarios x sets of gains x modes
+/// x samples (including the nominal one). A run takes about 2 kB of memory.
 inline constexpr std::size_t kMaxRuns = 1'000'000;
 
 struct CompareOptions {
@@ -69,8 +69,8 @@ struct CompareOptions {
   /// Computes Comparison::break_even; needs a single set of gains.
   bool break_even = false;
   /// Computes Comparison::changes: the ranking on the plant that the scenario does not use (3-DOF
-  /// model or four wheels) and with slower and faster gains. Of a divided comparison, only part 1
-  /// computes these rankings.
+  /// model or four wheels) and, with a single set of gains, with slower and faster gains. If the
+  /// comparison is divided into parts (`shard`), only part 1 computes these rankings.
   bool other_settings = false;
   /// Tyres for scenarios without tyres, when `other_settings` runs them on four wheels.
   Tyres<double> tyres = {};
@@ -109,9 +109,9 @@ struct BreakEven {
   std::optional<Interval> measured_m = {};
   std::optional<Interval> measured_degps =
       {};  ///< yaw rates of these turns, deg/s; absent if the model has no scrub
-  /// Total number of differential turns (recorded and further ones) that would decide whether `mode`
-  /// is ahead, if their mean and scatter stay the same. At most 1000. Absent if the question is
-  /// already decided, or if turns cannot decide it.
+  /// Total number of differential turns (recorded and further ones) that would decide whether
+  /// `mode` is ahead, if their mean and scatter stay the same. At most 1000. Absent if the question
+  /// is already decided, or if turns cannot decide it.
   std::optional<int> turns_to_decide = {};
 };
 
@@ -137,7 +137,7 @@ inline constexpr NameTable<ChangeKind, 3> kChangeKindNames{{{"plant", ChangeKind
 struct Completion {
   Contender contender;
   std::size_t count = 0;  ///< completed runs
-  std::size_t of = 0;     ///< all counted runs (ModeRows::counted), > 0
+  std::size_t of = 0;     ///< all runs of the statistics (ModeRows::counted()), > 0
 };
 
 /// The best modes of a scenario when one assumption is changed.
@@ -190,8 +190,8 @@ Result<Comparison> compare(const Model& model, const Gains<double>& gains,
 std::vector<std::pair<std::string_view, std::optional<double>>> named_metrics(
     const Metrics& metrics);
 
-/// Content of comparison.csv. `completed` is 1 or 0; a metric that does not apply has an empty cell.
-/// With several sets of gains, the last column is `gains`.
+/// Content of comparison.csv. `completed` is 1 or 0; a metric that does not apply has an empty
+/// cell. With several sets of gains, the last column is `gains`.
 std::string comparison_csv(const Comparison& comparison);
 /// Content of comparison.json: options, statistics, ranking and verdict of each scenario.
 std::string comparison_text(const Comparison& comparison, const CompareOptions& options,

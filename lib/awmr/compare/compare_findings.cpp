@@ -16,12 +16,13 @@ void note_samples(const CompareOptions& options, const Comparison& comparison,
   if (samples < 2 || samples >= kFewSamples) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "few-samples",
-       fmt::format("95 % intervals from {} samples cover at most {:.0f} %; give {} samples or more",
+       fmt::format("95 % intervals from {} samples contain the true value in at most {:.0f} % of "
+                   "cases; give {} samples or more",
                    samples, 100.0 * (1.0 - std::pow(0.5, samples - 1)), kFewSamples)});
 }
 
-/// Adds a warning if yaw resistance was identified from differential turns, which include scrub, and
-/// a note if measured scrub is simulated.
+/// Adds a warning if yaw resistance was identified from differential turns, which include scrub,
+/// and a note if measured scrub is simulated.
 void note_scrub(const Model& model, std::vector<Finding>& findings) {
   if (model.yaw_by_sides_alone) {
     findings.push_back(

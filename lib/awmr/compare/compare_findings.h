@@ -13,8 +13,8 @@ namespace awmr {
 /// Returns the findings that do not depend on the results of the runs: requests that the vehicle
 /// cannot meet, tyres that differ from those of the trials, parameters without interval, too few
 /// samples (`few-samples`), heading commands without rate limit, and scrub (`scrub-simulated`,
-/// `turned-by-sides`). A part has the same findings as the whole comparison. `rate` is the requested
-/// limit of the heading rate.
+/// `turned-by-sides`). A part has the same findings as the whole comparison. `rate` is the
+/// requested limit of the heading rate.
 std::vector<Finding> compare_findings(const Model& model, const std::vector<Scenario>& scenarios,
                                       const CompareOptions& options, const Comparison& comparison,
                                       const HeadingRateChoice& rate);

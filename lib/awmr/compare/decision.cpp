@@ -35,8 +35,9 @@ double mean_log_loss(const ModeRows& rows, const ScoredMetric& scored) {
   return sum / static_cast<double>(rows.counted().size());
 }
 
-/// Changes each weight w_k by kWeightFactor, so that `own` is worst compared with `other`. Let d_k be
-/// the mean loss of own minus that of other in metric k, and m = ln(1 + relevance). Own is behind if
+/// Multiplies or divides each weight w_k by kWeightFactor, so that `own` compares as badly as
+/// possible with `other`. Let d_k be the mean loss of own minus that of other in metric k, and m =
+/// ln(1 + relevance). Own is behind if
 ///   sum over k of w_k (d_k - m) > 0.
 /// Each term is maximised separately: w_k is multiplied by the factor if d_k > m, else divided.
 Preferences worst_weights(const ModeRows& own, const ModeRows& other,
@@ -53,8 +54,8 @@ Preferences worst_weights(const ModeRows& own, const ModeRows& other,
   return worst;
 }
 
-/// Finds the contenders that have rank 1 with every weight between 1/kWeightFactor and kWeightFactor
-/// times its value.
+/// Finds the contenders that have rank 1 with every weight between 1/kWeightFactor and
+/// kWeightFactor times its value.
 Change change_of_weights(const ScenarioRows& scenario,
                          const std::vector<PairedDifference>& differences,
                          const Preferences& preferences, std::uint64_t seed) {
@@ -128,8 +129,8 @@ struct ChangedScenario {
   std::vector<NamedGains> gains;
 };
 
-/// Returns one entry for each scenario and change of plant or gains that can be run, in the order of
-/// `scenarios`. Changes that cannot be run are added to `changes` with the reason.
+/// Returns one entry for each scenario and change of plant or gains that can be run, in the order
+/// of `scenarios`. Changes that cannot be run are added to `changes` with the reason.
 std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& gains,
                                                const std::vector<Scenario>& scenarios,
                                                const Tyres<double>& tyres,
@@ -226,7 +227,8 @@ bool Decision::survives(const Change& change) const {
 }
 
 /// If the best modes of the plants differ, names the trials in which the plants behave differently:
-/// differential turns (tyre scrub), and steering while coasting (rolling tyres steer without thrust).
+/// differential turns (tyre scrub), and steering while coasting (rolling tyres steer without
+/// thrust).
 std::vector<std::string_view> Decision::deciding_trials() const {
   bool differential = false;
   bool steered = false;
@@ -254,7 +256,8 @@ std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedG
   if (gains.size() * yaw_modes(model.vehicle).size() < 2) return changes;  // nothing to rank
   std::vector<ChangedScenario> changed =
       changed_scenarios(gains, scenarios, options.tyres, changes);
-  // The changes are distributed over the threads; each comparison runs on one, with one batch.
+  // The changes are distributed over the threads; the comparison of each change runs on one thread,
+  // as one batch.
   CompareOptions few;
   few.samples = std::min(options.samples, static_cast<int>(kBatchRuns) - 1);
   few.seed = options.seed;

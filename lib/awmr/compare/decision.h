@@ -33,7 +33,8 @@ inline constexpr NameTable<DecisionKind, 3> kDecisionKindNames{
      {"level", DecisionKind::kLevel},
      {"undecided", DecisionKind::kUndecided}}};
 
-/// Decision on a scenario: the modes of rank 1, and their ranks under each change.
+/// Decision on a scenario: the modes of rank 1 in the ranking, and those of rank 1 under each
+/// change.
 struct Decision {
   std::vector<Contender> first;  ///< modes of rank 1 in the ranking
   std::vector<Change> changes;   ///< changes with a ranking: at least the change of weights, which
@@ -44,7 +45,8 @@ struct Decision {
   DecisionKind kind() const;
   /// True if one of `first` is of rank 1 under the change.
   bool survives(const Change& change) const;
-  /// Names of trials that would show which plant is right, if the best modes differ between plants.
+  /// Names of trials that would show which plant describes the vehicle, if the best modes differ
+  /// between the plants; else empty.
   std::vector<std::string_view> deciding_trials() const;
 };
 
@@ -54,8 +56,8 @@ inline constexpr std::string_view kSteerWhileCoasting = "steer-while-coasting";
 
 /// Ranks the modes on the other plant and, for a single set of gains, with slower and faster gains.
 /// Uses the first kBatchRuns samples of the comparison, or all if there are fewer. If a scenario
-/// cannot be run in a setting, its Change has the reason (Change::not_run). Open-loop scenarios have
-/// no Change, because nothing is ranked.
+/// cannot be run in a setting, its Change has the reason (Change::not_run). Open-loop scenarios
+/// have no Change, because nothing is ranked.
 std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedGains>& gains,
                                     const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options);
@@ -71,8 +73,8 @@ Decision decide(const ScenarioRows& scenario, const std::vector<PairedDifference
 std::string decision_text(const Decision& decision);
 
 /// Verdict on a scenario in one sentence: the best mode, how far the others are behind, and how
-/// robust the result is. A single mode of rank 1 is called "ahead here" instead of "best" if it does
-/// not keep rank 1 with another plant, other weights or other gains.
+/// robust the result is. A single mode of rank 1 is called "ahead here" instead of "best" if it
+/// does not keep rank 1 with another plant, other weights or other gains.
 std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking,
                        const std::optional<Decision>& decision,
                        const std::vector<PairedDifference>& differences,

@@ -59,7 +59,8 @@ struct MetricColumn {
 
 /// All metrics. Default weight 1: heading and cross-track error, settling and finishing time, speed
 /// drop, mechanical work and tyre work. All others have 0, for example sideslip, because it follows
-/// from the geometry of the turn, and control variation, because it is nearly 0 in some modes.
+/// from the geometry of the turn, and control variation, because it is nearly 0 in some modes, so
+/// that its ratios mean little.
 inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1,
      1.0},

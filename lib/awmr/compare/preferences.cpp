@@ -64,7 +64,8 @@ Result<Preferences> preferences_of(const std::vector<std::string>& weights, doub
     AWMR_ASSIGN_OR_RETURN(const double weight,
                           weight_in(std::string_view(text).substr(equals + 1), place));
     if (!preferences.weights.emplace(name, weight).second) {
-      return input_error(ErrorCode::kGivenTwice, place, fmt::format("'{}' has two weights", name));
+      return input_error(ErrorCode::kGivenTwice, place,
+                         fmt::format("'{}' has two weights; give one", name));
     }
   }
   if (std::none_of(kMetricColumns.begin(), kMetricColumns.end(), [&](const MetricColumn& metric) {

@@ -14,8 +14,9 @@
 namespace awmr {
 namespace {
 
-/// Random streams of the bootstrap of scores and of the random weightings. Both differ from the
-/// streams of the samples and of the bootstrap of differences (statistics.cpp).
+/// Random streams of the bootstrap of scores and of the random weightings. They differ from each
+/// other, from the streams of the samples, and from that of the bootstrap of differences
+/// (statistics.cpp).
 constexpr std::uint64_t kScoreStream = std::uint64_t{3} << 62U;
 constexpr std::uint64_t kWeightStream = std::uint64_t{5} << 61U;
 constexpr int kWeightings = 1000;
@@ -153,8 +154,8 @@ void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
   for (const std::size_t i : best) counts[i] += 1.0 / static_cast<double>(best.size());
 }
 
-/// For each entry, the share of random weightings for which it is best. The weightings have a uniform
-/// distribution over all that sum to 1, like those of log_score().
+/// For each entry, the share of random weightings for which it is best. The weightings have a
+/// uniform distribution over all that sum to 1, like those of log_score().
 std::vector<double> shares_by_weights(const std::vector<Entry>& entries, double margin,
                                       Random random) {
   std::vector<double> shares(entries.size(), 0.0);

@@ -29,9 +29,9 @@ struct RankedMode {
   std::vector<std::string> tied_with;  ///< labels of the other modes of the same rank
   /// Shares in [0, 1] of random weightings, and of the samples (absent below 2 samples), for which
   /// this mode has the best score. Only modes that complete as often as the best are counted. A
-  /// weighting or sample is divided equally among the modes within `relevance` of its best. Modes
-  /// that are tied for rank 1 get the mean of their shares of weightings and, if equivalent, of
-  /// samples.
+  /// weighting or sample is divided equally among the modes whose score is within `relevance` of
+  /// the best. Modes that are tied for rank 1 get the mean of their shares of weightings and, if
+  /// equivalent, of samples.
   double first_by_weights = 0.0;
   std::optional<double> first_by_samples;
   /// Labels of modes that are relevantly better in a ranked metric and relevantly worse in none.

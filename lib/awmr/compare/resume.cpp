@@ -96,8 +96,8 @@ std::string difference(const Origin& before, const Provenance& now, std::string_
   }
   if (before.arithmetic == arithmetic) return {};
   return fmt::format(
-      "was computed in {} arithmetic, this comparison would be in {}; compare into "
-      "another directory",
+      "was computed in {} arithmetic, but this processor would use {}, which rounds "
+      "differently; compare into another directory",
       before.arithmetic, arithmetic);
 }
 

@@ -13,14 +13,15 @@
 
 namespace awmr {
 
-/// Describes the files of a part: shard.json, and comparison.csv with the rows of its samples.
+/// Describes the files of a part of a comparison: shard.json, and comparison.csv with the rows of
+/// the part's samples.
 const ShardKind& comparison_shards();
 
 /// Texts of the files of the part that options.shard selects.
 PartText comparison_part(const Comparison& part, const CompareOptions& options,
                          const Provenance& provenance, const std::vector<Finding>& findings = {});
 
-/// A whole comparison with the data that its files need.
+/// The comparison that merge_shards() combines, with the data that its output files need.
 struct Merged {
   Comparison comparison;
   CompareOptions options;  ///< only samples, seed and preferences are set

@@ -56,8 +56,8 @@ Summary summarise(const ModeRows& rows, const MetricColumn& metric);
 /// True if any mode has the metric in any counted run.
 bool any_has(const ScenarioRows& scenario, const MetricColumn& metric);
 
-/// Share of the sorted bootstrap means to cut off on each side, so that the interval misses the true
-/// mean on that side with the probability `tail` (Hesterberg's expanded percentiles):
+/// Share of the sorted bootstrap means to cut off on each side, so that the interval misses the
+/// true mean on that side with the probability `tail` (Hesterberg's expanded percentiles):
 ///   Phi(-t sqrt(n/(n-1))),  t: the 1 - tail quantile of Student's t with n - 1 degrees of freedom
 /// Phi is the standard normal distribution function, n is `count`. Cutting off `tail` itself gives
 /// too narrow intervals for few values. Below kFewSamples values, coverage is too low even so.
@@ -78,19 +78,20 @@ struct PairedDifference {
   std::optional<double> nominal;  ///< of sample 0, in the metric's unit
   std::size_t count = 0;          ///< number of samples with the metric in both contenders
   std::optional<double> mean;     ///< over these samples, in the metric's unit
-  std::optional<Interval> ci95;   ///< of the mean; absent for fewer than 2 samples
+  std::optional<Interval> ci95;   ///< 95 %, of the mean; absent for fewer than 2 samples
   std::optional<double> p;        ///< of the paired t test, in [0, 1]; absent for fewer than 2
   /// p with Holm's correction for the number of differences in the scenario. Below 0.05 the
   /// difference is significant. The risk of any false positive in the scenario is then at most 5 %.
   std::optional<double> p_holm;
-  /// Largest difference that does not matter, in the metric's unit, >= 0: the larger of the metric's
-  /// floor and the relevance times the smaller of the two means.
+  /// Largest difference that does not matter, in the metric's unit, >= 0: the larger of the
+  /// metric's floor and the relevance times the smaller of the two means.
   double margin = 0.0;
   /// p-value of two one-sided t tests (TOST), in [0, 1]. Below 0.05 the absolute difference is
   /// significantly smaller than the margin. Absent below 2 samples.
   std::optional<double> p_equivalent;
-  /// kRelevant if p_holm is below 0.05 and the whole interval ci95 is beyond the margin; for a
-  /// single run, if the difference is beyond the margin. Absent without a mean.
+  /// kRelevant if p_holm is below 0.05 and the whole interval ci95 is beyond the margin; else
+  /// kEquivalent if p_equivalent is below 0.05, else kUndecided. For a single run: kRelevant if the
+  /// difference is beyond the margin, else kEquivalent. Absent without a mean.
   std::optional<Conclusion> conclusion;
 
   bool is_between(const Contender& a, const Contender& b) const {

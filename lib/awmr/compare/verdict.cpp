@@ -38,7 +38,8 @@ const PairedDifference* widest_gap(const std::vector<PairedDifference>& differen
   return widest;
 }
 
-/// Metric in which a mode is behind most: ", most of all in finish_time_s: 8.2 s more (95 %: 8 to 8.4)"
+/// Metric in which a mode is behind most: ", most of all in finish_time_s: 8.2 s more (95 %: 8 to
+/// 8.4)"
 std::string gap_text(const PairedDifference* gap, const Contender& other) {
   if (gap == nullptr) return "";
   // If `other` is the second of the pair, first minus second is below 0.
@@ -98,7 +99,8 @@ std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided
                      100.0 * preferences.relevance);
 }
 
-/// Robustness of rank 1: "; combined is best for 83 % of all metric weightings and in 97 % of the samples"
+/// Robustness of rank 1: "; combined is best for 83 % of all metric weightings and in 97 % of the
+/// samples"
 std::string stability_text(const RankedMode& best) {
   if (!best.tied_with.empty()) return {};  // no mode alone has rank 1
   std::string text = fmt::format("; {} is best for {:.0f} % of all metric weightings",

@@ -90,7 +90,7 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
   if (options.nominal) {
     faults.push_back(
         {ErrorCode::kConflict, "",
-         "`open` needs sampled plants, which nominal disables; remove one of the two"});
+         "`open` varies the sampled plants, which nominal disables; remove one of the two"});
     return;
   }
   for (const double factor : open.mass_factors) {
@@ -148,8 +148,8 @@ void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
     }
   }
   if (figures.empty()) {
-    faults.push_back(
-        {ErrorCode::kMissing, "", "goals: a goal is without a limit; give at_most a metric"});
+    faults.push_back({ErrorCode::kMissing, "",
+                      "goals: a goal is without a limit; give at_most at least one metric"});
   }
   if (!(goal.share >= kLeastShare && goal.share <= kMostShare)) {
     faults.push_back({ErrorCode::kOutOfRange, "",

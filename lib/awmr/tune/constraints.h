@@ -14,7 +14,7 @@ namespace awmr {
 /// Largest latency, in samples, for which the damping is computed.
 inline constexpr int kMostLatencySamples = 20;
 /// Share of the modelled resistance that mu I'z and mu_s m' must exceed. It is larger than the
-/// model error on the trials that `awmr validate` accepts by default (0.15).
+/// relative model error on trials that `awmr validate` accepts by default (0.15).
 inline constexpr double kUnmodelledShare = 0.2;
 inline constexpr const char* kSteeringRate = "steering rate";
 /// Largest permitted (mu_s/eps_s) T_s. The sampled speed loop is unstable from 2 on, so the gain
@@ -75,8 +75,10 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 ///   delay margin       smallest zeta with motor lag, twice the latency and T_s >= delayed_damping
 ///   speed gain         (mu_s/eps_s) T_s <= 0.5
 ///   speed lag          (mu_s/eps_s) (T + T_s/2) <= 1/(4 zeta^2)
-///   mu dominates       mu >= 0.2 g3(r)/I'z, g3 the plant's, r the highest yaw rate    [paper (88)]
-///   mu_s dominates     mu_s >= 0.2 g1(u_d)/m', g1 the plant's                        [paper (102)]
+///   mu dominates       mu >= 0.2 g3(r)/I'z, r the highest yaw rate of the runs,
+///                      g3 of the examined vehicle, I'z nominal                        [paper (88)]
+///   mu_s dominates     mu_s >= 0.2 g1(u_d)/m', g1 of the examined vehicle,
+///                      m' nominal                                                    [paper (102)]
 ///   noise gain         I'z lambda (mu/eps) sigma <= noise_share turning_authority_m(),
 ///                      sigma: standard deviation of the heading noise
 ///   steering rate      steering_rate_rms_degps() <= the limit, if any
@@ -130,7 +132,8 @@ Interval examined_rates_radps(const ConstraintContext& context);
 /// (fed_forward()), w0 the friction width. The steering command is d = c I'z w/(l_f g1(u_d)), c = 2
 /// (front-wheel drive: 1). With independent readings, w changes by sqrt(2 E[w^2]) RMS from one
 /// sample to the next; correlated readings change it less. If the only mode is combined, the rate
-/// is half as large. 0 without steering, or without thrust to steer with.
+/// is half as large, because the steering makes half of the moment. 0 without steering, or without
+/// thrust to steer with.
 double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context);
 
 /// Returns the gains with the smallest friction width w0 (HeadingGains::friction_width_radps) for
@@ -138,7 +141,7 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 ///   0.02 <= w0 <= min(10 c3 eps/(I'z mu), the highest yaw rate of the runs)
 /// c3 is the Coulomb friction in yaw. With the first upper bound, the fed-forward friction grows
 /// with S a tenth as fast as the corrective term. If no w0 in this range meets the limit, w0 is the
-/// upper bound. Without a limit or without Coulomb friction, w0 is 0.02 rad/s.
+/// upper bound. Without a limit, without steering or without Coulomb friction, w0 is 0.02 rad/s.
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider = 0.0);
 

@@ -36,7 +36,7 @@ double rounded(double value) {
   return std::round(value / unit) * unit;
 }
 
-/// Highest steady speed of the surge trials; absent if the model has none.
+/// Highest measured speed, m/s, of the model's surge trials; absent if it has none.
 std::optional<double> measured_speed_mps(const Model& model) {
   std::optional<double> fastest;
   for (const TrialPoint& trial : model.record.trials) {

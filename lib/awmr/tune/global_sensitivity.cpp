@@ -37,7 +37,7 @@ struct Input {
   std::function<void(const Sample& from, Sample& to)> take;
 };
 
-/// Groups of correlated parameters. Parameters of different groups are uncorrelated.
+/// Groups of parameters with non-zero covariances. Parameters of different groups are uncorrelated.
 std::vector<std::vector<ParameterId>> tied_sets(const Covariance& covariance) {
   const std::size_t n = covariance.parameters.size();
   std::vector<std::size_t> set_of(n);

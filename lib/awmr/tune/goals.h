@@ -3,9 +3,10 @@
 ///
 /// The excess of a run is e = max_i x_i/l_i: the largest ratio of a metric x_i to its limit l_i. It
 /// is infinite if the run breaks off or a metric is not finite. The excess of a draw is the largest
-/// over its scenarios. In the search, a goal with the share p is met in a mode if the p quantile of e
-/// over all draws is at most 1; the verdict is by the 95 % interval of the share. The p quantile of n
-/// draws is the ceil(p n)-th smallest value, so with few draws it is the largest.
+/// over its scenarios. In the search, a goal with the required share p is met in a mode if the p
+/// quantile of e over all draws is at most 1. The p quantile of n draws is the ceil(p n)-th
+/// smallest value, so with few draws it is the largest. After the search, the verdict (GoalVerdict)
+/// is by the 95 % interval of the share of new draws that meet the goal.
 #pragma once
 
 #include <span>
@@ -33,7 +34,7 @@ std::string in_words(const TuningGoal& goal);
 /// The excess of a run, >= 0 (see above). At most 1 if the run meets every limit of the goal.
 double excess_of(const TuningGoal& goal, const RunOutcome& outcome);
 
-/// A goal in one of its modes.
+/// A goal in one of the modes in which it must be met.
 struct GoalInMode {
   const TuningGoal* goal = nullptr;
   YawMode mode{};

@@ -18,8 +18,8 @@
 namespace awmr {
 namespace {
 
-/// Number of runs per thread is a multiple of this, because the batch engine simulates four or
-/// eight runs in one register.
+/// The number of runs per batch is a multiple of this, because the batch engine simulates four or
+/// eight runs in one vector register.
 constexpr std::size_t kFour = 4;
 
 /// Number of runs per batch, small enough that every thread gets a batch. `count`: number of runs

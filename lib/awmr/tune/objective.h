@@ -6,17 +6,18 @@
 ///     ln J = sum_i w_i ln((x_i + f_i)/(x0_i + f_i)) / sum_i w_i,   w_i: weights
 ///
 /// The metrics are settling time, heading ITAE, overshoot, control variation, effort and speed
-/// ITAE. f_i is a floor in the unit of x_i: differences below it do not matter, and an overshoot of
-/// 0 is possible. The baseline scores exactly 1.
+/// ITAE. f_i is a floor in the unit of x_i: differences below it hardly change J, and a metric of
+/// 0, such as an overshoot, is allowed. The baseline scores exactly 1.
 ///
 /// For several vehicles, ln J of a mode and scenario is the average of the mean over all vehicles
 /// and the mean over the worst tail_share of them (CVaR). The objective is the geometric mean of J
 /// over modes and scenarios. Each soft goal adds max(0, q - 1) in each of its modes, q the quantile
 /// of its excess (goals.h).
 ///
-/// J uses geometric means, because another baseline then only multiplies J by a constant. It
-/// changes the optimum only by the choice of the worst vehicles and by the weight of soft goals. In
-/// a sum of ratios, a metric that is large with the baseline would hardly count.
+/// J uses geometric means, because another baseline then only multiplies J by a constant. The
+/// baseline changes the optimum only by the choice of the worst vehicles and by the weight of soft
+/// goals. In a sum of ratios, by contrast, a metric that is large with the baseline would hardly
+/// count.
 #pragma once
 
 #include <array>
@@ -55,7 +56,8 @@ inline constexpr ObjectiveTerm kObjectiveTerms[] = {
 /// the search would select the least active gains. Precondition: heading guidance.
 double unsettled_s(const Scenario& scenario, double itae_degs2);
 
-/// The metrics x_i of one run, in the order of kObjectiveTerms.
+/// The metrics x_i of one run, in the order of kObjectiveTerms. An absent settling time is replaced
+/// by ModeScore::unsettled_s; any other absent metric is 0.
 std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score);
 
 /// J of one run; exactly 1 with the baseline gains. Infinite or NaN if a metric is.
@@ -71,7 +73,7 @@ struct ObjectiveSetting {
   Vehicle vehicle;
   ObjectiveWeights weights;
   std::vector<Scenario> scenarios;  ///< with heading guidance; not empty
-  double tail_share = 1.0;          ///< (0, 1]
+  double tail_share = 1.0;          ///< share of the vehicles that counts as worst, (0, 1]
   std::uint64_t seed = 0;           ///< of the random numbers of the runs
   BatchArithmetic arithmetic = {};  ///< instruction set and rounding of the runs
   std::vector<TuningGoal> goals = {};
@@ -83,7 +85,7 @@ struct ObjectiveSetting {
 };
 
 /// Standard normal random numbers of the sensor noise of all runs, by scenario, then vehicle. Empty
-/// if they would exceed kMostNoiseBytes; then each run draws its own.
+/// if they would exceed kMostNoiseBytes; then each run draws the same numbers itself.
 using RunNoise = std::vector<std::vector<DrawnNoise>>;
 inline constexpr double kMostNoiseBytes = 64e6;
 RunNoise draw_noise(const ObjectiveSetting& setting);
@@ -94,7 +96,8 @@ struct Evaluation {
   std::vector<double> mode_objective;  ///< geometric mean over scenarios, in the order of modes()
   std::vector<double> mode_activity;   ///< by mode: sum of the control variation of all runs,
                                        ///< divided by the sum with the baseline gains
-  std::vector<double> goal_quantile;   ///< quantile of the excess, by goal, then mode (goals.h)
+  std::vector<double> goal_quantile;   ///< quantile of the excess, by goal, then mode (goals.h);
+                                       ///< a goal is met if it is at most 1
   TradeOffPoint trade_off;             ///< means over all runs
   double objective = 0.0;  ///< geometric mean over the modes, plus soft goals; finite if `valid`
   bool valid = false;      ///< the objective is finite, and no run breaks off

@@ -15,7 +15,7 @@ const double kRatioStep = std::sqrt(0.5);
 const double kRateStep = std::pow(0.5, 0.25);
 constexpr int kRates = 54;
 constexpr int kBisections = 6;
-/// Factor on a limit, so that rounding does not violate it.
+/// Factor on a limit, so that rounding errors do not violate the limit.
 constexpr double kInside = 1.0 - 1e-9;
 /// Smallest mu (rad/s^2) and mu_s (m/s^2) if the resistance is 0.
 constexpr double kLeastMu = 1e-3;

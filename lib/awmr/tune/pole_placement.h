@@ -18,9 +18,8 @@ namespace awmr {
 /// If no pair meets every constraint, the pair with the smallest violation is returned.
 Gains<double> place_poles(const ConstraintContext& context);
 
-/// Returns gains with the same poles and boundary layers that are wide enough for the initial
-/// errors S = lambda e (e: the largest heading step) and e_u = u_d. Then the laws do not saturate,
-/// only the actuators:
+/// Returns gains with the same poles, whose boundary layers contain the initial errors S = lambda e
+/// (e: the largest heading step) and e_u = u_d, so that only the actuators saturate, not the laws:
 ///   mu >= lambda k e,   mu_s >= k_s u_d
 Gains<double> with_wide_layers(Gains<double> gains, const ConstraintContext& context);
 

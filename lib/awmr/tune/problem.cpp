@@ -13,8 +13,8 @@
 namespace awmr {
 namespace {
 
-/// A point that was not simulated, or whose runs break off, gets the value kRejected + violation.
-/// It is larger than any objective that matters.
+/// A point that was not simulated, or whose runs break off, gets the value kRejected + violation,
+/// which is larger than the objective of any useful gains.
 constexpr double kRejected = 1e3;
 /// Added to the violation of every limit if a run breaks off.
 constexpr double kInvalid = 1.0;

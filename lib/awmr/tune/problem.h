@@ -84,9 +84,9 @@ class Problem {
   /// For each constraint, the residual up to which it counts as met. 0, except for the constraint
   /// that active_constraints() relaxes.
   std::vector<double> tolerated;
-  Candidate nearest;  ///< the best candidate so far, in the order of better()
-  int evaluations = 0;
-  int simulated = 0;
+  Candidate nearest;               ///< the best candidate so far, in the order of better()
+  int evaluations = 0;             ///< number of evaluated points
+  int simulated = 0;               ///< number of points whose runs were simulated
   std::vector<TradeOffPoint> met;  ///< trade-off of all feasible points
   std::vector<SearchStep> steps;   ///< the evaluations that improved on all earlier ones
 

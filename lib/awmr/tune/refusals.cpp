@@ -42,11 +42,11 @@ std::string advice_on(std::string_view constraint) {
        "the lag of servo, motors or sensors "
        "is long"},
       {"speed gain", "bounds of speed_mu and speed_epsilon", "the sample time is long"},
-      {"mu dominates", "bounds of mu", "the yaw resistance requires it"},
-      {"mu_s dominates", "bounds of speed_mu", "the surge resistance requires it"}};
+      {"mu dominates", "bounds of mu", "the yaw resistance requires a larger mu"},
+      {"mu_s dominates", "bounds of speed_mu", "the surge resistance requires a larger mu_s"}};
   const auto* known = std::ranges::find(kAdvice, constraint, &Advice::constraint);
   if (known == std::end(kAdvice))
-    return "raise the margin, choose form 'paper' or widen the bounds";
+    return "raise `margin`, set `form` to \"paper\" or widen `bounds` in tune.json";
   return fmt::format("relax {} of tune.json; {}", known->limit, known->cause);
 }
 
@@ -104,20 +104,20 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
   if (auto missed = goal_missed(found, e, objective, scenarios)) return *missed;
   const std::string gains = in_words(found.nearest.gains);
   if (!e.valid) {
-    return refusal(
-        ErrorCode::kDiverges,
-        fmt::format(
-            "runs diverge with all {} gains that were tried; the nearest are {}. Give slower "
-            "scenarios or narrower bounds",
-            found.evaluations, gains));
+    return refusal(ErrorCode::kDiverges,
+                   fmt::format("runs diverge with all {} gains that were tried; the nearest to the "
+                               "limits are {}. Give slower "
+                               "scenarios or narrower bounds",
+                               found.evaluations, gains));
   }
   const bool is_activity = found.broken_most.starts_with("activity");
   return refusal(
       ErrorCode::kNoGains,
-      fmt::format("no gains within the bounds meet every limit: the nearest of {} ({}) violate "
-                  "'{}' by {:.0f} %; {}, or increase local_evaluations",
-                  found.evaluations, gains, found.broken_most, 100.0 * found.broken_by,
-                  is_activity ? "raise activity_max of tune.json" : advice_on(found.broken_most)));
+      fmt::format(
+          "no gains within the bounds meet every limit: the nearest of {} evaluated ({}) violate "
+          "'{}' by {:.0f} %; {}, or increase local_evaluations",
+          found.evaluations, gains, found.broken_most, 100.0 * found.broken_by,
+          is_activity ? "raise activity_max of tune.json" : advice_on(found.broken_most)));
 }
 
 tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,

@@ -40,11 +40,11 @@ struct EvaluationResult {
   std::vector<EvaluatedGains> by_scenario;
   std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode
 };
-/// Modes, scenarios and goals by which runs are evaluated.
+/// Modes, scenarios, tail share and goals for evaluation_of().
 struct EvaluationSetup {
   std::vector<YawMode> modes;
   std::vector<std::string> scenarios;  ///< names, in the order of the runs
-  double tail_share = 1.0;
+  double tail_share = 1.0;             ///< share of the draws in EvaluatedFigure::tail_mean, (0, 1]
   std::vector<TuningGoal> goals;
 };
 /// Computes the statistics over all draws, for each set of gains.

@@ -58,7 +58,8 @@ double damping_ratio(const SampledHeadingLoop& loop);
 ///
 /// Let the whole delay be D = (n + m + f) T_s, m whole and 0 <= f < 1. The loop has a pole
 /// z = e^(j w T_s) on the unit circle exactly where
-///     P(w, f) = e^(j w D),   P(w, f) = C(z) (z I - Phi)^-1 (Gamma0(f) + Gamma1(f)/z) e^(j w f T_s),
+///     P(w, f) = e^(j w D),
+///     P(w, f) = C(z) (z I - Phi)^-1 (Gamma0(f) + Gamma1(f)/z) e^(j w f T_s),
 /// Phi, Gamma0, Gamma1: the plant held over T_s (HeldPlant); C: the law. |P| = 1 determines w, and
 /// the phase of P determines D. P hardly depends on f, so a fixed-point iteration over f converges.
 double delay_margin_s(const SampledHeadingLoop& loop);

@@ -22,7 +22,8 @@ constexpr unsigned kPopulation = 40;
 /// First step and smallest step of the local search, in ln(gain): 20 % and 0.1 %.
 constexpr double kFirstStep = 0.2;
 constexpr double kLastStep = 1e-3;
-/// Smallest improvement of a local search after which another one is started.
+/// Smallest improvement of the objective (or violation) by a local search after which another one
+/// is started.
 constexpr double kWorthwhile = 1e-4;
 /// feasible_start(): number of random starts after the baseline and the middle of the bounds, and
 /// evaluations from each start.

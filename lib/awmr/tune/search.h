@@ -18,8 +18,8 @@ struct SearchResult {
   /// (Looked::residuals).
   std::string broken_most = {};
   double broken_by = 0.0;
-  int evaluations = 0;
-  int simulated = 0;
+  int evaluations = 0;  ///< evaluated sets of gains, on some or all draws
+  int simulated = 0;    ///< those whose runs were simulated
   SearchHistory history;
   std::vector<TradeOffPoint> met;  ///< trade-off of all feasible gains on the draws of the search
   std::string algorithm;
@@ -38,7 +38,8 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
 Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
                          const Gains<double>& baseline);
 
-/// Searches ln(gains) with NLopt. `searched` is the objective on some of the draws, `all` on all.
+/// Searches the logarithms of the gains with NLopt. `searched` is the objective on the nominal
+/// vehicle and some of the draws, `all` on the nominal vehicle and all draws.
 ///   1. GN_ISRES on `searched` from the first of `starts`;
 ///   2. LN_COBYLA on `searched` from the best point so far, including the other starts;
 ///   3. if there are no feasible gains yet, LN_COBYLA on `searched` from each start;

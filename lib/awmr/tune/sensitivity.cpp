@@ -11,7 +11,7 @@ namespace {
 
 /// Bisection steps for each end of an interval.
 constexpr int kHalvings = 6;
-/// A constraint is active if its residual is above this.
+/// A constraint is active if its residual (0 at the limit, negative if met) is above this.
 constexpr double kActive = -0.01;
 /// Evaluations of the local search with a relaxed limit.
 constexpr int kPriceEvaluations = 30;
@@ -26,7 +26,8 @@ Point scaled(Point point, const Pair& pair, double by_ln) {
   return point;
 }
 
-/// Range by which both logarithms of a pair can be shifted together within the bounds.
+/// Range by which the logarithms of both gains of a pair, such as mu and epsilon, can be shifted
+/// together within the bounds.
 Interval room(const Point& from, const Pair& pair, const SearchSpace& space) {
   const Point lower = space.lower_corner();
   const Point upper = space.upper_corner();
@@ -34,9 +35,9 @@ Interval room(const Point& from, const Pair& pair, const SearchSpace& space) {
           std::min(upper[pair[0]] - from[pair[0]], upper[pair[1]] - from[pair[1]])};
 }
 
-/// Interval around 0 by which both logarithms of a pair can be shifted together while the gains
-/// stay feasible with an objective of at most `most`. Found by bisection, because the objective
-/// increases towards both ends.
+/// Interval around 0 by which the logarithms of both gains of a pair can be shifted together while
+/// the gains stay feasible with an objective of at most `most`. Found by bisection, because the
+/// objective increases towards both ends.
 Interval stretch(Problem& problem, const Point& from, const Pair& pair, double most) {
   const auto is_good = [&](double by_ln) {
     const Point point = scaled(from, pair, by_ln);
@@ -89,8 +90,8 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
   TuneOptions quiet = options;
   quiet.progress = {};
   const Point point = SearchSpace(options).point_of(best.gains);
-  // Smallest objective of a local search with constraint `wider` relaxed, or with none if there is
-  // no such constraint.
+  // Smallest objective of a local search with the constraint of index `wider` relaxed by kWider;
+  // with none relaxed if there is no such index.
   const auto searched = [&](std::size_t wider) -> Result<double> {
     Problem problem(quiet, context, objective);
     if (wider < problem.tolerated.size()) problem.tolerated[wider] = kWider;

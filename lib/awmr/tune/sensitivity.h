@@ -13,17 +13,20 @@ namespace awmr {
 /// Gains with the ranges of mu and mu_s in which the objective is nearly constant.
 struct SettledGains {
   Gains<double> gains{};
-  /// Range of mu, rad/s^2, with mu/epsilon constant, in which the objective is within kIndifferent
-  /// of the best.
+  /// Range of mu, rad/s^2, with mu/epsilon constant, in which the objective is at most
+  /// kIndifferent/2 worse than the best.
   Interval mu;
-  Interval speed_mu;  ///< the same range of mu_s, m/s^2, with mu_s/epsilon_s constant
+  /// Range of mu_s, m/s^2, with the smallest mu and mu_s/epsilon_s constant, in which the objective
+  /// is at most kIndifferent worse than the best.
+  Interval speed_mu;
 };
 
 /// Selects the smallest mu, then the smallest mu_s, that meets every constraint and has an
-/// objective within kIndifferent of that of `best` on the draws of the search; mu/epsilon and
-/// mu_s/epsilon_s stay constant. Only these ratios act inside the boundary layers, so without this
-/// rule the seed of the search would determine mu. The selected gains are those of `best` if the
-/// smaller mu and mu_s violate a constraint on the draws of `all`.
+/// objective at most kIndifferent/2 (mu) or kIndifferent (mu_s) worse than that of `best` on the
+/// draws of the search; mu/epsilon and mu_s/epsilon_s stay constant. Only these ratios act inside
+/// the boundary layers, so without this rule the seed of the search would determine mu. The
+/// selected gains are those of `best` if the smaller mu and mu_s violate a constraint on the draws
+/// of `all`.
 SettledGains settle(const TuneOptions& options, const ConstraintContext& context,
                     const Objective& searched, const Objective& all, const Candidate& best);
 

@@ -101,7 +101,7 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
     context.step_rad = std::max(context.step_rad, largest_step_rad(s));
     context.fastest_radps = std::max(context.fastest_radps, reached_radps(s));
   }
-  // No mode turns faster than its largest moment sustains.
+  // No steady turn is faster than the one that the largest moment of the stronger mode sustains.
   const auto steady = steady_rate(plant.yaw, largest_moment_m(context.own(), context.speed_mps));
   if (steady) context.fastest_radps = std::clamp(*steady, kSlowest_radps, context.fastest_radps);
   return context;
@@ -160,7 +160,8 @@ Status check_baseline(const Objective& objective, const Baseline& baseline) {
                      "give another baseline, or slower scenarios");
 }
 
-/// Factors of slowed(), for starts with slower poles. They suit a vehicle with large noise.
+/// Factors of slowed(), for starts with slower poles, which meet the noise limits if the noise is
+/// large.
 constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 
 /// Starts of the search: all gains of `poles`, the first of them slowed down by each of
@@ -248,8 +249,8 @@ Status check_latency(const ConstraintContext& context, const std::string& model_
   if (samples < kMostLatencySamples + 1e-9) return {};
   return input_error(
       ErrorCode::kTooLarge, model_file + ":/vehicle/latency_s",
-      fmt::format("{:g} s are {:.4g} samples of {:g} s, more than the limit of {}; give a longer "
-                  "sample_time_s, or tune without latency ({})",
+      fmt::format("{:g} s are {:.4g} samples of {:g} s, more than the limit of {} samples; give a "
+                  "longer sample_time_s, or tune without latency, noise and lag ({})",
                   context.latency_s, samples, context.sample_time_s, kMostLatencySamples,
                   option_text("nominal")));
 }

@@ -25,8 +25,8 @@
 
 namespace awmr {
 
-/// Definition of the reaching time constant, which must be below T1 = 1/lambda. S is the sliding
-/// variable of the heading law (model/gains.h).
+/// Definition of the reaching time constant, which must be below T1 = 1/lambda. S = e_dot + lambda
+/// e is the sliding variable of the heading law, e the heading error (model/gains.h).
 enum class ReachingForm {
   kPaper,   ///< decay time of V = S^2/2: T2 = eps/(2 mu)                               [paper (95)]
   kStrict,  ///< decay time of S itself: eps/mu = 2 T2
@@ -37,11 +37,12 @@ inline constexpr NameTable<ReachingForm, 2> kReachingFormNames{
 /// Weights of the objective's terms, >= 0 and not all 0. Each term is the ratio of a metric to its
 /// value with the baseline gains in the same mode and scenario (see objective.h).
 struct ObjectiveWeights {
-  double settling = 1.0;           ///< heading: settling time, or unsettled_s() (objective.h)
+  double settling = 1.0;           ///< heading: settling time; for a run that does not settle, its
+                                   ///< substitute unsettled_s() (objective.h)
   double itae = 0.5;               ///< heading: integral of t |psi_d - psi|, t from each step
   double overshoot = 1.0;          ///< heading: largest travel beyond a commanded heading
   double control_variation = 0.5;  ///< total variation of the commands (Metrics)
-  double effort = 0.25;            ///< mean square of the commands (Metrics::control_effort)
+  double effort = 0.25;            ///< mean sum of squared commands (Metrics::control_effort)
   double speed_itae = 0.25;  ///< speed: integral of t |u_d - u|; with weight 0, mu_s and eps_s are
                              ///< not determined
 };
@@ -73,7 +74,8 @@ struct TuningLimits {
   double delayed_damping = 0.05;  ///< smallest damping ratio with motor lag and twice the latency
                                   ///< plus one sample, (0, 1]
   /// Largest share of the largest yaw moment of the weaker mode (turning_authority_m()) that
-  /// heading noise may request, (0, 1].
+  /// heading noise of one standard deviation may request, (0, 1]. A nominal search assumes a noise
+  /// of 1 deg.
   double noise_share = 0.25;
 };
 
@@ -98,7 +100,7 @@ struct ObserverSearch {
   Interval bandwidth_radps{0.2, 20.0};  ///< rad/s
   /// Largest moment (m) and force (dimensionless) that the observer compensates, > 0. Absent:
   /// kObserverShare of the largest yaw moment of the weaker mode (turning_authority_m()), and
-  /// kObserverShare of the wheel force that is left at the largest u_d.
+  /// kObserverShare of the wheel force that g1 leaves at the largest u_d.
   std::optional<double> yaw_max_m, surge_max;
 };
 inline constexpr double kObserverShare = 0.5;
@@ -144,7 +146,7 @@ struct TuningGoal {
 };
 inline constexpr double kLeastShare = 0.5, kMostShare = 0.999;
 inline constexpr std::size_t kMostGoals = 20;
-/// Default number of new draws on which goals are evaluated.
+/// Default of evaluation_draws in a tune.json with goals.
 inline constexpr int kGoalDraws = 500;
 inline constexpr int kFewestSamples = 16, kMostSamples = 100'000;
 inline constexpr std::size_t kRunFigures = 6;  ///< names in run_figure_names()
@@ -179,8 +181,9 @@ struct TuneOptions {
   /// Form of the condition T2 < T1 that is required. kPaper allows twice as large an eps/mu as
   /// kStrict.
   ReachingForm form = ReachingForm::kStrict;
-  /// Required: reaching time constant <= margin T1. In (0, 1). A smaller margin makes the approach
-  /// to the sliding surface faster, compared with the motion on it.
+  /// Required: reaching time constant (ReachingForm) <= margin T1, T1 = 1/lambda. In (0, 1). A
+  /// smaller margin makes the approach to the sliding surface faster, compared with the motion on
+  /// it.
   double margin = 0.8;
   ObjectiveWeights weights;
   int global_evaluations = 80;  ///< >= 1
@@ -197,7 +200,9 @@ struct TuneOptions {
   /// Number of samples of the sensitivity analysis of the tuned loop (GlobalSensitivity): 0 (none)
   /// or kFewestSamples to kMostSamples. Robust search only.
   int sensitivity = 0;
-  Progress progress = {};  ///< counts the runs of the search, of all plants
+  /// Called with the number of evaluated sets of gains, and with the budget global_evaluations +
+  /// local_evaluations. The last stage of the search, on all draws, is not counted.
+  Progress progress = {};
 };
 
 /// A constraint that is active at the tuned gains.
@@ -241,10 +246,12 @@ struct SearchStep {
 
 /// Progress of a search.
 struct SearchHistory {
-  /// In the order of the evaluations, at most kMostHistorySteps; the last one is the result.
+  /// In the order of the evaluations, at most kMostHistorySteps. Only evaluations on the draws of
+  /// the search (kSearchedDraws) are included, so the result can differ from the last step: the
+  /// last stage uses all draws, and settle() selects among equally good gains.
   std::vector<SearchStep> best;
   int global_evaluations = 0;  ///< evaluations of the global search, which comes first
-  int evaluations = 0;         ///< evaluations of the global and the local searches
+  int evaluations = 0;         ///< evaluations of the global and the local searches on these draws
 };
 /// A longer history is thinned to evenly spaced steps, including the first and the last.
 inline constexpr std::size_t kMostHistorySteps = 200;
@@ -266,13 +273,13 @@ struct EvaluatedRuns {
 
 /// A metric of the runs of one set of gains in one mode, over the evaluation draws.
 struct EvaluatedFigure {
-  std::string name;  ///< "heading_iae_degs"
+  std::string name;  ///< one of run_figure_names(), such as "heading_iae_degs"
   double median = 0.0;
   double q95 = 0.0;        ///< 95 % quantile
   double tail_mean = 0.0;  ///< mean over the worst tail_share of the draws (CVaR)
 };
 
-/// EvaluatedGains::gains of the tuned gains.
+/// Name of the tuned gains in EvaluatedGains::gains.
 inline constexpr const char* kRobustGains = "robust";
 
 /// One set of gains in one mode, over the evaluation draws.
@@ -295,7 +302,7 @@ struct SobolIndex {
 /// Mean, spread and Sobol indices of a metric of the runs in one mode.
 struct SensitiveFigure {
   YawMode mode{};
-  std::string name;                  ///< "settling_time_s"
+  std::string name;                  ///< name of the metric, such as "settling_time_s"
   double mean = 0.0;                 ///< in the unit of the metric
   double deviation = 0.0;            ///< standard deviation, >= 0
   std::vector<SobolIndex> by_input;  ///< in the order of GlobalSensitivity::inputs
@@ -402,16 +409,17 @@ struct Tuning {
   Baseline baseline;
   TuningLimits limits;  ///< of the search, with the defaults filled in
   ExaminedRange examined;
-  double baseline_objective = 0.0;
+  double baseline_objective = 0.0;  ///< 1, plus the terms of soft goals
   std::vector<ModeScore> baseline_scores;
   std::string algorithm;
-  int evaluations = 0;
+  int evaluations = 0;  ///< sets of gains that the search evaluated, on some or all draws
   std::string stop_reason;
   std::uint64_t seed = 0;
   int simulated = 0;  ///< evaluations with simulated runs; the others violate a constraint
   /// Range of mu, with mu/epsilon kept constant, in which the constraints are met and the objective
-  /// is within kIndifferent of the best. The smallest mu is selected. The same for mu_s, with
-  /// mu_s/epsilon_s kept constant.
+  /// on the draws of the search is at most kIndifferent/2 worse than the best. The smallest mu is
+  /// selected. With this mu, speed_mu_as_good is the same range of mu_s, with mu_s/epsilon_s kept
+  /// constant and an objective at most kIndifferent worse than the best.
   Interval mu_as_good, speed_mu_as_good;
   std::vector<ActiveConstraint> active;
   std::string arithmetic;  ///< how the runs were rounded: as BatchArithmetic::rounding
@@ -427,7 +435,7 @@ struct Tuning {
 
 /// Default tuning scenario: from rest, a heading and then its opposite. Speed, angle and time are
 /// scaled to the vehicle:
-///   u_d   0.3 of the speed at full thrust, or the speed at a third of the thrust if that is higher;
+///   u_d   0.3 of the speed at full thrust, or the speed at a third of the thrust if it is higher;
 ///         at most 0.6 of the highest measured speed, or 10 m/s without measured speeds
 ///   psi   30 deg; if the hold would exceed 20 s, less in steps of 5 deg, down to 5 deg
 ///   hold  time that each heading is commanded: 1.6 times the time that the weaker mode takes to

@@ -95,7 +95,7 @@ void read_goals(JsonObject& json, TuneOptions& options) {
   }
   if (!options.goals.empty() && options.nominal) {
     json.fault(ErrorCode::kConflict, "goals",
-               "need sampled plants, which nominal disables; remove one of the two");
+               "goals need sampled plants, which nominal disables; remove one of the two");
   }
   if (!options.goals.empty() && options.evaluation_draws == 0) {
     json.fault(ErrorCode::kConflict, "judged_draws",

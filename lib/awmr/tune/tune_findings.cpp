@@ -19,14 +19,14 @@ void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
   const bool is_missed = evaluated.verdict == GoalVerdict::kMissed;
   findings.push_back(
       {"", 0, Severity::kWarning, is_missed ? "goal-missed" : "goal-open",
-       fmt::format("{} of {} fresh draws in {} meet the goal (95 % interval: {:.1f} to {:.1f} %); "
-                   "{:g} % are required: {}",
-                   evaluated.held, evaluated.runs, name_of(evaluated.mode),
-                   100.0 * evaluated.ci95.lo, 100.0 * evaluated.ci95.hi,
-                   100.0 * evaluated.goal.share,
-                   is_missed ? "tune on more draws (--draws), raise the goal's limits or lower its "
-                               "share"
-                             : "increase judged_draws")});
+       fmt::format(
+           "{} of {} new draws in {} mode meet the goal (95 % interval: {:.1f} to {:.1f} %); "
+           "{:g} % are required: {}",
+           evaluated.held, evaluated.runs, name_of(evaluated.mode), 100.0 * evaluated.ci95.lo,
+           100.0 * evaluated.ci95.hi, 100.0 * evaluated.goal.share,
+           is_missed ? "tune on more draws (--draws), raise the goal's limits or lower its "
+                       "share"
+                     : "increase judged_draws")});
 }
 
 void note_unsettled(const std::string& scenario, YawMode mode, double completed_share,
@@ -35,11 +35,11 @@ void note_unsettled(const std::string& scenario, YawMode mode, double completed_
   if (completed_share >= kMinShare) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "unsettled",
-       fmt::format("{}{}: only {:.0f} % of the runs with the tuned gains settle after every step. "
-                   "Give the headings more time or a higher heading-rate limit, or add an observer "
-                   "(--observer) against constant disturbances",
-                   scenario.empty() ? "" : scenario + ", ", name_of(mode),
-                   100.0 * completed_share)});
+       fmt::format(
+           "{}{}: only {:.0f} % of the runs with the tuned gains settle after every heading "
+           "step. Give the steps more time or a higher heading-rate limit, or add an "
+           "observer (--observer) against constant disturbances",
+           scenario.empty() ? "" : scenario + ", ", name_of(mode), 100.0 * completed_share)});
 }
 
 /// Adds a note if the 95 % interval of a total Sobol index is wider than kWide.
@@ -70,9 +70,9 @@ void note_certificate(const ModeCertificate& certificate, std::vector<Finding>& 
   }
   findings.push_back(
       {"", 0, Severity::kWarning, "not-certified",
-       fmt::format("{}: the heading loop is unstable for parameters within the model's 95 % set "
-                   "(damping {:.3g} at {}, {:.3g} deg/s). Record the trials that `awmr suggest` "
-                   "names, or raise limits/late_damping",
+       fmt::format("{}: the heading loop is unstable for parameters within the model's 95 % "
+                   "confidence set (damping ratio {:.3g} at {}, yaw rate {:.3g} deg/s). Record the "
+                   "trials that `awmr suggest` names, or raise limits/late_damping of tune.json",
                    name_of(certificate.mode), certificate.damping.value, where,
                    degrees(certificate.damping.yaw_rate_radps))});
 }
@@ -84,12 +84,12 @@ void note_observer(const TuneOptions& options, std::vector<Finding>& findings) {
   if (!options.observer || is_pushed) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "observer-unpushed",
-       "no scenario has a disturbance, so the observer was tuned on noise only. Give a scenario "
-       "with a disturbance, or no scenarios to use the default ones"});
+       "no scenario has a disturbance, so the disturbance observer was tuned on noise only. Give a "
+       "scenario with a disturbance, or no scenarios to use the default ones"});
 }
 
-/// Adds findings about requests that no vehicle can follow, in the scenarios and in the sensor and
-/// motor conditions of the draws (unattainable_requests()).
+/// Adds findings about requests that the vehicle cannot meet, in the scenarios and in the sensor
+/// and motor conditions of the draws (unattainable_requests()).
 void note_scenarios(const Model& model, const TuneOptions& options, const Tuning& tuning,
                     std::vector<Finding>& findings) {
   std::vector<Scenario> scenarios = options.scenarios;

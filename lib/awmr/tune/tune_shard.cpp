@@ -94,15 +94,15 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// The runs of a part: by gains, draw, mode, scenario. Errors (input), by line: a run of another
-/// part, a run in the wrong order, or a missing run.
+/// Reads the runs of a part from `text`, a judged.csv: by gains, draw, mode, scenario. Errors
+/// (input), with the line: a run of another part, a run in the wrong order, or a missing run.
 Result<std::vector<RunOutcome>> evaluated_runs_from_text(const Payload& payload, const Shard& shard,
                                                          std::string_view text,
                                                          const std::string& file) {
   std::string_view rest = text;
   if (take_line(rest) != head_of_table()) {
     return input_error(ErrorCode::kStaleResult, file + ":1:1",
-                       "these are not the columns of judged.csv");
+                       "these are not the columns of judged.csv; run the part again");
   }
   int line = 1;
   std::vector<RunOutcome> runs;
@@ -116,8 +116,9 @@ Result<std::vector<RunOutcome>> evaluated_runs_from_text(const Payload& payload,
           if (!outcome) {
             return input_error(
                 ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line),
-                fmt::format("this row must be run {} of the part; run the part again",
-                            std::string_view(place).substr(0, place.size() - 1)));
+                fmt::format(
+                    "this row must be the run {} (gains, draw, mode, scenario); run the part again",
+                    std::string_view(place).substr(0, place.size() - 1)));
           }
           runs.push_back(*outcome);
         }
@@ -168,8 +169,9 @@ Result<Json> read_gains_json(const std::vector<Part>& parts) {
   const std::filesystem::path path = parts.front().directory / file.name;
   AWMR_ASSIGN_OR_RETURN(Json json, read_json_file(path));
   if (!json.is_object() || !json.contains("robust") || !json["robust"].is_object()) {
-    return input_error(ErrorCode::kStaleResult, path.string(),
-                       "has no `robust` object, so its gains are nominal; run the part again");
+    return input_error(
+        ErrorCode::kStaleResult, path.string(),
+        "has no `robust` object, so its gains are nominal; run the part again without nominal");
   }
   return json;
 }

@@ -14,8 +14,9 @@
 
 namespace awmr {
 
-/// Files of one part (shard) of a tuning: judged.csv has a row for each run of its draws, by gains,
-/// draw, mode and scenario; gains.json has the gains without their evaluation on new draws.
+/// Files of one part (shard) of a tuning, in addition to shard.json: judged.csv has a row for each
+/// run of its draws, by gains, draw, mode and scenario; gains.json has the gains without their
+/// evaluation on new draws.
 const ShardKind& tune_shards();
 
 /// Text of the files of the part `options.shard`. Precondition: `tuning` is the result of a robust

@@ -22,14 +22,14 @@ namespace {
 
 constexpr double kLevel = 0.95;
 constexpr double kShortest_s = 2.0;
-/// First random stream of the noise that is added to the readings of a draw. It differs from the
-/// streams of the simulator.
+/// Random stream of draw 0, for its latencies, initial state and the noise added to its readings.
+/// It differs from the streams of the simulator.
 constexpr std::uint64_t kReadingsStream = std::uint64_t{1} << 40;
 
 Status check_options(const AcceptanceOptions& options) {
   if (options.draws >= 39 && options.draws <= 10000) return {};
   return input_error(ErrorCode::kOutOfRange, "draws",
-                     fmt::format("expected 39 to 10000, got {}", options.draws));
+                     fmt::format("is {}; give a number from 39 to 10000", options.draws));
 }
 
 State<double> moved_by(State<double> state, const State<double>& error, Random& random) {
@@ -161,7 +161,7 @@ struct Compared {
   WindowMeans measured;
   PredictedBand predicted;
   std::vector<double> largest;  ///< for each draw, its largest distance in this channel
-  double usual = 0.0;           ///< limit that contains the distances of 95 % of the draws
+  double usual = 0.0;           ///< 95 % quantile of `largest`
 };
 
 Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> draws,
@@ -231,8 +231,8 @@ std::vector<Compared> compare(const std::vector<DriveChannel>& channels,
   return all;
 }
 
-/// Compares the channels with their allowed distances, and computes the p-value from the rank of the
-/// drive among the predicted drives.
+/// Compares the channels with their allowed distances, and computes the p-value from the rank of
+/// the drive among the predicted drives.
 void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
   const std::vector<double> factors = factors_of_draws(channels, at(result.draws));
   const double allowed = rank_quantile(factors, kLevel);

@@ -21,7 +21,8 @@ struct AcceptanceOptions {
   /// Number of predicted drives, 39 ... 10000. Fewer than 39 cannot resolve a p-value of 0.05.
   int draws = 200;
   std::uint64_t seed = 1;
-  /// Time in the log, s, at which the scenario begins. Absent: the first row with a command.
+  /// Time in the log, s, at which the scenario begins. Absent: the time of the first row with a
+  /// command other than 0.
   std::optional<double> from_s = {};
   int threads = 0;  ///< 0: one per core
 };
@@ -48,7 +49,7 @@ struct ChannelAcceptance {
 /// A possible cause of the difference between drive and prediction: one change of the vehicle, its
 /// sensors, or the forces on it.
 struct FaultHypothesis {
-  std::string what;    ///< "mass_norm", "bias of the yaw rate"
+  std::string what;    ///< changed quantity: "mass_norm", "bias of the yaw rate"
   double value = 0.0;  ///< value that explains the drive best: a factor if `unit` is "times"
   std::string unit;    ///< unit of `value`; "times": a factor on the model's value
   /// Fraction in [0, 1] of the sum of squared distances that disappears with this change.
@@ -61,7 +62,8 @@ struct Acceptance {
   std::string scenario;
   YawMode mode{};
   double from_s = 0.0;      ///< time in the log at which the scenario begins
-  double duration_s = 0.0;  ///< compared duration: to the end of the log or of the shortest run
+  double duration_s = 0.0;  ///< compared duration: to the end of the log or of the shortest
+                            ///< simulated run
   int draws = 0;
   /// Fraction of all drives (the predicted ones and the logged one) that are at least as far from
   /// the prediction as the logged one.

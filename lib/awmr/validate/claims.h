@@ -1,8 +1,8 @@
 /// Checks of the paper's claims C1 to C14 by simulation of a model. Private to validate/.
 ///
 /// The paper's terms ("fast", "slight", "no overshoot") have no numbers. Each check therefore has a
-/// criterion for "reproduced", which is part of the output (Claim::tolerance). A claim that fails is
-/// reported as not reproduced, with the simulated numbers (Claim::figure).
+/// criterion for "reproduced", which is part of the output (Claim::tolerance). A claim that fails
+/// is reported as not reproduced, with the simulated numbers (Claim::figure).
 #pragma once
 
 #include <algorithm>
@@ -77,13 +77,14 @@ Claim check_time_constants(const std::optional<Gains<double>>& gains);
 /// C3 to C7 from one set of runs, and C13.                            [paper 4.3, section 6]
 std::vector<Claim> check_heading_claims(const ClaimSetting& setting);
 
-/// C8 to C12: waypoints, line, obstacles, timed path, best modes. Returns the claims of each setting.
+/// C8 to C12: waypoints, line, obstacles, timed path, best modes. Returns the claims of each
+/// setting.
 /// Precondition: as run_all().                                           [paper 5, section 7]
 std::vector<std::vector<Claim>> check_guidance_claims(std::span<const ClaimSetting> settings);
 
 /// Longest settling time that counts as fast in C3, s. It is the time for the step at the mode's
-/// largest steady yaw rate, plus 4 (T1 + 2 T2) with the paper's gains. The sliding variable S decays
-/// with the time constant 2 T2, then the heading error with T1. After four time constants
+/// largest steady yaw rate, plus 4 (T1 + 2 T2) with the paper's gains. The sliding variable S
+/// decays with the time constant 2 T2, then the heading error with T1. After four time constants
 /// e^-4 = 1.8 % is left, which is within the settling band of 2 %.
 double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, YawMode mode,
                           double step_rad, double speed_mps);

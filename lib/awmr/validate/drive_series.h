@@ -43,8 +43,8 @@ struct DriveStart {
 };
 
 /// Index of the row at which the drive begins: the first row at or after from_s. If from_s is
-/// absent, it is the first row with a command other than 0. Errors (input): there is no such row, or
-/// from_s is before the log.
+/// absent, it is the first row with a command other than 0. Errors (input): there is no such row,
+/// or from_s is before the log.
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s);
 
 /// Estimates the standard deviation of the noise in a channel's readings from row `first` on. The
@@ -69,8 +69,9 @@ DriveStart start_of(const DrivingLog& log, std::size_t first,
 
 /// Means of the measured values, for the windows that end at duration_s or before.
 WindowMeans means_of(const DriveChannel& channel, double duration_s);
-/// Means of the values in a simulated run, at the times of the log's rows. Noise drawn from `random`
-/// is added if the rows of the run do not include noise (noise_in_run); nullptr: none is added.
+/// Means of the values in a simulated run, at the times of the log's rows. Noise drawn from
+/// `random` is added if the rows of the run do not include noise (noise_in_run); nullptr: none is
+/// added.
 WindowMeans means_of(const DriveChannel& channel, const Run& run, double sample_time_s,
                      double duration_s, Random* random);
 

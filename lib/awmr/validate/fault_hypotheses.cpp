@@ -91,13 +91,17 @@ void add_sensors(std::vector<Change>& changes) {
 }
 
 void add_pushes(const Model& model, std::vector<Change>& changes) {
-  changes.push_back(
-      {"push along the vehicle", "F_max", {-1.0, 1.0}, 0.0, [](PerturbedModel& v, double value) {
-         v.scenario.disturbance.surge.push_back({.value = value, .window = {}, .phase_rad = {}});
-       }});
+  changes.push_back({"constant longitudinal force",
+                     "F_max",
+                     {-1.0, 1.0},
+                     0.0,
+                     [](PerturbedModel& v, double value) {
+                       v.scenario.disturbance.surge.push_back(
+                           {.value = value, .window = {}, .phase_rad = {}});
+                     }});
   const double most_m = model.vehicle.half_track_m;
   changes.push_back(
-      {"moment that turns it", "m", {-most_m, most_m}, 0.0, [](PerturbedModel& v, double value) {
+      {"constant yaw moment", "m", {-most_m, most_m}, 0.0, [](PerturbedModel& v, double value) {
          v.scenario.disturbance.yaw.push_back({.value = value, .window = {}, .phase_rad = {}});
        }});
 }
@@ -153,8 +157,8 @@ struct Search {
     return std::isfinite(sum) ? sum : kNever;
   }
 
-  /// Searches the best value: first on a grid, because there can be several minima, then between the
-  /// neighbours of the best grid point.
+  /// Searches the best value: first on a grid, because there can be several minima, then between
+  /// the neighbours of the best grid point.
   FaultHypothesis best(const Change& change, double unchanged) const {
     const auto to = [&](double value) { return change.is_factor() ? std::log(value) : value; };
     const auto from = [&](double z) { return change.is_factor() ? std::exp(z) : z; };

@@ -24,10 +24,10 @@ struct EvidenceChannel {
 };
 
 /// Tries each fault hypothesis: a parameter (the exponents excepted), force or lag of the motors,
-/// bias or latency of a sensor, a constant external force or moment. For each, it searches the value
-/// that minimises the squared distance of the simulated run from the drive; the controller stays the
-/// same. Returns the hypotheses that remove at least 30 % of that distance, best first, at most
-/// four.
+/// bias or latency of a sensor, a constant external force or moment. For each, it searches the
+/// value that minimises the squared distance of the simulated run from the drive; the controller
+/// stays the same. Returns the hypotheses that remove at least 30 % of that distance, best first,
+/// at most four.
 std::vector<FaultHypothesis> fault_hypotheses(const Model& model,
                                               const Controller<double>& controller,
                                               const Scenario& scenario,

@@ -15,12 +15,12 @@ namespace {
 
 const std::vector<double> kDriven_deg{30.0, 45.0};  ///< headings of the experiment     [paper 6]
 
-/// Criterion for "without overshoot": largest overshoot, which is not visible in a printed figure. The
-/// settling band (simulate/metrics.h) is at least as wide.
+/// Criterion for "without overshoot": largest overshoot, which is not visible in a printed figure.
+/// The settling band (simulate/metrics.h) is at least as wide.
 constexpr double kNoOvershoot_deg = 0.5;
 /// Criterion for "chattering": a command reverses by more than 1 % of its range more than once per
-/// second, on average over the run. A discontinuous law reverses up to every second sample: 50 times
-/// per second at a sample time of 0.01 s.
+/// second, on average over the run. A discontinuous law reverses up to every second sample: 50
+/// times per second at a sample time of 0.01 s.
 constexpr double kReversalBand = 0.01;
 constexpr double kReversalsPerSecond = 1.0;
 constexpr double kDrivenTauSpeed = 1.4;     ///< 35 % of four motors' thrust       [paper 6]

@@ -1,4 +1,5 @@
-/// Simulated runs for the heading and speed claims, and text of their results. Private to validate/.
+/// Simulated runs for the heading and speed claims, and text of their results. Private to
+/// validate/.
 #pragma once
 
 #include <fmt/format.h>
@@ -45,8 +46,8 @@ struct HeadingSetting : ClaimSetting {
   double allowed_s(YawMode mode) const {
     return allowed_settling_s(plant, model.vehicle, mode, radians(kLargestStep_deg), kSpeed_mps);
   }
-  /// Time for which each heading is commanded, s: 1.5 times the longest allowed settling time of all
-  /// modes, at least 10 s and at most 120 s.
+  /// Time for which each heading is commanded, s: 1.5 times the longest allowed settling time of
+  /// all modes, at least 10 s and at most 120 s.
   double hold_s() const {
     double longest_s = 10.0;
     for (const YawMode mode : kYawModes) longest_s = std::max(longest_s, 1.5 * allowed_s(mode));

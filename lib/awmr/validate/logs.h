@@ -17,7 +17,8 @@ struct ChannelValidation {
   std::string unit;
   int samples = 0;
   PredictionError one_step;      ///< errors of the prediction from each measured row to the next
-  PredictionError long_horizon;  ///< errors of the prediction over windows of horizon_s
+  PredictionError long_horizon;  ///< errors of the prediction over windows of
+                                 ///< LogValidation::horizon_s, each from a measured state
   PredictedSeries series = {};   ///< long-horizon prediction, reduced to the points for a chart
 };
 
@@ -26,20 +27,21 @@ struct LogValidation {
   std::string file;
   double horizon_s = 0.0;
   std::vector<ChannelValidation> channels;
-  bool passed = false;  ///< true: the long-horizon NRMSE of every channel is within the tolerance
+  bool passed = false;  ///< true: the long-horizon NRMSE of every channel is within the tolerance,
+                        ///< and there is a channel
 };
 
-/// Predicts the channels of the log from its commands. A channel that does not vary (vehicle at rest)
-/// has no NRMSE and is left out. `tolerance`: largest accepted NRMSE. `motor_lag_s`: time constant of
-/// the motors, s, >= 0.
+/// Predicts the channels of the log from its commands. A channel that does not vary (vehicle at
+/// rest) has no NRMSE and is left out. `tolerance`: largest accepted NRMSE. `motor_lag_s`: time
+/// constant of the motors, s, >= 0.
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
                            double tolerance, double motor_lag_s = 0.0);
 
 /// The same for a model, which may lack parameters. If it covers straight motion only
-/// (Model::simulated_motion()), it predicts the speed of a log that drives straight.
-/// Errors (input): g1 or m' is missing; the model is too stiff for a replay, or the replay diverges;
-/// no channel can be predicted within the horizon; the model covers straight motion only, and the
-/// log turns (the message names the row and the missing parameters) or has no speed_mps.
+/// (Model::simulated_motion()), it predicts the speed of a log that drives straight. Errors
+/// (input): g1 or m' is missing; the model is too stiff for a replay, or the replay diverges; no
+/// channel can be predicted within the horizon; the model covers straight motion only, and the log
+/// turns (the message names the row and the missing parameters) or has no speed_mps.
 Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, double horizon_s,
                                    double tolerance);
 

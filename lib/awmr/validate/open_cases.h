@@ -29,9 +29,9 @@ void add_open_cases(const Model& model, const std::optional<Gains<double>>& gain
                     const BatchArithmetic& arithmetic, std::vector<Claim>& claims,
                     const Progress& progress = {});
 
-/// Text of the settings that decide the verdict, the most decisive first. "wheel_force (8 of 12)": in
-/// 8 of the 12 combinations of the other settings, the verdict depends on wheel_force. Empty if the
-/// verdict is the same in all cases.
+/// Text of the settings that decide the verdict, the most decisive first. "wheel_force (8 of 12)":
+/// in 8 of the 12 combinations of the other settings, the verdict depends on wheel_force. Empty if
+/// the verdict is the same in all cases.
 std::string decisive_settings(const std::vector<ClaimCase>& cases);
 
 }  // namespace awmr

@@ -10,8 +10,8 @@
 namespace awmr {
 namespace {
 
-/// Criterion for "without overshoot", "without steady error" and "constant": largest difference from
-/// u_d, as a fraction of u_d. It is not visible in a printed figure.
+/// Criterion for "without overshoot", "without steady error" and "constant": largest difference
+/// from u_d, as a fraction of u_d. It is not visible in a printed figure.
 constexpr double kNoSpeedError = 0.01;
 /// Criterion for a "slight" drop: largest drop, as a fraction of u_d.
 constexpr double kSlightDrop = 0.20;
@@ -29,9 +29,9 @@ Interval speed_range(const ModeRun& run, double from_s, double to_s) {
 
 }  // namespace
 
-/// Evaluates the overshoot from rest to the second heading, and the error at the end of the run. The
-/// drop of the speed at the heading step is evaluated in C5. The excess over u_d after the step is
-/// reported here, but does not count.
+/// Evaluates the overshoot from rest to the second heading, and the error at the end of the run.
+/// The drop of the speed at the heading step is evaluated in C5. The excess over u_d after the step
+/// is reported here, but does not count.
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs) {
   const double step_s = setting.hold_s();
   const auto excess = [](Interval range) { return std::max(0.0, range.hi - kSpeed_mps); };
@@ -79,8 +79,8 @@ double speed_drop(const ModeRun& run, double step_s) {
   return std::max(0.0, kSpeed_mps - speed_range(run, step_s, run.run.rows.back().t_s).lo);
 }
 
-/// Text of the speed drop with other force limits than the vehicle's. The paper prints no limits, and
-/// the claim depends on them.
+/// Text of the speed drop with other force limits than the vehicle's. The paper prints no limits,
+/// and the claim depends on them.
 std::string speed_drop_elsewhere(const HeadingSetting& setting) {
   std::string text;
   for (const Interval limits : {Interval{-1.0, 1.0}, Interval{0.0, 0.5}}) {

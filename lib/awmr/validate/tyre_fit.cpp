@@ -48,9 +48,9 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
   return finding(
       log, Severity::kError, "tyres-need-turns",
       fmt::format(
-          "the tyres need at least {} windows of {:g} s, {} of them with each kind of turn; "
-          "these logs have {}, {} with turns by left and right wheel forces{} (a turn by forces "
-          "and steering together is of neither kind). Record a drive that turns {}",
+          "a fit of the tyres needs at least {} windows of {:g} s, {} of them with each kind of "
+          "turn; these logs have {}, {} with turns by left and right wheel forces{} (a turn by "
+          "forces and steering together is of neither kind). Record a drive that turns {}",
           kFewestTyreWindows, kWindow_s, kFewestTurns, windows.size(), by_sides,
           steers ? fmt::format(" and {} with steered turns", by_steering) : "",
           steers ? "by wheel forces with straight wheels, then by steering with equal forces, "
@@ -65,8 +65,8 @@ struct HeldOutSums {
   std::vector<std::pair<ErrorSums, ErrorSums>> by_window;  ///< model, four wheels
 };
 
-/// Cross-validation: fits the tyres to one half of the windows (every other one) and predicts the other
-/// half, both ways. Empty if a fit does not converge or a window cannot be replayed.
+/// Cross-validation: fits the tyres to one half of the windows (every other one) and predicts the
+/// other half, both ways. Empty if a fit does not converge or a window cannot be replayed.
 std::optional<HeldOutSums> held_out(const Windows& windows, const Plants& plants,
                                     const ShownFit& shown) {
   HeldOutSums sums;
@@ -127,15 +127,18 @@ std::vector<HeldOutError> errors_by_channel(const HeldOutSums& sums) {
 std::string comparison_text(const TyreFit& tyres) {
   std::string text;
   for (const HeldOutError& error : tyres.held_out) {
-    text += fmt::format("{}{} {:.3g} on tyres and {:.3g} on the model", text.empty() ? "" : ", ",
-                        error.channel, error.four_wheel_rms, error.model_rms);
+    text +=
+        fmt::format("{}{} {:.3g} on four wheels and {:.3g} in the 3-DOF model",
+                    text.empty() ? "" : ", ", error.channel, error.four_wheel_rms, error.model_rms);
   }
   const std::string verdict = !tyres.better ? "neither plant predicts better"
                               : *tyres.better == PlantKind::kFourWheel
-                                  ? "four wheels on tyres predict better than the model"
-                                  : "the model predicts better than four wheels on tyres";
-  return fmt::format("over {} held-out windows of {:g} s, {} (RMS errors: {})", tyres.windows,
-                     kWindow_s, verdict, text);
+                                  ? "the four-wheel plant predicts better than the 3-DOF model"
+                                  : "the 3-DOF model predicts better than the four-wheel plant";
+  return fmt::format(
+      "over {} windows of {:g} s, each held out from the fit that predicts it, {} (RMS errors, SI "
+      "units: {})",
+      tyres.windows, kWindow_s, verdict, text);
 }
 
 /// Estimate of a parameter. If the logs do not determine it: empty, with a finding.
@@ -154,7 +157,8 @@ std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, 
   return std::nullopt;
 }
 
-/// True if a log has fewer rows than the controller has samples, so that commands between rows are lost.
+/// True if a log has fewer rows than the controller has samples, so that commands between rows are
+/// lost.
 bool lose_commands(const std::vector<DrivingLog>& logs, double sample_time_s) {
   constexpr double kLonger = 1.2;  // a factor on the sample time that jitter does not reach
   return std::ranges::any_of(
@@ -174,9 +178,9 @@ std::vector<DrivingLog> with_half_of_the_commands(std::vector<DrivingLog> logs) 
   return logs;
 }
 
-/// Increases the standard errors by the error due to commands between the rows (tyre_fit.h). That error
-/// is half the change of the fit if every other logged command is dropped, so that a 95 % interval
-/// includes the change. Returns false if the fit without these commands does not converge.
+/// Increases the standard errors by the error due to commands between the rows (tyre_fit.h). That
+/// error is half the change of the fit if every other logged command is dropped, so that a 95 %
+/// interval includes the change. Returns false if the fit without these commands does not converge.
 bool add_error_of_lost_commands(const std::vector<DrivingLog>& logs, const Plant<double>& plant,
                                 double motor_lag_s, const Plants& plants, ShownFit& shown) {
   const std::vector<DrivingLog> halved = with_half_of_the_commands(logs);
@@ -229,7 +233,7 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   if (!shown)
     return refuse("tyres-not-converged",
                   "the logs cannot be replayed on the four-wheel plant, even with the shortest "
-                  "integration step; check the columns and the model");
+                  "integration step; check the units, the columns and the model");
   if (!shown->is_free[kFriction] && !shown->is_free[kCornering]) {
     return refuse(
         "tyres-not-shown",
@@ -237,8 +241,11 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
         "tighter and faster turns by wheel forces and by steering");
   }
   if (!shown->fit.converged) {
-    return refuse("tyres-not-converged",
-                  "the fit of the tyres did not converge: " + shown->fit.stop_reason);
+    return refuse(
+        "tyres-not-converged",
+        "the fit of the tyres did not converge; check the units, the columns and vehicle.json. "
+        "Reason: " +
+            shown->fit.stop_reason);
   }
   if (lose_commands(logs, model.vehicle.sample_time_s) &&
       !add_error_of_lost_commands(logs, plant, motor_lag_s, plants, *shown)) {
@@ -261,7 +268,7 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   if (model[ParameterId::kInertiaNorm].source == Source::kFitted) {
     findings.push_back(finding(
         first, Severity::kWarning, "inertia-of-logs",
-        "I'z of the model was fitted to logs on the 3-DOF plant and can include moments of the "
+        "I'z of the model was fitted to logs on the 3-DOF plant and can include yaw moments of the "
         "tyres. For the four-wheel plant use a model identified from tables (I'z = m' Iz/m)"));
   }
   findings.push_back(finding(first, Severity::kNote, "plants-compared", comparison_text(tyres)));

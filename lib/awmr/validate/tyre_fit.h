@@ -1,33 +1,33 @@
 /// Fits the tyres of the four-wheel plant (model/tyres.h) to driving logs, and compares which plant
 /// predicts the logs better: four wheels or the 3-DOF model.
 ///
-/// The tyre parameters are the friction mu and the cornering stiffness c_a; all other parameters stay
-/// as identified. The logs are divided into windows of 5 s, of which at most 60 are used, evenly chosen.
-/// Each window is replayed from its first measured state. Errors in the first second of a window do not
-/// count. From the errors of heading and position, their mean over the window is subtracted. With the
-/// errors e of a channel c and their number n_c,
+/// The tyre parameters are the friction mu and the cornering stiffness c_a; all other parameters
+/// stay as identified. The logs are divided into windows of 5 s, of which at most 60 are used,
+/// evenly chosen. Each window is replayed from its first measured state. Errors in the first second
+/// of a window do not count. From the errors of heading and position, their mean over the window is
+/// subtracted. With the errors e of a channel c and their number n_c,
 ///
 ///     minimise over log mu, log c_a:    sum over c of n_c log(sum e^2 / n_c)
 ///
-/// by weighted least squares. The weights 1/(sum e^2 / n_c) are updated after each fit. Errors within a
-/// window are correlated, errors of different windows are not. The standard errors are therefore those
-/// of the jackknife over the W windows. J_w is the Jacobian of the weighted errors e_w of window w, and
-/// H = sum J_w' J_w. The covariance of x = (log mu, log c_a) is
+/// by weighted least squares. The weights 1/(sum e^2 / n_c) are updated after each fit. Errors
+/// within a window are correlated, errors of different windows are not. The standard errors are
+/// therefore those of the jackknife over the W windows. J_w is the Jacobian of the weighted errors
+/// e_w of window w, and H = sum J_w' J_w. The covariance of x = (log mu, log c_a) is
 ///
 ///     C = (W - 1)/W sum d_w d_w',    d_w = (H - J_w' J_w)^-1 J_w' e_w
 ///
-/// A log with fewer rows than the controller has samples lacks commands. If commands change fast, this
-/// changes the fitted friction by several per cent. For such logs the fit is repeated with every other
-/// command only, held over two rows. With the result x2 of that fit, the standard error of each
-/// parameter becomes sqrt(C_ii + ((x2 - x)_i/2)^2).
+/// A log with fewer rows than the controller has samples lacks commands. If commands change fast,
+/// this changes the fitted friction by several per cent. For such logs the fit is repeated with
+/// every other command only, held over two rows. With the result x2 of that fit, the standard error
+/// of each parameter becomes sqrt(C_ii + ((x2 - x)_i/2)^2).
 ///
 /// The better plant is found by cross-validation: the tyres are fitted to every other window and
 /// predict the remaining windows, then the two halves are exchanged. For each held-out window w
 ///
 ///     D_w = sum over c of log(sum e^2 of the 3-DOF model / sum e^2 of the four wheels).
 ///
-/// The mean of D_w has a 95 % interval by Student's t over the windows; if it contains 0, neither plant is
-/// better. The comparison favours the 3-DOF model if that was fitted to the same logs.
+/// The mean of D_w has a 95 % interval by Student's t over the windows; if it contains 0, neither
+/// plant is better. The comparison favours the 3-DOF model if that was fitted to the same logs.
 #pragma once
 
 #include <filesystem>
@@ -56,9 +56,10 @@ struct TyreFit {
   std::optional<Estimate> friction;  ///< mu; absent if the logs do not determine it
   /// c_a, 1/rad; absent if the logs do not determine it.
   std::optional<Estimate> cornering_per_rad;
-  int windows = 0;                          ///< number of windows of 5 s, >= kFewestTyreWindows
+  int windows = 0;  ///< windows of 5 s in the fit, kFewestTyreWindows ... 60
   std::vector<HeldOutError> held_out = {};  ///< by channel
-  /// The plant with the smaller errors on held-out windows; absent if the interval of D_w contains 0.
+  /// The plant with the smaller errors on held-out windows; absent if the interval of D_w contains
+  /// 0.
   std::optional<PlantKind> better = {};
 };
 
@@ -67,20 +68,20 @@ inline constexpr std::size_t kFewestTyreWindows = 12;
 /// Written in place of the name of the better plant if neither is better.
 inline constexpr std::string_view kUndecidedPlant = "undecided";
 
-/// Fits the tyres to the logs. The logs determine a parameter if it is inside its range and the standard
-/// error of its logarithm is at most 0.5. If they determine only one, the other keeps its default
-/// (warning `tyres-not-shown`).
-/// Returns nothing if the fit fails; an error among the findings has the reason: `tyres-need-turns` (too
-/// few windows, or too few with a kind of turn), `tyres-not-shown` (neither parameter is determined),
-/// `tyres-not-converged`. Other findings: `plants-compared` (note), `inertia-of-logs` (warning: I'z was
-/// fitted to logs on the 3-DOF plant and can include moments of the tyres). Errors (input): the model
-/// lacks a parameter or is too stiff for a replay; the vehicle does not drive all four wheels.
-/// Precondition: there is at least one log.
+/// Fits the tyres to the logs. The logs determine a parameter if it is inside its range and the
+/// standard error of its logarithm is at most 0.5. If they determine only one, the other keeps its
+/// default (warning `tyres-not-shown`). Returns nothing if the fit fails; an error among the
+/// findings has the reason: `tyres-need-turns` (too few windows, or too few with a kind of turn),
+/// `tyres-not-shown` (neither parameter is determined), `tyres-not-converged`. Other findings:
+/// `plants-compared` (note), `inertia-of-logs` (warning: I'z was fitted to logs on the 3-DOF plant
+/// and can include moments of the tyres). Errors (input): the model lacks a parameter or is too
+/// stiff for a replay; the vehicle does not drive all four wheels. Precondition: there is at least
+/// one log.
 Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, const Model& model,
                                          std::vector<Finding>& findings);
 
-/// Reads `/tyres` of a validation.json. Errors (input): the file has no tyres, or a number is out of
-/// range.
+/// Reads `/tyres` of a validation.json. Errors (input): the file has no tyres, or a number is out
+/// of range.
 Result<TyreFit> read_tyres(const std::filesystem::path& path);
 
 }  // namespace awmr

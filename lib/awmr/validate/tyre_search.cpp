@@ -30,8 +30,8 @@ Eigen::VectorXd weighted(const ReplayedWindow& window, const Weights& weights,
   return errors;
 }
 
-/// Step of the forward differences, in the logarithm of a parameter. A smaller step would show the jumps
-/// of the errors that occur where the replay halves or doubles its integration step.
+/// Step of the forward differences, in the logarithm of a parameter. A smaller step would show the
+/// jumps of the errors that occur where the replay halves or doubles its integration step.
 constexpr double kStepOfDerivative = 1e-3;
 
 class TyreCost : public ceres::CostFunction {
@@ -80,8 +80,9 @@ ceres::Problem problem_of(const Windows& windows, const Plants& plants, const We
   return problem;
 }
 
-/// Returns the three best points of a coarse grid, best first; every third window is evaluated. Several
-/// starts are needed because the cost can have several minima: a sliding vehicle can spin to either side.
+/// Returns the three best points of a coarse grid, best first; every third window is evaluated.
+/// Several starts are needed because the cost can have several minima: a sliding vehicle can spin
+/// to either side.
 std::vector<LogTyres> starts_of(const Windows& windows, const Plants& plants) {
   constexpr std::array kFrictions{0.25, 0.5, 0.75, 1.1};
   constexpr std::array kStiffnesses{3.0, 6.0, 12.0, 24.0};
@@ -103,8 +104,8 @@ std::vector<LogTyres> starts_of(const Windows& windows, const Plants& plants) {
   return starts;
 }
 
-/// Information J'J and score J'e of a window at the fit, with the Jacobian J of its weighted errors e. The
-/// entries of held parameters are 0.
+/// Information J'J and score J'e of a window at the fit, with the Jacobian J of its weighted errors
+/// e. The entries of held parameters are 0.
 struct WindowInformation {
   Eigen::Matrix2d information;
   Eigen::Vector2d score;
@@ -125,8 +126,9 @@ std::optional<WindowInformation> information_of(const ReplayedWindow& window, co
   return WindowInformation{by.transpose() * by, by.transpose() * errors};
 }
 
-/// Standard errors of the logarithms, by the jackknife over windows. Empty for parameters that are held;
-/// empty for both if only one window determines a parameter, or if a window cannot be replayed.
+/// Standard errors of the logarithms, by the jackknife over windows. Empty for parameters that are
+/// held; empty for both if only one window determines a parameter, or if a window cannot be
+/// replayed.
 std::array<std::optional<double>, 2> log_errors(const Windows& windows, const Plants& plants,
                                                 const IsFree& is_free, const Fit& fit) {
   std::vector<WindowInformation> each;
@@ -163,8 +165,8 @@ bool is_inside(Eigen::Index parameter, double log_value) {
   return log_value > range.lo + kNear && log_value < range.hi - kNear;
 }
 
-/// Returns, of the free parameters that the windows do not determine, the one with the largest error.
-/// Empty if they determine all.
+/// Returns, of the free parameters that the windows do not determine, the one with the largest
+/// error. Empty if they determine all.
 std::optional<Eigen::Index> least_shown(const ShownFit& shown) {
   std::optional<Eigen::Index> worst;
   double largest = 0.0;
@@ -179,7 +181,8 @@ std::optional<Eigen::Index> least_shown(const ShownFit& shown) {
   return worst;
 }
 
-/// The best of the fits from these starts. Empty if the windows cannot be replayed from any of them.
+/// The best of the fits from these starts. Empty if the windows cannot be replayed from any of
+/// them.
 std::optional<Fit> best_fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                             const std::vector<LogTyres>& starts) {
   std::optional<Fit> best;

@@ -36,9 +36,9 @@ struct ShownFit {
 
 LogTyres default_tyres();
 
-/// Fits both parameters from several starts. Then holds a parameter that the windows do not determine at
-/// its default and fits again. Returns early with a fit that did not converge (Fit::converged). Empty if
-/// the windows cannot be replayed from any start.
+/// Fits both parameters from several starts. Then holds a parameter that the windows do not
+/// determine at its default and fits again. If a fit does not converge, it is returned at once
+/// (Fit::converged is false). Empty if the windows cannot be replayed from any start.
 std::optional<ShownFit> fit_what_is_shown(const Windows& windows, const Plants& plants);
 
 }  // namespace awmr::tyre_fit

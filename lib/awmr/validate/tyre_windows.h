@@ -25,8 +25,8 @@ Tyres<double> tyres_at(const LogTyres& at);
 struct ReplayedLog {
   LogSignals signals;
   std::optional<LaggedForces> lagged;
-  /// Steering angle at each row, rad, simulated from the commands to the servo. Empty if the log has no
-  /// steering command.
+  /// Steering angle at each row, rad, simulated from the commands to the servo. Empty if the log
+  /// has no steering command.
   std::vector<double> angles_rad;
 
   ReplayedLog(const DrivingLog& log, const Plant<double>& plant, double motor_lag_s);
@@ -50,16 +50,18 @@ struct ReplayedWindow {
 
 using Windows = std::vector<const ReplayedWindow*>;
 
-/// Divides the logs into windows of kWindow_s. A window without a measurement after its first second is
-/// left out.
+/// Divides the logs into windows of kWindow_s. A window without a measurement after its first
+/// second is left out.
 std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
                                        const std::vector<ReplayedLog>& replayed);
 
-/// All windows, or 60 of them, evenly chosen, because more make the fit slow and hardly better.
+/// All windows or, if there are more than 60, 60 evenly chosen ones, because more make the fit slow
+/// and hardly better.
 Windows evenly_chosen(const std::vector<ReplayedWindow>& all);
 
 /// Cause of the turns in a window: the difference of left and right wheel forces, or the steering.
-/// At most one is true: its yaw moments have at least 3 times the sum of squares of the other's.
+/// At most one is true: its commands are not near 0, and the sum of squares of its yaw moments is
+/// at least 3 times that of the other cause.
 struct Turns {
   bool by_sides = false;
   bool by_steering = false;
@@ -75,27 +77,29 @@ struct Plants {
         four_wheel_step_s(replay_step_s(on_tyres(plant))),
         body(resolved_at_rest_on_tyres(on_tyres(plant), four_wheel_step_s)) {}
 
-  /// Returns the plant with negligible g2 and g3. The tyres replace them, and g3 would require short
-  /// steps.
+  /// Returns the plant with negligible g2 and g3. The tyres replace them, and g3 would require
+  /// short steps.
   static Plant<double> on_tyres(Plant<double> plant) {
     plant.sway_alpha = 0.0;
     plant.yaw = {.alpha = 1e-9, .beta = 1.0};
     return plant;
   }
-  double model_step_s;
-  Plant<double> model;
-  double four_wheel_step_s;
-  Plant<double> body;
+  double model_step_s;       ///< integration step for `model`, s
+  Plant<double> model;       ///< the 3-DOF model
+  double four_wheel_step_s;  ///< integration step for the four-wheel plant, s
+  Plant<double> body;        ///< vehicle of the four-wheel plant, without its tyres
 };
 
-/// Errors (predicted minus measured) of the 3-DOF model in a window; not finite if the replay diverges.
+/// Errors (predicted minus measured) of the 3-DOF model in a window; not finite if the replay
+/// diverges.
 Eigen::VectorXd errors_of_model(const ReplayedWindow& window, const Plants& plants);
-/// Errors of the four-wheel plant with these tyres in a window. Empty if no integration step is short
-/// enough, or if the replay diverges.
+/// Errors of the four-wheel plant with these tyres in a window. Empty if no integration step is
+/// short enough, or if the replay diverges.
 std::optional<Eigen::VectorXd> errors_on_tyres(const ReplayedWindow& window, const Plants& plants,
                                                const LogTyres& tyres);
 
-/// Weights of the errors by channel: 1/(RMS error); 0 for a channel without errors.
+/// Weights of the errors by channel: 1/(RMS error); 0 for a channel without measurements or with
+/// zero errors.
 using Weights = std::array<double, kChannelCount>;
 
 /// Number and sum of squares of the errors, by channel.

@@ -28,7 +28,7 @@ std::vector<Fault> trial_faults(const Model& model) {
     const std::string place = fmt::format("{}:/trials/{}", model.file, i);
     if (!(trial.input > 0.0) || !(trial.measured > 0.0)) {
       faults.push_back({ErrorCode::kOutOfRange, place,
-                        fmt::format("input {} and measured {} must be above 0; remove the "
+                        fmt::format("input {} and measured {} must both be above 0; remove the "
                                     "row or identify again",
                                     trial.input, trial.measured)});
     }
@@ -50,8 +50,8 @@ TrialResidual residual_of(const Plant<double>& plant, const TrialPoint& trial) {
   return residual;
 }
 
-/// RMS of the relative errors of a kind of trial. Absent if there is no trial of the kind, or one of them
-/// has no prediction.
+/// RMS of the relative errors of a kind of trial. Absent if there is no trial of the kind, or one
+/// of them has no prediction.
 std::optional<double> rms_relative_error(const std::vector<TrialResidual>& trials, TrialKind kind) {
   double sum = 0.0;
   int count = 0;
@@ -68,7 +68,8 @@ std::optional<double> rms_relative_error(const std::vector<TrialResidual>& trial
 void set_verdict(Validation& validation, double tolerance) {
   if (validation.trials.empty()) {
     validation.verdict =
-        "not validated: the model contains no trials; identify it from trials, then validate";
+        "not validated: the model contains no trials; identify it from trials, or give a log "
+        "(--log)";
     return;
   }
   const auto unpredicted =
@@ -95,15 +96,15 @@ void set_verdict(Validation& validation, double tolerance) {
   if (stops == 1) validation.verdict += "; a single stop time determines m' but cannot check it";
   if (unpredicted > 0) {
     validation.verdict += fmt::format(
-        "; {} row(s) have no finite prediction: with b near 0 there is no steady speed, with "
-        "b1 >= 1 no stop",
+        "; {} row(s) have no finite prediction: with an exponent b near 0 there is no steady "
+        "speed, with b1 >= 1 no stop",
         unpredicted);
   }
 }
 
-/// Checks the claims that are possible with vehicle and model. C1 needs a model of straight motion, C14
-/// nothing. All others compare the three modes and need every parameter, four driven wheels and steering.
-/// Errors (input): with gains, the model lacks a parameter; as batch_arithmetic().
+/// Checks the claims that are possible with vehicle and model. C1 needs a model of straight motion,
+/// C14 nothing. All others compare the three modes and need every parameter, four driven wheels and
+/// steering. Errors (input): with gains, the model lacks a parameter; as batch_arithmetic().
 Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
                   const ValidateOptions& options, Validation& validation) {
   const auto whole = model.plant();
@@ -122,10 +123,10 @@ Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
   validation.claims.push_back(check_time_constants(gains));
   if (!model.vehicle.has_steering()) {
     validation.verdict +=
-        "; C2 to C13 are left out, because they compare modes and this vehicle has one";
+        "; claims C2 to C13 are left out, because they compare modes and this vehicle has one";
   } else if (!all_modes) {
     validation.verdict +=
-        "; C2 to C13 are left out, because they compare the modes of four driven wheels";
+        "; claims C2 to C13 are left out, because they compare the modes of four driven wheels";
   } else {
     validation.verdict +=
         fmt::format("; claims for which the model lacks parameters are left out ({})",

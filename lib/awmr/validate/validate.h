@@ -29,7 +29,8 @@ struct TrialResidual {
   std::optional<double> relative_error;  ///< (predicted - measured)/measured
 };
 
-/// A combination of settings that the paper leaves open, and the verdict on a claim with them.
+/// A combination of the settings that the paper leaves open (open_cases.h), and the verdict on a
+/// claim with them.
 struct ClaimCase {
   AllocationForm allocation = AllocationForm::kExact;
   Interval wheel_force;      ///< limits of F', the force of one wheel divided by F_max
@@ -62,17 +63,17 @@ struct Claim {
 /// Result of validate(), add_logs() and add_drives().
 struct Validation {
   std::vector<TrialResidual> trials;
-  /// RMS of the relative errors of the surge, turning and coast-down trials. Absent if the model has
-  /// no trial of the kind, or gives no prediction for one of them.
+  /// RMS of the relative errors of the surge, turning and coast-down trials. Absent if the model
+  /// has no trial of the kind, or gives no prediction for one of them.
   std::optional<double> surge_rms_relative_error;
   std::optional<double> turning_rms_relative_error;
   std::optional<double> coastdown_rms_relative_error;
   std::vector<LogValidation> logs;
-  std::optional<TyreFit> tyres;    ///< tyres fitted to the logs, if requested
+  std::optional<TyreFit> tyres;    ///< tyres fitted to the logs; absent if not requested or refused
   std::vector<Acceptance> drives;  ///< results for drives of a scenario under the controller
   std::vector<Claim> claims;
-  /// True if every kind of trial and every log is predicted within its tolerance, and every drive of
-  /// a scenario agrees with the prediction. False if there are neither trials, logs nor drives.
+  /// True if every kind of trial and every log is predicted within its tolerance, and every drive
+  /// of a scenario agrees with the prediction. False if there are neither trials, logs nor drives.
   bool passed = false;
   std::string verdict;  ///< one sentence
 };
@@ -89,26 +90,26 @@ struct ValidateOptions {
 ///   surge      the steady speed u, m/s, at tau_speed
 ///   turning    the steady yaw rate r, rad/s, at tau_turn
 ///   coastdown  the time t_a, s, from motors off to rest
-/// steady_rate() and stop_time_s() of model/steady.h have the equations.
-/// Absent if the law gives no finite value: no steady speed with b near 0, no stop time with
-/// b1 >= 1. Also absent for other kinds of trial.
+/// steady_rate() and stop_time_s() of model/steady.h have the equations. Absent if the resistance
+/// law gives no finite value: no steady speed with an exponent b near 0, no stop time with b1 >= 1.
+/// Also absent for other kinds of trial.
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial);
 
-/// Predicts the model's trials and checks the paper's claims. Claims do not affect `passed`, because a
-/// claim that is not reproduced is a result about the paper. Without gains, only C1, C2 and C14 are
-/// checked. The verdict names the claims that are left out because the model lacks parameters, or
-/// because the vehicle does not have four driven wheels and steering.
-/// Errors (input): the model lacks a parameter that its trials measure or, with gains, any
-/// parameter; input or measurement of a trial is not above 0; the tolerance is not above 0; as
+/// Predicts the model's trials and checks the paper's claims. Claims do not affect `passed`,
+/// because a claim that is not reproduced is a result about the paper. Without gains, only C1, C2
+/// and C14 are checked. The verdict names the claims that are left out because the model lacks
+/// parameters, or because the vehicle does not have four driven wheels and steering. Errors
+/// (input): the model lacks a parameter that its trials measure or, with gains, any parameter;
+/// input or measurement of a trial is not above 0; the tolerance is not above 0; as
 /// batch_arithmetic().
 Result<Validation> validate(const Model& model, const std::optional<Gains<double>>& gains,
                             const ValidateOptions& options);
 
-/// Adds the results for logs and includes them in the verdict. `tolerance`: the largest accepted
-/// NRMSE, which the verdict names.
+/// Adds the results for logs and includes them in `passed` and in the verdict. `tolerance`: the
+/// largest accepted NRMSE, for the text of the verdict.
 void add_logs(Validation& validation, std::vector<LogValidation> logs, double tolerance);
 
-/// Adds the results for drives of a scenario and includes them in the verdict.
+/// Adds the results for drives of a scenario and includes them in `passed` and in the verdict.
 void add_drives(Validation& validation, std::vector<Acceptance> drives);
 
 /// Text of validation.json.
@@ -116,8 +117,8 @@ std::string validation_text(const Validation& validation, const Provenance& prov
 
 /// Prediction errors of each log by channel, as text for a terminal; empty without logs.
 std::string logs_table(const Validation& validation);
-/// Table for a terminal: measured and predicted values of the trials, errors of the logs, verdict, and
-/// claims.
+/// Table for a terminal: measured and predicted values of the trials, errors of the logs, verdict,
+/// and claims.
 std::string validation_table(const Validation& validation);
 
 /// Every claim with verdict, simulated numbers, criterion and reason, for a terminal.
