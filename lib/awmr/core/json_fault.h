@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// Type and value as text: "number 3"; long values are shortened.
+/// Type and value as text: "number 3"; values longer than 40 bytes are shortened.
 std::string describe(const Json& value);
 /// Permitted range as text: "a number above 0".
 std::string describe(const NumberRule& rule);
@@ -16,7 +16,7 @@ std::string describe(const NumberRule& rule);
 bool allows(const NumberRule& rule, double value);
 /// Code for a value that is not the expected number: kOutOfRange for a number, else kWrongType.
 ErrorCode number_error(const Json& value);
-/// Adds a fault at the JSON pointer `pointer` of the file.
+/// Adds a fault at the JSON pointer `pointer` of the file, unless there are kMaxFaults already.
 void add_fault(ErrorCode code, std::vector<Fault>& faults, const std::string& file,
                const std::string& pointer, std::string message);
 
