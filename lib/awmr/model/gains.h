@@ -10,7 +10,8 @@ template <class T>
 struct HeadingGains {
   /// lambda, 1/s, > 0: slope of the sliding surface. Larger: the heading error falls faster.
   T lambda;
-  /// mu, rad/s^2, > 0: largest corrective yaw acceleration. It must exceed |disturbance|/I'z.
+  /// mu, rad/s^2, > 0: largest corrective yaw acceleration. It must exceed |disturbance|/I'z, where
+  /// the disturbance is a yaw moment over F_max.
   T mu;
   /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
   /// is proportional to S. Larger: less chattering, a softer response.
@@ -42,8 +43,8 @@ struct SpeedGains {
 /// the gains.
 template <class T>
 struct ObserverGains {
-  /// L, rad/s, L T_s < 1; 0: none. Larger: disturbances are compensated sooner, and more noise
-  /// passes.
+  /// L, rad/s, >= 0: bandwidth; 0: no observer. L T_s < 1 with the controller's sample time T_s.
+  /// Larger: disturbances are compensated sooner, and more measurement noise reaches the commands.
   T bandwidth_radps = T(0.0);
   T yaw_max_m = T(0.0);  ///< m, > 0: largest moment over F_max that is compensated
   T surge_max = T(0.0);  ///< dimensionless, > 0: largest force over F_max that is compensated
