@@ -39,8 +39,9 @@ struct Candidate {
   std::vector<std::string> missing;  ///< those of `names` that the header lacks
 };
 
-/// Interprets a mapping: as a column with exactly this text as name, as SOURCE with scale and
-/// offset, or as a formula; the first that the header permits (column_mapping.h).
+/// Interprets a mapping in the first of these ways that the header permits (column_mapping.h): as a
+/// column whose name is exactly the mapping's expression, as SOURCE with scale and offset, or as a
+/// formula.
 Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, Header header) {
   Candidate candidate{
       .source = {.column = column, .indices = {}, .mapping = &mapping}, .names = {}, .missing = {}};

@@ -187,7 +187,7 @@ Status take_first_line(CsvScanner& scanner, const std::string& file, CsvHeader& 
   const Outcome outcome = scanner.next(header.cells);
   if (outcome == Outcome::kEnd) {
     return input_error(ErrorCode::kMissing, file,
-                       "the file has no header row; expected the columns' names");
+                       "the file has no header row; add a first row with the columns' names");
   }
   if (outcome != Outcome::kRecord) {
     const CsvCell& cell = header.cells.back();

@@ -282,10 +282,11 @@ Status check_items(const Part& part, const ShardFile& file, std::string_view nam
                     i + 1, name, item_of(i), expected, shard.index, shard.count));
   }
   if (rows > 0 && rows % share == 0) return {};
-  return input_error(ErrorCode::kStaleResult, place,
-                     fmt::format("has {} rows, not a multiple of the {} {}s of part {} of {}: rows "
-                                 "are missing or repeated; run the part again",
-                                 rows, share, name, shard.index, shard.count));
+  return input_error(
+      ErrorCode::kStaleResult, place,
+      fmt::format("the table has {} rows, not a multiple of the {} {}s of part {} of {}: rows "
+                  "are missing or repeated; run the part again",
+                  rows, share, name, shard.index, shard.count));
 }
 
 std::string origin_difference(const Provenance& found, const std::string& found_version,
