@@ -21,7 +21,7 @@ inline uint16_t mantissa16(uint32_t bits) {
 
 /// small/large times 2^16, rounded to nearest, from the bits of two magnitudes, small <= large. The
 /// mantissas are divided by long division, with one bit less for each power of two between the
-/// exponents. 0 if the exponents differ by more than 16.
+/// exponents. At most 2^16 - 1; 0 if the exponents differ by more than 16.
 inline uint16_t ratio16(uint32_t small, uint32_t large) {
   const uint16_t divisor = mantissa16(large);
   uint16_t rest = mantissa16(small);
@@ -89,7 +89,8 @@ inline float bearing(float y, float x) {
     large = height;
   }
   if (large >= kInfinityBits) return not_a_number();
-  // Adds half of the mantissa's last place, for rounding.
+  // Adds half of the last place of the 16-bit mantissas, so that cutting them off rounds to
+  // nearest.
   int32_t angle =
       static_cast<int32_t>(detail::atan17(detail::ratio16(small + 0x80U, large + 0x80U)));
   if (steep) angle = detail::kQuarterTurn17 - angle;

@@ -3,8 +3,8 @@
 /// Uses only operations that IEEE 754 rounds exactly (add, subtract, multiply, divide) and
 /// comparisons, so that the ATmega2560 and a host compiled with -ffp-contract=off give the same
 /// bits; the C libraries' functions differ in the last bit. Polynomials are minimax by the Remez
-/// exchange on the reduced interval, in z = x^2. The worst errors are those of
-/// tests/model/float_math_test, over every float of the range if run with AWMR_EXHAUSTIVE=1.
+/// exchange on the reduced interval, in z = x^2. The worst errors given below are checked by
+/// tests/model/float_math_test, with AWMR_EXHAUSTIVE=1 for every float of the range.
 ///
 /// Angles are valid up to +-kAngleMax; beyond it, and for infinities and NaN, the result is NaN,
 /// which a caller can detect.
@@ -49,8 +49,9 @@ inline float float_of(uint32_t bits) {
 
 namespace float_math {
 
-/// The bits of |x|. As integers, they have the order of the magnitudes, and comparing them takes
-/// half the cycles of a float comparison on the chip. A result above kInfinityBits is a NaN.
+/// The bits of |x|. As integers, they have the order of the magnitudes. Comparing them takes half
+/// the cycles of a float comparison on the chip (ATmega2560). A result above kInfinityBits is a
+/// NaN.
 inline uint32_t magnitude_bits(float x) { return bits_of(x) & 0x7FFFFFFFUL; }
 constexpr uint32_t kInfinityBits = 0x7F800000UL;
 
@@ -149,7 +150,7 @@ AWMR_CALLED inline void sin_cos(float x, float& sine, float& cosine) {
   }
   const int k = nearest(x * 0.636619772F);
   const float rest = detail::reduced(x, k);
-  // A loop, so that the polynomials are compiled only once.
+  // A loop, so that the polynomials are inlined only once.
   float values[2];
   for (int i = 0; i < 2; ++i) values[i] = detail::sin_of_reduced(rest, k + i);
   sine = values[0];
@@ -239,7 +240,7 @@ inline float wrapped(float x) {
     // 2 pi in three parts, as in detail::reduced.
     rest = ((x - turns * 6.28125F) - turns * 1.93500518798828125e-3F) - turns * 3.01991598e-7F;
   }
-  // Rounding can leave the result slightly outside.
+  // Rounding can leave the result slightly outside of (-pi, pi].
   if (magnitude_bits(rest) < bits_of(kPi)) return rest;
   if (bits_of(rest) >> 31U != 0) return rest + 2.0F * kPi;
   return magnitude_bits(rest) == bits_of(kPi) ? rest : rest - 2.0F * kPi;

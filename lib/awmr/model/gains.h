@@ -5,7 +5,8 @@
 
 namespace awmr {
 
-/// Gains of the heading law, heading_law() in control/heading_law.h, on S = e_dot + lambda e.
+/// Gains of the heading law, heading_law() in control/heading_law.h, on S = e_dot + lambda e with
+/// the heading error e = psi_d - psi.
 template <class T>
 struct HeadingGains {
   /// lambda, 1/s, > 0: slope of the sliding surface. Larger: the heading error falls faster.
@@ -31,8 +32,8 @@ struct HeadingGains {
   T reaching_time_constant_s() const { return epsilon / (T(2.0) * mu); }
 };
 
-/// Gains of the speed law, speed_law() in control/speed_law.h, on e_u = u_d - u. The paper prints
-/// no values for them.
+/// Gains of the speed law, speed_law() in control/speed_law.h, on the speed error e_u = u_d - u.
+/// The paper prints no values for them.
 template <class T>
 struct SpeedGains {
   T mu;       ///< mu_s, m/s^2, > 0: largest corrective acceleration

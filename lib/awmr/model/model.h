@@ -57,7 +57,7 @@ struct Estimate {
   std::optional<Quantiles> quantiles = {};
 };
 
-/// The covariance of the fitted parameters.
+/// The covariance of the fitted parameters' values, in the units of parameter_table().
 struct Covariance {
   std::vector<ParameterId> parameters;      ///< the parameters of the rows and columns, in order
   std::vector<std::vector<double>> matrix;  ///< square, symmetric, over `parameters`
