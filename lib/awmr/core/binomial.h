@@ -13,7 +13,8 @@ namespace awmr {
 Interval clopper_pearson(std::size_t successes, std::size_t runs);
 
 /// p value of the two-sided exact McNemar test that two paired proportions are equal. `only_first`:
-/// number of pairs in which only the first succeeded; `only_second`: only the second.
+/// number of pairs in which only the first succeeded; `only_second`: only the second. Returns 1 if
+/// both numbers are 0.
 double mcnemar_p(std::size_t only_first, std::size_t only_second);
 
 /// p value of the two-sided paired t test that the true mean difference is 0. `mean` and

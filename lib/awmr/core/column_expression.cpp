@@ -35,7 +35,8 @@ bool continues_name(char c) { return begins_name(c) || is_digit(c) || c == '.'; 
 struct Formula {
   std::vector<std::string> names = {};  ///< columns, in order of first use
   std::string text = {};                ///< the rewritten formula
-  std::vector<bool> open = {};          ///< open brackets; true: of a function's arguments
+  /// One entry for each bracket that is still open: true if it encloses a function's arguments.
+  std::vector<bool> open = {};
 };
 
 std::string_view without_spaces(std::string_view text) {
@@ -51,7 +52,8 @@ void add_column(std::string_view name, Formula& formula) {
   formula.text += fmt::format(" c{} ", found - formula.names.begin());
 }
 
-/// Removes a name such as `name`, `name.of.parts` or `name[0]` from the front and returns it.
+/// Removes a column name such as `name`, `name.of.parts` or `name[0]` from the front of `rest` and
+/// returns it.
 std::string_view take_bare_name(std::string_view& rest) {
   std::size_t end = 0;
   while (end < rest.size() && continues_name(rest[end])) {
@@ -84,7 +86,7 @@ Wrong take_number(std::string_view& rest, Formula& formula) {
 
 Wrong take_quoted_name(std::string_view& rest, Formula& formula) {
   const std::size_t close = rest.find(rest[0], 1);
-  if (close == std::string_view::npos) return fmt::format("the {} is not closed", rest[0]);
+  if (close == std::string_view::npos) return fmt::format("the quote {} is not closed", rest[0]);
   if (close == 1) return "a column's name is empty";
   add_column(rest.substr(1, close - 1), formula);
   rest.remove_prefix(close + 1);
@@ -114,7 +116,7 @@ Wrong take_sign(std::string_view& rest, Formula& formula) {
   const char sign = rest[0];
   if (std::string_view("+-*/^(),").find(sign) == std::string_view::npos) {
     return fmt::format(
-        "{} is not allowed in a formula; put a column name that contains it in "
+        "the character {} is not allowed in a formula; put a column name that contains it in "
         "backticks",
         printable(rest.substr(0, 1)));
   }

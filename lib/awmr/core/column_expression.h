@@ -15,7 +15,7 @@
 
 namespace awmr {
 
-/// A formula, which is checked and compiled once and evaluated for every row.
+/// A formula that is checked and compiled once, and then evaluated for every row of a table.
 class ColumnExpression {
  public:
   /// Maximum length of the text, in bytes.

@@ -19,7 +19,7 @@ constexpr std::string_view kForm = "expected NAME=SOURCE[*SCALE][+OFFSET]";
 constexpr std::string_view kExpressionForm =
     "expected NAME=EXPRESSION, for example speed_mps=(left + right)/2*0.1";
 
-/// Removes a number from the front of `text` and returns it; empty if there is none.
+/// Removes a finite number from the front of `text` and returns it; empty if there is none.
 std::optional<double> take_number(std::string_view& text) {
   std::string_view digits = trimmed(text);
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
@@ -79,13 +79,13 @@ std::optional<std::string> take_scale_and_offset(std::string_view rest, ColumnMa
 /// Parses `SOURCE[*SCALE][+OFFSET]`. Returns the text of an error, or nothing.
 std::optional<std::string> take_body(std::string_view body, ColumnMapping& mapping) {
   auto source = take_source(body);
-  if (!source) return "the quote is not closed";
+  if (!source) return "the quotation mark of the SOURCE is not closed";
   if (source->empty()) return "the SOURCE is empty";
   mapping.source = std::move(*source);
   return take_scale_and_offset(body, mapping);
 }
 
-/// The two sides of `NAME=BODY`.
+/// The texts left and right of the first '=' in `NAME=BODY`.
 struct Halves {
   std::string_view name;
   std::string_view body;

@@ -20,7 +20,7 @@ struct ColumnMapping {
   double offset = 0.0;
   std::string expression = {};  ///< text after the '='; empty: only way 2 applies
   std::string file = {};        ///< name or path of the only file to apply it to; empty: all
-  bool standing = false;        ///< from the vehicle file: lowest priority, and may be unused
+  bool standing = false;        ///< true: from vehicle.json: lowest priority, no error if unused
 };
 
 /// Parses `NAME=SOURCE[*SCALE][+OFFSET]`. A SOURCE that contains '*' or '+' must be in double
@@ -34,7 +34,8 @@ Result<ColumnMapping> parse_column(std::string_view text);
 /// The same, with `[FILE:]NAME` and EXPRESSION as separate texts, as in JSON.
 Result<ColumnMapping> parse_column(std::string_view name, std::string_view expression);
 
-/// The mapping as text, `[FILE:]NAME=EXPRESSION`, which outputs record as an option.
+/// The mapping as text, `[FILE:]NAME=EXPRESSION`. Output files record this text among the options
+/// of the command (Provenance::options).
 std::string text_of(const ColumnMapping& mapping);
 
 /// Returns an EXPRESSION whose value is that of `mapping` (including its scale and offset) times

@@ -20,7 +20,8 @@ bool stands(const std::string& name, Header header) {
   return std::find(header.begin(), header.end(), name) != header.end();
 }
 
-/// Lists the names for a message; of more than 20, the number of the others.
+/// Lists the names for a message. Of more than 20 names, it lists 20 and gives the number of the
+/// others.
 std::string listed(Header names) {
   constexpr std::size_t kMost = 20;
   std::string text;
@@ -34,12 +35,13 @@ std::string listed(Header names) {
 /// A mapping as this header interprets it.
 struct Candidate {
   ColumnSource source;
-  std::vector<std::string> names;    ///< columns that it uses
-  std::vector<std::string> missing;  ///< those of them that the header lacks
+  std::vector<std::string> names;    ///< columns that the mapping uses
+  std::vector<std::string> missing;  ///< those of `names` that the header lacks
 };
 
-/// Interprets a mapping: as a column with exactly this text as name, as SOURCE with scale and
-/// offset, or as a formula; the first that the header permits (column_mapping.h).
+/// Interprets a mapping in the first of these ways that the header permits (column_mapping.h): as a
+/// column whose name is exactly the mapping's expression, as SOURCE with scale and offset, or as a
+/// formula.
 Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, Header header) {
   Candidate candidate{
       .source = {.column = column, .indices = {}, .mapping = &mapping}, .names = {}, .missing = {}};
@@ -65,8 +67,8 @@ Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, He
   return candidate;
 }
 
-/// Priority of a mapping; the lowest value wins: 0 for this file, 1 for every file, 2 of the
-/// vehicle.
+/// Rank of a mapping; the lowest rank wins: 0 for a mapping for this file only, 1 for a mapping for
+/// every file, 2 for a mapping for every file from vehicle.json.
 int distance(const ColumnMapping& mapping) {
   return !mapping.file.empty() ? 0 : mapping.standing ? 2 : 1;
 }
@@ -141,7 +143,8 @@ class Search {
     }
   }
 
-  /// Uses the column that find_time() finds. False if there is none; true after a fault.
+  /// Uses the column that find_time() finds. False if it finds none; true if one is used, and after
+  /// a fault.
   bool use_time() {
     auto time = find_time(header_, samples_);
     if (!time) {
@@ -179,7 +182,7 @@ class Search {
       }
       source.indices.push_back(static_cast<std::size_t>(first - header_.begin()));
     }
-    // A mapping of t_s may name a column of dates.
+    // A mapping of t_s may name a column of dates, which the first row shows.
     const bool is_one = source.indices.size() == 1 && !source.expression && source.scale == 1.0;
     if (column_.name == kTimeName && source.mapping != nullptr && is_one &&
         source.indices[0] < samples_.size() && seconds_of_date(samples_[source.indices[0]])) {

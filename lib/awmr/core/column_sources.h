@@ -14,16 +14,18 @@
 
 namespace awmr {
 
+/// How a requested column is computed from the columns of the file.
 struct ColumnSource {
   CsvColumn column;                              ///< the requested column
   std::vector<std::size_t> indices;              ///< columns of the header from which it is made
-  const ColumnMapping* mapping = nullptr;        ///< null: the header has a column of this name
-  std::optional<ColumnExpression> expression{};  ///< formula; none: one column, scaled
+  const ColumnMapping* mapping = nullptr;        ///< null: a column of this name, or `time`
+  std::optional<ColumnExpression> expression{};  ///< none: column * scale + offset
   double scale = 1.0;
   double offset = 0.0;
   std::optional<TimeColumn> time = {};  ///< set for t_s from find_time() or from dates
 };
 
+/// A fault of the header.
 struct HeaderFault {
   ErrorCode code;
   std::optional<std::size_t> cell;  ///< index of the faulty cell; none: the whole header
@@ -36,8 +38,8 @@ struct ColumnSources {
 };
 
 /// Finds the source of each requested column. A mapping applies if the header has its columns.
-/// Priority: mappings for this file, mappings for every file, mappings of the vehicle, then the
-/// column under its own name. If t_s is neither present nor mapped, find_time() looks for it.
+/// Priority: mappings for this file, mappings for every file, mappings of vehicle.json, then the
+/// column of the requested name. If t_s is neither present nor mapped, find_time() looks for it.
 /// `samples`: the cells of the first row, by which dates are recognised. `file`: path of the table.
 /// Faults: a missing required column; two mappings of one column; a formula of which the header has
 /// only some columns; a name that occurs twice in the header; more than one candidate for the time.
@@ -53,7 +55,8 @@ std::vector<std::string> missing_columns(const ColumnMapping& mapping,
 /// True if the mapping is for every file, or names this file by its path or name.
 bool is_for(const ColumnMapping& mapping, const std::string& file);
 
-/// All names that a header may have for these columns: their own and those in mappings.
+/// All column names by which a header can be recognised: the names of these columns, and the names
+/// in the mappings.
 std::set<std::string> wanted_names(std::span<const CsvColumn> columns,
                                    std::span<const ColumnMapping> mappings);
 

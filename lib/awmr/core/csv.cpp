@@ -20,7 +20,7 @@
 namespace awmr {
 namespace {
 
-/// A column of the file whose cells are read.
+/// A column of the file that at least one requested column uses.
 struct UsedColumn {
   std::size_t index;         ///< index in the header
   std::string name;          ///< name in messages
@@ -157,8 +157,8 @@ bool CsvParser::read_row() {
   return true;
 }
 
-/// True if decimal commas may have split the cells of this row: cells between commas, more of them
-/// than in the header, all whole numbers.
+/// True if decimal commas may have split the cells of this row: the delimiter is a comma, the row
+/// has more cells than the header, and all cells are whole numbers.
 bool CsvParser::has_decimal_commas() const {
   if (header_.delimiter != ',' || cells_.size() <= header_.names.size()) return false;
   const auto is_whole = [](const CsvCell& cell) {

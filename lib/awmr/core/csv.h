@@ -20,8 +20,8 @@ namespace awmr {
 /// Meaning of an empty cell.
 enum class EmptyCells {
   kFault,   ///< a fault: every row needs a value
-  kHeld,    ///< a command in a log of different rates: the previous value still holds
-  kAbsent,  ///< a measurement in a log of different rates: no measurement in this row
+  kHeld,    ///< a command in a log with signals of different rates: the previous value still holds
+  kAbsent,  ///< a measurement in a log with signals of different rates: none was made in this row
   /// In a table with one row per run: this run has no value. Nothing is carried over from the row
   /// before, and no row is dropped. A column that is empty in all rows counts as absent.
   kOptional,
@@ -36,8 +36,8 @@ struct CsvColumn {
 
 /// Note on how a file was interpreted, for the user.
 struct CsvNote {
-  int line = 0;  ///< 0: the whole file
-  std::string code;
+  int line = 0;      ///< 0: the whole file
+  std::string code;  ///< "csv-format", ...: apps/awmr/FINDINGS.md lists the codes
   std::string message;
 };
 
@@ -46,7 +46,7 @@ class CsvTable {
  public:
   struct Column {
     std::vector<double> values;
-    std::vector<int> character;      ///< by row: place in the line, from 1; empty: unknown
+    std::vector<int> character;      ///< by row: position in the line, from 1; empty: unknown
     std::vector<bool> present = {};  ///< by row: the file has a value; empty: in all rows
   };
   /// Content of a table.
@@ -67,7 +67,8 @@ class CsvTable {
   bool has(std::string_view column) const;
   /// Values by row. Precondition: has(column).
   std::span<const double> column(std::string_view column) const;
-  /// As column(), and leaves the column of the table empty. Precondition: has(column).
+  /// As column(), but moves the values out of the table: its column is empty afterwards.
+  /// Precondition: has(column).
   std::vector<double> take(std::string_view column);
   /// By row: true if the file has the value, false if it was carried over from an earlier row.
   /// Empty: the file has all values. Precondition: has(column).
@@ -81,7 +82,7 @@ class CsvTable {
   const std::vector<CsvNote>& notes() const { return parts_.notes; }
   /// Clock time of the first row, s, which was subtracted from t_s; 0 if nothing was subtracted.
   double clock_s() const { return parts_.clock_s; }
-  /// Indices of the used mappings in the list of mappings that the reader got.
+  /// Indices of the mappings that were used, in the list of mappings given to the reader.
   const std::vector<std::size_t>& mapped() const { return parts_.mapped; }
 
  private:
@@ -90,14 +91,15 @@ class CsvTable {
 
 /// Reads the requested columns. A file has signals of different rates if a kHeld or kAbsent column
 /// is empty in a quarter of its rows or more. Empty cells of such columns then have the meaning in
-/// EmptyCells, and rows without any value are dropped. In other files, empty cells are faults.
-/// Reports all faults of the file at once: a missing required column, a duplicate column, rows with
-/// another number of cells than the header, cells that are empty, not numbers, NaN or infinite, an
-/// unterminated quote, no rows, a formula whose value is infinite or NaN.
+/// EmptyCells. Rows without a value in any of these columns, and rows before every command (kHeld)
+/// has had a value, are dropped. In other files, empty cells are faults, except in kOptional
+/// columns. Reports all faults of the file at once: a missing required column, a duplicate column,
+/// rows with another number of cells than the header, cells that are empty, not numbers, NaN or
+/// infinite, an unterminated quote, no rows, a formula whose value is infinite or NaN.
 Result<CsvTable> read_csv(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                           std::span<const ColumnMapping> mappings = {});
 
-/// The shortest text that reads back to the same number.
+/// The shortest decimal text that reads back to the same number.
 std::string format_number(double value);
 
 }  // namespace awmr

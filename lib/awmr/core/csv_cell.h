@@ -26,9 +26,9 @@ tl::expected<double, std::string> number_from_text(std::string_view text);
 /// a text that begins with an apostrophe.
 std::string cell_of_text(std::string_view text);
 
-/// Removes the first record (row) from `csv` and returns its cells as text, without what
-/// cell_of_text() added. A quoted cell can contain line ends. Only for text that this program
-/// wrote, because nothing is checked.
+/// Removes the first record (row) from `csv` and returns its cells as text, without the quotation
+/// marks and apostrophes that cell_of_text() added. A quoted cell can contain line ends. Only for
+/// text that this program wrote, because nothing is checked.
 std::vector<std::string> take_text_record(std::string_view& csv);
 
 }  // namespace awmr

@@ -32,7 +32,8 @@ struct Delimiter {
   int found = 0;  ///< number of requested columns among the cells of the header
 };
 
-/// The delimiter with which a line has the most requested columns; among equals, the most cells.
+/// The delimiter with which the scanner's next line has the most requested columns; among equals,
+/// the most cells.
 Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& wanted) {
   int best = 0;
   Delimiter chosen;
@@ -52,8 +53,8 @@ Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& w
 }
 
 /// Takes the last comment above the first row as the header, because some programs write the header
-/// after a '#'. Returns false if this comment has another number of cells than the first row, or no
-/// requested column.
+/// after a '#'. Changes nothing and returns false if this comment has another number of cells than
+/// the first row, or no requested column.
 bool take_comment(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
   CsvScanner comment(scanner.comment());
   const Delimiter chosen = delimiter_of(comment, wanted);
@@ -90,7 +91,7 @@ bool is_number(const CsvCell& cell, bool may_have_comma) {
 }
 
 /// For a file without a header: if columns are requested by position (`column_1`) and the first
-/// line has only numbers, takes that line as the first row. Else false.
+/// line has only numbers, takes that line as the first row. Else changes nothing and returns false.
 bool take_positions(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
   if (std::none_of(wanted.begin(), wanted.end(), is_position)) return false;
   for (const char delimiter : {';', '\t', '|', ','}) {
@@ -129,7 +130,7 @@ bool has_number(const std::vector<CsvCell>& cells, char delimiter) {
 }
 
 /// True if the scanner is at a header: a line with two or more requested columns, or a line without
-/// numbers above a row with as many cells.
+/// numbers above a row with as many cells, one of which is a number.
 bool is_above_rows(CsvScanner scanner, const Delimiter& chosen) {
   const std::vector<CsvCell> names = scanner.peek_cells(chosen.character);
   if (chosen.found >= 2) return true;
@@ -186,7 +187,7 @@ Status take_first_line(CsvScanner& scanner, const std::string& file, CsvHeader& 
   const Outcome outcome = scanner.next(header.cells);
   if (outcome == Outcome::kEnd) {
     return input_error(ErrorCode::kMissing, file,
-                       "the file has no header row; expected the columns' names");
+                       "the file has no header row; add a first row with the columns' names");
   }
   if (outcome != Outcome::kRecord) {
     const CsvCell& cell = header.cells.back();
@@ -255,7 +256,7 @@ std::vector<CsvNote> format_notes(const CsvHeader& header, bool has_decimal_comm
 
 std::string message_of(CsvScanner::Outcome outcome) {
   return outcome == Outcome::kOpenQuote
-             ? "this quote is not closed"
+             ? "the quotation mark that opens this cell is not closed; add the closing one"
              : "there is text between the closing quote of this cell and the delimiter; write a "
                "quote inside a quoted cell twice";
 }

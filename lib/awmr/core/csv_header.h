@@ -16,17 +16,18 @@ struct CsvHeader {
   std::vector<std::string> samples = {};  ///< the cells of the first row
   int line = 1;
   char delimiter = ',';
-  int skipped_lines = 0;    ///< number of lines above the header, without comments
+  int skipped_lines = 0;    ///< number of lines above the header, comments not counted
   bool is_comment = false;  ///< true: the header is a comment, after a '#'
   /// True: the file has no header. The names are `column_1`, `column_2`, ...; `cells` are those of
   /// the first row.
   bool is_positional = false;
 };
 
-/// Finds the header and moves `scanner` to the first row. Precondition: `scanner` is at the first
-/// byte of the text. `file` names the text in errors. Errors: no header; an unterminated quote, or
-/// text after a closing quote; numbers instead of names; JSON or HTML; cells separated by spaces;
-/// names that are not UTF-8.
+/// Finds the header and moves `scanner` to the first row. The names in `columns` and `mappings`
+/// distinguish the header from titles above it. Precondition: `scanner` is at the first byte of the
+/// text. `file` names the text in errors. Errors: no header; an unterminated quote, or text after a
+/// closing quote; numbers instead of names; JSON or HTML; cells separated by spaces; names that are
+/// not UTF-8.
 Result<CsvHeader> find_header(CsvScanner& scanner, const std::string& file,
                               std::span<const CsvColumn> columns,
                               std::span<const ColumnMapping> mappings);

@@ -1,4 +1,4 @@
-/// Splits the bytes of a CSV file into records of cells.
+/// Splits the bytes of a CSV file into records (rows) of cells.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,6 @@
 
 namespace awmr {
 
-/// One cell.
 struct CsvCell {
   std::string_view text;  ///< without quotes and outer spaces
   int line = 1;
@@ -20,6 +19,8 @@ struct CsvCell {
 /// Reads one record (row) after the other.
 class CsvScanner {
  public:
+  /// kEnd: no further record. Faults: kOpenQuote, a quoted cell is not closed; kTextAfterQuote,
+  /// text between the closing quote of a cell and the delimiter.
   enum class Outcome { kRecord, kEnd, kOpenQuote, kTextAfterQuote };
 
   /// Precondition: `bytes` have no byte order mark.
@@ -41,7 +42,7 @@ class CsvScanner {
   /// Cells of the next record with another delimiter, up to the first fault. Consumes nothing.
   std::vector<CsvCell> peek_cells(char delimiter) const;
 
-  /// Skips the rest of the line after a fault.
+  /// Skips the rest of the current line, for example after a fault.
   void skip_line();
 
  private:

@@ -22,10 +22,11 @@ std::vector<double> ranges_of(std::span<const std::vector<double>> signals) {
 
 struct Farthest {
   std::size_t row = 0;
-  double distance = 0.0;  ///< divided by the signal's range
+  double distance = 0.0;  ///< from the straight line, divided by the signal's range
 };
 
-/// The row between `first` and `last` that is farthest from the straight line between them.
+/// The row between `first` and `last` that is farthest, in any signal, from the straight line
+/// between these two rows.
 Farthest farthest_row(std::span<const double> t, std::span<const std::vector<double>> signals,
                       std::span<const double> ranges, std::size_t first, std::size_t last) {
   Farthest farthest;

@@ -16,8 +16,8 @@ std::vector<std::size_t> drawn_rows(std::span<const double> t,
                                     std::span<const std::vector<double>> signals, double tolerance,
                                     std::size_t most);
 
-/// Tolerance for drawn_rows(): a tenth of a pixel in a chart 220 px high, so one pixel at tenfold
-/// zoom.
+/// Tolerance for drawn_rows(), as a fraction of a signal's range: a tenth of a pixel in a chart 220
+/// px high, so one pixel at tenfold zoom.
 inline constexpr double kDrawnTolerance = 1.0 / 2000.0;
 
 /// Rounds a finite number to this many significant digits, 1 to 17.

@@ -12,7 +12,7 @@ namespace awmr {
 namespace {
 
 constexpr std::size_t kMaxFaultsShown = 20;
-/// Maximum number of similar faults listed one by one.
+/// Maximum number of faults with the same cause that are listed one by one.
 constexpr std::size_t kMaxAlike = 3;
 
 /// The place without its line and column, or without the indices of its JSON pointer.

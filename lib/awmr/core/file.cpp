@@ -31,7 +31,7 @@ tl::unexpected<Error> write_error(const fs::path& path, const std::string& why) 
   return input_error(ErrorCode::kCannotWrite, path.string(), "cannot write the file: " + why);
 }
 
-/// Number of bytes requested in one call of read().
+/// Maximum number of bytes requested in one call of read().
 constexpr std::size_t kBlock = std::size_t{1} << 18U;
 
 /// Appends the rest of a file to `bytes`, and stops as soon as there are more than `max_bytes`.

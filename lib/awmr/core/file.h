@@ -22,8 +22,8 @@ inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;
 Result<std::string> read_file(const std::filesystem::path& path,
                               std::size_t max_bytes = kMaxFileBytes);
 
-/// Check of an output: parses the bytes as the commands that read such a file do. `file`: name of
-/// the file in errors.
+/// Check of an output before it is written: parses the bytes as the commands that read such a file
+/// do. `file`: name of the file in errors.
 using ReadBack = std::function<Status(std::string_view bytes, const std::string& file)>;
 
 /// Writes a file. Writes a temporary file next to `path`, flushes it and renames it to `path`, so
@@ -38,19 +38,19 @@ Status write_file(const std::filesystem::path& path, std::string_view bytes,
 struct OutputFile {
   std::filesystem::path path;
   std::string bytes;
-  ReadBack read_back = {};  ///< empty: no check, because no command reads this file
+  ReadBack read_back = {};  ///< empty: no check, for files that no command reads
 };
 
 /// Writes a set of files: all under temporary names, which are then renamed one after the other. If
 /// a temporary file cannot be written, or a path is a pipe or a device, no file is changed. A
-/// program that is killed between two renames (some microseconds) leaves new and old files. To
-/// detect this, the last file should have the hashes of the others.
+/// program that is killed between two renames (some microseconds) leaves a mixture of new and old
+/// files. To detect this, the last file should contain the hashes of the others.
 Status write_files(std::span<const OutputFile> files);
 
-/// Checks that `path` can be written and overwrites no input. For use before long work. Errors:
-/// `path` is one of `inputs`, by this or another name; it is a directory, a read-only file, or a
-/// file with a second hard link, which would keep the old bytes; its directory is missing or
-/// read-only.
+/// Checks that the output `path` can be written and is none of the inputs. Call it before a long
+/// computation. Errors: `path` is one of `inputs`, by this or another name; it is a directory, a
+/// read-only file, or a file with a second hard link, which would keep the old bytes; its directory
+/// is missing or read-only; its symbolic links form a loop.
 Status check_output(const std::filesystem::path& path,
                     std::span<const std::filesystem::path> inputs = {});
 

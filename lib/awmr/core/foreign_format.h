@@ -1,5 +1,5 @@
-/// Recognises files that are not CSV, so that one error names their format in place of a fault for
-/// every row. Private to the library.
+/// Recognises files that are not CSV, so that one error names their format, instead of one fault
+/// for each row. Private to the library.
 #pragma once
 
 #include <set>
@@ -15,11 +15,11 @@ namespace awmr {
 /// format, or has NUL bytes, as UTF-16 has.
 Result<std::string_view> text_of(std::string_view bytes, const std::string& file);
 
-/// Checks the next line. Errors: the line begins JSON, HTML or XML.
+/// Checks the scanner's next line. Errors: it is the beginning of JSON, HTML or XML.
 Status check_format(CsvScanner scanner, const std::string& file);
 
-/// Checks the header. Errors: its cells are separated by spaces. `wanted`: names of columns that
-/// indicate a header.
+/// Checks the scanner's next line, which should be a header. Errors: its cells are separated by
+/// spaces. `wanted`: names of the requested columns, by which the header is recognised.
 Status check_spaces(CsvScanner scanner, const std::string& file,
                     const std::set<std::string>& wanted);
 

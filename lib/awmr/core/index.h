@@ -1,5 +1,5 @@
 /// Conversions between the index types of standard containers (std::size_t) and of Eigen
-/// (std::ptrdiff_t), which keep casts out of formulas. Indices must not be negative.
+/// (std::ptrdiff_t), so that formulas need no casts. Indices must not be negative.
 #pragma once
 
 #include <cstddef>

@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// Hashes of the bytes last read, by path as the user gave it.
+/// Hashes of the bytes last read from each file, by the path that the user gave.
 class Notes {
  public:
   void put(const std::string& path, std::string sha256) {

@@ -8,8 +8,8 @@
 namespace awmr {
 namespace {
 
-/// By row: true for rows to keep. In these rows, all commands have had a value, and at least one
-/// column has a value of its own.
+/// By row: true for rows to keep. In these rows, every command (kHeld) has had a value, and the
+/// file has a value of at least one kHeld, kAbsent or kOptional column.
 std::vector<bool> rows_that_count(const CsvTable::Parts& parts, const ColumnSources& sources) {
   const std::size_t rows = parts.lines.size();
   std::vector<bool> counts(rows, false);
@@ -48,7 +48,7 @@ void keep(Values& values, const std::vector<bool>& kept) {
   values.resize(end);
 }
 
-/// Text with the number of values of each column.
+/// Text with the number of values of each column that has empty cells: "heading_deg 120, ...".
 std::string rates_of(const CsvTable::Parts& parts) {
   std::string text;
   for (const auto& [name, column] : parts.columns) {
@@ -73,10 +73,12 @@ void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources) {
   parts.notes.push_back(
       {0, "joined-by-time",
        fmt::format(
-           "signals of different rates in {} rows; number of values by column: {}; commands "
-           "keep their previous value, measurements count in their own rows, a formula has "
-           "a value where the fastest of its columns has one; {} rows without any value, or "
-           "before the first value of every command, are left out",
+           "the file has signals of different rates, joined by time in {} rows; number of values "
+           "by column: {}. Between its values a command keeps the previous one, a measurement "
+           "counts only in the rows that have it, and a formula has a value in the rows of its "
+           "column with the most values; {} rows without a value, or before every command has had "
+           "one, are "
+           "left out",
            parts.lines.size(), rates_of(parts), before - parts.lines.size())});
 }
 

@@ -8,11 +8,12 @@
 
 namespace awmr {
 
-/// Drops rows without any value of their own, and the rows before all commands have had a value.
-/// Adds the note `joined-by-time` with the number of dropped rows.
+/// Drops the rows without a value in any kHeld, kAbsent or kOptional column, and the rows before
+/// every command (kHeld) has had a value. Adds the note `joined-by-time` with the number of dropped
+/// rows.
 void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources);
 
-/// Adds a fault for each column without any value, except for kOptional columns.
+/// Adds a fault for each requested column without a value in any row, except for kOptional columns.
 void refuse_void_columns(const CsvTable::Parts& parts, const ColumnSources& sources,
                          std::vector<Fault>& faults);
 

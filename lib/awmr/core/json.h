@@ -28,9 +28,11 @@ Result<Json> read_json_file(const std::filesystem::path& path);
 
 class JsonShape;
 
-/// A strict view of one JSON object. Each function that reads a key marks the key as known. On a
-/// fault it adds to the shared list of faults and returns a placeholder (NaN, empty), so that
-/// reading continues and finds all faults. Call `reject_unknown_keys()` after all keys were read.
+/// A strict view of one JSON object. Each function that reads a key marks the key as known. A value
+/// of the wrong type or out of range, and a missing key (except in the optional_ functions), is a
+/// fault. On a fault the function adds to the shared list of faults and returns a placeholder: NaN,
+/// `min` of an integer, the first of several choices, false or empty. So reading continues and
+/// finds all faults. Call `reject_unknown_keys()` after all keys were read.
 class JsonObject {
  public:
   JsonObject(const Json& value, std::string file, std::string pointer, std::vector<Fault>& faults);
@@ -38,6 +40,7 @@ class JsonObject {
   /// returns placeholders.
   JsonObject(JsonShape& shape, std::vector<Fault>& ignored) : faults_(&ignored), shape_(&shape) {}
 
+  /// True if the object has the key, even with the value null. Marks the key as known.
   bool has(std::string_view key);
   double number(std::string_view key, NumberRule rule = kAnyNumber);
   std::optional<double> optional_number(std::string_view key, NumberRule rule = kAnyNumber);
@@ -61,7 +64,7 @@ class JsonObject {
   T choice(std::string_view key, const NameTable<T, N>& table) {
     return table[choice(key, std::span<const std::string>(names_in(table)))].value;
   }
-  /// `[lo, hi]` with lo <= hi and both ends in the range of the rule.
+  /// `[lo, hi]` with lo <= hi and both ends in the range of the rule; [0, 0] on a fault.
   Interval interval(std::string_view key, NumberRule rule = kAnyNumber);
   std::optional<Interval> optional_interval(std::string_view key, NumberRule rule = kAnyNumber);
   std::optional<Interval> nullable_interval(std::string_view key);
@@ -79,16 +82,16 @@ class JsonObject {
   std::vector<JsonObject> optional_objects(std::string_view key);
   /// The values of an object with arbitrary keys, whose values are all objects.
   std::vector<JsonObject> values();
-  /// Accepts a key without reading it.
+  /// Marks a key as known without reading its value; the key may be missing.
   void ignore(std::string_view key);
   /// Reads the optional key `schema`; any other value than `expected` is a fault.
   void schema(std::string_view expected);
   /// All keys of the object, in the order of the file; for objects with arbitrary keys.
   std::vector<std::string> keys() const;
 
-  /// Adds a fault of the key's value.
+  /// Adds a fault at the key's place (FILE:POINTER).
   void fault(ErrorCode code, std::string_view key, std::string message);
-  /// Adds the first fault of `cause` as a fault of the key's value.
+  /// Adds code and message of the first fault of `cause`, at the key's place.
   void fault(std::string_view key, const Error& cause);
   /// Adds a fault for each key of the object that was not read.
   void reject_unknown_keys();
@@ -119,8 +122,8 @@ void put_provenance(Json& json, const Provenance& provenance);
 Json output_document(std::string_view schema, const Provenance& provenance);
 /// Reads the keys written by put_provenance().
 Provenance read_provenance(JsonObject& json);
-/// True if the inputs of the document include a file with this hash. Empty if the document names no
-/// inputs, as one written by hand.
+/// True if the `inputs` of the document include a file with this SHA-256. Empty if the document
+/// lists no inputs, as a document written by hand.
 std::optional<bool> is_made_from(const Json& document, std::string_view sha256);
 
 /// JSON text with an indentation of two spaces and a newline at the end. Numbers read back to the

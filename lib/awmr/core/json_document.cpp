@@ -27,7 +27,8 @@ std::string place_of(const std::string& file, std::string_view text, std::size_t
   return fmt::format("{}:{}:{}", file, lines + 1, characters + 1);
 }
 
-/// Fault of a text that exceeds the limits of json_document.h; found before memory is used for it.
+/// Returns the fault of a text that exceeds kMaxJsonDepth or kMaxJsonValues; else empty. Checked
+/// before the text is parsed, so that a hostile file cannot exhaust the memory.
 std::optional<Fault> beyond_bounds(const std::string& file, std::string_view text) {
   std::size_t depth = 0;
   std::size_t values = 1;
@@ -42,11 +43,13 @@ std::optional<Fault> beyond_bounds(const std::string& file, std::string_view tex
     if (c == ',' || c == '[' || c == '{') ++values;
     if (depth > kMaxJsonDepth) {
       return Fault{ErrorCode::kTooLarge, place_of(file, text, i),
-                   fmt::format("arrays and objects are nested more than {} deep", kMaxJsonDepth)};
+                   fmt::format("arrays and objects are nested more than {} deep; give another file",
+                               kMaxJsonDepth)};
     }
     if (values > kMaxJsonValues) {
-      return Fault{ErrorCode::kTooLarge, place_of(file, text, i),
-                   fmt::format("there are more than {} values", kMaxJsonValues)};
+      return Fault{
+          ErrorCode::kTooLarge, place_of(file, text, i),
+          fmt::format("the file has more than {} values; give another file", kMaxJsonValues)};
     }
   }
   return std::nullopt;
@@ -81,8 +84,8 @@ class DocumentBuilder final : public Json::json_sax_t {
   /// An array or object that is still open.
   struct Level {
     Json value;
-    std::string key;                       ///< key of the member that follows
-    std::unordered_set<std::string> keys;  ///< keys so far
+    std::string key;                       ///< of an object: key of the value that follows
+    std::unordered_set<std::string> keys;  ///< of an object: keys so far
   };
 
   bool open(Json value) {

@@ -20,11 +20,12 @@ inline constexpr std::size_t kMaxJsonValues = 2'000'000;  ///< number of values 
 /// errors. Errors: a limit is exceeded; a syntax error; a number out of range; a duplicate key.
 Result<Json> read_json_text(std::string_view text, const std::string& file);
 
-/// ReadBack (file.h) of a JSON file that has no strict reader. Errors: as read_json_text().
+/// ReadBack (file.h) for JSON files whose keys no reader checks: checks only that the text can be
+/// parsed. Errors: as read_json_text().
 Status check_json_text(std::string_view text, const std::string& file);
 
-/// Checks a JSON text with its strict reader `read(JsonObject&)`, for a ReadBack (file.h). Errors:
-/// as read_json_text(); all faults that `read` finds.
+/// Checks a JSON text with `read(JsonObject&)`, the function that reads such files, for a ReadBack
+/// (file.h). Errors: as read_json_text(); all faults that `read` finds.
 template <class Read>
 Status check_json_object(std::string_view text, const std::string& file, const Read& read) {
   AWMR_ASSIGN_OR_RETURN(const Json document, read_json_text(text, file));

@@ -6,10 +6,10 @@
 namespace awmr {
 namespace {
 
-/// Key that stands for every key of an object with arbitrary keys.
+/// Recorded in place of the keys of an object with arbitrary keys.
 constexpr std::string_view kAnyKey = "*";
 
-/// True if the run `way` makes all of these choices.
+/// True if the run `way` uses all of these names; `picks` is as Way::picks.
 bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   return std::all_of(picks.begin(), picks.end(), [&](const auto& pick) {
     const auto taken = way.picks.find(pick.first);
@@ -17,7 +17,8 @@ bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   });
 }
 
-/// Schema that forbids the keys in `keys` that are not in `allowed`; empty if there are none.
+/// Schema that forbids those of `keys` that are not in `allowed`; an empty object if all are
+/// allowed.
 Json forbidding(const std::set<std::string>& keys, const std::set<std::string>& allowed) {
   Json rule = Json::object();
   for (const std::string& key : keys) {
@@ -130,7 +131,7 @@ Json JsonShape::property_schema(const Property& property) const {
   return kinds.size() == 1 ? kinds.front() : Json{{"anyOf", kinds}};
 }
 
-/// Keys of all runs that differ only in the name of the choice under `key`.
+/// Keys of all runs that differ from each other only in the name of the choice under `key`.
 JsonShape::Keys JsonShape::with_any_name(const std::string& key) const {
   const std::string place = place_ + "/" + key;
   Keys keys;

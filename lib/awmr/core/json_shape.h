@@ -1,6 +1,8 @@
 /// Derives the JSON Schema of a file from its reader, for json_schema_text(). The reader is run
-/// with JsonObjects that have no document. They record in a JsonShape each key that the reader
-/// requests, with the permitted values. Private to this folder.
+/// several times with JsonObjects that have no document. They record in a JsonShape each key that
+/// the reader requests, with the permitted values. A choice is a key whose value is one of several
+/// names (JsonObject::choice()); the names can decide which other keys exist, so each run of the
+/// reader uses other names. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -30,13 +32,13 @@ struct MetChoice {
   std::map<std::string, std::size_t> on = {};  ///< Way::picks of the run that first met it
 };
 
-/// State shared by the JsonShapes of one schema.
+/// State of the exploration, shared by the JsonShapes of one schema.
 struct Exploration {
   Way way = {};                               ///< the current run
   std::map<std::string, MetChoice> met = {};  ///< choices requested so far, by JSON pointer
 };
 
-/// Records the keys that a reader requests of one object.
+/// Records the keys that a reader requests from one JSON object.
 class JsonShape {
  public:
   JsonShape(Exploration& exploration, std::string place);
@@ -58,7 +60,7 @@ class JsonShape {
     std::unique_ptr<JsonShape> object;
     std::unique_ptr<JsonShape> element;
   };
-  /// Keys requested in one run.
+  /// Keys requested in one run: all, those that must be present, and those that may be absent.
   struct RequestedKeys {
     Way way;
     std::set<std::string> keys;

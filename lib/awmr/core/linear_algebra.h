@@ -7,8 +7,8 @@
 
 namespace awmr {
 
-/// Solves A X = B by L D L^T with pivoting. A: n x n, symmetric and positive or negative
-/// semidefinite; B: n x k.
+/// Solves A X = B by the decomposition L D L^T with pivoting. A: n x n, symmetric and positive or
+/// negative semidefinite; B: n x k.
 Eigen::MatrixXd solve_ldlt(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 /// Decomposition P A P^T = L D L^T of a symmetric A.
@@ -26,7 +26,7 @@ struct SymmetricEigen {
   bool converged = false;
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& a);
-/// The eigenvalues of symmetric_eigen() only.
+/// The eigenvalues of a symmetric matrix, ascending, as by symmetric_eigen().
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
 
 /// Eigenvalues of a square matrix, in no particular order.
@@ -49,7 +49,8 @@ class PivotedQr {
   Eigen::MatrixXd permutation() const;  ///< Pi: p x p
   /// (J^T J)^-1 = Pi R^-1 R^-T Pi^T. Precondition: rank() == p.
   Eigen::MatrixXd inverse_information() const;
-  /// As inverse_information(), from the pseudo-inverse J^+: J^+ J^+T. For matrices with few rows.
+  /// As inverse_information(), from the pseudo-inverse J^+: J^+ J^+T. Needs an n x n matrix, so
+  /// only for matrices with few rows n.
   Eigen::MatrixXd inverse_information_by_pseudo_inverse() const;
 
  private:

@@ -7,8 +7,9 @@
 
 namespace awmr {
 
-/// Returns the candidate with the smallest edit distance. Empty if that exceeds both 1 and a third
-/// of the word's length. Names of more than 100 bytes are ignored.
+/// Returns the candidate with the smallest edit distance from `word`. Empty if this distance
+/// exceeds both 1 and a third of the word's length. Candidates of more than 100 bytes are ignored;
+/// for a longer word, the result is empty.
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace awmr

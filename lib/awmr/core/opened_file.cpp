@@ -74,12 +74,12 @@ Status OpenedFile::check_unchanged() const {
                     now.st_mtim.tv_nsec == status_.st_mtim.tv_nsec;
   if (same) return {};
   return input_error(ErrorCode::kCannotRead, name_,
-                     "it changed while it was read; wait until it is written");
+                     "the file changed while it was read; wait until it is complete");
 }
 
 tl::unexpected<Error> became_shorter_error(const std::string& name) {
   return input_error(ErrorCode::kCannotRead, name,
-                     "it became shorter while it was read; wait until it is written");
+                     "the file became shorter while it was read; wait until it is complete");
 }
 
 tl::unexpected<Error> too_long_error(const std::string& name, std::size_t max_bytes) {
@@ -87,8 +87,8 @@ tl::unexpected<Error> too_long_error(const std::string& name, std::size_t max_by
   const std::string most = max_bytes < kMebibyte ? fmt::format("{} bytes", max_bytes)
                                                  : fmt::format("{} MiB", max_bytes / kMebibyte);
   return input_error(ErrorCode::kTooLarge, name,
-                     fmt::format("it is longer than {}, the limit for such a file; check that "
-                                 "it is the right one",
+                     fmt::format("the file is longer than {}, the limit for such a file; check "
+                                 "that it is the right one",
                                  most));
 }
 

@@ -24,8 +24,9 @@ std::string spell_options(std::string_view message, std::string_view prefix);
 /// Removes the marks and keeps the names.
 std::string plain_text(std::string_view message);
 
-/// The first 20 faults to show. If there are more, a last one gives the number of the others.
-/// Faults of a file with the same cause are merged into one.
+/// The faults to show to a user. If more than three faults of a file have the same cause, only the
+/// first is kept, with the number of the others. Of the rest, the first 20 are returned; if there
+/// are more, a last fault (`more-faults`) gives the number of the others.
 std::vector<Fault> shown_faults(const std::vector<Fault>& faults);
 
 /// One printable line, `PLACE: MESSAGE [CODE]`, with option names as by spell_options().

@@ -31,8 +31,8 @@ class FirstException {
   std::exception_ptr exception_;
 };
 
-/// Worker threads that are kept between loops, because a search runs thousands of loops that each
-/// take about as long as the start of a thread. A loop waits only for threads that work on it, so
+/// Worker threads that are kept between loops: a search runs thousands of loops, each of which
+/// takes about as long as the start of a thread. A loop waits only for threads that work on it, so
 /// nested loops cannot block each other.
 class Helpers {
  public:
@@ -65,7 +65,7 @@ class Helpers {
   struct Loop {
     const std::function<void()>* work;
     std::size_t wanted;   ///< number of further threads that may join
-    std::size_t running;  ///< number of threads that work on it
+    std::size_t running;  ///< number of worker threads now in `work`
   };
 
   /// Starts threads until there are `count`, or as many as the system permits. Results do not

@@ -14,7 +14,7 @@ namespace awmr {
 /// A program to run.
 struct ProgramCall {
   std::filesystem::path program;         ///< absolute path, as find_program() returns it
-  std::vector<std::string> arguments;    ///< without the program name
+  std::vector<std::string> arguments;    ///< command-line arguments, without the program name
   std::filesystem::path directory;       ///< working directory
   std::vector<std::string> environment;  ///< all of its variables, as "NAME=value"
   double time_limit_s = 60.0;            ///< > 0: the program is killed after this time
@@ -22,13 +22,13 @@ struct ProgramCall {
 
 /// How a program ended.
 struct ProgramEnd {
-  int exit_code = -1;      ///< -1: ended by a signal or the time limit
+  int exit_code = -1;      ///< -1: ended by a signal or by the time limit
   bool timed_out = false;  ///< the time limit was reached
   std::string output;      ///< first 64 KiB of its stdout and stderr together
 };
 
-/// The first executable file of this name in the directories of PATH. Relative directories (".")
-/// are skipped.
+/// The first executable file of this name in the directories of PATH; none if there is none.
+/// Relative directories (".") are skipped.
 std::optional<std::filesystem::path> find_program(std::string_view name);
 
 /// Environment for a compiler: PATH, HOME and LANG of this process, and `temporary` as TMPDIR.

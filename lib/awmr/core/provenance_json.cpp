@@ -15,7 +15,7 @@ void put_provenance(Json& json, const Provenance& provenance) {
   for (const auto& [name, value] : provenance.options) {
     if (!options.contains(name)) {
       options[name] = value;
-    } else {  // an option given more than once
+    } else {  // an option that was given more than once: its values are joined
       options[name] = options[name].get<std::string>() + ", " + value;
     }
   }

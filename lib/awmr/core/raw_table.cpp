@@ -13,8 +13,8 @@
 namespace awmr {
 namespace {
 
-/// Fraction of empty cells from which on a column counts as a signal of its own rate. Below this
-/// fraction, an empty cell is a fault.
+/// If a kHeld or kAbsent column has at least this fraction of empty cells, the table has signals of
+/// different rates. Otherwise an empty cell in such columns is a fault.
 constexpr double kSparseShare = 0.25;
 
 bool is_empty(double value) { return std::isnan(value); }
@@ -64,13 +64,16 @@ struct FaultList {
   }
 };
 
-/// Adds a fault if the value of a row is not finite after scaling or as the result of its formula.
+/// Adds a fault if the value of a requested column in a row is infinite or NaN after scaling, or as
+/// the result of its formula. `inputs`: values of the file's columns from which it was computed.
 void check_value(double value, const ColumnSource& source, std::span<const double> inputs,
                  std::size_t row, FaultList& faults) {
   if (std::isfinite(value)) return;
   if (!source.expression) {
     faults.add(ErrorCode::kOutOfRange, row, character_of(faults.raw, source, row),
-               fmt::format("column {}: out of range after scaling", source.column.name));
+               fmt::format("column {}: out of range after scaling; check the scale and offset of "
+                           "its mapping",
+                           source.column.name));
     return;
   }
   std::string at;
@@ -140,8 +143,8 @@ std::vector<int> uses_of(const RawTable& raw, const ColumnSources& sources) {
   return uses;
 }
 
-/// Storage for the values of a derived column. Reuses the storage of one of its source columns if
-/// no other column needs it, to save memory.
+/// Storage for the values of a requested column. To save memory, reuses the storage of one of the
+/// file's columns from which it is made, if no other requested column needs that one.
 std::vector<double> storage_for(const ColumnSource& source, const std::vector<int>& uses,
                                 RawTable& raw) {
   for (const std::size_t index : source.indices) {
@@ -150,8 +153,8 @@ std::vector<double> storage_for(const ColumnSource& source, const std::vector<in
   return std::vector<double>(raw.lines.size());
 }
 
-/// Makes a requested column. `uses`: number of other columns still to be made from each column of
-/// the file. `sparse`: the column may have empty cells.
+/// Makes a requested column. `uses`: for each column of the file, the number of requested columns
+/// that are still to be made from it, without this one. `sparse`: the column may have empty cells.
 CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, bool sparse,
                            RawTable& raw, FaultList& faults) {
   // In a table with one run per row, a formula uses only cells of its row.
@@ -192,8 +195,8 @@ CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, b
   return column;
 }
 
-/// For a time that find_time() found: subtracts the first time if it is a clock time, and adds the
-/// note `time-column`.
+/// For a time that find_time() found, or that was read from dates: subtracts the first time if it
+/// is a clock time (kClockTime_s) or a date, and adds the note `time-column`.
 void settle_time(const ColumnSource& source, CsvTable::Parts& parts) {
   if (!source.time) return;
   std::vector<double>& t_s = parts.columns.at(source.column.name).values;
@@ -274,8 +277,10 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
   if (sparse && faults.empty()) drop_rows(parts, sources);
   if (faults.empty() && parts.lines.empty()) {
     faults.push_back({ErrorCode::kTooFewData, fmt::format("{}:{}:1", parts.file, parts.header_line),
-                      sparse ? "no row has a measurement after the first value of every command"
-                             : "there are no rows below the header"});
+                      sparse
+                          ? "no row has a measurement after every command has had a value; record "
+                            "longer, or map other columns"
+                          : "there are no rows below the header"});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return CsvTable(std::move(parts));

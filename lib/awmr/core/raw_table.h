@@ -1,5 +1,5 @@
-/// The numbers of a file, as every format's reader returns them, and their conversion to the table
-/// of requested columns. Private to the library.
+/// The numbers of a file, as the readers of all file formats (CSV, bags, ...) return them, and
+/// their conversion to the table of requested columns. Private to the library.
 #pragma once
 
 #include <limits>
@@ -25,7 +25,7 @@ struct RawTable {
   std::string file;
   int header_line = 1;
   RowLines lines = {};
-  std::vector<RawColumn> columns = {};  ///< as in the header; columns that are not used are empty
+  std::vector<RawColumn> columns = {};  ///< by column of the header; unused columns are empty
   std::vector<CsvNote> notes = {};
   std::vector<std::size_t> mapped = {};  ///< indices of the mappings used so far
   bool joined = false;                   ///< true: signals of different rates; cells may be empty

@@ -17,7 +17,7 @@ namespace awmr {
 struct Fault {
   ErrorCode code;
   std::string place;    ///< `FILE:LINE:COLUMN`, `FILE:/json/pointer`, `FILE`, or empty
-  std::string message;  ///< the problem, the value found, the remedy
+  std::string message;  ///< the problem, the value that was found, the remedy
 };
 
 /// Maximum number of faults collected from a file.
@@ -50,8 +50,8 @@ tl::unexpected<Error> program_fault(std::string message);
 /// Makes an error of kind kInput with several faults. Precondition: `faults` is not empty.
 tl::unexpected<Error> input_errors(std::vector<Fault> faults);
 
-/// One line per fault: `error: PLACE: MESSAGE [CODE]`. After 20 faults, a line gives the number of
-/// the others.
+/// One line per fault: `error: PLACE: MESSAGE [CODE]`. More than three faults of a file with the
+/// same cause are merged into one. After 20 faults, a line gives the number of the others.
 std::string to_text(const Error& error);
 
 /// Exit code of a program that ends with this error: that of its ErrorKind.

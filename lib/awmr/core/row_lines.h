@@ -1,4 +1,5 @@
-/// Line number of each row of a table. Consecutive lines are stored as one entry.
+/// Line number in the file of each row of a table. Rows on consecutive lines are stored as one
+/// entry.
 #pragma once
 
 #include <algorithm>

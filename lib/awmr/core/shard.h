@@ -1,5 +1,5 @@
-/// Shards: a job over many items (runs, vehicles) is divided into shards that several machines
-/// process.
+/// Divides a job over many items (simulation runs, sampled vehicles) into shards, each of which can
+/// be processed on another machine.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,8 @@
 
 namespace awmr {
 
-/// Shard `index` of `count`. It has the items i = 0, 1, ... with i mod count = index - 1.
+/// Shard `index` of `count`: those of the items i = 0, 1, ... of the job for which i mod count =
+/// index - 1.
 struct Shard {
   int index = 1;  ///< 1 ... count
   int count = 1;
@@ -20,8 +21,9 @@ struct Shard {
   int item(int i) const { return index - 1 + i * count; }
 };
 
-/// Fault if the shard is invalid for a job of `items` items: index not in 1 ... count, or more
-/// shards than items. `kind` names the items: "runs".
+/// Returns a fault if the shard is invalid for a job of `items` items: its index is not in 1 ...
+/// count, or there are more shards than items. None if it is valid. `kind` names the items in the
+/// message: "runs".
 std::optional<Fault> shard_fault(const Shard& shard, long items, std::string_view kind);
 
 }  // namespace awmr

@@ -17,7 +17,7 @@ namespace {
 
 constexpr long kMaxShards = 1'000'000;
 
-/// The keys of shard.json that all kinds have, which precede the payload.
+/// The keys of shard.json that all kinds of job have. They precede the payload (ShardKind::read).
 Json common_keys(const ShardKind& kind, const PartOrigin& origin,
                  const std::vector<std::string>& files) {
   Json json = output_document(kind.schema, origin.provenance);
@@ -92,23 +92,24 @@ std::string difference(const ShardKind& kind, const Part& first, const Part& par
   const std::string name = first.directory.string();
   const Shard& shard = part.origin.shard;
   if (shard.count != first.origin.shard.count) {
-    return fmt::format("is one of {} parts, but {} is one of {}", shard.count, name,
-                       first.origin.shard.count);
+    return fmt::format("is one of {} parts, but {} is one of {}; give the parts of one job",
+                       shard.count, name, first.origin.shard.count);
   }
   if (shard.index > shard.count) {
-    return fmt::format("is part {} of {}: the number is too large", shard.index, shard.count);
+    return fmt::format("is part {} of {}, but the number must be at most the count; run it again",
+                       shard.index, shard.count);
   }
   const std::string other =
       origin_difference(part.origin.provenance, part.origin.version, first.origin.provenance, name);
   if (!other.empty()) return other;
-  if (part.origin.stopped) return "was stopped before its end: run it again";
+  if (part.origin.stopped) return "this part was stopped before its end; run it again";
   if (part.origin.arithmetic != first.origin.arithmetic) {
     return fmt::format(
         "was computed in {} arithmetic, but {} in {}: their numbers are rounded differently; {}",
         part.origin.arithmetic, name, first.origin.arithmetic, kind.arithmetic_advice);
   }
   if (shared_keys(kind, part.json) != shared_keys(kind, first.json)) {
-    return fmt::format("was made with other options than {}", name);
+    return fmt::format("was made with other options than {}; make both with the same", name);
   }
   return {};
 }
@@ -281,10 +282,11 @@ Status check_items(const Part& part, const ShardFile& file, std::string_view nam
                     i + 1, name, item_of(i), expected, shard.index, shard.count));
   }
   if (rows > 0 && rows % share == 0) return {};
-  return input_error(ErrorCode::kStaleResult, place,
-                     fmt::format("has {} rows, not a multiple of the {} {}s of part {} of {}: rows "
-                                 "are missing or repeated; run the part again",
-                                 rows, share, name, shard.index, shard.count));
+  return input_error(
+      ErrorCode::kStaleResult, place,
+      fmt::format("the table has {} rows, not a multiple of the {} {}s of part {} of {}: rows "
+                  "are missing or repeated; run the part again",
+                  rows, share, name, shard.index, shard.count));
 }
 
 std::string origin_difference(const Provenance& found, const std::string& found_version,

@@ -1,4 +1,4 @@
-/// Reads the stored results of shards ("parts", shard_kind.h) and combines those of one job.
+/// Reads parts, the stored results of shards (shard_kind.h), and combines the parts of one job.
 /// Include this header from .cpp files only, because nlohmann/json is slow to compile.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace awmr {
 
-/// Keys that every shard.json has, without the hashes of files.
+/// The keys that every shard.json has, except the hashes of the part's files.
 struct PartOrigin {
   Provenance provenance;
   Shard shard;
@@ -27,8 +27,8 @@ struct PartOrigin {
   std::string version = {};  ///< version of the program that wrote it
 };
 
-/// Returns the text of a part. `files`: the texts of its files; `payload`: the keys that
-/// ShardKind::read reads.
+/// Returns the texts of a part's files, shard.json included. `files`: the texts of the others, in
+/// the order of ShardKind::files; `payload`: the keys of shard.json that ShardKind::read reads.
 PartText part_text(const ShardKind& kind, const PartOrigin& origin, std::vector<std::string> files,
                    const Json& payload);
 
@@ -45,7 +45,8 @@ struct Part {
 Result<std::vector<Part>> read_parts(const ShardKind& kind,
                                      const std::vector<std::filesystem::path>& directories);
 
-/// Returns read(JsonObject&) of a shard.json that was already checked.
+/// Applies `read(JsonObject&)` to a shard.json that was already checked, and returns its result.
+/// Faults are ignored.
 template <class Read>
 auto payload_of(const Json& shard_json, const Read& read) {
   std::vector<Fault> faults;
@@ -59,15 +60,15 @@ Result<std::string> read_part_file(const Part& part, const ShardFile& file);
 
 /// Checks that the `rows` rows of a part's table belong to the part's items: the items in order,
 /// once or several times over. `items`: number of items of the whole job. `item_of(i)`: item of row
-/// i. `name`: kind of item, "run". Errors (input): the part has no items; a row belongs to another
-/// item; rows are missing.
+/// i. `name`: kind of item, "run". Errors (input): the shard does not fit a job of `items` items;
+/// the table has no rows; a row belongs to another item; rows are missing or repeated.
 Status check_items(const Part& part, const ShardFile& file, std::string_view name, int items,
                    std::size_t rows, const std::function<int(std::size_t)>& item_of);
 
-/// Merges the rows of all parts into the order that a job without shards has. A part has one or
-/// more blocks of rows; each block has all items of the part in order, with `per_item` rows per
-/// item. `items`: number of items of the whole job. Errors (input): the parts have different
-/// numbers of blocks.
+/// Merges the rows of all parts into the order that a job without shards has. `parts`: the rows of
+/// each part, by shard index. The rows of a part are one or more blocks; each block has all items
+/// of the part in order, with `per_item` rows per item. `items`: number of items of the whole job.
+/// Errors (input): the parts have different numbers of blocks.
 template <class Row>
 Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& parts, int items,
                                            std::size_t per_item = 1) {
@@ -94,8 +95,8 @@ Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& 
 }
 
 /// Text for messages: how the origin of a result (`found`) differs from that of the result called
-/// `name` (`expected`), with which it is to be combined: options or inputs, or a `found_version`
-/// other than this program's version. Empty if they agree.
+/// `name` (`expected`), with which it is to be combined. Compared are the program version
+/// (`found_version` with that of this program), the options and the inputs. Empty if they agree.
 std::string origin_difference(const Provenance& found, const std::string& found_version,
                               const Provenance& expected, const std::string& name);
 

@@ -1,5 +1,6 @@
-/// Parts: the stored results of one shard (shard.h) of a job. A part is a directory. Its shard.json
-/// identifies the shard and its origin; other files have the results.
+/// A part: the directory with the stored results of one shard (shard.h) of a job. The file
+/// shard.json in it identifies the shard and its origin (options, inputs, program version); the
+/// other files have the results.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +19,7 @@ class JsonObject;
 /// Name of the file that identifies a part.
 inline constexpr const char* kShardFile = "shard.json";
 
-/// A file with results of a part.
+/// One of the files with the results of a part.
 struct ShardFile {
   const char* name;
   const char* hash_key;  ///< key in shard.json with the file's SHA-256
@@ -32,12 +33,13 @@ struct ShardKind {
   const char* schema;            ///< value of the key `schema` in shard.json
   const char* title;             ///< title of the JSON Schema of shard.json
   std::vector<ShardFile> files;  ///< files of a part; at least one
-  /// Keys of the payload that may differ between the parts of one job.
+  /// Keys of the payload (see `read`) that may differ between the parts of one job.
   std::vector<const char*> own_keys;
   /// Identifies how numbers are rounded on this machine; all parts of a job must agree.
   std::string (*arithmetic)();
-  const char* arithmetic_advice;   ///< for messages: how to get parts that agree
-  void (*read)(JsonObject& json);  ///< reads the payload: the keys that only this kind has
+  const char* arithmetic_advice;  ///< for messages: how to get parts with the same arithmetic
+  /// Reads and checks the payload: the keys of shard.json that only this kind of job has.
+  void (*read)(JsonObject& json);
 };
 
 /// Texts of a part: shard.json, and its files in the order of ShardKind::files.
@@ -54,13 +56,14 @@ std::vector<std::string> part_files(const ShardKind& kind);
 Status write_part(const ShardKind& kind, const std::filesystem::path& directory,
                   const PartText& part);
 
-/// True if the directory has the complete part for this shard: its shard.json has this provenance,
-/// and its files have the hashes in shard.json.
+/// True if the directory has the complete part for this shard: its shard.json has this shard, this
+/// provenance, this program's version and this machine's arithmetic, and its files have the hashes
+/// in shard.json. Such a part need not be computed again.
 bool is_finished_part(const ShardKind& kind, const std::filesystem::path& directory,
                       const Shard& shard, const Provenance& provenance);
 
-/// The schema in the directory's shard.json, which identifies the kind of the part; empty if it has
-/// no schema. Errors: as read_json_file().
+/// The value of the key `schema` in the directory's shard.json, which identifies the kind of the
+/// part; empty if shard.json has no such key. Errors: as read_json_file().
 Result<std::string> schema_of_part(const std::filesystem::path& directory);
 
 /// JSON Schema of shard.json, derived from its reader.

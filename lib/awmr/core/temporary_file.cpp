@@ -35,8 +35,8 @@ std::optional<pid_t> maker_of(std::string_view name) {
   return fits && rest[0] == '-' ? std::optional(number) : std::nullopt;
 }
 
-/// Paths that the signal handler removes; null: free entry. The handler must not allocate or lock,
-/// so the paths are copied to the heap beforehand.
+/// Paths of the files that the signal handler removes; null: free entry. The handler must not
+/// allocate memory or lock, so the paths are copied to the heap beforehand.
 constexpr int kSlots = 64;
 std::atomic<char*> registered[kSlots];
 static_assert(std::atomic<char*>::is_always_lock_free, "a signal handler reads it");
@@ -54,8 +54,8 @@ extern "C" void remove_and_end(int signal) {
   ::raise(signal);
 }
 
-/// Enters a path for the signal handler. Returns its slot, or -1 if all are in use: a file left by
-/// a signal is then removed by remove_stale_temporaries().
+/// Enters a path in `registered`. Returns its index, or -1 if all entries are in use. If a signal
+/// then ends the program, a later remove_stale_temporaries() removes the file.
 int register_path(const fs::path& path) {
   char* text = ::strdup(path.c_str());
   for (int i = 0; text != nullptr && i < kSlots; ++i) {

@@ -27,23 +27,26 @@ class TemporaryFile {
 
   /// Writes all bytes, sets the permissions `mode` and flushes; false on failure.
   bool write(std::string_view bytes, mode_t mode);
+  /// Renames the file to its final name, replacing an existing file; false on failure, and errno
+  /// has the reason.
   bool rename_to(const std::filesystem::path& target);
 
  private:
   explicit TemporaryFile(std::filesystem::path path);
   void unregister_path();
   std::filesystem::path path_;  ///< empty: nothing to remove
-  int slot_ = -1;               ///< entry in the table of the signal handler; -1: none
+  int slot_ = -1;               ///< index in the list of paths for the signal handler; -1: none
   Descriptor file_;
 };
 
-/// Installs handlers for signals that end this process (SIGINT, SIGTERM, SIGHUP, ...). They remove
-/// its temporary files first. A signal that is ignored, as with nohup, stays ignored.
+/// Installs handlers for signals that end this process (SIGINT, SIGTERM, SIGHUP, ...). Before the
+/// process ends, they remove its temporary files. A signal that is ignored, as with nohup, stays
+/// ignored.
 void remove_temporaries_on_signals();
 
-/// Removes temporary files of programs that have ended from `directory`. A file is removed if no
-/// process has the id in its name and no process holds its lock. (The lock is needed for
-/// directories that several machines share, where ids mean different processes.)
+/// Removes from `directory` the temporary files that programs left when they ended. A file is
+/// removed if no process has the id in its name and no process holds its lock. (The lock is needed
+/// for directories that several machines share, where ids mean different processes.)
 void remove_stale_temporaries(const std::filesystem::path& directory);
 
 }  // namespace awmr

@@ -25,10 +25,10 @@ std::string_view first_characters(std::string_view text, std::size_t longest);
 /// writing direction and bytes that are not UTF-8 are escaped: `\n`, `\t`, `\u{202e}`, `\xff`.
 std::string printable(std::string_view text);
 
-/// As `printable`, but keeps line breaks.
+/// As printable(), but keeps line breaks.
 std::string printable_lines(std::string_view text);
 
-/// Default of shortened(), bytes.
+/// Default length limit of shortened(), bytes.
 inline constexpr std::size_t kLongestShown = 1000;
 
 /// The text unchanged if it has at most `longest` bytes; else its beginning, " ... " and its end,

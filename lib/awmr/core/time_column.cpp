@@ -201,7 +201,7 @@ tl::expected<std::optional<TimeColumn>, std::string> find_time(
   for (std::size_t i = 0; i < header.size(); ++i) {
     auto one = with_nanoseconds(header[i], header);
     if (!one) one = with_unit(header[i]);
-    // Names are tried first, then dates.
+    // A unit in the name takes precedence over a date in the first row.
     if (!one && i < samples.size()) one = as_date(header[i], samples[i]);
     if (one) found.push_back(*std::move(one));
   }
@@ -212,7 +212,7 @@ tl::expected<std::optional<TimeColumn>, std::string> find_time(
   }
   if (found.empty()) return std::nullopt;
   if (found.size() == 1) return std::move(found.front());
-  // A pair is one time, even if each of its columns is a candidate too.
+  // A pair of seconds and nanoseconds is one time, even if each of its columns is a candidate too.
   for (const TimeColumn& pair : found) {
     const auto is_part = [&](const TimeColumn& other) {
       const std::size_t star = other.expression.find('*');

@@ -14,8 +14,8 @@ namespace awmr {
 /// Name of the time column, s.
 inline constexpr std::string_view kTimeName = "t_s";
 
-/// A first time of at least this, s, is a clock time; the times are then counted from the first
-/// row.
+/// If the first time of a column that find_time() found has at least this magnitude, s, it is a
+/// clock time (such as seconds since 1970). The times are then counted from the first row.
 inline constexpr double kClockTime_s = 1e6;
 
 /// A column or a pair of columns with the time.
@@ -26,9 +26,9 @@ struct TimeColumn {
   std::string meaning;     ///< description for messages
 };
 
-/// Finds the time in a header. `samples`: cells of the first row; if empty, dates and seconds since
-/// 1970 are not found. Empty if no column is a time. Error: a text that names the candidates, if
-/// there is more than one.
+/// Finds the time among the columns of a header. `samples`: cells of the first row; if empty, dates
+/// and seconds since 1970 are not found. Empty if no column is a time. Error: a text that names the
+/// candidates, if there is more than one.
 tl::expected<std::optional<TimeColumn>, std::string> find_time(
     std::span<const std::string> header, std::span<const std::string> samples);
 

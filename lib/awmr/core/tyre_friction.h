@@ -1,21 +1,21 @@
-/// Default tyre parameters, for tyres that were not measured. Both parameters are forces divided by
-/// the weight on the tyre.
+/// Default tyre parameters, for tyres that were not measured. Friction and cornering stiffness are
+/// divided by the load on the tyre.
 #pragma once
 
 namespace awmr {
 
-/// mu, friction coefficient of rubber on a dry floor or road. J. Y. Wong, "Theory of Ground
-/// Vehicles", table 1.3, has 0.75 to 0.9 for dry asphalt and concrete, 0.5 to 0.8 wet, 0.6 for
-/// gravel; smooth or dusty floors may have less.
+/// mu, dimensionless: friction coefficient of rubber on a dry floor or road. J. Y. Wong, "Theory of
+/// Ground Vehicles", table 1.3, has 0.75 to 0.9 for dry asphalt and concrete, 0.5 to 0.8 wet, 0.6
+/// for gravel; smooth or dusty floors may have less.
 inline constexpr double kTyreFriction = 0.8;
 
-/// c_a, cornering stiffness, 1/rad: the slope of the side force at a small slip angle. Pneumatic
-/// tyres have about 5 to 15 (0.09 to 0.26 per degree) at their design load. Tyres of small robots
-/// are hardly ever measured.
+/// c_a, cornering stiffness over load, 1/rad: the slope of the side force, divided by the load, at
+/// a small slip angle. Pneumatic tyres have about 5 to 15 (0.09 to 0.26 per degree) at their design
+/// load. Tyres of small robots are hardly ever measured.
 inline constexpr double kCorneringStiffness_per_rad = 10.0;
 
-/// Smallest rolling speed in the computation of a tyre's slip, m/s, which avoids a division by 0.
-/// Far below the speeds of driving.
+/// v_0, m/s: a tyre's slip is its sideways speed divided by sqrt(w^2 + v_0^2), where w is its
+/// rolling speed. So a tyre at rest causes no division by 0. Far below the speeds of driving.
 inline constexpr double kTyreRestSpeed_mps = 0.1;
 
 }  // namespace awmr

@@ -3,7 +3,7 @@
 
 namespace awmr {
 
-/// pi, rad, rounded to the scalar type.
+/// pi, rounded to the scalar type.
 template <class T>
 constexpr T pi() {
   return T(3.14159265358979323846);

@@ -7,9 +7,9 @@
 
 namespace awmr {
 
-/// Values of `/certificate/set`: the set of plants over which the worst case was computed. If the
-/// model has a covariance, the set is its 95 % confidence region; otherwise it is the identified
-/// plant only.
+/// Values of `/certificate/set`, the set of plants over which the worst case was computed:
+/// kCertifiedSet, the 95 % confidence region of the parameters, if the model has a covariance; else
+/// kUncertifiedSet, the identified plant only.
 inline constexpr const char* kCertifiedSet = "95 %";
 inline constexpr const char* kUncertifiedSet = "the model's own values";
 
@@ -17,15 +17,15 @@ inline constexpr const char* kUncertifiedSet = "the model's own values";
 struct CertifiedMode {
   std::string mode;             ///< "differential", "steering" or "combined"
   double damping_min = 0.0;     ///< smallest damping ratio over the set; <= 0: unstable
-  double delay_margin_s = 0.0;  ///< smallest additional delay that makes the loop unstable;
-                                ///< infinity: none
+  double delay_margin_s = 0.0;  ///< smallest delay in addition to latency_s with which
+                                ///< the loop is unstable; infinity: none
 };
 
 /// The part of `/certificate` in gains.json that is read back: the worst cases, but not the
 /// parameters at which they occur.
 struct CertifiedGains {
   std::string set;         ///< kCertifiedSet or kUncertifiedSet
-  double latency_s = 0.0;  ///< latency of the loop that was assumed in all worst cases, s
+  double latency_s = 0.0;  ///< s: delay of the loop that all worst cases include
   std::vector<CertifiedMode> modes;
 };
 

@@ -1,4 +1,4 @@
-/// Calibration of a compass that is level in the vehicle.
+/// Calibration of a compass (magnetometer) whose ahead and left axes are level in the vehicle.
 #pragma once
 
 #include "awmr/core/interval.h"
@@ -22,10 +22,10 @@ struct CompassCalibration {
   WithInterval gain_ahead;       ///< S: gain from ahead to ahead
   WithInterval gain_cross;       ///< S: gain from left to ahead, and from ahead to left
   WithInterval gain_left;        ///< S: gain from left to left
-  WithInterval field;            ///< strength in the plane, in the unit of f, > 0
-  double residual = 0.0;         ///< standard deviation of |c| over `field`
-  double heading_error_deg = 0;  ///< 97.5 % bound of the fit's heading uncertainty, worst direction
-  double turned_deg = 0.0;       ///< from the first row to the last, left positive
+  WithInterval field;            ///< radius of the circle of c, in the unit of f, > 0
+  double residual = 0.0;         ///< standard deviation of |c|, divided by `field`
+  double heading_error_deg = 0;  ///< 97.5 % bound of the fit's heading error, worst direction
+  double turned_deg = 0.0;       ///< angle turned from the first row to the last, left positive
   double largest_gap_deg = 0.0;  ///< largest angle between neighbouring measured field directions
   double declination_deg = 0.0;  ///< from true north to magnetic north, east positive
 };

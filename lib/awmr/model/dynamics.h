@@ -1,4 +1,5 @@
-/// The 3-DOF vehicle and its steering servo. Templates on the scalar: double, float, ceres::Jet.
+/// Equations of motion of the 3-DOF vehicle (surge, sway, yaw) and its steering servo. Templates on
+/// the scalar: double, float, ceres::Jet.
 ///
 /// README.md in this folder lists where each equation of the paper is implemented, and the errors
 /// of the printed equations.
@@ -57,9 +58,10 @@ Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   return law;
 }
 
-/// The moment N_c of tyre scrub that resists a yaw rate r, m. In a differential turn the straight
-/// wheels are dragged sideways; in a steered turn they roll. c = yaw_scrub_m is measured in
-/// differential turns, so it is scaled by the differential share q of the yaw moment:
+/// The moment N_c of tyre scrub that resists a yaw rate r, m; it has the sign of r. In a
+/// differential turn the straight wheels are dragged sideways; in a steered turn they roll. c =
+/// yaw_scrub_m is measured in differential turns, so it is scaled by q, the fraction of the yaw
+/// moment that the difference of left and right forces makes:
 ///   N_c = c q sgn r,   q = |tau_diff|/(|tau_diff| + |tau_steering|),   q = 0 without a moment
 /// Below p.yaw.rest_speed, N_c falls in proportion to r, as g3 does.
 template <class T>
@@ -113,8 +115,8 @@ T motor_force(const T& drive, const T& back_emf_s_per_m, const T& wheel_mps) {
   return select(drive > T(0.0) || drive < T(0.0), T(drive - back_emf_s_per_m * wheel_mps), T(0.0));
 }
 
-/// Upper bound of the rate at which back-EMF slows the vehicle, 1/s: the larger of 4 k_e/m' (surge)
-/// and k_e (4 d^2 + 2 l_f^2)/I'z (yaw). 0 without back-EMF.
+/// Upper bound of the rate at which the speeds decay by back-EMF, 1/s: the larger of 4 k_e/m'
+/// (surge) and k_e (4 d^2 + 2 l_f^2)/I'z (yaw). 0 without back-EMF.
 inline double back_emf_rate(const Plant<double>& p) {
   const double surge = 4.0 / p.mass_norm;
   const double yaw =
@@ -151,7 +153,8 @@ State<T> rates(const Plant<T>& p, const State<T>& s, const T& surge_force, const
   return d;
 }
 
-/// Force of each motor, reduced by the back-EMF at the rolling speed of its wheel.
+/// Force of each motor over F_max, reduced by the back-EMF at the rolling speed of its wheel.
+/// `drive`: the motor commands beyond the dead zone.
 template <class T>
 AWMR_COLD WheelForces<T> motor_forces(const Plant<T>& p, const State<T>& s,
                                       const WheelForces<T>& drive) {
@@ -177,7 +180,7 @@ T steering_rate(const Plant<T>& p, const T& steering_rad, const T& steering_comm
 
 namespace detail {
 
-/// The motor forces that these commands make, reduced by dead zone and back-EMF.
+/// The wheel forces F' that these motor commands make: reduced by dead zone and back-EMF.
 template <class T>
 WheelForces<T> wheel_forces(const Plant<T>& p, const State<T>& s, const WheelForces<T>& command) {
   using math::any;
@@ -189,7 +192,7 @@ WheelForces<T> wheel_forces(const Plant<T>& p, const State<T>& s, const WheelFor
   return e;
 }
 
-/// Parts of the yaw moment of wheel forces, m: tau_steering, and tau_diff by axle.
+/// The yaw moment of the wheel forces, m, in its terms: tau_steering, and tau_diff of each axle.
 template <class T>
 struct YawMoments {
   T steering_m;    ///< l_f S_f sin d_r
@@ -214,12 +217,13 @@ T scrub_of(const Plant<T>& p, const State<T>& s, const YawMoments<T>& tau) {
 
 }  // namespace detail
 
-/// Rates of the state with individual wheel forces F' = motor_force(). With S_f = F'FL + F'FR and
-/// S_r = F'RL + F'RR, the last three are
+/// Rates of the state with an individual command for each motor, `f`. These commands, reduced by
+/// dead zone and back-EMF, make the wheel forces F'. With S_f = F'FL + F'FR and S_r = F'RL + F'RR,
+/// the rates of u, v and r are
 ///   u_dot = (S_f cos d_r + S_r + m' r v - g1(u)) / m'
 ///   v_dot = (S_f sin d_r       - m' r u - g2(v)) / m'
 ///   r_dot = (l_f S_f sin d_r + d cos d_r (F'FR - F'FL) + d (F'RR - F'RL) - g3(r) - N_c) / I'z
-/// with N_c = scrub_moment_m(); the first three are in detail::rates().     [paper (39), corrected]
+/// with N_c = scrub_moment_m(). Those of x, y, psi: detail::rates().        [paper (39), corrected]
 /// Corrected: the rear term of the printed r_dot repeats the front pair of forces.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>& f,
@@ -294,17 +298,19 @@ T differential_moment_m(const T& half_track_m, const T& right_less_left) {
   return T(2.0) * half_track_m * right_less_left;
 }
 
-/// Left and right forces that motors with the dead zone `zone` make of these commands.
+/// Left and right wheel forces that motors with the dead zone `zone` make of these commands; see
+/// beyond_dead_zone() of one command.
 template <class T>
 SideForces<T> beyond_dead_zone(const SideForces<T>& command, const T& zone) {
   return {beyond_dead_zone(command.left, zone), beyond_dead_zone(command.right, zone)};
 }
 
-/// Rates of the state if both wheels of a side have the same force. The last three are
+/// Rates of the state if both wheels of a side have the same force, `f`. The rates of u, v and r
+/// are
 ///   u_dot = (tau_speed               + m' r v - g1(u)) / m'
 ///   v_dot = (tau_steering/l_f        - m' r u - g2(v)) / m'
 ///   r_dot = (tau_steering + tau_diff          - g3(r)) / I'z                          [paper (40)]
-/// with tau_turn = tau_steering + tau_diff; the first three are in detail::rates().
+/// with tau_turn = tau_steering + tau_diff; those of x, y and psi are in detail::rates().
 template <class T>
 State<T> side_driven_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                            const T& steering_command_rad) {
@@ -315,7 +321,8 @@ State<T> side_driven_rates(const Plant<T>& p, const State<T>& s, const SideForce
                        steering_rate(p, s.steering_rad, steering_command_rad));
 }
 
-/// Each wheel's command if both wheels of a side have the same command.
+/// Each wheel's command if both wheels of a side have the same command; 0 for the rear wheels if
+/// they are not driven. Commands by wheel are returned unchanged.
 template <class T>
 WheelForces<T> by_wheel(const Plant<T>& p, const SideForces<T>& f) {
   return {f.left, f.right, p.rear_driven * f.left, p.rear_driven * f.right};
@@ -336,9 +343,9 @@ T scrub_power_mps(const Plant<T>& p, const State<T>& s, const SideForces<T>& f) 
   return detail::scrub_of(p, s, tau) * s.r_radps;
 }
 
-/// Rates of the state if both wheels of a side have the same command. The equations for single
-/// wheels are used if front and rear forces differ, because of back-EMF or undriven rear wheels,
-/// and with scrub.
+/// Rates of the state if both motors of a side have the same command, `f`. If front and rear forces
+/// differ nevertheless (back-EMF, undriven rear wheels), and with scrub, the equations for
+/// individual wheels are used.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                      const T& steering_command_rad) {

@@ -1,5 +1,5 @@
-/// The families of resistance (friction models). Each family fits some of the terms of the law in
-/// resistance.h.
+/// The families of resistance (friction models): each is a law for the force or moment that resists
+/// a speed w > 0, with some of the terms of the general law in resistance.h.
 #pragma once
 
 #include <string_view>
@@ -13,7 +13,7 @@ enum class Family {
   kCoulombLinear,           ///< c + alpha w
   kCoulombLinearQuadratic,  ///< c + alpha w + q w^2
   kCoulombPower,            ///< c + alpha w^beta
-  kDeadZone,                ///< alpha w^beta with a dead zone of the command; surge only
+  kDeadZone,                ///< alpha w^beta, and motor commands with a dead zone; surge only
 };
 inline constexpr NameTable<Family, 5> kFamilyNames{
     {{"power", Family::kPower},

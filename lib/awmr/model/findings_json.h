@@ -15,7 +15,7 @@ Json findings_to_json(const std::vector<Finding>& findings);
 /// Adds the key `findings` and its members to the JSON Schema of an object.
 void describe_findings(JsonObject& json);
 
-/// The findings of a document, each with its position; empty if there are none.
+/// Reads the key `findings` of a document; empty if there is none.
 std::vector<Finding> read_findings(JsonObject& json);
 
 /// The document with `findings` as its last key, replacing existing ones. Files are given by name,

@@ -9,7 +9,8 @@
 namespace awmr {
 namespace {
 
-/// Derivative of g by a parameter at the rate w; 0 if the law does not have the parameter.
+/// Derivative of the resistance g by a parameter, at the speed or yaw rate w >= 0; 0 if g does not
+/// depend on the parameter.
 double slope_at(const Model& model, TrialKind kind, ParameterId parameter, double w) {
   const LawParameters of = law_parameters(kind);
   const double power = w > 0.0 ? std::pow(w, *model[of.beta].value) : 0.0;

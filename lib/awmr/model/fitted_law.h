@@ -8,24 +8,24 @@
 
 namespace awmr {
 
-/// A resistance law counts as extrapolated at rates above the largest fitted rate times this
-/// factor, and below the smallest fitted rate divided by this factor.
+/// A resistance law g counts as extrapolated at speeds (or yaw rates) above the largest fitted one
+/// times this factor, and below the smallest fitted one divided by this factor.
 inline constexpr double kLittleFurther = 1.2;
 
-/// The parameters that a model has for the coefficients of a resistance law:
+/// The model parameters that are the coefficients of a resistance law:
 ///   g(w) = c + alpha w^beta + q w^2
 struct LawParameters {
   ParameterId alpha, beta, coulomb, quadratic;
 };
-/// The parameters of g3 for turning trials, of g1 for the other kinds.
+/// The coefficients of g3 for turning trials, those of g1 for the other kinds of trial.
 LawParameters law_parameters(TrialKind kind);
 
-/// The resistance law with the model's values, without the dead zone of the wheels; absent if alpha
-/// or beta has no value.
+/// The resistance law (g3 for turning trials, else g1) with the model's values, without the dead
+/// zone of the wheels; absent if alpha or beta has no value.
 std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind);
 
-/// Variance of sum_i weight_i g(w_i) over rates w_i >= 0; g is the force or moment of a run at such
-/// a rate:
+/// Variance of sum_i weight_i g(w_i) over speeds or yaw rates w_i >= 0 (`rates`). g(w) is the force
+/// or moment that a steady run at w needs:
 ///   h' C h,  h = sum_i weight_i (dg/dalpha, dg/dbeta, dg/dc, dg/dq, dg/dF'0)
 ///              = sum_i weight_i (w^beta, alpha w^beta ln w, 1, w^2, z)
 /// C is the model's covariance; parameters that it does not contain count as exact. z is the number
@@ -35,7 +35,7 @@ std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind)
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates,
                        std::span<const double> weights);
 
-/// Variance of the mean of g over these rates.
+/// As above with equal weights of sum 1: the variance of the mean of g over these rates.
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates);
 
 /// The largest yaw rate, deg/s, for which the yaw resistance was measured: the vehicle's

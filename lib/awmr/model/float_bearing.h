@@ -1,4 +1,5 @@
-/// The direction of a vector for float, with 16-bit integers. Freestanding C++14.
+/// The angle of a plane vector (atan2) for float, computed with 16-bit integers. Freestanding
+/// C++14.
 ///
 /// A direction to steer to needs only the accuracy of a heading sensor, and an 8-bit processor
 /// divides 16-bit integers in half the time of floats. Integer results are the same on every
@@ -13,14 +14,14 @@ namespace awmr {
 namespace float_math {
 namespace detail {
 
-/// The leading 16 bits of a normal float's mantissa, including the hidden bit.
+/// The leading 16 bits of the mantissa of a normal float with these bits, including the hidden bit.
 inline uint16_t mantissa16(uint32_t bits) {
   return static_cast<uint16_t>(bits >> 8U) | static_cast<uint16_t>(0x8000U);
 }
 
 /// small/large times 2^16, rounded to nearest, from the bits of two magnitudes, small <= large. The
 /// mantissas are divided by long division, with one bit less for each power of two between the
-/// exponents. 0 if the exponents differ by more than 16.
+/// exponents. At most 2^16 - 1; 0 if the exponents differ by more than 16.
 inline uint16_t ratio16(uint32_t small, uint32_t large) {
   const uint16_t divisor = mantissa16(large);
   uint16_t rest = mantissa16(small);
@@ -51,9 +52,9 @@ inline uint16_t product16(uint16_t a, uint16_t b) {
   return static_cast<uint16_t>((static_cast<uint32_t>(a) * b) >> 16U);
 }
 
-/// atan t, rad times 2^17, for t in [0, 1) times 2^16. The minimax polynomial
+/// atan t in units of 2^-17 rad, for t in [0, 1) given in units of 2^-16. The minimax polynomial
 ///   t - t (c0 + z (c1 - z (c2 - z (c3 - z c4)))),   z = t^2
-/// is within 1.2e-5 rad; its coefficients are times 2^17.
+/// is within 1.2e-5 rad. The code has its coefficients times 2^17.
 inline uint32_t atan17(uint16_t t) {
   const uint16_t z = product16(t, t);
   uint16_t p = static_cast<uint16_t>(11162U - product16(z, 2732U));
@@ -88,7 +89,8 @@ inline float bearing(float y, float x) {
     large = height;
   }
   if (large >= kInfinityBits) return not_a_number();
-  // Adds half of the mantissa's last place, for rounding.
+  // Adds half of the last place of the 16-bit mantissas, so that cutting them off rounds to
+  // nearest.
   int32_t angle =
       static_cast<int32_t>(detail::atan17(detail::ratio16(small + 0x80U, large + 0x80U)));
   if (steep) angle = detail::kQuarterTurn17 - angle;

@@ -3,8 +3,8 @@
 /// Uses only operations that IEEE 754 rounds exactly (add, subtract, multiply, divide) and
 /// comparisons, so that the ATmega2560 and a host compiled with -ffp-contract=off give the same
 /// bits; the C libraries' functions differ in the last bit. Polynomials are minimax by the Remez
-/// exchange on the reduced interval, in z = x^2. The worst errors are those of
-/// tests/model/float_math_test, over every float of the range if run with AWMR_EXHAUSTIVE=1.
+/// exchange on the reduced interval, in z = x^2. The worst errors given below are checked by
+/// tests/model/float_math_test, with AWMR_EXHAUSTIVE=1 for every float of the range.
 ///
 /// Angles are valid up to +-kAngleMax; beyond it, and for infinities and NaN, the result is NaN,
 /// which a caller can detect.
@@ -49,13 +49,14 @@ inline float float_of(uint32_t bits) {
 
 namespace float_math {
 
-/// The bits of |x|. As integers, they have the order of the magnitudes, and comparing them takes
-/// half the cycles of a float comparison on the chip. A result above kInfinityBits is a NaN.
+/// The bits of |x|. As integers, they have the order of the magnitudes. Comparing them takes half
+/// the cycles of a float comparison on the chip (ATmega2560). A result above kInfinityBits is a
+/// NaN.
 inline uint32_t magnitude_bits(float x) { return bits_of(x) & 0x7FFFFFFFUL; }
 constexpr uint32_t kInfinityBits = 0x7F800000UL;
 
-/// An integer with the order of the floats: -0 is equal to 0, a NaN is beyond the infinity of its
-/// sign.
+/// An integer for comparisons: order_of(x) < order_of(y) if x < y. -0 is equal to 0; a NaN is
+/// beyond the infinity of its sign.
 inline int32_t order_of(float x) {
   const int32_t magnitude = static_cast<int32_t>(magnitude_bits(x));
   return (bits_of(x) & 0x80000000UL) != 0 ? -magnitude : magnitude;
@@ -79,7 +80,7 @@ inline bool is_inside(float x, float lo, float hi) {
   return order > leading_order_of(lo) && order < leading_order_of(hi);
 }
 
-/// The largest angle, rad, for these functions.
+/// The largest angle, rad, for which sin, cos and wrapped() are valid.
 constexpr float kAngleMax = 8192.0F;
 
 constexpr float kPi = 3.14159265F;
@@ -135,13 +136,13 @@ AWMR_CALLED inline float sin_from(float x, int quarter) {
 
 }  // namespace detail
 
-/// sin x, |x| <= kAngleMax. Worst error 7.9e-8.
+/// sin x, |x| <= kAngleMax. Worst absolute error 7.9e-8.
 inline float sin(float x) { return detail::sin_from(x, 0); }
 
-/// cos x, |x| <= kAngleMax. Worst error 7.9e-8.
+/// cos x, |x| <= kAngleMax. Worst absolute error 7.9e-8.
 inline float cos(float x) { return detail::sin_from(x, 1); }
 
-/// sin x and cos x with one reduction of x.
+/// sin x and cos x with one reduction of x to +-pi/4; errors as of sin() and cos().
 AWMR_CALLED inline void sin_cos(float x, float& sine, float& cosine) {
   if (!(::fabsf(x) <= kAngleMax)) {
     sine = cosine = not_a_number();
@@ -149,7 +150,7 @@ AWMR_CALLED inline void sin_cos(float x, float& sine, float& cosine) {
   }
   const int k = nearest(x * 0.636619772F);
   const float rest = detail::reduced(x, k);
-  // A loop, so that the polynomials are compiled only once.
+  // A loop, so that the polynomials are inlined only once.
   float values[2];
   for (int i = 0; i < 2; ++i) values[i] = detail::sin_of_reduced(rest, k + i);
   sine = values[0];
@@ -170,7 +171,7 @@ inline float eighths_of_turn(uint8_t eighths) {
 }  // namespace detail
 
 /// The angle of (x, y) in (-pi, pi], 0 at the origin; the sign of a zero is ignored. Both finite
-/// and below 1.7e38. Worst error 5e-7, and 9e-7 of the value.
+/// and below 1.7e38. Worst error 5e-7 rad, and 9e-7 relative to the value.
 ///
 /// Computed as an octant's angle, a multiple of pi/4, plus or minus the arc tangent of a ratio
 /// below tan(pi/8).
@@ -209,10 +210,10 @@ inline float atan2(float y, float x) {
 /// atan2 as a called function, where the cost of a call does not matter.
 AWMR_CALLED inline float called_atan2(float y, float x) { return atan2(y, x); }
 
-/// atan x. Worst error 9e-7 of the value.
+/// atan x. Worst error 9e-7 relative to the value.
 inline float atan(float x) { return atan2(x, 1.0F); }
 
-/// 2 atan x. Worst error 5e-7 of the value to 22.6 deg, 9e-7 beyond.
+/// 2 atan x. Worst error relative to the value: 5e-7 for results up to 22.6 deg, 9e-7 beyond.
 inline float twice_atan(float x) {
   const float z = x * x;
   // |angle| <= 22.6 deg: x (2 + z P(z)) is within 3.4e-7 of the value before rounding.
@@ -223,7 +224,8 @@ inline float twice_atan(float x) {
   return half + half;
 }
 
-/// The equivalent angle in (-pi, pi]: unchanged if it is already in the range. Worst error 5e-7.
+/// The equivalent angle in (-pi, pi]: unchanged if it is already in the range. Worst error 5e-7
+/// rad.
 inline float wrapped(float x) {
   const uint32_t magnitude = magnitude_bits(x);
   if (magnitude < bits_of(kPi)) return x;
@@ -238,7 +240,7 @@ inline float wrapped(float x) {
     // 2 pi in three parts, as in detail::reduced.
     rest = ((x - turns * 6.28125F) - turns * 1.93500518798828125e-3F) - turns * 3.01991598e-7F;
   }
-  // Rounding can leave the result slightly outside.
+  // Rounding can leave the result slightly outside of (-pi, pi].
   if (magnitude_bits(rest) < bits_of(kPi)) return rest;
   if (bits_of(rest) >> 31U != 0) return rest + 2.0F * kPi;
   return magnitude_bits(rest) == bits_of(kPi) ? rest : rest - 2.0F * kPi;

@@ -5,12 +5,14 @@
 
 namespace awmr {
 
-/// Gains of the heading law, heading_law() in control/heading_law.h, on S = e_dot + lambda e.
+/// Gains of the heading law, heading_law() in control/heading_law.h, on S = e_dot + lambda e with
+/// the heading error e = psi_d - psi.
 template <class T>
 struct HeadingGains {
   /// lambda, 1/s, > 0: slope of the sliding surface. Larger: the heading error falls faster.
   T lambda;
-  /// mu, rad/s^2, > 0: largest corrective yaw acceleration. It must exceed |disturbance|/I'z.
+  /// mu, rad/s^2, > 0: largest corrective yaw acceleration. It must exceed |disturbance|/I'z, where
+  /// the disturbance is a yaw moment over F_max.
   T mu;
   /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
   /// is proportional to S. Larger: less chattering, a softer response.
@@ -30,8 +32,8 @@ struct HeadingGains {
   T reaching_time_constant_s() const { return epsilon / (T(2.0) * mu); }
 };
 
-/// Gains of the speed law, speed_law() in control/speed_law.h, on e_u = u_d - u. The paper prints
-/// no values for them.
+/// Gains of the speed law, speed_law() in control/speed_law.h, on the speed error e_u = u_d - u.
+/// The paper prints no values for them.
 template <class T>
 struct SpeedGains {
   T mu;       ///< mu_s, m/s^2, > 0: largest corrective acceleration
@@ -42,8 +44,8 @@ struct SpeedGains {
 /// the gains.
 template <class T>
 struct ObserverGains {
-  /// L, rad/s, L T_s < 1; 0: none. Larger: disturbances are compensated sooner, and more noise
-  /// passes.
+  /// L, rad/s, >= 0: bandwidth; 0: no observer. L T_s < 1 with the controller's sample time T_s.
+  /// Larger: disturbances are compensated sooner, and more measurement noise reaches the commands.
   T bandwidth_radps = T(0.0);
   T yaw_max_m = T(0.0);  ///< m, > 0: largest moment over F_max that is compensated
   T surge_max = T(0.0);  ///< dimensionless, > 0: largest force over F_max that is compensated

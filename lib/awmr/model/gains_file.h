@@ -1,5 +1,5 @@
-/// Reads and writes the gains in gains.json (`awmr.gains/1`). Its tuning results are written by
-/// tune/.
+/// Reads and writes the gains in gains.json (`awmr.gains/1`). The results of tuning, which
+/// gains.json also has, are written by tune/.
 #pragma once
 
 #include <filesystem>
@@ -22,11 +22,12 @@ Result<Gains<double>> read_gains(const std::filesystem::path& path);
 /// read_json_file; a certificate in another form.
 Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path);
 
-/// Checks a text of gains.json after writing by reading it back (core/file.h).
+/// Checks a text of gains.json before it is written: the ReadBack (core/file.h) of this format.
+/// Errors: as read_gains.
 Status check_gains_text(std::string_view text, const std::string& file);
 
-/// read_gains() for a controller with this sample time. Errors: as read_gains; as
-/// check_observer_rate.
+/// As read_gains(), for a controller with this sample time. Errors: as read_gains(); an observer
+/// whose bandwidth is too large for the sample time (check_observer_rate()).
 Result<Gains<double>> read_gains_for(const std::filesystem::path& path, double sample_time_s);
 
 /// Writes a file with gains only. Tuned gains are written by gains_text() in tune/tune.h.

@@ -8,7 +8,7 @@ namespace awmr {
 
 inline constexpr std::string_view kGainsSchema = "awmr.gains/1";
 
-/// {"heading": {lambda, mu, epsilon}, "speed": {mu, epsilon}}. "heading" also has
+/// Returns {"heading": {lambda, mu, epsilon}, "speed": {mu, epsilon}}. "heading" also has
 /// "friction_width_radps" if it is not the default. With an observer, there is also "observer":
 /// {bandwidth_radps, yaw_max_m, surge_max}.
 inline Json gains_to_json(const Gains<double>& gains) {
@@ -28,7 +28,8 @@ inline Json gains_to_json(const Gains<double>& gains) {
   return json;
 }
 
-/// Reads `heading`, `speed` and, if present, `observer`. Faults are added to those of `root`.
+/// Reads `heading`, `speed` and, if present, `observer`. Missing keys and gains out of range
+/// (ranges.h) are added to the faults of `root`.
 Gains<double> gains_from_json(JsonObject& root);
 
 }  // namespace awmr

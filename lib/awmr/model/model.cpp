@@ -32,9 +32,10 @@ Result<Plant<double>> plant_with(const Model& model, IsNeeded is_needed) {
     if (!has(model.vehicle, parameter.id)) continue;
     faults.push_back(
         {ErrorCode::kNotIdentified, fmt::format("{}:{}", model.file, parameter.pointer),
-         fmt::format("no value for {} ({}, {}), which is needed here; identify again with {}",
-                     parameter.name, parameter.symbol, parameter.meaning,
-                     trial_of(model.vehicle, parameter.id))});
+         fmt::format(
+             "no value for {} ({}, {}), on which the motion depends; identify again with {}",
+             parameter.name, parameter.symbol, parameter.meaning,
+             trial_of(model.vehicle, parameter.id))});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return model.plant_as_known();

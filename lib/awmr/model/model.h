@@ -52,19 +52,19 @@ struct Estimate {
   std::optional<Interval> ci95;     ///< 95 % confidence interval; absent as `std_error`
   Source source = Source::kGiven;
   std::string method;  ///< "log-linear", "box formula", "vehicle.json", ...
-  /// Quantiles of the uncertainty if it is not normal about `value`: the ends of the interval, the
-  /// quartiles and the median. Plants are drawn from them (simulate/plant_sampler.h).
+  /// Quantiles of the uncertainty if it is not normal about `value`: the ends of the 95 % interval,
+  /// the quartiles and the median. Plants are drawn from them (simulate/plant_sampler.h).
   std::optional<Quantiles> quantiles = {};
 };
 
-/// The covariance of the fitted parameters.
+/// The covariance of the fitted parameters' values, in the units of parameter_table().
 struct Covariance {
   std::vector<ParameterId> parameters;      ///< the parameters of the rows and columns, in order
   std::vector<std::vector<double>> matrix;  ///< square, symmetric, over `parameters`
 };
 
 /// Tyre scrub: yaw moment in differential (skid) turns in addition to the resistance of steered
-/// turns. Over F_max, as a Coulomb friction:
+/// turns. Taken as a Coulomb friction (the same at every yaw rate), over F_max:
 ///   2 d (F'R - F'L) = g3(r) + moment
 struct YawScrub {
   double moment_m = 0.0;     ///< m; negative values are due to noise
@@ -79,10 +79,11 @@ struct YawScrub {
 
 /// False for a parameter that the vehicle does not have: the servo of a vehicle without steering.
 bool has(const Vehicle& vehicle, ParameterId id);
-/// The trial that identifies a parameter of this vehicle, as text for messages.
+/// Description, for messages, of the trial that identifies a parameter of this vehicle.
 std::string_view trial_of(const Vehicle& vehicle, ParameterId id);
 
-/// Types of motion, by the parameters in their equations.
+/// Types of motion, distinguished by the parameters that their equations contain. Dead zone and
+/// back-EMF are in the equations of all of them.
 enum class Motion {
   kSteadySurge,  ///< straight ahead at constant speed: g1
   kSteadyTurn,   ///< turn at constant yaw rate: g3
@@ -94,8 +95,8 @@ bool takes(Motion motion, ParameterId id);
 /// The motion that a trial of this kind measures.
 Motion motion_of(TrialKind kind);
 
-/// The identified vehicle: the data given before the trials, the resistance families, and every
-/// identified quantity with its uncertainty.
+/// The identified vehicle: the data given before the trials (`vehicle`), the resistance families,
+/// and every identified quantity with its uncertainty.
 struct Model {
   /// A model without any identified quantity. Only the optional terms (ParameterInfo::term) have a
   /// value, 0.
@@ -107,14 +108,16 @@ struct Model {
   Family yaw_family = Family::kPower;
   std::array<Estimate, kParameterCount> estimates;  ///< by ParameterId
   Covariance covariance;
-  /// Smallest plausible m', s^2/m, > 0: g1(u)/(mu g) with mu = kTyreFriction. With a smaller m', a
+  /// Smallest plausible m', s^2/m, > 0: g1(u)/(mu g) with mu = kTyreFriction and the acceleration
+  /// of gravity g, at the highest initial speed u of the coast-downs. With a smaller m', this
   /// coast-down would decelerate more than tyres permit. Absent if the identified m' is plausible.
   std::optional<double> mass_norm_by_grip;
   std::optional<YawScrub> yaw_scrub;  ///< absent: no turning trial determines it
-  /// The largest yaw moment by left and right wheel forces, m, > 0, at which the vehicle did not
-  /// turn; absent: the vehicle turned in every trial.
+  /// The largest yaw moment over F_max by the difference of left and right wheel forces, m, > 0, at
+  /// which the vehicle did not turn; absent: the vehicle turned in every trial.
   std::optional<double> yaw_held_m;
-  /// g3 was fitted to differential turns of a vehicle that also steers: it includes the tyre scrub.
+  /// True: g3 was fitted only to differential turns of a vehicle that also steers, so it includes
+  /// the moment of tyre scrub.
   bool yaw_by_sides_alone = false;
   IdentificationRecord record;
 
@@ -141,7 +144,8 @@ struct Model {
   Motion simulated_motion() const;
 };
 
-/// True for an optional term that this model does not have and model.json does not contain.
+/// True for an optional term (ParameterInfo::term) that this model does not have: it was neither
+/// fitted nor given a value other than 0, and model.json does not contain it.
 bool is_absent_term(const Model& model, ParameterId id);
 
 /// The largest force of one motor, N:

@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::string_view kModelSchema = "awmr.model/1";
 
-/// Range of a parameter's quantiles. They must be positive if the coordinate is logarithmic; those
-/// of an exponent or a term can extend below 0.
+/// Range of a parameter's quantiles. They must be positive if the parameter's coordinate is
+/// logarithmic (transform.h); those of an exponent or of an optional term can be below 0.
 NumberRule rule_of_quantile(ParameterId id) {
   return scale_of(id) == Scale::kLogarithmic ? kPositive : kAnyNumber;
 }
@@ -48,8 +48,8 @@ Quantiles quantiles_from_json(JsonObject json, const ParameterInfo& parameter) {
     quantiles[q] = json.number(kQuantiles[q].key, rule_of_quantile(parameter.id));
     if (q == 0 || quantiles[q] >= quantiles[q - 1]) continue;
     json.fault(ErrorCode::kWrongOrder, kQuantiles[q].key,
-               fmt::format("{:g} is less than the quantile before it, {:g}", quantiles[q],
-                           quantiles[q - 1]));
+               fmt::format("{:g} is less than the quantile before it, {:g}; identify again",
+                           quantiles[q], quantiles[q - 1]));
   }
   json.reject_unknown_keys();
   return quantiles;
@@ -234,7 +234,8 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
   };
   const Interval ci = scrub.ci95_m;
   check(ci.contains(scrub.moment_m), "ci95_m",
-        fmt::format("[{:g}, {:g}] does not contain moment_m {:g}", ci.lo, ci.hi, scrub.moment_m));
+        fmt::format("[{:g}, {:g}] does not contain moment_m {:g}; identify again", ci.lo, ci.hi,
+                    scrub.moment_m));
   check(ci.hi >= 0.0, "ci95_m",
         fmt::format("[{:g}, {:g}] is below 0, but scrub cannot drive a turn", ci.lo, ci.hi));
   // The half width over std_error_m is Student's quantile: 12.7 with one degree of freedom, 1.96
@@ -248,7 +249,8 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
         fmt::format("{:g} is not the middle of ci95_m [{:g}, {:g}]", scrub.moment_m, ci.lo, ci.hi));
   check(scrub.yaw_rate_radps.lo > 0.0 && scrub.yaw_rate_radps.hi < 1e3, "yaw_rate_radps",
         "yaw rates must be above 0 and below 1000 rad/s");
-  // The scrub moment cannot exceed the largest moment of the wheel forces.
+  // The scrub moment was overcome by the wheel forces, so it cannot exceed their largest yaw
+  // moment.
   const Interval force = model.vehicle.wheel_force;
   const double most_m = differential_moment_m(model.vehicle.half_track_m, force.hi - force.lo);
   check(scrub.moment_m <= most_m, "moment_m",

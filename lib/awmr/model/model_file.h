@@ -10,19 +10,20 @@
 
 namespace awmr {
 
-/// Errors: as read_json_file; unknown or missing keys; values that are out of range (ranges.h) or
-/// contradict each other.
+/// Reads model.json. Errors: as read_json_file(); unknown or missing keys; values that are out of
+/// range (ranges.h) or contradict each other, such as a value outside its interval.
 Result<Model> read_model(const std::filesystem::path& path);
 
-/// As read_model(), from text; `file` names it in errors.
+/// As read_model(), from a text in memory; `file`: its name in errors.
 Result<Model> model_from_text(std::string_view text, const std::string& file);
-/// Checks a text of model.json after writing by reading it back (core/file.h).
+/// Checks a text of model.json before it is written: the ReadBack (core/file.h) of this format.
+/// Errors: as model_from_text().
 Status check_model_text(std::string_view text, const std::string& file);
 
 /// Text of model.json.
 std::string model_text(const Model& model);
 
-/// Errors: as write_file.
+/// Writes model.json. Errors: as write_file().
 Status write_model(const Model& model, const std::filesystem::path& path);
 
 /// The JSON Schema of model.json, derived from its reader.

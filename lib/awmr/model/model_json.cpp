@@ -17,7 +17,8 @@
 namespace awmr {
 namespace {
 
-/// The kinds of trial in /trials: those that are tables. Logs have no entries there.
+/// The kinds of trial that /trials of model.json has: those that are tables. Logs have no entries
+/// in /trials.
 constexpr NameTable<TrialKind, 3> kTableNames{
     {kTrialKindNames[0], kTrialKindNames[1], kTrialKindNames[2]}};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -50,7 +51,7 @@ std::vector<std::vector<double>> matrix_from_json(JsonObject& json, const Json& 
   if (!matrix.is_array() || matrix.size() != size ||
       !std::all_of(matrix.begin(), matrix.end(), is_row)) {
     json.fault(ErrorCode::kWrongType, "matrix",
-               fmt::format("must be {0} rows of {0} numbers, one per entry of "
+               fmt::format("the matrix must be {0} rows of {0} numbers, one per entry of "
                            "parameters",
                            size));
     return rows;
@@ -59,7 +60,8 @@ std::vector<std::vector<double>> matrix_from_json(JsonObject& json, const Json& 
   return rows;
 }
 
-/// False if the correlations contradict each other: a correlation matrix has no eigenvalue below 0.
+/// False if the correlations of the covariance `m` contradict each other: their matrix then has an
+/// eigenvalue below 0.
 bool are_correlations(const std::vector<std::vector<double>>& m) {
   constexpr double kRounding = 1e-6;
   const auto n = static_cast<Eigen::Index>(m.size());
@@ -88,8 +90,8 @@ void check_covariance(JsonObject& json, const std::vector<std::vector<double>>& 
       const double scale = std::max(std::abs(m[i][j]), std::abs(m[j][i]));
       if (std::abs(m[i][j] - m[j][i]) > kSymmetryTolerance * scale) {
         json.fault(ErrorCode::kContradiction, "matrix",
-                   fmt::format("must be symmetric, but [{0}][{1}] is {2} and [{1}][{0}] "
-                               "is {3}",
+                   fmt::format("the matrix must be symmetric, but [{0}][{1}] is {2} and "
+                               "[{1}][{0}] is {3}",
                                i, j, m[i][j], m[j][i]));
       }
     }
@@ -98,7 +100,7 @@ void check_covariance(JsonObject& json, const std::vector<std::vector<double>>& 
       m, [&](const std::vector<double>& row) { return row[at(&row - m.data())] >= 0.0; });
   if (variances && !are_correlations(m)) {
     json.fault(ErrorCode::kContradiction, "matrix",
-               "is not positive semi-definite, because its correlations contradict each other; "
+               "the matrix is not positive semi-definite: its correlations contradict each other; "
                "identify again");
   }
 }
@@ -118,7 +120,8 @@ EstimatorParameter parameter_from_json(JsonObject json) {
   return parameter;
 }
 
-/// Writes the parts of a report that only some estimators compute; a missing part has no key.
+/// Writes those items of a report that only some estimators compute. An item that is missing in the
+/// report gets no key.
 void put_details(Json& json, const EstimatorReport& report) {
   if (!report.family.empty()) json["family"] = report.family;
   if (report.weight) json["weight"] = *report.weight;

@@ -6,7 +6,7 @@
 
 namespace awmr {
 
-/// JSON has no infinity and no NaN: both are written as null.
+/// null for an absent value, and for infinity and NaN, which JSON does not have.
 Json number_or_null(const std::optional<double>& value);
 Json interval_or_null(const std::optional<Interval>& interval);
 

@@ -1,4 +1,4 @@
-/// Limit of a disturbance observer's bandwidth.
+/// Limit of a disturbance observer's bandwidth, by the controller's sample time.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace awmr {
 
-/// Errors (input), at `place`: L T_s >= 1, with which the observer's estimate would oscillate.
+/// Checks that L T_s < 1, where L is `bandwidth_radps` and T_s is `sample_time_s`. Otherwise the
+/// observer's estimate would oscillate. Errors (input), at `place`: L T_s >= 1.
 Status check_observer_rate(double bandwidth_radps, double sample_time_s, const std::string& place);
 
 }  // namespace awmr

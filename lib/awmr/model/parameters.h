@@ -36,7 +36,7 @@ struct ParameterInfo {
   std::string_view unit;     ///< "1" if dimensionless
   std::string_view meaning;  ///< description for messages
   std::string_view trial;    ///< the trial that identifies it, as text for messages
-  bool term = false;         ///< true: optional term, 0 and not in model.json unless it was fitted
+  bool term = false;         ///< optional: 0, not in model.json unless fitted or given
 };
 
 /// Names of quantities that a fit of logs can estimate in addition to the parameters. They are only
@@ -45,14 +45,14 @@ inline constexpr std::string_view kInputDelayName = "input_delay_s";
 inline constexpr std::string_view kSteeringDelayName = "steering.delay_s";
 inline constexpr std::string_view kMotorLagName = "motor.time_constant_s";
 inline constexpr std::string_view kBiasPrefix = "bias.";  ///< + the channel's column
-/// Name of the ratio m'/a1, in s (m/s)^(b1 - 1), the only result of a coast-down without a surge
-/// trial.
+/// Name of the ratio m'/a1, in s (m/s)^(b1 - 1). A coast-down without a surge trial determines only
+/// this ratio and b1, and for other families the ratios of ratio_names.h.
 inline constexpr std::string_view kMassOverSurgeName = "mass_norm/surge.alpha";
 
 /// The table, in the order of ParameterId.
 const std::array<ParameterInfo, kParameterCount>& parameter_table();
 const ParameterInfo& info(ParameterId id);
-/// None if no parameter has this name.
+/// The parameter with this name ("surge.alpha"); none if there is none.
 std::optional<ParameterId> parameter_by_name(std::string_view name);
 
 }  // namespace awmr

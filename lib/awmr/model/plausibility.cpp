@@ -14,7 +14,8 @@
 namespace awmr {
 namespace {
 
-/// A likely error of a user: the value times `factor` is what was meant, and `words` says why.
+/// A likely error of a user: the intended value is the given one times `factor`, because the given
+/// value `words` ("looks like mm").
 struct Guess {
   double factor;
   std::string_view words;
@@ -30,8 +31,8 @@ constexpr std::array<Guess, 5> kInertia{{{1e-4, "looks like kg cm^2"},
                                          {1e-7, "looks like g cm^2"},
                                          {1e-9, "looks like g mm^2"}}};
 
-/// The guess whose factor brings a ratio nearest to `usual`, among those that bring it into
-/// `range`.
+/// Of the guesses whose factor brings `ratio` into `range`, the one that brings it nearest to
+/// `usual`; none if no factor does.
 std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interval range,
                             double usual) {
   std::optional<Guess> best;
@@ -43,7 +44,8 @@ std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interv
   return best;
 }
 
-/// End of a message: "; the value looks like mm: 0.32", or advice to measure again without a guess.
+/// End of a message: "; the value looks like mm: 0.32" (the converted value); without a guess,
+/// advice to measure again.
 std::string remedy(double value, const std::optional<Guess>& guess) {
   if (!guess) return "; measure it again";
   return fmt::format("; the value {}: {:.4g}", guess->words, value * guess->factor);
@@ -55,8 +57,8 @@ struct Scale {
   double mass;
 };
 
-/// The scale that brings the mass per footprint area nearest to that of a robot. Precondition:
-/// length and width are consistent.
+/// The scale that brings the mass per footprint area, kg/m^2, nearest to the 50 of a typical robot;
+/// none if no scale brings it into 5 to 500. Precondition: length and width have the same unit.
 std::optional<Scale> likely_scale(double mass_per_area) {
   static constexpr std::array<Scale, 5> kScales{
       {{1e-3, 1.0}, {1e-2, 1.0}, {1.0, 1e-3}, {1e-3, 1e-3}, {1e-2, 1e-3}}};
@@ -74,7 +76,8 @@ std::optional<Scale> likely_scale(double mass_per_area) {
   return best;
 }
 
-/// Checks length against width. Corrects the one that is too large by a unit factor.
+/// Checks the ratio of length to width. If it is implausible, converts the larger of the two from
+/// mm or cm to m.
 void check_shape(Vehicle& vehicle, std::vector<Implausible>& found) {
   constexpr Interval kShape{0.2, 10.0};
   const double ratio = vehicle.length_m / vehicle.width_m;
@@ -89,7 +92,8 @@ void check_shape(Vehicle& vehicle, std::vector<Implausible>& found) {
   if (guess) larger *= guess->factor;
 }
 
-/// Checks mass over the footprint. Corrects a value in another unit.
+/// Checks the mass per footprint area. If it is implausible, converts the mass from g to kg, length
+/// and width from mm or cm to m, or both, as far as that makes it plausible.
 void check_mass(Vehicle& vehicle, std::vector<Implausible>& found) {
   constexpr Interval kMassPerArea{1.0, 5000.0};
   const double per_area = vehicle.mass_kg / (vehicle.length_m * vehicle.width_m);

@@ -1,5 +1,5 @@
 /// Consistency checks of a vehicle's numbers before any trial: implausible sizes, masses and
-/// angles, and the unit in which they were probably given.
+/// angles, and the unit in which they were probably given. Plausible are:
 ///
 ///     mass over the footprint m/(length width)    1 to 5000 kg/m^2: from a toy to a mining truck
 ///     length over width                           1/5 to 10
@@ -24,7 +24,7 @@ namespace awmr {
 /// Plausible range of Iz divided by that of a uniform box of the same mass and size. With all mass
 /// in the corners, the ratio is 3.
 inline constexpr Interval kInertiaOverBox{0.05, 3.0};
-/// Largest plausible time constant of a steering servo; a larger number is probably in ms.
+/// Largest plausible time constant of a steering servo, s; a larger number is probably in ms.
 inline constexpr double kSlowestServo_s = 2.0;
 
 /// A number that is impossible or very unlikely.
@@ -33,16 +33,18 @@ struct Implausible {
   std::string message;  ///< the comparison, the likely unit and the resulting value
 };
 
-/// Returns the implausible values in the order of the table above, none for a vehicle that can be
-/// built. If a size or the mass is in another unit, the remaining checks use the converted value.
+/// Returns the implausible values, checked in this order: length over width, mass and sizes, track,
+/// front axle, Iz, steering. If the length, the width or the mass is probably in another unit, the
+/// later checks use the converted value. Empty if all values are plausible.
 std::vector<Implausible> implausible_values(const Vehicle& vehicle);
 
-/// Errors (input): all implausible values, each at `place` followed by its pointer. `remedy`: a
-/// sentence for the end of each message that says what the user can do.
+/// Checks that implausible_values() is empty. Errors (input): all implausible values, each at
+/// `place` followed by its pointer. `remedy`: a sentence that says what the user can do, for the
+/// end of each message.
 Status check_plausible(const Vehicle& vehicle, const std::string& place, const std::string& remedy);
 
-/// Returns the implausible values as findings (`implausible-vehicle`) in `file`; if `file` is empty,
-/// the findings name no place.
+/// Returns the implausible values as findings (`implausible-vehicle`) in `file`; if `file` is
+/// empty, the findings name no place.
 std::vector<Finding> plausibility_findings(const Vehicle& vehicle, Severity severity,
                                            const std::string& file = {});
 

@@ -1,6 +1,6 @@
-/// sin and cos for float, with 16-bit integers. Freestanding C++14.
+/// sin and cos for float, computed with 16-bit integers. Freestanding C++14.
 ///
-/// For displacements along a heading, an error of 9e-5 is small against that of the sensors. On an
+/// For displacements along a heading, an error of 9e-5 is small compared with sensor errors. On an
 /// 8-bit processor, these functions take a seventh of the cycles of float_math::sin. Integer
 /// results are the same on every machine.
 #pragma once
@@ -14,9 +14,9 @@ namespace awmr {
 namespace float_math {
 namespace detail {
 
-/// sin(pi/2 t) times 2^15, for t in [0, 1) times 2^16. The polynomial
+/// sin(pi/2 t) in units of 2^-15, for t in [0, 1) given in units of 2^-16. The polynomial
 ///   t (pi/2 - z (c1 - z (c2 - z c3))),   z = t^2
-/// is within 6e-7; its coefficients are times 2^15.
+/// is within 6e-7. The code has its coefficients times 2^15.
 AWMR_CALLED inline uint16_t sin15(uint16_t t) {
   const uint16_t z = product16(t, t);
   uint16_t p = static_cast<uint16_t>(2605U - product16(z, 143U));
@@ -45,7 +45,7 @@ AWMR_CALLED inline float quick_sin(float x, uint8_t quarters) {
 
 namespace math {
 
-/// sin x and cos x for displacements: within 9e-5 for float.
+/// sin x and cos x for displacements: for float within 9e-5 (|x| <= 100), for double as ::sin.
 inline float quick_sin(float x) { return float_math::quick_sin(x, 0); }
 inline double quick_sin(double x) { return ::sin(x); }
 inline float quick_cos(float x) { return float_math::quick_sin(x, 1); }

@@ -19,7 +19,7 @@ inline constexpr NumberRule kSampleTime_s{.min = 1e-4, .max = 1.0};
 inline constexpr NumberRule kSensorNoise{.min = 0.0, .max = 1e3};
 /// Latency of a sensor, or lag of a motor.
 inline constexpr NumberRule kLatency_s{.min = 0.0, .max = 1.0};
-/// Time constant of the correlation of a sensor's noise; 0: none.
+/// Correlation time of a sensor's noise; 0: independent readings.
 inline constexpr NumberRule kCorrelation_s{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kStallPower_w{.min = 0.0, .max = 1e6, .min_excluded = true};
 /// The maximum of k_e corresponds to 1/k_e = 1 mm/s, the speed at which a motor under full voltage
@@ -28,10 +28,11 @@ inline constexpr NumberRule kBackEmf_s_per_m{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kFastestTurn_degps{.min = 1e-3, .max = 1e6};
 /// Coefficients of resistance, m' and I'z, each in its own unit.
 inline constexpr NumberRule kCoefficient{.min = 1e-9, .max = 1e9};
+/// Optional terms of the model (ParameterInfo::term): Coulomb, quadratic, dead zone, back-EMF.
 inline constexpr NumberRule kTerm{.min = 0.0, .max = 1e9};
 inline constexpr NumberRule kExponent{.min = 0.0, .max = 20.0};
-/// Tyres: friction from ice to above rubber on dry asphalt, stiffness from a soft tyre to a rigid
-/// wheel.
+/// Tyres: friction coefficient from ice to above rubber on dry asphalt; cornering stiffness over
+/// load from a soft tyre to a rigid wheel.
 inline constexpr NumberRule kTyreFrictionRule{.min = 0.01, .max = 5.0};
 inline constexpr NumberRule kCorneringStiffnessRule_per_rad{.min = 0.1, .max = 100.0};
 inline constexpr NumberRule kGain{.min = 1e-9, .max = 1e9};

@@ -36,22 +36,24 @@ inline constexpr NameTable<TrialKind, 4> kTrialKindNames{{{"surge", TrialKind::k
                                                           {"coastdown", TrialKind::kCoastdown},
                                                           {"log", TrialKind::kLog}}};
 
-/// Subject of a fit: a resistance, the mass, or the whole model.
+/// The quantity that a fit estimates: surge resistance g1, yaw resistance g3, mass m', or, from
+/// logs, the whole model.
 enum class FitSubject { kSurge, kYaw, kMass, kLog };
 inline constexpr NameTable<FitSubject, 4> kFitSubjectNames{{{"surge", FitSubject::kSurge},
                                                             {"yaw", FitSubject::kYaw},
                                                             {"mass", FitSubject::kMass},
                                                             {"log", FitSubject::kLog}}};
 
-/// The estimators that are compared.
+/// Estimation methods. Several are applied to the same trials, so that their results can be
+/// compared.
 enum class Estimator {
-  kLogLinear,   ///< tables: a line through the logarithms, as in the paper
+  kLogLinear,   ///< tables: a line through log force over log speed, as in the paper
   kNonlinear,   ///< tables: nonlinear least squares
   kStopTime,    ///< mass: from the stop times of coast-downs
   kCurve,       ///< mass: from whole coast-down curves
   kCombined,    ///< mass: weighted mean of stop time and curve
   kJoint,       ///< surge law and mass together
-  kTrajectory,  ///< logs: the whole model, driven by the logged commands
+  kTrajectory,  ///< logs: the simulated model, driven by the logged commands
 };
 inline constexpr NameTable<Estimator, 7> kEstimatorNames{{{"log-linear", Estimator::kLogLinear},
                                                           {"nonlinear", Estimator::kNonlinear},
@@ -67,12 +69,12 @@ struct EstimatorParameter {
   double value = 0.0;
   std::optional<double> std_error;  ///< > 0; absent if there are too few data
   std::optional<Interval> ci95;     ///< 95 % interval from the curvature of the cost at its minimum
-  /// 95 % interval from the profile of the cost. It can be asymmetric; an end that the data do not
-  /// determine is the parameter's bound.
+  /// 95 % interval from the profile likelihood: the cost, minimised over the other parameters. It
+  /// can be asymmetric; an end that the data do not determine is the parameter's bound.
   std::optional<Interval> profile95 = {};
 };
 
-/// A test of a fit's assumption about its residuals.
+/// A statistical test of an assumption that a fit makes about its residuals.
 struct Diagnostic {
   std::string name;  ///< "normality", "whiteness of yaw_rate_radps", "lack of fit"
   double statistic = 0.0;
@@ -84,14 +86,14 @@ struct Diagnostic {
 struct LeaveOneOut {
   std::string file;
   int line = 0;                ///< 0: the whole file
-  std::vector<double> values;  ///< as EstimatorReport::parameters
+  std::vector<double> values;  ///< in the order of EstimatorReport::parameters
 };
 
-/// One initial guess of a multistart search, and the end of the search from it.
+/// One initial guess of a multistart search, and how the search from it ended.
 struct SearchStart {
-  std::vector<double> values;  ///< as EstimatorReport::parameters
-  double cost = 0.0;           ///< after the search, half the sum of squared standardised residuals
-  bool chosen = false;
+  std::vector<double> values;  ///< the guess, in the order of EstimatorReport::parameters
+  double cost = 0.0;           ///< at the end: half the sum of squared standardised residuals
+  bool chosen = false;         ///< true: the estimates are the end of this search
   std::string stop_reason;
 };
 
@@ -101,24 +103,26 @@ struct EstimatorReport {
   Estimator estimator = Estimator::kLogLinear;
   std::string noise;  ///< noisy quantity: "log force", "force", "speed", "time", ...
   std::vector<EstimatorParameter> parameters;
-  double residual_std = 0.0;      ///< in the unit of the noise
-  int rows_used = 0;              ///< number of rows of the tables or logs that were used
-  int degrees_of_freedom = 0;     ///< of the residuals: rows minus parameters
+  double residual_std = 0.0;      ///< in the unit of the noisy quantity; logs: 1
+  int rows_used = 0;              ///< number of rows; logs: of measurements of all channels
+  int degrees_of_freedom = 0;     ///< rows_used minus unknowns; 0: not computed
   int rank = 0;                   ///< number of parameter combinations that the data determine
-  double condition_number = 0.0;  ///< of the problem, >= 1; infinite if rank-deficient
+  double condition_number = 0.0;  ///< of the Jacobian, >= 1 or infinite; 0: not computed
   std::string stop_reason;        ///< reason why the solver stopped
-  std::string family = {};        ///< of resistance; empty: the paper's power law
+  std::string family = {};        ///< family of resistance; empty: the paper's power law
   /// Weight in the average over noise models, (0, 1]: the probability that the noisy quantity is
   /// this `noise`; absent: the estimates were not averaged.
   std::optional<double> weight = {};
-  /// Corrected Akaike criterion: less is better. Compare only estimators with the same `noise`.
+  /// Corrected Akaike information criterion (AICc): less is better. Compare only estimators with
+  /// the same `noise`.
   std::optional<double> aicc = {};
   std::vector<Diagnostic> diagnostics = {};
   std::vector<LeaveOneOut> leave_one_out = {};
   std::vector<SearchStart> starts = {};
 };
 
-/// One row of a trial as used. The model stores it so that later steps need no CSV.
+/// One row of a trial table as the fit used it. The model stores it, so that `validate` and other
+/// later steps do not need the CSV file.
 struct TrialPoint {
   TrialKind kind = TrialKind::kSurge;  ///< not kLog
   std::string file;
@@ -127,7 +131,7 @@ struct TrialPoint {
   double input = 0.0;
   /// surge: speed in m/s; turning: yaw rate in rad/s; coastdown: stop time in s
   double measured = 0.0;
-  std::optional<double> predicted;  ///< by the main model, in the unit of `measured`
+  std::optional<double> predicted;  ///< by the model's values, in the unit of `measured`
 };
 
 /// Record of an identification: results of all estimators, findings, and the provenance.

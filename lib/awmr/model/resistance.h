@@ -6,24 +6,25 @@
 
 namespace awmr {
 
-/// The force or moment g that resists the speed w. For w > 0, g is positive and acts backward:
+/// The force or moment g that resists the speed or yaw rate w. It has the sign of w and acts
+/// against the motion:
 ///   g(w) = (c + alpha |w|^beta + q w^2) sgn w                                   [paper (47), (63)]
 /// The paper has c = q = 0 and only w > 0; its law is extended here to an odd curve.
 ///
 /// Surge: g1 of w = u in m/s, dimensionless (a force over F_max). Yaw: g3 of w = r in rad/s, in m
-/// (a moment over F_max). The family determines which terms are free (family.h).
+/// (a moment over F_max). The family determines which of c, beta and q a fit estimates (family.h).
 template <class T>
 struct Resistance {
   /// alpha, > 0: resistance at unit speed for c = q = 0. Surge: a1, (s/m)^b1; yaw: a3, m
   /// (s/rad)^b3. Fitted to steady runs or logs.
   T alpha;
-  /// beta, dimensionless, >= 0: steepness of the resistance. Surge: b1, in [0, 1] in the paper;
-  /// yaw: b3. Below 1 the slope at rest is infinite.
+  /// beta, dimensionless, >= 0: exponent of the speed. Surge: b1, in [0, 1] in the paper; yaw: b3.
+  /// Below 1 the slope at rest is infinite.
   T beta;
-  /// Speed below which the curve is replaced by its chord to the origin, >= 0; surge: m/s, yaw:
-  /// rad/s. 0 keeps the law exact, for fits and steady states. A simulation needs a chord, because
-  /// the curve jumps at rest for c > 0 and has an infinite slope there for beta < 1: rest_speed()
-  /// in steady.h computes the value for its steps.
+  /// Speed below which g(w) is replaced by its chord, the straight line from the origin to the
+  /// curve at this speed. >= 0; surge: m/s, yaw: rad/s. 0 keeps the law exact, for fits and steady
+  /// states. A simulation needs a chord, because the curve jumps at rest for c > 0 and has an
+  /// infinite slope there for beta < 1: rest_speed() in steady.h computes the value for its steps.
   T rest_speed = T(0.0);
   /// c, in the unit of g, >= 0: Coulomb friction, the same at every speed. 0 in the paper.
   T coulomb = T(0.0);
@@ -56,15 +57,15 @@ struct Resistance {
   }
 };
 
-/// Default speed (m/s, rad/s) below which a controller feeds forward the chord of a resistance with
-/// Coulomb friction. With the curve itself, which jumps at rest, the command would chatter between
-/// +c and -c.
+/// Default speed (m/s) or yaw rate (rad/s) below which a controller feeds forward a resistance with
+/// Coulomb friction c in proportion to the speed (its chord). With the curve itself, which jumps at
+/// rest, the command would chatter between +c and -c.
 template <class T>
 constexpr T feed_forward_rest_speed() {
   return T(0.02);
 }
-/// The law that a controller feeds forward: with a chord below rest_speed if the law has Coulomb
-/// friction.
+/// The law that a controller feeds forward: `law`, with its chord below the speed `rest_speed` if
+/// it has Coulomb friction.
 template <class T>
 Resistance<T> feed_forward(Resistance<T> law, const T& rest_speed = feed_forward_rest_speed<T>()) {
   if (law.coulomb > T(0.0)) law.rest_speed = rest_speed;

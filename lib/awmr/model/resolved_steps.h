@@ -1,5 +1,6 @@
-/// Runge-Kutta steps that are halved if the motion is too fast for them. Templates on the scalar: a
-/// double, or a batch with one trajectory per lane (simulate/vehicle_steps.h).
+/// Runge-Kutta steps that are halved if the motion changes too fast for them. Templates on the
+/// scalar: a double, or a batch of several doubles (lanes), one per simulated trajectory
+/// (simulate/vehicle_steps.h).
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -17,8 +18,8 @@ inline constexpr double kMostHalves = 5e7;
 
 /// Rate at which a deviation from the speed w decays, 1/s: g'(w)/inertia with
 ///   g'(w) = alpha beta |w|^(beta-1) + 2 q |w|
-/// Returns 0 on the chord, and for beta < 1 with q = 0: rest_speed() in steady.h chooses the chord
-/// so that the rate is then at most 1/h at every speed.
+/// Returns 0 on the chord (below law.rest_speed), and for beta < 1 with q = 0: rest_speed() in
+/// steady.h chooses the chord so that the rate is then at most 1/h for steps of h.
 template <class T>
 T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   using math::abs;
@@ -63,21 +64,21 @@ State<T> blend(const Mask<T>& mask, const State<T>& a, const State<T>& b) {
           select(mask, a.steering_rad, b.steering_rad)};
 }
 
-/// Result of the step control: whether the integration steps were short enough.
+/// Result of the step control, by lane: whether the integration steps were short enough.
 template <class T>
 struct Resolution {
-  T halves = T(0.0);                 ///< steps that were halved so far
+  T halves = T(0.0);                 ///< number of steps halved so far
   Mask<T> resolved = Mask<T>(true);  ///< false: no step is short enough, or a number is not finite
 };
 
-/// Declared here for advance_by_halves(); defined below. `body`, here and below: a Plant, or
-/// another type with its own fastest_rate() (tyres.h).
+/// Declared here because advance_by_halves() calls it; defined below. `body`, here and below: a
+/// Plant, or another type that has a fastest_rate(), such as FourWheels (tyres.h).
 template <class Body, class T, class Rates>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution);
 
-/// Makes two steps of half the length in the lanes of `requested`. A lane that exceeds
-/// kMostHalvings or kMostHalves is marked as unresolved.
+/// Replaces one step of h seconds by two steps of h/2 in the lanes of `requested`. A lane that
+/// exceeds kMostHalvings or kMostHalves keeps its state and is marked as unresolved.
 template <class Body, class T, class Rates>
 AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates, Mask<T> requested,
                                      int halvings, Resolution<T>& resolution) {
@@ -95,8 +96,9 @@ AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates,
   return blend(halved, end, from);
 }
 
-/// Makes one step of the classical Runge-Kutta method if the step resolves the rates at both of its
-/// ends, else two steps of half the length. Lanes outside `requested` are undefined.
+/// Makes one step of h seconds by the classical Runge-Kutta method if fastest_rate() times h is at
+/// most kMostRateTimesStep at both ends of the step; else two steps of half the length. Lanes
+/// outside `requested` are undefined.
 template <class Body, class T, class Rates>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution) {
@@ -124,8 +126,8 @@ Mask<T> is_finite(const State<T>& s) {
   return abs(none) <= T(0.0);
 }
 
-/// Sets a speed to 0 if its square would be subnormal, because arithmetic with subnormal numbers is
-/// slow.
+/// Returns 0 for a speed below 1e-150 in magnitude, because products of such speeds can be
+/// subnormal numbers, with which arithmetic is slow; else the speed.
 template <class T>
 T settled(const T& speed) {
   using math::abs;
@@ -134,7 +136,8 @@ T settled(const T& speed) {
 }
 
 /// Integrates the lanes of `requested` by `substeps` steps of h seconds at constant commands. A
-/// lane whose motion is not resolved keeps its state.
+/// lane in which no step is short enough, or a number is not finite, keeps its state and is marked
+/// in `resolution`.
 template <class Body, class T, class Rates>
 void integrate(const Body& body, const T& h, const T& substeps, const Rates& rates,
                const Mask<T>& requested, State<T>& state, Resolution<T>& resolution) {

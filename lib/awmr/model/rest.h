@@ -7,19 +7,20 @@
 
 namespace awmr {
 
-/// The value of a scalar; types with derivatives have their own overloads.
+/// The value of a scalar without its derivatives; types with derivatives (ceres::Jet) have their
+/// own overloads.
 inline double value_of(double x) { return x; }
 
-/// The law with plain numbers: without the derivatives of its coefficients.
+/// The law with doubles as coefficients, without their derivatives.
 template <class T>
 Resistance<double> value_of(const Resistance<T>& law) {
   return {value_of(law.alpha), value_of(law.beta), value_of(law.rest_speed), value_of(law.coulomb),
           value_of(law.quadratic)};
 }
 
-/// The plant with the chords through rest that Runge-Kutta steps of step_s seconds need; see
-/// rest_speed(). The length of a chord has no derivatives, because it depends on the steps and not
-/// on the motion.
+/// The plant with the chords of g1 and g3 (Resistance::rest_speed) that Runge-Kutta steps of step_s
+/// seconds need; see rest_speed(). The length of a chord has no derivatives, because it depends on
+/// the steps and not on the motion.
 template <class T>
 Plant<T> resolved_at_rest(Plant<T> plant, double step_s) {
   plant.surge.rest_speed = T(rest_speed(value_of(plant.surge), value_of(plant.mass_norm), step_s));

@@ -10,7 +10,7 @@
 #include "awmr/model/float_bearing.h"
 #include "awmr/model/float_math.h"
 
-/// A helper that is always inlined on the chip.
+/// A helper that is always inlined on the chip (the AVR microcontroller of the firmware).
 #ifdef __AVR__
 #define AWMR_NO_CALL inline __attribute__((always_inline))
 #else
@@ -91,15 +91,16 @@ T larger(const T& x, const T& y) {
   return select(x < y, y, x);
 }
 
-/// Returns x; for float, 0 if |x| < 2^-90. So no quotient of the result and a force is a subnormal
-/// number, which an AVR rounds differently from a host.
+/// Returns x; for float, 0 if |x| < 2^-90. So if the result is divided by a force, the quotient is
+/// not a subnormal number, which an AVR rounds differently from a host.
 template <class T>
 T flushed(const T& x) {
   return x;
 }
 inline float flushed(float x) { return float_math::leading_bits(x) < 0x1280U ? 0.0F : x; }
 
-/// a - b. For float, returns -b without a subtraction if a is 0, as for a constant reference.
+/// a - b. For float, returns -b without a subtraction if a is 0, as the rate of a constant
+/// reference is; this is faster on the chip.
 template <class T>
 T difference(const T& a, const T& b) {
   return a - b;
@@ -108,7 +109,7 @@ inline float difference(float a, float b) {
   return float_math::magnitude_bits(a) == 0 ? -b : a - b;
 }
 
-/// a + b c. For float, returns a if c is 0.
+/// a + b c. For float, returns a without arithmetic if c is 0, which is faster on the chip.
 template <class T>
 T plus_product(const T& a, const T& b, const T& c) {
   return a + b * c;
@@ -117,7 +118,8 @@ inline float plus_product(float a, float b, float c) {
   return float_math::magnitude_bits(c) == 0 ? a : a + b * c;
 }
 
-/// x > y. For float, by integer order, a third of the chip's cycles.
+/// x > y; false for NaN. For float, bits are compared as integers, in a third of the cycles of a
+/// float comparison on the chip.
 template <class T>
 Mask<T> is_above(const T& x, const T& y) {
   return x > y;
@@ -128,15 +130,15 @@ AWMR_CALLED inline bool is_above(float x, float y) {
          !float_math::is_nan(y);
 }
 
-/// x < y or x > y; false for NaN. For float, the bits are compared; x must be y, or a limit to
-/// which y was clipped.
+/// True if x and y differ; false for NaN. For float, only the bits are compared, so x must be a
+/// copy of y or the limit to which y was clamped.
 template <class T>
 Mask<T> is_different(const T& x, const T& y) {
   return x < y || x > y;
 }
 inline bool is_different(float x, float y) { return bits_of(x) != bits_of(y); }
 
-/// |x| > limit, limit >= 0. For float, by comparing bits, with NaN beyond every limit.
+/// |x| > limit, limit >= 0. For float, by comparing bits; there NaN is beyond every limit.
 template <class T>
 Mask<T> is_beyond(const T& x, const T& limit) {
   return x > limit || -x > limit;
@@ -145,7 +147,7 @@ inline bool is_beyond(float x, float limit) {
   return float_math::magnitude_bits(x) > bits_of(limit);
 }
 
-/// `size` with the sign of `of`; `size` itself if `of` is 0. For float, the bits decide.
+/// `size` with the sign of `of`; `size` itself if `of` is 0. For float, by the bits of `of`.
 template <class T>
 T with_sign(const T& size, const T& of) {
   using math::select;
@@ -153,14 +155,14 @@ T with_sign(const T& size, const T& of) {
 }
 inline float with_sign(float size, float of) { return bits_of(of) > 0x80000000UL ? -size : size; }
 
-/// True if x = 0. For float, the bits decide.
+/// True if x is 0 or -0; x must not be NaN.
 template <class T>
 Mask<T> is_zero(const T& x) {
   return !(x > T(0.0)) && !(x < T(0.0));
 }
 inline bool is_zero(float x) { return float_math::magnitude_bits(x) == 0; }
 
-/// True if one number is positive and the other negative. For float, the sign bits decide.
+/// True if one number is positive and the other negative. For float, without a multiplication.
 template <class T>
 Mask<T> is_opposite(const T& x, const T& y) {
   return x * y < T(0.0);

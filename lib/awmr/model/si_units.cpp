@@ -8,8 +8,8 @@
 namespace awmr {
 namespace {
 
-/// A variance below this share of the sum of its terms counts as 0. It is only rounding error: the
-/// quantity does not depend on m'.
+/// If the variance of Q is below this fraction of its positive terms, it is only a rounding error
+/// and counts as 0: the terms cancel, because Q does not depend on m'.
 constexpr double kRounding = 1e-14;
 
 /// True for parameters that are divided by F_max in the equations of motion: all except exponents
@@ -30,8 +30,8 @@ std::optional<double> covariance_of(const Model& model, ParameterId a, Parameter
   return model.covariance.matrix[row][column];
 }
 
-/// Half of the 95 % interval divided by the standard error, in the coordinate in which the error is
-/// normal; 0 for given values, none without an interval.
+/// Half of the 95 % interval divided by the standard error, in the parameter's coordinate
+/// (transform.h); 0 for given values, which are exact; none without an interval.
 std::optional<double> quantile_of(const Model& model, ParameterId id) {
   const Estimate& estimate = model[id];
   if (estimate.source == Source::kGiven) return 0.0;
@@ -41,7 +41,7 @@ std::optional<double> quantile_of(const Model& model, ParameterId id) {
   return half * jacobian(id, *estimate.value) / *estimate.std_error;
 }
 
-/// Q = p m/m' with its uncertainty.
+/// Q = p m/m', the parameter p in SI units, with its uncertainty (si_units.h).
 Estimate times_max_force(const Model& model, ParameterId id) {
   const double p = *model[id].value;
   const double mass_norm = *model[ParameterId::kMassNorm].value;
@@ -79,7 +79,7 @@ Estimate max_force(const Model& model) {
   return force;
 }
 
-/// Multiplies a normalised parameter by F_max. The unit of I'z, s^2 m, times N is kg m^2.
+/// A parameter over F_max, multiplied by F_max. The unit of I'z, s^2 m, times N is kg m^2.
 SiQuantity quantity_of(const Model& model, const ParameterInfo& parameter) {
   if (parameter.id == ParameterId::kInertiaNorm) {
     return {"/yaw_inertia", "Iz", "kg m^2", times_max_force(model, parameter.id)};

@@ -1,4 +1,4 @@
-/// Integration with exact Coulomb friction: a vehicle stops, is held at rest, and starts again.
+/// Integration with exact Coulomb friction: a vehicle can stop, be held at rest, and start again.
 /// Templates on the scalar.
 ///
 /// At rest, the resistance g1 jumps from -c to c. During an integration step, the friction keeps
@@ -6,9 +6,9 @@
 ///
 ///     u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v
 ///
-/// A step in which u passes 0 is cut at that time. Then friction holds the vehicle, u_dot = 0,
-/// while the driving force |X + m' r v| is at most c. Yaw is treated likewise. With a chord instead
-/// of the jump, as in rest.h, a held vehicle would creep.
+/// A step in which u passes 0 is cut at the time at which u is 0. Then friction holds the vehicle,
+/// u_dot = 0, while the driving force |X + m' r v| is at most c. Yaw is treated likewise. With a
+/// chord (rest.h) instead of the jump, a vehicle that friction should hold would creep.
 #pragma once
 
 #include "awmr/model/rest.h"
@@ -16,7 +16,7 @@
 
 namespace awmr {
 
-/// Deceleration by Coulomb friction: c divided by the inertia.
+/// Decelerations by Coulomb friction: c divided by the inertia.
 template <class T>
 struct FrictionRates {
   T surge_mps2;  ///< c1/m', m/s^2, >= 0
@@ -46,7 +46,8 @@ Plant<T> resolved_beside_friction(Plant<T> plant, double step_s) {
   return plant;
 }
 
-/// Sliding directions of surge and yaw: 1, -1, or 0 if held by friction or without friction.
+/// Sliding directions of surge and yaw: 1 (forward, counter-clockwise), -1 (opposite), or 0 if
+/// friction holds the motion or there is no friction.
 struct Sliding {
   double surge = 0.0;
   double yaw = 0.0;
@@ -68,10 +69,12 @@ Sliding sliding(const FrictionRates<T>& friction, const State<T>& s, const State
           slides(value_of(s.r_radps), value_of(rates.r_radps), value_of(friction.yaw_radps2))};
 }
 
-/// True if friction holds the motion, in surge or in yaw: there is friction, and no sliding.
+/// True if friction holds one motion, surge or yaw: there is friction, and the sliding direction
+/// `way` is 0.
 inline bool is_held(double way, double friction) { return friction > 0.0 && way == 0.0; }
 
-/// Adds friction to rates without friction: 0 for a motion that friction holds.
+/// Adds friction in the directions `way` to `rates` without friction. The acceleration of a motion
+/// that friction holds becomes 0.
 template <class T>
 State<T> with_friction(const FrictionRates<T>& friction, const Sliding& way, State<T> rates) {
   rates.u_mps = is_held(way.surge, value_of(friction.surge_mps2))
@@ -83,17 +86,18 @@ State<T> with_friction(const FrictionRates<T>& friction, const Sliding& way, Sta
   return rates;
 }
 
-/// Fraction of a step after which a speed that changes linearly from `from` to `to` is 0. 1: it
-/// does not pass 0, or it starts at 0. `way`: direction of sliding in this step.
+/// Fraction of a step after which a speed that changes linearly from `from` to `to` is 0. Returns 1
+/// if the speed does not pass 0, or starts at 0. `way`: direction of sliding in this step.
 inline double share_until_rest(double way, double from, double to) {
   if (!(way * from > 0.0) || !(way * to < 0.0)) return 1.0;
   return from / (from - to);
 }
 
-/// Maximum number of stops in a step; the rest of the step is then taken without further stops.
+/// Maximum number of times a step is cut at a stop; after that, its remainder is not cut again.
 inline constexpr int kMostStopsInAStep = 4;
 
-/// rk4_step() with friction. `rates` are those without friction.
+/// rk4_step() with friction: the state h seconds after s. `rates(state)`: the rates without
+/// friction.
 template <class T, class Rates>
 State<T> rk4_step_with_friction(const FrictionRates<T>& friction, State<T> s, T h,
                                 const Rates& rates) {

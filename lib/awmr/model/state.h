@@ -11,7 +11,7 @@ namespace awmr {
 template <class T>
 struct State {
   T x_m;           ///< x, m: position of the centre of gravity in the world frame
-  T y_m;           ///< y, m: as x
+  T y_m;           ///< y, m: position of the centre of gravity in the world frame
   T psi_rad;       ///< psi, rad: heading, counter-clockwise from the world's x axis; not wrapped
   T u_mps;         ///< u, m/s: surge speed along the body's x axis, forward positive
   T v_mps;         ///< v, m/s: sway speed along the body's y axis, left positive

@@ -13,7 +13,7 @@ std::optional<double> finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Solves alpha w^beta + v w + q w^2 = excess for w, v = `viscous`, by Newton's method on
+/// Solves alpha w^beta + v w + q w^2 = excess for w, with v = `viscous`, by Newton's method on
 ///   h(s) = ln((alpha e^(s beta) + v e^s + q e^(2 s))/excess),   w = e^s
 /// h is increasing and convex, because it is the logarithm of a sum of exponentials. So the
 /// iteration from above falls monotonically to the root, and ends when rounding would reverse a
@@ -24,7 +24,7 @@ std::optional<double> rate_above_coulomb(const Resistance<double>& law, double e
   constexpr double kSlowest = 1e-300;
   constexpr int kMostSteps = 200;
   if (!(excess > 0.0) || !std::isfinite(excess)) return std::nullopt;
-  // Start above the root: the smallest of the speeds at which one term alone balances the force.
+  // Start above the root: at the smallest of the speeds at which one term alone equals `excess`.
   double w = std::min({std::pow(excess / law.alpha, 1.0 / law.beta),
                        std::sqrt(excess / law.quadratic), excess / viscous});
   for (int i = 0; i < kMostSteps && w > kSlowest && w <= kFastest; ++i) {

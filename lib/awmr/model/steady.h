@@ -11,14 +11,15 @@ namespace awmr {
 /// tau_speed, w is the steady speed in m/s; with g3 and force = tau_turn in m, the steady yaw rate
 /// in rad/s. With `viscous` > 0 (the unit of g over that of w), w is the solution of g(w) + viscous
 /// w = force: straight ahead with back-EMF in four motors, viscous = 4 k_e. None if the force does
-/// not exceed the Coulomb friction c, or if g never reaches the force.
+/// not exceed the Coulomb friction c, or if there is no finite solution, as for a power law with
+/// beta = 0.
 std::optional<double> steady_rate(const Resistance<double>& law, double force,
                                   double viscous = 0.0);
 
 /// Time from motors off at speed_mps = u > 0 to rest, s:
 ///   t_a = m' int_0^u dw/g(w)
 ///       = m' u^(1-beta) / ((1-beta) alpha)   for a power law                     [paper (55)-(59)]
-/// None if the vehicle never stops: c = 0 and beta >= 1.
+/// None if the vehicle never stops: c = 0 and beta >= 1, where it approaches rest asymptotically.
 std::optional<double> stop_time_s(const Resistance<double>& law, double mass_norm,
                                   double speed_mps);
 
@@ -31,9 +32,9 @@ inline double relaxation_time_s(const Resistance<double>& law, double inertia, d
 /// The speed, m/s or rad/s, below which a simulation with steps of h = step_s seconds replaces the
 /// resistance by its chord (Resistance::rest_speed). `inertia` is m' for surge and I'z for yaw.
 ///
-/// On the chord that ends at w, the speed decays at the rate g(w)/(w inertia). The Runge-Kutta
-/// method is stable if the rate times h is below 2.78, and its solution is monotone if the product
-/// is below about 1. So w is chosen for a rate of 1/h:
+/// On the chord from the origin to the curve at w, the speed decays at the rate g(w)/(w inertia).
+/// The Runge-Kutta method is stable if the rate times h is below 2.78, and its solution is monotone
+/// if the product is below about 1. So w is chosen for a rate of 1/h:
 ///   w = g(w) h/inertia                        with Coulomb friction: solved by iteration
 ///   w = (alpha h/inertia)^(1/(1 - beta))      for a power law of beta < 1
 ///   w = 0: the law needs no chord             in other cases

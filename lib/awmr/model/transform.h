@@ -1,5 +1,6 @@
-/// Coordinates of the parameters for searches and samples. The error of a parameter is taken to be
-/// normally distributed in its coordinate, which is its value or its logarithm:
+/// Coordinates of the parameters, in which fits search and parameters are sampled. The error of a
+/// parameter is taken to be normally distributed in its coordinate, which is its value or its
+/// logarithm:
 ///
 ///     linear:       coordinate = value        d value / d coordinate = 1
 ///     logarithmic:  coordinate = ln value     d value / d coordinate = value
@@ -23,11 +24,12 @@ inline Scale scale_of(ParameterId id) {
   return exponent || info(id).term ? Scale::kLinear : Scale::kLogarithmic;
 }
 
-/// The value must be positive for a logarithmic scale.
+/// The coordinate of a value, which must be positive for a logarithmic scale.
 inline double to_coordinate(Scale scale, double value) {
   return scale == Scale::kLogarithmic ? std::log(value) : value;
 }
-/// A template on the scalar, so that derivatives of ceres::Jet are propagated.
+/// The value at a coordinate. A template on the scalar, so that derivatives of ceres::Jet are
+/// propagated.
 template <class T>
 T from_coordinate(Scale scale, const T& coordinate) {
   using std::exp;

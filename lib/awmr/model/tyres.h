@@ -93,8 +93,9 @@ T side_force(const Tyres<T>& tyres, const T& load, const T& along, const T& roll
   return select(slides_mps > T(0.0), T(-force), force);
 }
 
-/// Force of a wheel on the ground along its rolling direction, over F_max: the force F' of its
-/// motor (motor_force()) minus a quarter of g1, which resists in the drive, limited by friction:
+/// Force of the ground on a wheel along its rolling direction, over F_max: the force F' of its
+/// motor (motor_force()) minus a quarter of g1, which is taken as a resistance in the drive.
+/// Limited by tyre friction:
 ///   F'x = sat(F' - g1(w)/4, mu F'z)
 template <class T>
 T ground_force(const FourWheels<T>& p, const T& load, const T& command, const T& rolls_mps) {
@@ -103,11 +104,11 @@ T ground_force(const FourWheels<T>& p, const T& load, const T& command, const T&
   return math::saturate(T(force - T(0.25) * p.body.surge(rolls_mps)), T(p.tyres.friction * load));
 }
 
-/// Forces of the four wheels at one time.
+/// Forces of the ground on the four wheels, at one time.
 template <class T>
 struct TyreForces {
   WheelForces<T> along;   ///< over F_max, along the wheel, forward positive
-  WheelForces<T> across;  ///< over F_max, perpendicular to it, left positive
+  WheelForces<T> across;  ///< over F_max, perpendicular to the wheel, left positive
 };
 
 template <class T>

@@ -1,4 +1,4 @@
-/// Vehicle data that are known before any trial; vehicle_file.h reads them.
+/// Vehicle data that are known before any trial; read from vehicle.json by vehicle_file.h.
 #pragma once
 
 #include <map>
@@ -50,21 +50,21 @@ struct Vehicle {
   Drive drive = Drive::kFourWheel;         ///< without steering, the steering_ fields are 0
   double front_axle_m = 0.0;               ///< l_f, m, > 0: centre of gravity to front axle
   double half_track_m = 0.0;               ///< d, m, > 0: centre line to the middle of a wheel
-  Interval wheel_force;                    ///< F' of one wheel: -1 <= min <= 0 < max <= 1
+  Interval wheel_force;                    ///< range of F' of one wheel: -1 <= lo <= 0 < hi <= 1
   double steering_max_deg = 0.0;           ///< d_max, deg, in (0, 90): stop, the same either side
   double steering_max_rate_degps = 0.0;    ///< d_rate_max, deg/s, > 0: the servo's maximum rate
   double steering_time_constant_s = 0.0;   ///< T, s, > 0: the servo's first-order lag
   double sample_time_s = 0.0;              ///< T_s, s, > 0: between two steps of the controller
   std::optional<double> yaw_inertia_kgm2;  ///< Iz, kg m^2, > 0, measured; absent: the box formula
-  std::optional<double> sway_alpha;        ///< a_s of g2, s/m, > 0; absent: common tyres, or a log
+  std::optional<double> sway_alpha;        ///< a_s of g2, s/m, > 0; absent: from a log, or assumed
   Interval surge_beta_range{0.0, 2.5};     ///< range of b1 in fits, 0 <= lo < hi
   Interval yaw_beta_range{0.0, 4.0};       ///< range of b3 in fits, 0 <= lo < hi
 
-  /// Form of the simulated controller's allocation; the chip's is exact.
+  /// Form of the simulated controller's allocation; the firmware's is always exact.
   AllocationForm allocation = AllocationForm::kExact;
   SensorQuality sensors = {};  ///< assumed when gains are tuned (tune/tune.h)
-  /// s, >= 0: first-order lag from the motors' command to their force, assumed when gains are
-  /// tuned.
+  /// s, >= 0: first-order lag from the motors' command to their force. Gains are tuned for it, and
+  /// log fits filter the logged commands with it. Absent: none, unless a log identifies it.
   std::optional<double> motor_time_constant_s;
   /// k_e, s/m, >= 0: decrease of a motor's force over F_max per m/s at its wheel, from its data
   /// sheet; absent: none, unless a log identifies it.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kVehicleSchema = "awmr.vehicle/1";
 
-/// Reads the range of exponents for a fit; returns `absent` if there is no such key.
+/// Reads the range in which a fit may choose an exponent; returns `absent` if there is no such key.
 Interval beta_range_from_json(JsonObject& json, std::string_view key, Interval absent) {
   const Interval range = json.optional_interval(key).value_or(absent);
   if (range.lo < 0.0) {
@@ -47,12 +47,13 @@ void steering_from_json(JsonObject json, Vehicle& vehicle) {
   json.reject_unknown_keys();
 }
 
-/// `null` is equivalent to a missing key: not known.
+/// Reads an optional number; `null` is equivalent to a missing key.
 std::optional<double> known_number(JsonObject& json, std::string_view key, NumberRule rule) {
   return json.has(key) ? json.nullable_number(key, rule) : std::nullopt;
 }
 
-/// The mappings are stored as text; their columns are checked when a file is read.
+/// Reads the column mappings and checks their form. They are stored as text; whether a file has
+/// their columns is checked when that file is read.
 void columns_from_json(JsonObject json, Vehicle& vehicle) {
   for (const std::string& name : json.keys()) {
     const std::string expression = json.string(name);
@@ -126,7 +127,8 @@ void control_to_json(const Vehicle& vehicle, Json& json) {
   if (vehicle.yaw_rate_max_degps) json["yaw_rate_max_degps"] = *vehicle.yaw_rate_max_degps;
 }
 
-/// The smaller unit in which a number above its range was probably given.
+/// The smaller unit `words` in which a number above its range `rule` was probably given; `factor`
+/// converts it.
 struct SmallerUnit {
   std::string_view pointer;
   NumberRule rule;
@@ -139,7 +141,8 @@ constexpr SmallerUnit kSmallerUnits[] = {{"/length_m", kSize_m, 1e-3, "mm"},
                                          {"/half_track_m", kSize_m, 1e-3, "mm"},
                                          {"/sample_time_s", kSampleTime_s, 1e-3, "ms"}};
 
-/// Completes the message about a number above its range by its value in the likely, smaller unit.
+/// Adds to each message about a number above its range: the unit in which the number was probably
+/// given, and the converted value.
 void name_units(const Json& document, const std::string& file, std::vector<Fault>& faults) {
   for (Fault& fault : faults) {
     for (const SmallerUnit& unit : kSmallerUnits) {

@@ -9,7 +9,8 @@
 
 namespace awmr {
 
-/// Errors: as read_json_file; unknown or missing keys; values out of range (ranges.h).
+/// Reads vehicle.json. Errors: as read_json_file(); unknown or missing keys; values out of range
+/// (ranges.h).
 Result<Vehicle> read_vehicle(const std::filesystem::path& path);
 
 /// The JSON Schema of vehicle.json, derived from its reader.

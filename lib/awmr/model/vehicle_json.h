@@ -7,7 +7,8 @@
 
 namespace awmr {
 
-/// Reads every key of the vehicle and rejects others; faults are added to those of `json`.
+/// Reads every key of the vehicle. Unknown or missing keys and values out of range (ranges.h) are
+/// added to the faults of `json`.
 Vehicle vehicle_from_json(JsonObject& json);
 
 /// Writes the vehicle, with explicit default values. An optional quantity that is not known has no

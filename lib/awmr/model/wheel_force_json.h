@@ -1,5 +1,5 @@
 /// Converts the range of a motor's force to and from JSON, for vehicle.json and for the unmodelled
-/// variation of a search. Include from .cpp files only.
+/// variation (`open`) of a search for gains. Include from .cpp files only.
 #pragma once
 
 #include "awmr/core/interval.h"
