@@ -156,7 +156,7 @@ TEST(Awl, RowsThatMeasureNothingAreSetAside) {
   ASSERT_TRUE(log);
   EXPECT_EQ(log->rows(), 33U);
   EXPECT_THAT(codes(*log), ElementsAre("rows-not-measured"));
-  EXPECT_THAT(log->findings[0].message, HasSubstr("7 rows are set aside"));
+  EXPECT_THAT(log->findings[0].message, HasSubstr("7 rows are not used"));
 }
 
 TEST(Awl, ARunThatIsTooShortIsSetAsideAndAFileWithoutAnyRefused) {

@@ -98,7 +98,7 @@ TEST(SurgeTrial, SetsRowsWithoutInformationAsideAndCountsThem) {
   ASSERT_THAT(read.set.rows, SizeIs(1));
   EXPECT_EQ(read.set.rows[0].line, 6);
   ASSERT_THAT(codes_of(read.findings), ElementsAre("rows-set-aside@3"));
-  EXPECT_THAT(read.findings[0].message, HasSubstr("4 of 5 rows set aside (lines 3, 4, 5, 7)"));
+  EXPECT_THAT(read.findings[0].message, HasSubstr("4 of 5 rows are not used (lines 3, 4, 5, 7)"));
 }
 
 TEST(SurgeTrial, NeedsThrustAndSpeed) {

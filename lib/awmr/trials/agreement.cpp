@@ -15,7 +15,7 @@ constexpr double kCourseError = 0.005;
 constexpr double kLargestRoundingShare = 0.05;
 
 /// Decimal places of a number: 79.16 has 2, 1e-05 has 5. Only 12 significant digits count, because
-/// a mapping's scale and offset change the digits after them.
+/// rounding in the scale and offset of a mapping changes the digits after them.
 int decimal_places(double value) {
   const std::string text = fmt::format("{:.11e}", value);  // d.ddddddddddde[+-]dd
   const std::size_t exponent_mark = text.find('e');

@@ -7,7 +7,8 @@
 ///
 ///     rounding     half a unit in the last decimal place of the printed column, at most 5 % of the
 ///                  value. The last place is the finest one in the column, because trailing zeros
-///                  are lost. Without the 5 %, whole numbers would agree with almost any value.
+///                  are lost. Without the limit of 5 %, small whole numbers would agree with almost
+///                  any value.
 ///     stop_watch   0.2 s: 0.1 s for pressing the stop watch at the start, 0.1 s at the end. Times
 ///                  given to the millisecond or finer are timed automatically: one unit of their
 ///                  last place.
@@ -34,8 +35,9 @@ double rounding_error(double printed, double last_place);
 /// course). `elapsed_last_place`: last_place() of the times, s.
 double timing_error(double timed, double elapsed_s, double elapsed_last_place);
 
-/// Standard deviation of a time that is written to this last place, s. Stop watch: 0.1 s, from two
-/// presses of 0.1/sqrt(2) s each. Automatic timing: that of the rounding, last place/sqrt(12).
+/// Standard deviation, s, of a time whose column has this last place, s. Above 1 ms (stop watch):
+/// 0.1 s, from two presses of 0.1/sqrt(2) s each. Else (automatic timing): that of the rounding,
+/// last place/sqrt(12).
 double timing_std_s(double elapsed_last_place);
 
 }  // namespace awmr

@@ -22,7 +22,8 @@ using awl::Lost;
 using awl::Place;
 using awl::Scan;
 
-/// Bits of SafetyFault that mark a row whose heading or speed is not a current measurement.
+/// Bits of SafetyFault that mark a row in which heading or speed is too old, or in which a
+/// measurement or the reference is not finite.
 constexpr unsigned kNotMeasured = kFaultHeadingStale | kFaultSpeedStale | kFaultNotFinite;
 
 /// Bits of `reset_cause`, as in the chip's MCUSR. [ATmega2560 data sheet, 12.5.1]
@@ -69,7 +70,8 @@ void tell_of_scan(const Scan& scan, const std::string& file, AwlLog& log) {
   }
 }
 
-/// Returns the rows usable in a log and adds a finding for each kind of unusable row.
+/// Returns the rows with current measurements and finite values. Adds a finding if there are
+/// others.
 std::vector<Place> usable_rows(std::string_view bytes, const Scan& scan, const std::string& file,
                                AwlLog& log) {
   const Layout& layout = scan.layout;
@@ -90,14 +92,14 @@ std::vector<Place> usable_rows(std::string_view bytes, const Scan& scan, const s
   if (!not_measured_s.empty()) {
     warn(log, file, "rows-not-measured",
          fmt::format(
-             "{} rows are set aside, because heading or speed was too old or not a number (no fix "
-             "or no compass yet); the first is at {:.6g} s, the last at {:.6g} s",
+             "{} rows are not used, because heading or speed was too old (no fix or no compass "
+             "yet) or a value is not a number; the first is at {:.6g} s, the last at {:.6g} s",
              not_measured_s.size(), not_measured_s.front(), not_measured_s.back()));
   }
   return measured;
 }
 
-/// Removes runs that are too short to be logs and renumbers the others.
+/// Removes runs of fewer than kShortestLog rows, with a finding, and renumbers the others from 1.
 std::vector<Place> without_short_runs(const std::vector<Place>& rows, const std::string& file,
                                       AwlLog& log) {
   std::vector<Place> kept;
@@ -115,7 +117,7 @@ std::vector<Place> without_short_runs(const std::vector<Place>& rows, const std:
   }
   if (!dropped.empty()) {
     warn(log, file, "short-run",
-         fmt::format("{} runs with fewer than {} rows are set aside; their rows: {}",
+         fmt::format("{} runs with fewer than {} rows are not used; their numbers of rows: {}",
                      dropped.size(), kShortestLog,
                      list_of(dropped, [](std::size_t size) { return fmt::format("{}", size); })));
   }

@@ -18,24 +18,24 @@ struct AwlLog {
   std::vector<std::string> header = {};           ///< column names: `t_s` first, `run` last
   std::vector<std::vector<double>> columns = {};  ///< by column, then by row; all finite
   std::string parameters_sha256 = {};  ///< hash of the model and gains, as in awmr_params.h
-  std::size_t runs = 0;                ///< 1, plus one for each restart of the chip
+  std::size_t runs = 0;                ///< starts of the chip, without runs that were too short
   std::size_t lost = 0;                ///< rows numbered by the chip but missing from the file
-  std::size_t damaged_bytes = 0;       ///< bytes outside complete headers and rows
+  std::size_t damaged_bytes = 0;       ///< outside headers and rows, without a truncated last row
   std::vector<Finding> findings = {};
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
 
-/// True if a header begins within the first 8 KiB.
+/// True if the first bytes of a header occur within the first 8 KiB.
 bool is_awl(std::string_view bytes);
 
-/// Reads all complete rows of a file. Each row is found by its own checksum, so damaged bytes
-/// before a row do not prevent its reading. Findings, with the places in the file:
+/// Reads all complete rows of a file. Each row is found by its own checksum, so that it is also
+/// read after damaged bytes. Findings, with the places in the file:
 ///   `rows-lost`          missing row numbers
 ///   `log-damaged`        bytes that are not a row
 ///   `log-truncated`      the file ends inside a row
-///   `rows-not-measured`  rows set aside: heading or speed was too old, or a value not a number
-///   `short-run`          rows set aside: their run has fewer than ten rows
+///   `rows-not-measured`  rows not used: heading or speed was too old, or a value is not finite
+///   `short-run`          rows not used: their run has fewer than ten usable rows
 ///   `chip-reset`         a run began with a watchdog reset or a drop of the supply voltage
 /// Errors (input): no complete header; as layout_of() (awl_header.h); two headers that differ; more
 /// than 1000 damaged headers. Errors (refused): no usable row.

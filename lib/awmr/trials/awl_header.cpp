@@ -97,7 +97,7 @@ Result<Layout> layout_of(std::string_view json, const std::string& file) {
   JsonObject header(document, file, "", faults);
   if (header.string("schema") != kSchema) {
     header.fault(ErrorCode::kWrongFile, "schema",
-                 fmt::format("this program reads \"{}\"", kSchema));
+                 fmt::format("unsupported version of the log; this program reads \"{}\"", kSchema));
     return input_errors(std::move(faults));
   }
   Layout layout{.parameters_sha256 = header.string("parameters_sha256"),

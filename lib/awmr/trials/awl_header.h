@@ -41,7 +41,7 @@ struct Layout {
 /// Returns the scaled value of a column. Precondition: `row` has Layout::row_bytes bytes.
 double value_in(std::string_view row, const Column& column);
 
-/// Returns the bits of the one-byte column `name`; 0 if there is no such column.
+/// Returns the one-byte column `name` as stored, without its scale; 0 if there is no such column.
 unsigned bits_in(std::string_view row, const Layout& layout, std::string_view name);
 
 /// Returns the JSON text of the header at this offset; empty if there is no undamaged header.

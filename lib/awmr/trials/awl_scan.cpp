@@ -84,7 +84,8 @@ Status add_header(std::string_view json, std::size_t at, const std::string& file
   return {};
 }
 
-/// Counts damage at the end of the file as a truncated row if it is shorter than a row.
+/// If the damaged bytes at the end of the file are fewer than those of a row, counts them as a
+/// truncated row instead of damage.
 void note_end(std::string_view bytes, Scan& scan) {
   if (scan.damaged.empty() || scan.damaged.back().end != bytes.size()) return;
   const std::size_t size = bytes.size() - scan.damaged.back().begin;
@@ -112,7 +113,8 @@ Result<Scan> scan_of(std::string_view bytes, const std::string& file) {
       if (bytes.substr(at).starts_with(kMagic) && ++damaged_headers > kMostDamagedHeaders) {
         return input_error(
             ErrorCode::kBrokenFile, file,
-            fmt::format("byte {}: more than {} damaged headers", at, kMostDamagedHeaders));
+            fmt::format("byte {}: more than {} damaged headers; give an undamaged copy of the file",
+                        at, kMostDamagedHeaders));
       }
       at = pass_over(bytes, at, scan);
     }

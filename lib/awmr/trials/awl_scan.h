@@ -13,8 +13,8 @@ namespace awmr::awl {
 
 /// Position of a complete row.
 struct Place {
-  std::size_t offset = 0;
-  std::size_t run = 1;  ///< number of the run, from 1; each start of the chip begins a run
+  std::size_t offset = 0;  ///< bytes from the beginning of the file
+  std::size_t run = 1;     ///< number of the run, from 1; each start of the chip begins a run
 };
 
 /// Bytes [begin, end) that are neither header nor row.
@@ -25,7 +25,7 @@ struct Damage {
 
 /// Gap in the row numbers: rows that the file does not have.
 struct Lost {
-  std::size_t count = 0;
+  std::size_t count = 0;  ///< number of missing rows
   double before_s = 0.0;  ///< t_s of the row after the gap
   /// True: the file is damaged at the gap. False: the chip did not write the rows.
   bool is_damaged = false;

@@ -23,8 +23,8 @@ constexpr double kSignificance = 5.0;  // smallest significant error, in standar
 constexpr double kLeastScale = 0.03;
 constexpr double kLeastOffset_rad = 0.0175;
 
-/// Divides the log into about twenty windows of 1 to 5 s. Longer windows reduce the effect of noise
-/// at their ends, but accumulate sideslip and heading errors.
+/// Divides the log into windows of a twentieth of its length, but 1 to 5 s. Longer windows reduce
+/// the effect of noise at their ends, but accumulate sideslip and heading errors.
 std::vector<LogWindow> calibration_windows(const DrivingLog& log) {
   constexpr double kShortest_s = 1.0;
   constexpr double kLongest_s = 5.0;
@@ -52,7 +52,8 @@ std::vector<Eigen::Index> usual_rows(const Eigen::VectorXd& residuals) {
   return rows;
 }
 
-/// Least squares of y = X k. Outliers are removed in three rounds. Empty if X is rank-deficient.
+/// Least squares of y = X k, in three rounds; before the second and third, outliers are removed.
+/// Empty if X is rank-deficient, or if at most twice as many rows as coefficients are left.
 std::optional<Regression> regression(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
   constexpr int kRounds = 3;
   Regression found;
@@ -259,9 +260,9 @@ std::vector<Finding> calibration_findings(const DrivingLog& log,
     findings.push_back(
         {log.file, 0, Severity::kWarning, "heading-offset",
          fmt::format(
-             "the course over ground differs from heading_deg by {:+.2f} +- {:.2f} deg: the "
-             "compass is rotated in the vehicle, its declination is missing, or the vehicle "
-             "drifts to one side; the fit estimates this offset, as with {}",
+             "the course over ground differs from heading_deg by {:+.2f} +- {:.2f} deg (left "
+             "positive): the compass is rotated in the vehicle, its declination is missing, or the "
+             "vehicle drifts to one side; the fit estimates this offset, as with {}",
              degrees(offset->value), degrees(offset->std_error),
              option_text("fit bias.heading_deg"))});
   }

@@ -1,9 +1,10 @@
-/// Calibration checks of a driving log: errors of scale and direction that are too small for a
+/// Calibration checks of a driving log: errors of scale and direction that are too small to be a
 /// wrong unit, such as a wrong wheel radius or a compass that is rotated in the vehicle.
 ///
 /// The log is divided into windows [t0, t1] of a twentieth of its length (1 to 5 s). In each window
-/// the displacement of the position p = x + i y is compared with the integral of speed and heading.
-/// The complex factors k, k_b, k_c and k_d are fitted over all windows:
+/// the displacement of the position p = x + i y is compared with the integral of the speed u along
+/// the heading psi. The complex factors k, k_b, k_c and k_d are fitted to all windows, with r the
+/// yaw rate:
 ///
 ///     p(t1) - p(t0) = k a + k_b b + k_c c + k_d d,   k = s exp(i phi)
 ///     a = int u exp(i psi) dt                displacement by speed and heading
@@ -13,8 +14,9 @@
 ///
 /// s is the ratio of the position's scale to the speed's scale (1 if both are right). phi is the
 /// angle from the heading to the course over ground. The change of heading is compared with the
-/// integral of the yaw rate in the same way. k is the ratio of the heading's scale to the yaw
-/// rate's scale. k_0 is the offset of the yaw rate, k_1 the latency between the two channels:
+/// integral of the yaw rate in the same way. There, k is the ratio of the heading's scale to the
+/// yaw rate's scale, k_0 corrects an offset of the yaw rate, and k_1 is the latency between the
+/// two:
 ///
 ///     psi(t1) - psi(t0) = k int r dt + k_0 (t1 - t0) + k_1 (r(t1) - r(t0))
 #pragma once
@@ -28,7 +30,7 @@
 
 namespace awmr {
 
-/// Estimate of a calibration error, with its standard error.
+/// Estimate of a scale ratio (dimensionless) or of an angle (rad), with its standard error.
 struct Calibration {
   double value = 0.0;
   double std_error = 0.0;

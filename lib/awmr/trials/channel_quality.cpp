@@ -43,7 +43,7 @@ double quantum_of(const Changes& changes) {
   for (const double step : changes.step) {
     const double times = step / smallest;
     steps.push_back(times);
-    // Tolerance for values that are rounded to few digits.
+    // Tolerance for values that were rounded to few digits in the file.
     if (std::abs(times - std::round(times)) < 0.05 + 1e-6 * times) ++on_grid;
   }
   const bool grid = static_cast<double>(on_grid) > 0.98 * static_cast<double>(steps.size());
@@ -60,8 +60,9 @@ std::vector<double> gaps_of(const Changes& changes) {
   return gaps;
 }
 
-/// Marks the rows with a reading of a slow sensor: the rows where the value changes and, within
-/// longer gaps, one row per usual gap, where a reading repeated the value.
+/// Marks the rows with a reading of a slow sensor: the rows where the value changes. If the value
+/// stays for several of the usual (median) intervals between changes, one row per interval is also
+/// marked, because the sensor probably read the same value again.
 std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
   std::vector<bool> fresh(rows, false);
   fresh[0] = true;
@@ -76,7 +77,8 @@ std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
   return fresh;
 }
 
-/// Decides why values repeat, and marks the measurements.
+/// Sets `repeats`, `fresh` and `quantum`. With fewer than 8 changes of the value, every row counts
+/// as a measurement.
 void classify_repeats(std::span<const double> value, ChannelQuality& quality) {
   const Changes changes = changes_of(value);
   quality.fresh.assign(value.size(), true);
@@ -86,7 +88,7 @@ void classify_repeats(std::span<const double> value, ChannelQuality& quality) {
   const double repeated = moving - static_cast<double>(changes.row.size() - 1);
   const double quantum = quantum_of(changes);
   const bool often = repeated > kRepeatedShare * moving;
-  // The sensor has its own rate if nearly all changes are at least two rows apart.
+  // The sensor is slower than the log if 95 % of the changes are at least two rows apart.
   const bool own_rate = often && quantile(gaps_of(changes), 0.05) >= 2.0;
   if (own_rate) {
     quality.repeats = Repeats::kSlow;
@@ -119,8 +121,8 @@ bool all_equal(std::span<const double> values) {
 /// Limit of |off| (off_median()) above which a reading is a spike: the largest of
 ///   - 7 standard deviations of the noise, which normal noise exceeds once in 1e9 readings. The
 ///     standard deviation is the 75 % quantile of |off| over 1.04, without five equal readings in a
-///     row (an encoder at rest). About four standard errors of the quantile are added (one is
-///     1.3/sqrt(n), relative, for n readings);
+///     row (an encoder at rest). About four standard errors of the quantile are added (one is a
+///     fraction 1.3/sqrt(n) of it for n readings);
 ///   - three times the 80 % quantile of the change between readings, for sharp changes of motion;
 ///   - a tenth of the range of the values;
 ///   - three times the resolution.
@@ -185,7 +187,7 @@ void find_spikes(std::span<const double> all, ChannelQuality& quality) {
   }
 }
 
-/// Values smaller than this fraction of the signal's largest magnitude count as rest.
+/// Values up to this fraction of the signal's largest magnitude count as 0: the vehicle is at rest.
 constexpr double kRestShare = 1e-6;
 
 double largest_size(std::span<const double> values) {
@@ -228,9 +230,9 @@ double changed_s(std::span<const double> t_s, std::span<const double> activity, 
   return changed;
 }
 
-/// Finds stuck values: constant for a second or more and for eight times the usual repetition,
-/// while the command changed for 0.3 s or more. A value near 0 is not stuck: the vehicle rests. A
-/// value that occurs in several such runs is not stuck: it is a set-point.
+/// Finds stuck values: constant for a second or more, and for eight times as many rows as usual
+/// (the 90 % quantile), while the command changed for 0.3 s or more. A value near 0 is not stuck:
+/// the vehicle rests. A value that stays so long more than once is not stuck: it is a set-point.
 void find_stuck(std::span<const double> t_s, std::span<const double> value,
                 std::span<const double> activity, ChannelQuality& quality) {
   const std::vector<RowSpan> runs = equal_runs(value);
@@ -263,8 +265,8 @@ void find_stuck(std::span<const double> t_s, std::span<const double> value,
   }
 }
 
-/// Finds saturation: the largest or smallest value occurs often, although the signal rarely repeats
-/// other values exactly. Rows without a command do not count: a resting vehicle also repeats a
+/// Finds saturation: the largest or smallest value occurs at least four times as often as any value
+/// between them. Rows without a command do not count, because a resting vehicle also repeats a
 /// value.
 void find_saturation(std::span<const double> all, std::span<const double> activity,
                      ChannelQuality& quality) {

@@ -26,7 +26,7 @@ struct ChannelQuality {
   std::vector<bool> fresh;          ///< by row: the value is a measurement
   double quantum = 0.0;             ///< resolution, in the unit of the values; 0: not detected
   std::vector<std::size_t> spikes;  ///< rows whose value jumps away and back
-  std::vector<RowSpan> stuck;       ///< rows with one value while the command changed
+  std::vector<RowSpan> stuck;       ///< rows with one repeated value while the command changed
   std::size_t saturated = 0;        ///< number of rows at the end of the sensor's range
   double saturated_at = 0.0;        ///< the value in these rows
 };
@@ -34,11 +34,11 @@ struct ChannelQuality {
 /// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the
 /// signal, by row, in any scale. A signal that is constant while `activity` changes is stuck.
 ///
-/// A slow sensor changes in every second row at most. A coarse sensor also changes in neighbouring
-/// rows, mostly by one step of its resolution. Of a slow sensor, only the rows with a new reading
-/// are measurements. Of a coarse sensor, every row is a measurement: an unchanged value means that
-/// the signal did not reach the next step. Rows with spikes, stuck or saturated values are not
-/// measurements.
+/// A slow sensor changes its value in every second row at most. A coarse sensor also changes it in
+/// neighbouring rows, mostly by one step of its resolution. Of a slow sensor, only the rows with a
+/// new reading are measurements. Of a coarse sensor, every row is a measurement: an unchanged value
+/// means that the signal did not reach the next step. Rows with spikes, stuck values (except the
+/// first) or saturated values are not measurements.
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity);
 

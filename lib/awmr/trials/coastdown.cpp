@@ -140,7 +140,7 @@ std::vector<CoastCurve> read_bins(TrialReader& reader) {
   return curves;
 }
 
-/// Reads curves. Each contiguous block with one value of `run` is a curve; without that column the
+/// Reads curves. Consecutive rows with the same value of `run` are a curve; without that column the
 /// file is one curve.
 std::vector<CoastCurve> read_curves(TrialReader& reader) {
   std::vector<CoastCurve> curves;

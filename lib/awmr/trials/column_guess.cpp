@@ -40,8 +40,8 @@ std::optional<Scale> by_unit_in_name(const std::string& quoted, const Words& wor
                fmt::format("the name ends in the unit {}", unit->spelling)};
 }
 
-/// True for names of ROS 2 messages, which are in SI units by convention, and of ArduPilot's gyros,
-/// which are in rad/s.
+/// True for the words of names in ROS 2 messages, which are in SI units by convention, and of
+/// ArduPilot's gyros, which are in rad/s.
 bool is_si_by_convention(const Words& words) {
   const bool ros = has_any(words, {"twist", "pose", "drive"}) ||
                    (has_any(words, {"angular"}) && has_any(words, {"velocity", "z"}));
@@ -215,7 +215,8 @@ void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& gues
   }
 }
 
-/// Sorts the guesses of one column by confidence. If two are likely, both become unsure.
+/// Sorts the guesses of one column by confidence. If none is sure and several are likely, these
+/// become unsure.
 void settle(std::span<ColumnGuess> guesses) {
   std::stable_sort(guesses.begin(), guesses.end(), [](const ColumnGuess& a, const ColumnGuess& b) {
     return a.confidence < b.confidence;
@@ -250,7 +251,7 @@ Words with_body_velocity(Words words) {
   return words;
 }
 
-/// Guesses which columns of the sample provide one required column.
+/// Guesses which columns of the sample provide awmr's column `column`.
 std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample& sample,
                                     TrialKind kind) {
   std::vector<ColumnGuess> guesses;
@@ -259,7 +260,7 @@ std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample&
     const std::string& name = sample.names[i];
     if (name == column) {
       guesses.push_back(
-          {column, name, Confidence::kSure, "the name is the same", first_of(sample.values[i])});
+          {column, name, Confidence::kSure, "it has awmr's name", first_of(sample.values[i])});
       continue;
     }
     const Words words = by_letters ? with_body_velocity(words_of(name)) : words_of(name);

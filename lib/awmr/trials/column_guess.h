@@ -35,8 +35,10 @@ inline constexpr NameTable<Confidence, 3> kConfidenceNames{{{"sure", Confidence:
                                                             {"unsure", Confidence::kUnsure}}};
 
 struct ColumnGuess {
-  std::string column;      ///< awmr's column: "speed_mps"
-  std::string expression;  ///< EXPRESSION over the file's columns, as parse_column() reads it
+  std::string column;  ///< awmr's column: "speed_mps"
+  /// EXPRESSION over the file's columns, as parse_column() reads it. Empty if `why` is the reason
+  /// that no column can be used.
+  std::string expression;
   Confidence confidence = Confidence::kUnsure;
   std::string why;                   ///< reason, for the user
   std::vector<double> samples = {};  ///< first few values of the source column
@@ -47,7 +49,7 @@ struct ColumnGuess {
 /// file's columns (column_words.h).
 std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind);
 
-/// Returns the first guess of each column, without guesses that are kUnsure.
+/// Returns the first guess of each column of awmr, unless it is kUnsure.
 std::vector<ColumnGuess> likely_columns(const std::vector<ColumnGuess>& guesses);
 
 }  // namespace awmr

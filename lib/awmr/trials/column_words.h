@@ -14,7 +14,8 @@ namespace awmr {
 
 using Words = std::vector<std::string>;
 
-/// Splits a name into lower-case words: `IMU.GyrZ` gives imu, gyr, z.
+/// Splits a name into lower-case words, at other characters than letters and digits and before a
+/// capital that follows a small letter: `IMU.GyrZ` gives imu, gyr, z.
 Words words_of(std::string_view name);
 
 /// True if at least one of the words is in `any`.
@@ -29,10 +30,11 @@ std::optional<Dimension> dimension_as(TrialKind kind, const std::string& column,
 
 /// Unit in the name of a column.
 struct NamedUnit {
-  std::string_view spelling;
-  double factor;  ///< value in awmr's unit = value in the file times this
+  std::string_view spelling;  ///< "kmh"; two words with a space between them: "m s"
+  double factor;              ///< value in awmr's unit = value in the file times this
 };
-/// Returns the unit of this dimension in the last word or the last two words (`m/s` is m, s).
+/// Returns the unit of this dimension that the last word or the last two words name (`m/s` has the
+/// words m, s). Empty if they name none. Precondition: `words` is not empty.
 std::optional<NamedUnit> unit_in(const Words& words, Dimension dimension);
 
 }  // namespace awmr

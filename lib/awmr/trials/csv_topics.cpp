@@ -70,7 +70,7 @@ struct Span {
   double end_s = 0.0;
 };
 
-/// Checks that the files overlap in time. Errors: two files do not.
+/// Errors: a file begins after another has ended.
 Status check_spans(const std::vector<Span>& spans) {
   if (spans.empty()) return {};
   const auto last = std::max_element(spans.begin(), spans.end(), [](const Span& a, const Span& b) {

@@ -12,7 +12,7 @@ namespace awmr {
 /// Signals of several CSV files.
 struct CsvTopics {
   Signals signals = {};
-  std::vector<std::size_t> mapped = {};  ///< indices of the mappings that gave a file's t_s
+  std::vector<std::size_t> mapped = {};  ///< mappings of t_s that were used: indices in `mappings`
 };
 
 /// A signal is named `FILE.COLUMN` (FILE without extension), and also `COLUMN` if no other file has

@@ -18,8 +18,8 @@ constexpr std::string_view kRecordSync("\xA3\x95", 2);
 constexpr std::uint8_t kFormatType = 128;
 constexpr std::size_t kFormatBytes = 89;
 
-/// Evaluates an FMTU record (TimeUS, type, units, multipliers). The unit '#' marks the field that
-/// has the number of the sensor.
+/// Evaluates an FMTU record (TimeUS, type, units, multipliers): sets Format::instance of that type
+/// to the field with the unit '#', the number of the sensor.
 void mark_instance(std::string_view record, const dataflash::Format& fmtu,
                    dataflash::Formats& formats) {
   std::optional<std::uint8_t> type;

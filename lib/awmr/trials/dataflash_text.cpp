@@ -86,8 +86,8 @@ std::optional<std::string> binary_format(const Cells& cells) {
 /// Formats by the name at the beginning of a line.
 using NamedFormats = std::map<std::string, dataflash::Format, std::less<>>;
 
-/// Evaluates an FMTU line (TimeUS, type, units, multipliers). The unit '#' marks the field that has
-/// the number of the sensor.
+/// Evaluates an FMTU line (TimeUS, type, units, multipliers): sets Format::instance of that type to
+/// the field with the unit '#', the number of the sensor.
 void mark_instance_by_units(const Cells& cells, NamedFormats& formats) {
   constexpr std::size_t kType = 2, kUnits = 3;
   const auto type = cells.size() > kUnits ? number_of<std::uint8_t>(cells[kType]) : std::nullopt;

@@ -63,9 +63,9 @@ Result<FieldRecord> read_field(const std::filesystem::path& path,
          fmt::format("found {} after {}: time must increase", record.t_s[i], record.t_s[i - 1])});
   }
   if (table.rows() < kShortestField) {
-    faults.push_back(
-        {ErrorCode::kTooFewData, table.header_place(),
-         fmt::format("{} rows; at least {} are needed", table.rows(), kShortestField)});
+    faults.push_back({ErrorCode::kTooFewData, table.header_place(),
+                      fmt::format("the field record has {} rows; at least {} are needed",
+                                  table.rows(), kShortestField)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return record;

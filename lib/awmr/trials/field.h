@@ -10,7 +10,7 @@
 
 namespace awmr {
 
-/// One record of at least 30 rows. Each vector has one value per row.
+/// Magnetometer record of at least 30 rows. Each vector has one value per row.
 struct FieldRecord {
   std::string file;
   std::vector<double> t_s = {};
@@ -19,9 +19,9 @@ struct FieldRecord {
   std::vector<double> yaw_rate_radps = {};  ///< rad/s, left positive; empty: not recorded
 };
 
-/// Reads the columns t_s, field_ahead, field_left and, if present, yaw_rate_radps. Errors: as
-/// read_csv(); time that does not rise; fewer than 30 rows; a mapping to a column that is not one
-/// of these four; an unused mapping.
+/// Reads the columns t_s, field_ahead, field_left and, if present, yaw_rate_radps. `mappings`:
+/// column mappings for the file. Errors: as read_csv(); time that does not rise; fewer than 30
+/// rows; a mapping to a column that is not one of these four; an unused mapping.
 Result<FieldRecord> read_field(const std::filesystem::path& path,
                                const std::vector<ColumnMapping>& mappings);
 

@@ -11,9 +11,9 @@
 namespace awmr {
 namespace {
 
-/// A scale by its value at full power.
+/// A scale of the motor command.
 struct FullScale {
-  double end;
+  double end;  ///< value at full power
   std::string_view words;
 };
 constexpr std::array<FullScale, 5> kFullScales{{{100.0, "percent"},
@@ -23,7 +23,7 @@ constexpr std::array<FullScale, 5> kFullScales{{{100.0, "percent"},
                                                 {4095.0, "12-bit PWM counts"}}};
 constexpr double kEndOfScale = 0.005;    // relative tolerance for "the force is at full power"
 constexpr double kLeastShare = 0.2;      // fraction of full power that every vehicle's trials reach
-constexpr double kPlainlyBeyond = 1.05;  // times the limit; below, F' may refer to a smaller F_max
+constexpr double kPlainlyBeyond = 1.05;  // times F'max; up to this, F' may refer to a smaller F_max
 
 constexpr ForceUnit kMicroseconds{
     "microseconds of a servo pulse (F' = (us - 1500)/500 if 1500 is standstill and 2000 full "
@@ -49,7 +49,8 @@ bool may_be_newtons(double largest, const Vehicle& vehicle) {
   return implausible_values(vehicle).empty() && kAcceleration_mps2.contains(pushed_mps2);
 }
 
-/// Returns the scales that the largest force may have; exactly one if the force is at full power.
+/// Returns the scales of which the largest force is 20 to 100 %; exactly one if the force is at
+/// full power; empty if there are none.
 std::vector<ForceUnit> scales_of(double largest) {
   std::vector<ForceUnit> found;
   for (const FullScale& scale : kFullScales) {
@@ -83,9 +84,9 @@ ForceSpan joined(const ForceSpan& a, const ForceSpan& b) {
 ForceUnits force_units(const ForceSpan& span, const Vehicle& vehicle) {
   const double limit = limit_of(vehicle);
   if (is_share_of_f_max(span)) {
-    return {{{"shares of the vehicle's largest force", vehicle.wheel_force.hi}},
+    return {{{"fractions of the vehicle's largest force", vehicle.wheel_force.hi}},
             fmt::format("raise wheel_force in vehicle.json to {:.4g} if the motors were driven "
-                        "so hard; if the column has shares of wheel_force",
+                        "with this force; if the column has fractions of wheel_force",
                         std::min(1.0, span.largest))};
   }
   const ForceUnit over_smaller{

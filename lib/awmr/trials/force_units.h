@@ -3,6 +3,7 @@
 ///
 ///     largest force in the files           likely unit
 ///     up to 1                              F' itself: `wheel_force` of vehicle.json is too narrow
+///     up to 1.05 F'max                     F' over a force smaller than F_max
 ///     900 to 2200, no value below 900      microseconds of a servo pulse: F' = (us - 1500)/500
 ///     100, 255, 1000, 1023, 4095 +-0.5 %   percent, PWM counts or per mille, at full power
 ///     20 to 100 % of one of these          possibly that scale: all such scales are listed
@@ -27,7 +28,7 @@ namespace awmr {
 /// A force up to this factor times the limit counts as within it: the excess may be rounding.
 inline constexpr double kForceRounding = 1.01;
 
-/// Range of a servo's or a motor driver's pulses, us.
+/// Range of the pulse lengths of a servo or a motor driver, us.
 inline constexpr Interval kPulse_us{900.0, 2200.0};
 
 /// Range of the forces of one wheel, in the unit of the file.
@@ -36,7 +37,8 @@ struct ForceSpan {
   double largest = 0.0;  ///< largest magnitude
 };
 
-/// True if no magnitude exceeds 1, so that the values can be F' even if they exceed F'max.
+/// True if no magnitude exceeds 1 (by more than 0.5 %), so that the values can be F' even if they
+/// exceed F'max.
 bool is_share_of_f_max(const ForceSpan& span);
 /// Range that covers both ranges.
 ForceSpan joined(const ForceSpan& a, const ForceSpan& b);
@@ -58,7 +60,8 @@ struct ForceUnits {
 /// Returns the possible units of forces with this range. Precondition: span.largest > F'max.
 ForceUnits force_units(const ForceSpan& span, const Vehicle& vehicle);
 
-/// Text for messages: "the forces look like percent or 8-bit PWM counts".
+/// Text for messages: "the forces look like percent or 8-bit PWM counts"; "F' can be up to 1" if
+/// vehicle.json may have to be changed (`units.remedy`).
 std::string words_of(const ForceUnits& units);
 
 /// Mappings that convert `column`, the force of one wheel, to F'. Units with an unknown factor have
@@ -66,8 +69,8 @@ std::string words_of(const ForceUnits& units);
 std::vector<UnitFix> force_unit_fixes(const ForceUnits& units, std::string_view column);
 
 /// Possible units of a column tau_speed above n F'max (n driven wheels), and the mappings that
-/// convert it to n F'. The column may contain the force of one wheel or the sum of n wheels, so
-/// there is a mapping for each.
+/// convert it to n F'. The column may contain the force of one wheel or the sum of n wheels, so a
+/// unit can have a mapping for each.
 struct ThrustUnits {
   ForceUnits units;
   std::vector<UnitFix> unit_fixes;

@@ -15,10 +15,10 @@ namespace awmr {
 class HeldSignal {
  public:
   HeldSignal(const std::vector<double>& t_s, const std::vector<double>& value);
-  /// Integral from the log's first row to t. Before and after the log, the command has its first
-  /// and last value.
+  /// Integral from the log's first row to t_s. Before the log, the command has its first value;
+  /// after the log, its last.
   double integral(double t_s) const;
-  /// Value of the command at t.
+  /// Value of the command at t_s.
   double at(double t_s) const;
 
  private:
@@ -28,15 +28,16 @@ class HeldSignal {
   std::vector<double> integral_;
 };
 
-/// The three commands of a log.
+/// The three commands of a log: left force, right force and steering.
 struct LogSignals {
   explicit LogSignals(const DrivingLog& log);
   const DrivingLog* log;
   HeldSignal left;
   HeldSignal right;
-  HeldSignal steering;  ///< the command, or the angle if only that was logged
+  HeldSignal steering;  ///< rad: the command, or the angle if only that was logged
 
-  /// The logged angle at a fraction of the time from a row to the next, interpolated.
+  /// The logged angle, rad, interpolated between `row` and the next one. `share`: fraction of the
+  /// time between these rows that has passed, 0 to 1. Precondition: the log has steering angles.
   double angle_after(std::size_t row, double share) const {
     const std::vector<double>& angle = (*log)[LogChannel::kSteering]->value;
     return angle[row] + share * (angle[std::min(row + 1, angle.size() - 1)] - angle[row]);
@@ -55,20 +56,20 @@ struct LogSignals {
 /// Times closer than this, s, are equal.
 inline constexpr double kSameTime_s = 1e-9;
 
-/// Walks over the rows of a log from one change of the commands to the next.
+/// Steps through the rows of a log from one change of the commands to the next.
 class ActingRow {
  public:
-  /// Begins at the row before t_s, so that a change at t_s is the first one.
+  /// Begins at the row before t_s, so that next_change_s() also returns a change at t_s.
   ActingRow(const std::vector<double>& row_times_s, double t_s)
       : t_s_(&row_times_s),
         row_(static_cast<std::size_t>(std::ranges::lower_bound(row_times_s, t_s - kSameTime_s) -
                                       row_times_s.begin())) {
     if (row_ > 0) --row_;
   }
-  /// The row whose commands act.
+  /// The row whose commands are applied.
   std::size_t row() const { return row_; }
-  /// Time of the next change before `to_s`. `differ(row, next)`: true if the commands of two rows
-  /// differ.
+  /// Time of the next change before `to_s`; empty if there is none. `differ(row, next)`: true if
+  /// the commands of two rows differ.
   template <class Differ>
   std::optional<double> next_change_s(double to_s, Differ differ) {
     while (row_ + 1 < t_s_->size() && (*t_s_)[row_ + 1] < to_s - kSameTime_s) {
@@ -77,6 +78,7 @@ class ActingRow {
     }
     return std::nullopt;
   }
+  /// Applies the commands of the change that next_change_s() returned.
   void pass_change() { ++row_; }
 
  private:
@@ -84,7 +86,7 @@ class ActingRow {
   std::size_t row_;
 };
 
-/// Mean of a command over [t, t + h] as it arrives `delay_s` later.
+/// Mean over [t, t + h] of a command that takes effect `delay_s` after it was logged.
 inline double delayed_mean(const HeldSignal& signal, double t_s, double h_s, double delay_s) {
   return (signal.integral(t_s + h_s - delay_s) - signal.integral(t_s - delay_s)) / h_s;
 }

@@ -11,11 +11,12 @@
 namespace awmr {
 namespace {
 
-/// A jump exceeds kTimes times the usual change between two readings (the quantile kQuantile).
+/// A jump exceeds kTimes times the usual change between two readings (the quantile kQuantile of the
+/// changes per second, times the time between the readings).
 constexpr double kTimes = 10.0;
 constexpr double kQuantile = 0.95;
-/// Smallest jump of the position, in vehicle lengths. A smaller one may be a corrected fix of the
-/// receiver.
+/// Smallest jump of the position, in vehicle lengths. A smaller one may be a correction by the
+/// position receiver.
 constexpr double kVehicleLengths = 4.0;
 constexpr double kLeastTurn_rad = 1.0;
 constexpr std::size_t kFewest = 20;
@@ -47,8 +48,9 @@ double common_rate(const std::vector<Move>& moves) {
   return quantile(std::move(rates), kQuantile);
 }
 
-/// The first jump: a change of more than kTimes the usual change, after which the signal does not
-/// return. `least`: smallest change that counts as a jump.
+/// The first jump: a change of more than kTimes times the usual change, after which the signal does
+/// not return. `least`: smallest change that counts as a jump. Empty if there is none, or with
+/// fewer than kFewest changes.
 std::optional<Move> jump_in(const std::vector<Move>& moves, double least, const Size& size) {
   if (moves.size() < kFewest) return std::nullopt;
   const double rate = common_rate(moves);
@@ -117,7 +119,7 @@ std::optional<Contradiction> jump_contradiction(const Evidence& evidence) {
     const auto jump = jump_in(moves, kVehicleLengths * evidence.vehicle.length_m, size);
     if (jump) {
       if (auto zeros = zero_fix(log, *jump)) return zeros;
-      return described(log, *jump, "x_m", fmt::format("{:.3g} m, y_m included,", jump->size));
+      return described(log, *jump, "x_m", fmt::format("{:.3g} m (x_m and y_m)", jump->size));
     }
   }
   if (!evidence.has(LogChannel::kHeading)) return std::nullopt;

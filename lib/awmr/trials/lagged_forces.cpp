@@ -10,7 +10,7 @@ namespace {
 constexpr double kLongestDelay_s = 1.0;
 constexpr double kForgotten = 40.0;  // in time constants; exp(-40) = 4e-18 is below rounding
 
-/// Decay of a force difference over a time h.
+/// Decay of the difference between force and command over a time h, with the time constant T.
 struct Decay {
   double left_over;  ///< exp(-h/T)
   double by_lag;     ///< its derivative with respect to T, 1/s

@@ -14,8 +14,9 @@ namespace awmr {
 ///     T dF'/dt = c - F',   F'(t + h) = c + (F'(t) - c) exp(-h/T)
 ///     mean over [t, t + h] = mean of c - (T/h) (F'(t + h) - F'(t))
 ///
-/// The integration starts with F' = c, 40 T and the longest delay before the requested rows, or at
-/// the log's first row. Earlier commands have less effect than rounding. With T = 0, F' = c.
+/// The integration starts with F' = c, at a time of 40 T plus the longest delay before the
+/// requested rows, or at the log's first row. Earlier commands have less effect than rounding. With
+/// T = 0, F' = c.
 class LaggedForces {
  public:
   /// Covers the rows [begin, end) of the log, and command delays from -1 to 1 s. The log must

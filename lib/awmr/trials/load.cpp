@@ -30,7 +30,7 @@ void add_coastdown(const std::filesystem::path& path, CoastdownSet set, TrialDat
     data.curves.insert(data.curves.end(), curves->begin(), curves->end());
   } else if (data.coastdown) {
     faults.push_back({ErrorCode::kGivenTwice, path.string(),
-                      "a second file of stop times; put all rows into one"});
+                      "a second file of stop times; put all stop times into one file"});
   } else {
     data.coastdown = std::get<TrialSet<StopTimeRow>>(std::move(set));
   }
@@ -55,7 +55,7 @@ void add_steady_runs(Trials& trials) {
   }
 }
 
-/// Checks the logs of one file for consistency and adds them.
+/// Checks the logs of one file by check_consistency() and adds them, also those with faults.
 void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
               const TrialOptions& options, Trials& trials, std::vector<Fault>& faults) {
   for (DrivingLog& log : logs) {

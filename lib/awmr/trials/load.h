@@ -17,17 +17,19 @@ namespace awmr {
 /// Trial files to read.
 struct TrialFiles {
   Vehicle vehicle;
-  /// Table of runs at constant thrust with straight wheels, from which a1 and b1 are identified.
+  /// Table of runs at constant thrust with straight wheels, from which the surge resistance (a1, b1
+  /// of a power law) is identified.
   std::optional<std::filesystem::path> surge = {};
-  /// Table of runs at constant thrust and steering, from which a3 and b3 are identified.
+  /// Table of runs at constant thrust and steering, from which the yaw resistance (a3, b3) is
+  /// identified.
   std::optional<std::filesystem::path> turning = {};
-  /// Coast-downs (motors off), from which m' and I'z are identified: any number of files with
-  /// curves, at most one with stop times.
+  /// Coast-downs (motors off), from which m' = m/F_max and I'z = Iz/F_max are identified: any
+  /// number of files with curves, at most one with stop times.
   std::vector<std::filesystem::path> coastdowns = {};
   /// Driving logs: commands and measurements by time.
   std::vector<std::filesystem::path> logs = {};
-  /// True: adds the steady parts of the logs to the surge and turning rows (steady.h). For vehicles
-  /// with a log but without surge and turning tables.
+  /// True: finds the parts of the logs with steady motion (steady.h), and adds each as a surge or
+  /// turning row. For vehicles with a log but without surge and turning tables.
   bool steady_from_logs = false;
   /// Options for reading every file, such as column mappings.
   TrialOptions options = {};

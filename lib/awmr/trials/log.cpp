@@ -23,7 +23,7 @@ namespace awmr {
 namespace {
 
 /// Returns the values of a column in `rows`, times `scale`. If these are all rows of the table, the
-/// values are moved out of it, so each column may be requested once.
+/// values are moved out of the table, so each column may be requested only once.
 std::vector<double> values_of(TrialReader& reader, RowSpan rows, std::string_view column,
                               double scale) {
   const std::span<const double> cells = reader.table().column(column);
@@ -71,7 +71,8 @@ void check_log_columns(TrialReader& reader, bool has_steering) {
   }
   if (reader.has("latitude_deg") && (reader.has("x_m") || reader.has("y_m"))) {
     reader.header_fault(ErrorCode::kConflict,
-                        "two positions: give x_m and y_m, or latitude_deg and longitude_deg");
+                        "the position is given twice: keep either x_m and y_m, or latitude_deg "
+                        "and longitude_deg");
   }
   const auto has = [&](const char* column) { return reader.has(column); };
   if (!has("x_m") && !has("y_m") && !has("heading_deg") && !has("speed_mps") && !has("sway_mps") &&
@@ -79,12 +80,12 @@ void check_log_columns(TrialReader& reader, bool has_steering) {
     reader.header_fault(
         ErrorCode::kMissing,
         "no measurement: add at least one of x_m, y_m, heading_deg, speed_mps, sway_mps, "
-        "yaw_rate_radps");
+        "yaw_rate_radps, or latitude_deg and longitude_deg");
   }
 }
 
-/// Rows of each run. A run is a contiguous block with one value of `run`; without that column the
-/// file is one run.
+/// Rows of each run. A run has consecutive rows with the same value of `run`; without that column
+/// the file is one run.
 std::vector<RowSpan> runs_of(const TrialReader& reader) {
   const std::size_t rows = reader.table().rows();
   std::vector<RowSpan> runs;
@@ -105,7 +106,8 @@ RowSpan from_known_steering(const TrialReader& reader, RowSpan run) {
   return run;
 }
 
-/// The parts of a run whose times the options use.
+/// The contiguous parts of a run whose times are in options.used_s and in none of
+/// options.excluded_s.
 std::vector<RowSpan> used_parts(const TrialReader& reader, RowSpan run,
                                 const TrialOptions& options) {
   const std::span<const double> t_s = reader.table().column("t_s");
@@ -125,7 +127,7 @@ std::vector<RowSpan> used_parts(const TrialReader& reader, RowSpan run,
   return parts;
 }
 
-/// Replaces the runs by the parts whose times the options use.
+/// Replaces the runs by their used_parts(). Adds a fault if none is left.
 void keep_used(TrialReader& reader, const TrialOptions& options, std::vector<RowSpan>& runs) {
   std::vector<RowSpan> parts;
   for (const RowSpan run : runs) {
@@ -162,14 +164,14 @@ void check_time(TrialReader& reader, RowSpan run) {
         ErrorCode::kWrongOrder, i, "t_s",
         fmt::format("found {} after {}: time must increase{}", t_s[i], t_s[i - 1],
                     t_s[i] == t_s[i - 1] ? "; delete repeated rows, or write the time with "
-                                           "more digits (from the start of the log)"
+                                           "more digits (counted from the start of the log)"
                     : reader.has("run")  ? ""
                                          : "; several runs in one file need a column run"));
   }
 }
 
-/// Converts latitude and longitude to x (east) and y (north) of the first row, in its local tangent
-/// plane.
+/// Adds x (east) and y (north), m, from latitude and longitude: the position in the local tangent
+/// plane at the first row of `rows`. Adds a fault for each latitude or longitude out of range.
 void add_geographic(TrialReader& reader, RowSpan rows, DrivingLog& log,
                     std::vector<Finding>& findings) {
   const std::vector<double> latitude = values_of(reader, rows, "latitude_deg", 1.0);
@@ -289,15 +291,16 @@ std::vector<LogChannel> find_unmeasured(const TrialReader& reader, std::vector<F
     const bool is_turn = one.channel == LogChannel::kHeading || one.channel == LogChannel::kYawRate;
     findings.push_back(
         {finding_file(table), 0, Severity::kWarning, "constant-channel",
-         fmt::format("{} is {:g} in every row while other channels move: not a measurement, set "
-                     "aside{}",
+         fmt::format("{} is {:g} in every row while other channels move: it is not a measurement "
+                     "(an unused field or a set-point) and is not used{}",
                      column, one.value, is_turn ? "; to identify yaw, record turns" : "")});
     unmeasured.push_back(one.channel);
   }
   return unmeasured;
 }
 
-/// Last measured speed, by row; before the first measurement, that one. Empty without speeds.
+/// Last measured speed by row, m/s; in the rows before the first measurement, the first one. Empty
+/// without speeds.
 std::vector<double> last_speeds(const TrialReader& reader, RowSpan rows) {
   if (!reader.has("speed_mps")) return {};
   const std::vector<std::size_t> present = rows_present(reader, rows, "speed_mps");
@@ -312,8 +315,9 @@ std::vector<double> last_speeds(const TrialReader& reader, RowSpan rows) {
   return speeds;
 }
 
-/// Removes rows with an invalid heading at rest (course_at_rest.h) from `present`, and replaces the
-/// headings there by the next valid one. Adds the finding `course-at-rest`.
+/// Removes rows with an invalid heading at rest (course_at_rest.h) from `present`, the rows with a
+/// heading, and replaces the headings there by the next valid one. Adds the finding
+/// `course-at-rest`.
 void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> speed_mps,
                               std::vector<double>& heading_rad, std::vector<std::size_t>& present,
                               std::vector<Finding>& findings) {
@@ -330,7 +334,7 @@ void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> spe
       {log.file, log.line[found.rows.front()], Severity::kWarning, "course-at-rest",
        fmt::format(
            "heading_deg: {} readings at rest (below {:.2g} m/s) jump by up to {:.0f} deg, as the "
-           "course of a GPS does: these readings are set aside",
+           "course of a GPS does: these readings are not used",
            found.rows.size(), found.rest_mps, degrees(found.jump_rad))});
 }
 
@@ -393,7 +397,7 @@ Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOption
   AWMR_ASSIGN_OR_RETURN(std::vector<DrivingLog> logs, read_logs(path, options, findings));
   if (logs.size() == 1) return std::move(logs.front());
   return input_error(ErrorCode::kWrongFile, path.string(),
-                     fmt::format("this file has {} runs; one was expected", logs.size()));
+                     fmt::format("this file has {} runs; give a file with one run", logs.size()));
 }
 
 }  // namespace awmr

@@ -11,7 +11,8 @@
 
 namespace awmr {
 
-/// Quantities that a log may contain. They are the components of State.
+/// Quantities that a log may contain. They are the components of State (model/state.h), with its
+/// units and signs; kSway is the lateral speed v.
 enum class LogChannel { kX, kY, kHeading, kSpeed, kSway, kYawRate, kSteering };
 inline constexpr std::size_t kChannelCount = 7;
 inline constexpr std::array<LogChannel, kChannelCount> kChannels{
@@ -38,11 +39,11 @@ struct Measured {
   double quantum = 0.0;       ///< resolution of a coarse sensor, SI; 0: not detected
 };
 
-/// One log. Every vector has one entry per row.
+/// One run of a driving log. Every vector has one entry per row.
 struct DrivingLog {
   std::string file;
   std::vector<int> line;            ///< line in the file
-  std::vector<std::size_t> mapped;  ///< indices of the mappings in TrialOptions that were used
+  std::vector<std::size_t> mapped;  ///< used mappings: indices in TrialOptions::columns
   bool joined = false;              ///< joined from signals of different rates: unequal time steps
   bool is_geographic = false;       ///< x_m is east and y_m north, from latitude and longitude
   std::vector<double> t_s;          ///< s, strictly rising
@@ -74,7 +75,8 @@ struct DrivingLog {
 /// True if the commanded left and right forces differ by more than 1 % of F_max in any row.
 bool has_force_difference(const DrivingLog& log);
 
-/// True if the steering input (command or angle) changes by more than 1 mrad.
+/// True if the largest and the smallest steering input (command or angle) of the log differ by more
+/// than 1 mrad.
 bool has_steering_changes(const DrivingLog& log);
 
 /// A time step of more than this many median steps is a gap. The commands in a gap are unknown.

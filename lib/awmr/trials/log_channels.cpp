@@ -29,19 +29,19 @@ void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQualit
   };
   if (!quality.spikes.empty()) {
     warn(quality.spikes.front(), "spikes",
-         fmt::format("{}: {} readings jump away and back (spikes, at {}); they are set aside",
+         fmt::format("{}: {} readings jump away and back (spikes, at {}); they are not used",
                      about.column, quality.spikes.size(), times_of(log, quality.spikes)));
   }
   for (const RowSpan& span : quality.stuck) {
     warn(span.begin, "stuck-sensor",
          fmt::format("{} is stuck at one value from {:.4g} s to {:.4g} s while the commands "
-                     "changed; these rows are set aside",
+                     "changed; these readings are not used",
                      about.column, log.t_s[span.begin], log.t_s[span.end - 1]));
   }
   if (quality.saturated > 0) {
     warn(0, "saturated-channel",
          fmt::format("{} is {:.4g} in {} rows and never beyond: the end of the sensor's range "
-                     "(saturated); these rows are set aside, and readings near it are biased",
+                     "(saturated); these readings are not used, and readings near it are biased",
                      about.column, quality.saturated_at / about.to_si, quality.saturated));
   }
   if (quality.repeats == Repeats::kCoarse) {
@@ -52,8 +52,8 @@ void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQualit
   }
 }
 
-/// The command that moves a channel, in any scale: the turning command for heading and yaw rate,
-/// else the thrust.
+/// The command that moves a channel, by row, in any scale: for heading and yaw rate the yaw moment
+/// of force difference and steering, else the thrust.
 std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
   const bool turning = channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
   std::vector<double> activity(log.rows());
@@ -74,8 +74,8 @@ std::vector<double> picked(const std::vector<double>& values,
   return some;
 }
 
-/// Channel quality by row of the log, from the readings in `rows`. The other rows have no reading
-/// and are not measurements.
+/// Quality of a channel with readings in `rows` only; its rows are rows of the log. The other rows
+/// are not measurements.
 ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel channel,
                           const DrivingLog& log, const std::vector<double>& values) {
   const std::vector<double> activity = activity_for(channel, log);
@@ -111,7 +111,7 @@ void join_position(DrivingLog& log) {
   for (std::size_t i = 1; i < log.rows(); ++i) {
     const bool new_x = x.value[i] != x.value[i - 1];
     const bool new_y = y.value[i] != y.value[i - 1];
-    // If the new value of one was set aside as a spike or saturated, the other is set aside too.
+    // If the new value of x or y is not used (a spike or saturated), the other is not used either.
     const bool set_aside = (new_x && !x.fresh[i]) || (new_y && !y.fresh[i]);
     x.fresh[i] = y.fresh[i] = (new_x || new_y) && !set_aside;
   }

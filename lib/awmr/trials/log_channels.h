@@ -10,7 +10,7 @@
 
 namespace awmr {
 
-/// Minimum number of rows of a log.
+/// Minimum number of rows of a run in a log.
 inline constexpr std::size_t kShortestLog = 10;
 
 /// Builds a channel. `values`: one per row, SI. `rows`: the rows in which the file has a value.
@@ -20,20 +20,20 @@ Measured measured_of(LogChannel channel, const DrivingLog& log,
                      const std::vector<std::size_t>& rows, std::vector<double> values,
                      std::vector<Finding>& findings);
 
-/// Marks x and y of a row as new readings if at least one of them changed, because a receiver
-/// updates both together. Only for positions slower than the log.
+/// Marks both x and y of a row as new readings if at least one of them changed, because a receiver
+/// updates both together. No effect if both are as fast as the log.
 void join_position(DrivingLog& log);
 
 /// Adds the note `held-samples` for each channel that is slower than the log.
 void note_held(const DrivingLog& log, std::vector<Finding>& findings);
 
-/// Adds the warning `command-held` if a command has no new value for a second or more and for ten
-/// times its mean interval: the commands may have ended there. `rows`: the rows in which the file
-/// has a value.
+/// Adds the warning `command-held` if the command `column` has no new value for a second or more
+/// and for ten times its mean interval: the vehicle may have stopped by itself. `rows`: the rows in
+/// which the file has a value; if these are all rows, nothing is added.
 void note_stale_command(std::string_view column, const DrivingLog& log,
                         const std::vector<std::size_t>& rows, std::vector<Finding>& findings);
 
-/// Adds the note `log-gap` for each gap (kGapSteps) between rows.
+/// Adds the note `log-gap` for each time step of more than kGapSteps median steps.
 void note_gaps(const DrivingLog& log, std::vector<Finding>& findings);
 
 }  // namespace awmr

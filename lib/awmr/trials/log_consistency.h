@@ -1,9 +1,10 @@
-/// Checks a driving log for wrong units and signs and for swapped sides, before anything is fitted.
-/// The channels are compared with each other, with the commands and with the vehicle file.
+/// Checks a driving log for wrong units and signs and for swapped left and right forces, before
+/// anything is fitted. The channels are compared with each other, with the commands and with the
+/// vehicle file.
 ///
 /// Compared with the vehicle file: the row spacing with sample_time_s, the forces with wheel_force,
-/// the steering angles with the stop. Compared over windows of one second, without a model of the
-/// vehicle:
+/// the steering angles with the stop. Compared without a model of the vehicle, over windows of one
+/// second (changes of a reading: from reading to reading):
 ///
 ///     change of heading      with   integral of the yaw rate
 ///     distance of positions  with   integral of the speed
@@ -14,7 +15,8 @@
 ///     curvature r/u          with   tan(d_r)/l_f, which it cannot exceed by much
 ///
 /// A ratio near 57.3, 3.6, 1000 or -1 identifies the wrong unit or sign. If one of several columns
-/// must be wrong, all of them are named. A log in which the vehicle never moves is refused.
+/// must be wrong, but it is not known which, all of them are named. A log in which the vehicle
+/// never moves is refused.
 #pragma once
 
 #include <optional>
@@ -33,13 +35,13 @@ struct Contradiction {
   std::string column;       ///< "yaw_rate_radps"
   std::string message;      ///< the comparison, its result, the likely cause
   std::string mapping;      ///< column mapping that corrects it, `NAME=SOURCE*FACTOR`; may be empty
-  std::string remedy = {};  ///< advice that replaces the mapping's; may be empty
+  std::string remedy = {};  ///< advice to show in place of `mapping`; may be empty
 };
 
 /// Returns the columns with a wrong unit or sign; empty if all channels agree. `mappings`: column
-/// mappings with which the log was read, so that a correction names the file's own column. A
-/// comparison is skipped if its signals are weak (a straight drive, a vehicle at rest) or the log has
-/// too few windows.
+/// mappings with which the log was read, so that a correction names the column of the file. A
+/// comparison is skipped if its signals are weak (a straight drive, a vehicle at rest) or if the
+/// log has too few windows.
 std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& vehicle,
                                           std::span<const ColumnMapping> mappings);
 

@@ -15,8 +15,8 @@ namespace {
 
 /// Approximate time from a command to the vehicle's response.
 constexpr double kResponse_s = 0.2;
-/// Adds the mean commands that act in the window: those logged kResponse_s earlier. A log with the
-/// steering angle and no command is used without this delay.
+/// Adds the means of the commands to which the vehicle responds in the window: those logged
+/// kResponse_s earlier. A log with the steering angle and no command is used without this delay.
 void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow& window,
                   EvidenceWindow& sums) {
   const double delay_s = log.steering_command_rad ? kResponse_s : 0.0;
@@ -38,8 +38,8 @@ void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow
   }
 }
 
-/// Heading by row; without a heading channel the integral of the yaw rate, from 0. Empty if both
-/// channels are missing.
+/// Heading by row, rad; without a heading channel the integral of the yaw rate, from 0. Empty if
+/// both channels are missing.
 std::vector<double> headings_of(const DrivingLog& log) {
   if (const auto& heading = log[LogChannel::kHeading]) return heading->value;
   const auto& rate = log[LogChannel::kYawRate];
@@ -87,10 +87,9 @@ bool has_readings(const DrivingLog& log, std::size_t row) {
       });
 }
 
-/// Moves the windows so that they begin and end at rows with new readings. (Between two repeated
-/// values of a slow sensor, the change belongs to another time.) An end moves forward into the next
-/// window, or back if no reading follows there. A window that loses more than half its rows is
-/// dropped.
+/// Moves the windows so that they begin and end at rows with new readings, because a repeated value
+/// of a slow sensor was measured earlier than its row. An end moves forward into the next window,
+/// or back if no new reading follows there. A window that loses more than half its rows is dropped.
 std::vector<LogWindow> between_readings(const std::vector<LogWindow>& windows) {
   std::vector<LogWindow> moved;
   for (std::size_t i = 0; i < windows.size(); ++i) {
@@ -110,8 +109,8 @@ std::vector<LogWindow> between_readings(const std::vector<LogWindow>& windows) {
   return moved;
 }
 
-/// Returns two more windows between every two consecutive windows, which overlap both. Empty if
-/// there are twenty windows or more.
+/// Returns two windows for every two consecutive windows, shifted by a third and by two thirds of
+/// their length, so that they overlap both. Empty if there are twenty windows or more.
 std::vector<LogWindow> windows_between(const std::vector<LogWindow>& windows) {
   constexpr std::size_t kEnough = 20;
   constexpr std::size_t kParts = 3;
@@ -175,7 +174,7 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
   const bool steering_only = dd < 1e-6 * ss;
   const bool sides_only = ss < 1e-6 * dd;
   // A controller in combined mode makes the two moments proportional, so they cannot be separated.
-  // Above a correlation of 0.9, the coefficients would fit neglected effects, mainly inertia.
+  // Above a correlation of 0.9, separate coefficients would fit neglected effects, mainly inertia.
   const bool apart = determinant > 0.19 * ss * dd && !steering_only && !sides_only;
   if (n < 10.0 || rr <= 0.0) return {};
   constexpr double kSignificant = 5.0;  // smallest significant coefficient, in standard errors

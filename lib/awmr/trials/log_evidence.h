@@ -1,5 +1,5 @@
-/// Sums of a log's signals over windows of one second, from which the units and signs of its
-/// columns are checked. Private to this folder.
+/// Integrals and means of a log's signals over windows of one second, from which the units and
+/// signs of its columns are checked. Private to this folder.
 #pragma once
 
 #include <array>
@@ -15,20 +15,21 @@
 namespace awmr {
 
 /// Window length, s: long enough to average the noise, and so short that a vehicle turns by less
-/// than a circle.
+/// than a full circle.
 inline constexpr double kEvidenceWindow_s = 1.0;
 
-/// Sums of the signals over one window; 0 for channels that the log lacks.
+/// Signals of a log over one window; 0 for channels that the log lacks. Headings, courses and yaw
+/// rates are positive counter-clockwise, steering angles to the left.
 struct EvidenceWindow {
-  double turned_rad = 0.0;   ///< change of heading; without a heading, the same as rate_rad
+  double turned_rad = 0.0;   ///< change of heading; without a heading, the integral of the yaw rate
   double rate_rad = 0.0;     ///< integral of the yaw rate
   double moved_m = 0.0;      ///< distance between first and last position
   double course_rad = 0.0;   ///< direction from first to last position, reversed if driven_m < 0
   double heading_rad = 0.0;  ///< heading (or integrated yaw rate) in the middle of the window
-  double driven_m = 0.0;     ///< integral of the speed
+  double driven_m = 0.0;     ///< integral of the speed, forward positive
   bool has_stuck_speed = false;  ///< all speeds are the same and not 0
-  double thrust = 0.0;           ///< mean of F'L + F'R
-  double steering_rad = 0.0;     ///< mean steering input
+  double thrust = 0.0;           ///< mean of F'L + F'R, forward positive
+  double steering_rad = 0.0;     ///< mean steering input: the command, else the logged angle
   double tau_steering_m = 0.0;   ///< l_f (F'L + F'R) sin d_r, as in allocation.h
   double tau_diff_m = 0.0;       ///< d (F'R - F'L)(cos d_r + 1), as in allocation.h
   double span_s = 0.0;           ///< length of the window
@@ -66,11 +67,13 @@ std::vector<double> series(const std::vector<EvidenceWindow>& windows, Member me
   return values;
 }
 
-/// Regression of the yaw rate on the two yaw moments: rate = steering tau_steering + sides
-/// tau_diff, 1/(m s). A coefficient below five standard errors is 0.
+/// Coefficients of the regression of the yaw rate on the two yaw moments of EvidenceWindow:
+///     rate = steering tau_steering + sides tau_diff
+/// A coefficient below five standard errors is 0. Both are 0 with fewer than 10 windows. If the
+/// moments are too correlated to be separated, each coefficient is fitted alone.
 struct MomentShares {
-  double steering = 0.0;
-  double sides = 0.0;
+  double steering = 0.0;  ///< 1/(m s)
+  double sides = 0.0;     ///< 1/(m s)
 };
 
 /// Computes MomentShares. `rate(window)`: change of heading or integral of the yaw rate over the
@@ -87,7 +90,7 @@ std::string scaled_mapping(const Evidence& evidence, std::string_view column, do
 /// The two mappings that swap the force columns.
 std::array<std::string, 2> swapped_mappings(const Evidence& evidence);
 
-/// Detects a vehicle that never moves: its channels cannot be compared.
+/// Detects a vehicle that never moves, so that its channels cannot be compared.
 std::optional<Contradiction> rest_contradiction(const Evidence& evidence);
 /// Checks the units of time, forces, steering angle, yaw rate and speed.
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence);

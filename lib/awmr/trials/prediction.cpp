@@ -51,8 +51,8 @@ void run(const Predictor& model, std::size_t begin, std::size_t end, const State
                  model.lagged ? &*model.lagged : nullptr);
 }
 
-/// Predicts the next row from this row, and adds the squared errors. Components of the state that
-/// this row does not measure come from the long-horizon prediction, `state`.
+/// Predicts the next row from `row`, and adds the squared errors to `sums`. Components of the state
+/// that `row` does not measure come from `state`, the long-horizon prediction at `row`.
 void add_one_step(const Predictor& model, std::size_t row, State<double> state, ChannelSums& sums) {
   const DrivingLog& log = *model.signals.log;
   each_measurement(log, row, [&](LogChannel channel, double measured) {

@@ -1,4 +1,5 @@
-/// Predicts the channels of a driving log from its commands with a model, and computes the errors.
+/// Predicts the channels of a driving log from its commands with a model, and computes the
+/// prediction errors.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +29,7 @@ struct ChannelPrediction {
   int samples = 0;               ///< number of measurements
   PredictionError one_step;      ///< prediction of each row from the measurements of the row before
   PredictionError long_horizon;  ///< prediction of a whole window from its initial state
-  PredictedSeries series = {};   ///< long-horizon prediction; empty unless requested
+  PredictedSeries series = {};   ///< long-horizon prediction; empty if most_in_series is 0
 };
 
 struct PredictionOptions {
@@ -39,8 +40,8 @@ struct PredictionOptions {
   std::size_t most_in_series = 0;
 };
 
-/// Returns the errors by channel, in the order of kChannels. Omits channels without measurements
-/// and constant channels, whose standard deviation is 0.
+/// Returns the prediction errors by channel, in the order of kChannels. Omits channels with fewer
+/// than two measurements and constant channels, whose standard deviation is 0.
 std::vector<ChannelPrediction> predict_log(const DrivingLog& log, const Plant<double>& plant,
                                            const PredictionOptions& options);
 

@@ -13,8 +13,9 @@
 
 namespace awmr {
 
-/// Reads a log of a flight controller (ULog, DataFlash) or a ROS 2 bag as signals. Empty if `bytes`
-/// have none of these formats.
+/// Reads a log of a flight controller (ULog, DataFlash) or a ROS 2 bag as signals. `file`: path,
+/// for errors. `wanted`: signals whose values are read. Empty if `bytes` have none of these
+/// formats.
 std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::string& file,
                                             const Wanted& wanted);
 
@@ -23,6 +24,7 @@ std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::s
 /// are joined by time. Errors: as read_csv() and the readers of these formats.
 Result<CsvTable> read_table(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                             const TrialOptions& options);
+/// The same, with the columns of this kind of trial: columns_of(kind).
 Result<CsvTable> read_table(const std::filesystem::path& path, TrialKind kind,
                             const TrialOptions& options);
 

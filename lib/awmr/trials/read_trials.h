@@ -17,14 +17,14 @@
 
 namespace awmr {
 
-/// Value to use if a row gives a speed or yaw rate twice: printed, and timed (distance or turns
-/// over elapsed time).
+/// Value to use if a row gives a speed or yaw rate twice: as a number in its column (printed), and
+/// as a distance or number of turns over an elapsed time (timed).
 enum class Preference { kPrinted, kTimed };
 inline constexpr NameTable<Preference, 2> kPreferenceNames{
     {{"printed", Preference::kPrinted}, {"timed", Preference::kTimed}}};
 
 struct TrialOptions {
-  std::vector<ColumnMapping> columns;
+  std::vector<ColumnMapping> columns;  ///< load_trials() appends those of the vehicle file
   Preference preference = Preference::kPrinted;
   /// True: trials that contradict themselves or the vehicle are accepted with a warning
   /// (log_consistency.h, table_consistency.h). For unusual vehicles.
@@ -33,18 +33,19 @@ struct TrialOptions {
   bool has_steering = true;
   /// Number of driven wheels n: tau_speed = n F' of a surge row.
   int driven_wheels = 4;
-  /// Part of each log to use, by its t_s, s.
+  /// Interval of t_s, s, of each log to use, bounds included.
   Interval used_s{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
-  /// Parts of each log to leave out, by its t_s, s. The rows before and after such a part become
-  /// two runs.
+  /// Intervals of t_s, s, of each log to leave out. The rows before and after such an interval
+  /// become two runs.
   std::vector<Interval> excluded_s = {};
 };
 
-/// Read one table. Findings: `speed-mismatch`, `tau-speed-mismatch`, `yaw-rate-mismatch`,
-/// `tau-turn-mismatch`, `steering-stop`, `turned-by-sides`, `rows-set-aside`, `repeated-rows`.
-/// Errors: as read_csv(); missing columns, or columns that exclude each other; a negative speed,
-/// time or distance; turns whose signs, forces or angles contradict each other; a coast-down curve
-/// with fewer than three rows or time that does not rise.
+/// Read one table. Findings: the notes of CsvTable::notes(), `speed-mismatch`,
+/// `tau-speed-mismatch`, `yaw-rate-mismatch`, `tau-turn-mismatch`, `steering-stop`,
+/// `turned-by-sides`, `rows-set-aside`, `repeated-rows`. Errors: as read_csv(); missing columns, or
+/// columns that exclude each other; a negative force, speed, time or distance (the force of one
+/// side may be negative); turns whose signs, forces or angles contradict each other; a coast-down
+/// curve with fewer than three rows or time that does not rise.
 Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
                                       const TrialOptions& options, std::vector<Finding>& findings);
 Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, const Vehicle& vehicle,
@@ -55,15 +56,16 @@ Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const Tri
 
 /// Reads a driving log with one run. Columns: t_s, force_left, force_right, and at least one
 /// channel of log.h other than steering_deg. A vehicle with steering also needs steering_cmd_deg or
-/// steering_deg. latitude_deg and longitude_deg may replace x_m and y_m (local tangent plane at the
-/// first row used). Findings: those of log_channels.h, `constant-channel`, `course-at-rest`.
-/// Errors: as read_csv(); missing or contradictory columns; a latitude or longitude out of range;
-/// time that does not rise; fewer than 10 rows; no row in the part to use; more than one run.
+/// steering_deg. latitude_deg and longitude_deg may replace x_m (east) and y_m (north), in the
+/// local tangent plane at the first row used of each run. Findings: the notes of CsvTable::notes(),
+/// those of log_channels.h, `constant-channel`, `course-at-rest`. Errors: as read_csv(); missing or
+/// contradictory columns; a latitude or longitude out of range; time that does not rise; fewer than
+/// 10 rows; no row within the options' times; more than one run.
 Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,
                             std::vector<Finding>& findings);
 
 /// As read_log(), for a file with one or more runs, which a column `run` numbers. Returns one log
-/// per run.
+/// per run, or several if `excluded_s` divides the run.
 Result<std::vector<DrivingLog>> read_logs(const std::filesystem::path& path,
                                           const TrialOptions& options,
                                           std::vector<Finding>& findings);

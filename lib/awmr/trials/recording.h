@@ -18,9 +18,11 @@ inline constexpr std::size_t kMaxRecording = std::size_t{1} << 28U;
 
 /// The recorded text of one stream. Damaged lines (a serial port loses bytes) and other text (a
 /// board prints messages, and its header again after a restart) are "set aside": the text keeps
-/// such a line at its place, as a comment. Line numbers therefore match the stream.
+/// such a line at its place, as a comment of at most 200 bytes. Line numbers therefore match the
+/// stream.
 ///
-/// The header is the first line that names a column of a log. After it, these lines are set aside:
+/// The header is the first line that names a column of a log. It may be a comment (`#`). Lines
+/// above an uncommented header are set aside. Below the header, these lines are set aside:
 ///   - lines with more or fewer cells than the header, and repetitions of the header;
 ///   - lines with a cell that has digits but is not a number, if the first row has a number there;
 ///   - lines with control characters, lines that are too long, and a last line without line end.
@@ -37,7 +39,7 @@ class Recording {
   explicit Recording(std::vector<ColumnMapping> mappings = {},
                      std::size_t most_bytes = kMaxRecording);
 
-  /// Adds the next piece of the stream. Bytes beyond the limit are dropped, and full() becomes
+  /// Adds the next piece of the stream. Lines beyond `most_bytes` are dropped, and full() becomes
   /// true.
   void add(std::string_view bytes);
   /// Ends the stream. A last line without line end is set aside, because the stream may have ended

@@ -80,7 +80,7 @@ std::vector<LikeRuns> like_runs(const TrialReader& reader, const std::vector<std
 }
 
 /// Relative standard deviation of the readings of runs with equal settings, repeated readings
-/// counted once. Empty if there are too few.
+/// counted once. Empty with fewer than kFewestDifferences degrees of freedom.
 std::optional<double> scatter_seen(const std::vector<LikeRuns>& groups) {
   double squares = 0.0;
   int differences = 0;
@@ -141,7 +141,7 @@ void find_repeated_rows(const TrialReader& reader, const std::vector<std::size_t
       repeated.front(), Severity::kWarning, "repeated-rows",
       fmt::format("{} of {} rows repeat an earlier row to the last digit of {} ({}); with "
                   "readings in steps of {:.2g}, about {:.2g} rows repeat by chance. Copies make "
-                  "every interval too narrow: delete rows that are not runs of their own",
+                  "every confidence interval too narrow: delete rows that are not separate runs",
                   repeated.size(), rows.size(), *reading, lines_of(reader, repeated), resolution,
                   expected)));
 }

@@ -32,8 +32,8 @@ namespace awmr {
 struct RepeatRule {
   /// Columns with the settings of a run; those missing from the table are skipped.
   std::vector<std::string_view> settings;
-  std::string_view timed = "elapsed_s";  ///< column with the reading
-  std::string_view printed = {};         ///< column used if rows lack `timed`; may be empty
+  std::string_view timed = "elapsed_s";  ///< column with the reading that is compared
+  std::string_view printed = {};         ///< compared instead if a row lacks `timed`; may be empty
   double scatter = 0.003;                ///< relative standard deviation of the reading
 };
 

@@ -23,8 +23,8 @@ std::optional<std::size_t> first_fresh(const LogWindow& window, LogChannel chann
   return std::nullopt;
 }
 
-/// Slope of a channel between its first measurement in the window and the first one 0.2 s or more
-/// later.
+/// Slope of a channel, 1/s, between its first measurement in the window and the first one 0.2 s or
+/// more later. Empty if there is none.
 std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
   const auto first = first_fresh(window, channel, window.begin);
   if (!first) return std::nullopt;

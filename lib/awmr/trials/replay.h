@@ -33,8 +33,10 @@ inline int steps_in(double span_s, double longest_step_s) {
   return std::max(1, static_cast<int>(std::ceil(span_s / longest_step_s - 1e-9)));
 }
 
-/// Mean force over [t, t + h] of motors with lag. `command`: mean command over the same time, after
-/// the delay. Motors with back-EMF have force 0 where the command is 0, without lag.
+/// Mean force over [t, t + h] of motors with lag. `delay_s`: latency of the commands, null for
+/// none; the result carries the derivative with respect to it. `command`: mean command over the
+/// same time, after the delay. Motors with back-EMF have force 0 where the command is 0, without
+/// lag.
 template <class T>
 SideForces<T> lagged_force(const LaggedForces& lagged, const LogSignals& signals, double t_s,
                            double h_s, const T* delay_s, const SideForces<T>& command,
@@ -50,8 +52,8 @@ SideForces<T> lagged_force(const LaggedForces& lagged, const LogSignals& signals
           side(mean.force.right, mean.by_delay.right, command.right)};
 }
 
-/// Moves `state` from `from_s` to `to_s`, times between `row` and the next one, with the commands of
-/// the row `acting`. Other arguments: see replay_rows().
+/// Advances `state` from the time `from_s` to `to_s`, both between `row` and the next one, with the
+/// commands of the row `acting`. Other arguments: see replay_rows().
 template <class T, class Step>
 State<T> step_between(const LogSignals& signals, std::size_t row, std::size_t acting,
                       const T& from_s, const T& to_s, const Plant<T>& plant, const T* delay_s,
@@ -81,9 +83,9 @@ State<T> step_between(const LogSignals& signals, std::size_t row, std::size_t ac
   return state;
 }
 
-/// Moves `state` from `from_s` to `to_s`, times between `row` and the next one. Steps end where a
-/// delayed command changes, because servo limits and a dead zone apply to the commands, not to their
-/// mean over a step. Other arguments: see replay_rows().
+/// Advances `state` from the time `from_s` to `to_s`, both between `row` and the next one. Steps
+/// end where a delayed command changes, because servo limits and a dead zone apply to the commands,
+/// not to their mean over a step. Other arguments: see replay_rows().
 template <class T, class Step>
 State<T> advance_after_row(const LogSignals& signals, std::size_t row, T from_s, const T& to_s,
                            const Plant<T>& plant, const T* delay_s, double longest_step_s,
@@ -110,8 +112,8 @@ State<T> advance_after_row(const LogSignals& signals, std::size_t row, T from_s,
 /// Simulates the rows [begin, end) from the initial `state`, and calls visit(row, state) at each
 /// row. `step(state, h_s, force, steering_rad)` returns the state after one integration step, which
 /// is at most `longest_step_s` long. `delay_s`: latency of the commands, null for none. `lagged`:
-/// forces of motors with lag, null for motors without. A logged steering angle is used as the
-/// actual angle, without delay.
+/// forces of motors with lag, null for motors without. In a log without steering commands, the
+/// logged steering angle is used as the actual angle, without delay.
 template <class T, class Visit, class Step>
 void replay_rows(const LogSignals& signals, std::size_t begin, std::size_t end,
                  const Plant<T>& plant, const T* delay_s, double longest_step_s, State<T> state,
@@ -134,18 +136,20 @@ Plant<T> without_stop_of_logged_angle(Plant<T> plant, const DrivingLog& log) {
   return plant;
 }
 
-/// Integration step of the 3-DOF model along a log. Friction holds the vehicle at rest.
+/// Integration step of the 3-DOF model along a log. Coulomb friction (sliding.h) is integrated
+/// exactly, so it can hold the vehicle at rest.
 template <class T>
 class ModelStep {
  public:
-  /// Precondition: `plant` is a result of resolved_beside_friction().
+  /// Precondition: `plant` is a result of resolved_beside_friction() for the longest step.
   ModelStep(const Plant<T>& plant, const DrivingLog& log)
       : plant_(without_stop_of_logged_angle(plant, log)), friction_(friction_rates(plant_)) {
     if (friction_.any()) plant_ = without_friction(plant_);
   }
-  /// The plant without the friction at rest.
+  /// The plant without Coulomb friction, which the steps add, and with the stop of
+  /// without_stop_of_logged_angle().
   const Plant<T>& plant() const { return plant_; }
-  /// Rates of the state, with friction.
+  /// Time derivatives of the state, with friction.
   State<T> rates(const State<T>& at, const SideForces<T>& force, const T& steering) const {
     const State<T> free = state_rates(plant_, at, force, steering);
     return with_friction(friction_, sliding(friction_, at, free), free);
@@ -172,9 +176,9 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, const
               step);
 }
 
-/// replay_rows() with the four-wheel model. Precondition: `vehicle` is a result of
-/// resolved_at_rest_on_tyres(). Returns false if the tyres became too stiff for any step; the
-/// states from then on are invalid.
+/// replay_rows() with the four-wheel model, without latency of the commands. Precondition:
+/// `vehicle.body` is a result of resolved_at_rest_on_tyres(). Returns false if the tyres became too
+/// stiff for any step; the states from then on are invalid.
 template <class Visit>
 bool replay(const LogSignals& signals, std::size_t begin, std::size_t end,
             FourWheels<double> vehicle, double longest_step_s, const State<double>& state,
@@ -192,10 +196,10 @@ bool replay(const LogSignals& signals, std::size_t begin, std::size_t end,
   return resolution.resolved;
 }
 
-/// State at delay_s >= 0 before the last of `states`, the states at the rows from `begin` on. It is
-/// reached by Runge-Kutta steps from the row before, whose length carries the derivative with
-/// respect to the delay. Before the first row its rates are extrapolated. `input_delay_s`: as of
-/// replay().
+/// State at the time delay_s >= 0 before the last of `states`, the states at the rows from `begin`
+/// on. The state is computed by Runge-Kutta steps from the row before that time; their length
+/// carries the derivative with respect to the delay. For a time before the row `begin`, the state
+/// there is extrapolated linearly with its rates. `input_delay_s`: `delay_s` of replay().
 template <class T>
 State<T> earlier_state(const LogSignals& signals, std::size_t begin,
                        const std::vector<State<T>>& states, const Plant<T>& plant, const T& delay_s,
@@ -240,7 +244,6 @@ constexpr T State<T>::*component_of(LogChannel channel) {
   return &State<T>::steering_rad;
 }
 
-/// The component of the state that the channel measures.
 template <class T>
 T& channel_of(State<T>& s, LogChannel channel) {
   return s.*component_of<T>(channel);
@@ -262,18 +265,19 @@ void each_measurement(const DrivingLog& log, std::size_t row, Visit visit) {
   }
 }
 
-/// Initial state of a window: the first measurement of each channel. A missing channel is derived
-/// from others (yaw rate from heading, heading and speed from position), else it is 0.
+/// Initial state of a window: the first measurement of each channel in it. A channel without one is
+/// derived from others (yaw rate from heading, heading and speed from position), else it is 0. The
+/// steering angle is then the command at the first row.
 State<double> measured_initial_state(const LogWindow& window);
 
 /// Longest step of replay() that is accurate for this plant, s: a quarter of the shortest time
 /// constant of servo, sway and back-EMF braking, and no longer than the resistances of surge and
-/// yaw allow. With a quarter of a time constant, Runge-Kutta decays are accurate to 3e-5 per time
-/// constant.
+/// yaw allow. With steps of a quarter of a time constant, the Runge-Kutta method has a
+/// relative error of 3e-5 per time constant of an exponential decay.
 double replay_step_s(const Plant<double>& plant);
 
-/// Shortest permitted step. Its time constant, 0.4 ms, is shorter than any effect in a log; smaller
-/// steps would take too long.
+/// Shortest permitted step, s. It belongs to a time constant of 0.4 ms, shorter than that of any
+/// effect in a log. Shorter steps would take too long.
 inline constexpr double kShortestReplayStep_s = 1e-4;
 
 /// Checks that a log can be replayed with this plant. Errors (input): a time constant requires

@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// The mean and the variance of the readings of a channel within a window, and their number.
+/// Mean, variance and number of a channel's readings within a window of one second.
 struct WindowMoments {
   double mean = 0.0;
   double variance = 0.0;
@@ -68,7 +68,7 @@ bool is_about_zero(const std::vector<WindowMoments>& windows, double length_m) {
 
 std::optional<Contradiction> rest_contradiction(const Evidence& evidence) {
   constexpr std::size_t kFewestWindows = 5;
-  bool shows_motion = false;  // any channel that measures motion
+  bool shows_motion = false;  // true: the log has a speed or a position
   std::string column;
   for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kX, LogChannel::kY,
                                    LogChannel::kHeading, LogChannel::kYawRate}) {

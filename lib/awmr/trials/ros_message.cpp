@@ -8,7 +8,7 @@
 namespace awmr {
 namespace {
 
-/// Elements of a message, in the order of its definition.
+/// Kinds of elements of a message. kSkipped9, kSkipped36: arrays of so many doubles, not read.
 enum class Part { kHeader, kText, kFloat32, kFloat64, kSkipped9, kSkipped36 };
 
 struct Piece {

@@ -159,7 +159,8 @@ Result<Signals> read_rosbag(std::string_view bytes, const std::string& file, con
   }
   if (!unread.empty()) {
     signals.notes.push_back({0, "topics-unread",
-                             "these topics are not read, because their types are not supported: " +
+                             "these topics are not read, because their types are not supported or "
+                             "their messages are not in CDR: " +
                                  printable(shortened(unread, 500))});
   }
   signals.notes.push_back({0, "bag-time", "t_s is the time at which the bag received a message"});

@@ -15,8 +15,8 @@ namespace awmr {
 bool is_rosbag(std::string_view bytes);
 
 /// Returns the names of all signals, and the values of the requested ones. Topics of unsupported
-/// types are skipped and noted. Errors: not a bag; more than 10000 topics; a message that does not
-/// match its type or is not in CDR (the serialisation of ROS 2).
+/// types, or not serialised in CDR (the format of ROS 2), are skipped and noted. Errors: not a bag;
+/// more than 10000 topics; a message whose bytes do not match its type.
 Result<Signals> read_rosbag(std::string_view bytes, const std::string& file, const Wanted& wanted);
 
 }  // namespace awmr

@@ -17,7 +17,7 @@
 namespace awmr {
 namespace {
 
-/// Columns whose sign may be wrong.
+/// Columns whose sign may be wrong. kSides: force_left and force_right, which may be swapped.
 enum class Signed { kSteering, kSides, kYawRate, kHeading, kY };
 constexpr std::size_t kSignedCount = 5;
 
@@ -28,6 +28,7 @@ struct SignRelation {
   int sign;  ///< +1: they agree; -1: one of the two is wrong
 };
 
+/// Relation of the course over ground to the heading.
 struct CourseRelation {
   int sign =
       0;  ///< +1: positions move along the heading; -1: along its mirror image; 0: undetermined
@@ -66,8 +67,8 @@ CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
 }
 
 /// The sign of course_relation() for logs without a heading, with the integrated yaw rate in its
-/// place. Because this integral drifts, each minute is evaluated separately. 0 if two minutes
-/// contradict each other.
+/// place. Because this integral drifts, each 60 windows (a minute) are evaluated separately. 0 if
+/// two minutes contradict each other, or if the sign is undetermined.
 int turning_sign(std::span<const EvidenceWindow> windows) {
   constexpr std::size_t kPart = 60;
   int sign = 0;
@@ -218,12 +219,12 @@ std::vector<Contradiction> check_signs(const Evidence& evidence) {
   if (solutions.size() == 1) return found;
   const std::string named = alternatives(columns, solutions);
   for (Contradiction& one : found) {
-    one.message += fmt::format(" (correct only {}: each explains it)", named);
+    one.message += fmt::format(" (correct only one of these: {})", named);
   }
   return found;
 }
 
-/// Detects a speed with the wrong sign: negative while the thrust is forward.
+/// Detects a speed with the wrong sign: opposite to that of the thrust.
 std::optional<Contradiction> check_direction(const Evidence& evidence) {
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
   const auto ratio = robust_ratio(
@@ -231,14 +232,14 @@ std::optional<Contradiction> check_direction(const Evidence& evidence) {
       series(evidence.overlapping, [](const EvidenceWindow& w) { return w.driven_m; }));
   if (!ratio || ratio->ratio > 0.0) return std::nullopt;
   return Contradiction{"speed_mps",
-                       "the speed is negative while both forces are positive: speed or forces have "
-                       "the wrong sign",
+                       "the speed and the sum of both forces have opposite signs: speed or forces "
+                       "have the wrong sign (forward is positive)",
                        scaled_mapping(evidence, "speed_mps", -1.0)};
 }
 
-/// Detects a side whose force has the wrong sign: the speed v is then proportional to the
-/// difference of the logged forces instead of their sum. Compares the fraction of sum v^2 that each
-/// explains:
+/// Detects a column force_left or force_right with the wrong sign: the speed v is then proportional
+/// to the difference of the logged forces instead of their sum. Compares the fraction of sum v^2
+/// that each explains:
 ///
 ///     R^2 = (sum v s)^2 / (sum v^2 sum s^2)   for s = F'L + F'R and for s = F'R - F'L
 std::optional<Contradiction> check_one_side(const Evidence& evidence) {
@@ -267,7 +268,7 @@ std::optional<Contradiction> check_one_side(const Evidence& evidence) {
   return Contradiction{
       column,
       fmt::format("the speed is proportional to force_right - force_left (R^2 {:.2f}) instead of "
-                  "their sum ({:.2f}): this side has the wrong sign; forward is "
+                  "their sum ({:.2f}): this column has the wrong sign; forward is "
                   "positive on both sides",
                   of_difference, share(vs, ss)),
       scaled_mapping(evidence, column, -1.0)};
@@ -327,8 +328,8 @@ std::optional<Contradiction> check_unsigned(const Evidence& evidence) {
 }  // namespace
 
 std::vector<Contradiction> sign_contradictions(const Evidence& evidence) {
-  // If one side has the wrong sign, thrust and yaw moment are exchanged: no other sign can be
-  // checked.
+  // If the force of one side has the wrong sign, thrust and yaw moment are exchanged: no other sign
+  // can be checked.
   if (auto one_side = check_one_side(evidence)) return {*std::move(one_side)};
   std::vector<Contradiction> found;
   if (auto is_unsigned = check_unsigned(evidence)) found.push_back(*is_unsigned);

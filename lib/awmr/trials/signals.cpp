@@ -42,7 +42,7 @@ Status check(const Topic& topic, const Signals& signals, const std::string& file
   return {};
 }
 
-/// Sorted distinct times of all topics that have a column.
+/// Sorted distinct times, ns, of all topics with requested signals.
 std::vector<std::int64_t> times_of(const std::vector<Topic>& topics) {
   std::vector<std::int64_t> times;
   for (const Topic& topic : topics) {

@@ -34,10 +34,10 @@ using Wanted = std::function<bool(const std::string& name)>;
 /// Maximum number of signals per file.
 inline constexpr std::size_t kMostSignals = 200'000;
 
-/// Converts signals to a table with one row for every time at which a topic has a message. A row
-/// has values of that message only; nothing is interpolated. The first column is t_s, counted from
-/// the first row. NaN means "no value", as in uORB, and is noted. Errors: time that does not
-/// rise within a topic; an infinite value.
+/// Converts signals to a table with one row for every time at which a topic with requested signals
+/// has a message. A row has values of messages at this time only; nothing is interpolated. The
+/// first column is t_s, counted from the first row. NaN means "no value", as in uORB, and is noted.
+/// Errors: time that does not rise within a topic; an infinite value.
 Result<RawTable> join(Signals signals, const std::string& file);
 
 }  // namespace awmr

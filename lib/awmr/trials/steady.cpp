@@ -11,7 +11,7 @@
 namespace awmr {
 namespace {
 
-/// Rows [begin, end).
+/// Rows [begin, end) of a log.
 struct Stretch {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -89,8 +89,8 @@ bool is_steady(const Line& line, double drift) {
          std::abs(line.rise) <= 3.0 * line.rise_error;
 }
 
-/// Shortens `stretch` to its steady part (SteadyRule) and returns the line fitted there; empty if
-/// there is no steady part.
+/// Cuts rows off the beginning of `stretch` until it is steady (SteadyRule), and returns the line
+/// fitted to the rate there; empty if it is never steady.
 std::optional<Line> steady_rest(const DrivingLog& log, const Measured& rate, const SteadyRule& rule,
                                 Stretch& stretch) {
   for (double from_s = log.t_s[stretch.begin] + rule.settling_s;; from_s += rule.later_s) {
@@ -114,7 +114,7 @@ double mean_of(const std::vector<double>& signal, Stretch s) {
 struct SteadyRun {
   SteadySegment segment;
   double wheel_force = 0.0;   ///< F' of each wheel, the mean of both sides
-  double steering_rad = 0.0;  ///< signed
+  double steering_rad = 0.0;  ///< rad, left positive
   SideForces<double> sides{};
 };
 

@@ -12,20 +12,22 @@ namespace awmr {
 /// the yaw rate of a turning run) neither rises nor falls:
 ///   - force_left, force_right and steering each stay within `same` of their first value;
 ///   - the first `settling_s` after a change of command are cut off, then more pieces of `later_s`,
-///     until the rest is steady; a rest shorter than `shortest_s` is dropped;
-///   - the rest is steady if a straight line fitted to its rate changes from end to end by at most
-///     `drift` of the mean rate, or by at most three standard errors of that change.
-/// A vehicle with steering: both sides are driven equally and forward. |steering| <= straight_rad
-/// is a surge run, else a turning run. A vehicle without steering: a run whose left and right
-/// forces differ by more than `same` is a turning run.
-/// The rate must also exceed three standard errors and have the direction of the command.
+///     until the remainder is steady; a remainder shorter than `shortest_s` is dropped;
+///   - the remainder is steady if a straight line fitted to its rate (at least five measurements)
+///     changes from end to end by at most `drift` of the mean rate, or by at most three standard
+///     errors of that change.
+/// A vehicle with steering must have equal forward forces left and right; |steering| <=
+/// straight_rad is a surge run, else a turning run. A vehicle without steering: a run whose left
+/// and right forces differ by more than `same` is a turning run; a surge run must have forward
+/// forces. The mean rate must also exceed three standard errors and have the direction of the
+/// command.
 struct SteadyRule {
   double same = 1e-3;            ///< F' or rad of steering, >= 0: increase for noisy commands
   double settling_s = 1.0;       ///< s, >= 0: increase for vehicles that settle slowly
   double shortest_s = 1.0;       ///< s, > 0: decrease to accept more, less certain segments
   double later_s = 0.25;         ///< s, > 0: length of each further piece that is cut off
   double drift = 0.03;           ///< > 0, fraction of the mean rate: decrease to be stricter
-  double straight_rad = 0.0087;  ///< rad, > 0: half a degree
+  double straight_rad = 0.0087;  ///< rad, > 0: largest steering angle of a surge run, 0.5 deg
 };
 
 /// A part of a log with steady motion.

@@ -27,13 +27,15 @@ void check_surge_columns(TrialReader& reader) {
   }
 }
 
-/// tau_speed as in the file, else computed from the force of one wheel.
+/// tau_speed as in the file, else computed from the force of one wheel. Adds a finding if the row
+/// has both and they disagree by more than rounding.
 double tau_speed_of(TrialReader& reader, std::size_t row, int driven_wheels,
                     std::vector<Finding>& findings) {
   const auto printed = reader.non_negative(row, "tau_speed");
   const auto wheel_force = reader.non_negative(row, "wheel_force");
   if (!wheel_force) return *printed;
-  // tau_speed = (F'L + F'R)(cos d_r + 1) = 4 F' at d_r = 0; 2 F' by two wheels         [paper (41)]
+  // tau_speed = (F'L + F'R)(cos d_r + 1) = 4 F' at d_r = 0                             [paper (41)]
+  // With two driven wheels it is 2 F'.
   const double from_wheels = driven_wheels * *wheel_force;
   if (!printed) return from_wheels;
   const double tolerance = reader.rounding_error(*printed, "tau_speed") +

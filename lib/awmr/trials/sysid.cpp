@@ -28,12 +28,13 @@ struct SysIdLength {
 constexpr std::array<SysIdLength, 3> kSysIdLengths{
     {{"Meters", 1.0}, {"Feet", 0.3048}, {"Inches", 0.0254}}};
 
+/// Conversion of a number: none, radians to degrees, rotations to metres.
 enum class SysIdUnit { kNone, kDegrees, kMetres };
 
-/// A number of a row that is read.
+/// A number of a row that becomes a column.
 struct SysIdField {
-  std::size_t index;
-  std::string_view name;
+  std::size_t index;      ///< place of the number in the row, from 0
+  std::string_view name;  ///< name of the column
   SysIdUnit unit = SysIdUnit::kNone;
 };
 

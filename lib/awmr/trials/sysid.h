@@ -1,17 +1,20 @@
-/// Reads the JSON that WPILib's SysId records in a robot's characterization tests. Private to this folder.
+/// Reads the JSON that WPILib's SysId records in a robot's characterization tests. Private to this
+/// folder.
 ///
 ///     {"sysid": true, "test": "Drivetrain", "units": "Meters", "unitsPerRotation": 0.4788,
-///      "slow-forward": [[t, left V, right V, left rot, right rot, left rot/s, right rot/s, rad, rad/s], ...],
+///      "slow-forward": [[t, left V, right V, left rot, right rot, left rot/s, right rot/s,
+///                        rad, rad/s], ...],
 ///      "slow-backward": ..., "fast-forward": ..., "fast-backward": ...}
 ///
-/// Each test ("slow-forward", ...) becomes a run. The file has positions and velocities in rotations; they are
-/// converted to metres with unitsPerRotation and units.
+/// Each test ("slow-forward", ...) becomes a run. The file has positions and velocities in
+/// rotations of the wheel; they are converted to metres with unitsPerRotation and units. rad is the
+/// heading, rad/s the yaw rate.
 ///                      [wpilibsuite/sysid, docs/data-collection.md and AnalysisManager.cpp]
-/// Numbers in a row, by the value of "test":
-///     Drivetrain, Drivetrain (Angular)    the nine numbers above
-///     Simple, General Mechanism           t, V, rotations, rotations/s
-///     frc-characterization (older tool)   t, battery V, autospeed, left V, right V, left and right rotations,
-///                                         left and right rotations/s, rad
+/// The count of numbers in the first row determines their meaning:
+///     9   Drivetrain, Drivetrain (Angular)    as above
+///     4   Simple, General Mechanism           t, V, rotations, rotations/s
+///     10  frc-characterization (older tool)   t, battery V, autospeed, left V, right V, left and
+///                                             right rotations, left and right rotations/s, rad
 #pragma once
 
 #include <string>
@@ -32,11 +35,14 @@ struct SysIdLog {
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
 
-/// True if the first bytes are those of a SysId record.
+/// True if the text begins with a JSON object that has the key "sysid" or the name of a test in its
+/// first 4 KiB.
 bool is_sysid(std::string_view bytes);
 
-/// Errors: JSON that is not a SysId record; a mechanism that does not drive the robot (elevator, arm); units
-/// that are not lengths; no rows; rows with a wrong number of values; a time that does not rise.
+/// Reads all tests. If a side turned backward in a test and none of its voltages is negative, they
+/// become negative, because some programs record voltages without sign. Errors: JSON that is not a
+/// SysId record; a mechanism that does not drive the robot (elevator, arm); units that are not
+/// lengths; no rows; rows with a wrong number of values; a time that does not rise.
 Result<SysIdLog> read_sysid(std::string_view bytes, const std::string& file);
 
 }  // namespace awmr

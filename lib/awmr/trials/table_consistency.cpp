@@ -50,8 +50,8 @@ struct Beyond {
   ForceSpan span{std::numeric_limits<double>::infinity(), 0.0};
 };
 
-/// `force(row)` returns the range of the row's forces. Forces of 0 are ignored: they are 0 in any
-/// unit.
+/// Compares the forces of the rows with `limit`. `force(row)` returns the range of the row's
+/// forces. Forces of 0 are ignored: they are 0 in any unit.
 template <class Row, class Force>
 Beyond<Row> beyond(const std::vector<Row>& rows, Force force, double limit) {
   Beyond<Row> found;
@@ -141,8 +141,8 @@ void check_wheel_force(const Table& table, const std::vector<TurningRow>& rows,
       remedy_of(units, force_unit_fixes(units, "wheel_force"), table.options.columns));
 }
 
-/// Checks the tau_speed of surge runs against n F'max, n = 4 driven wheels:
-///   tau_speed = 4 F' with the wheels straight                                      [paper (41)]
+/// Checks the tau_speed of surge runs against n F'max, n the number of driven wheels:
+///   tau_speed = 4 F' for n = 4 and the wheels straight                             [paper (41)]
 void check_thrust(const Table& table, const TrialSet<SurgeRow>& surge, const Tables& tables) {
   const Vehicle& vehicle = tables.vehicle;
   const int wheels = vehicle.driven_wheels();

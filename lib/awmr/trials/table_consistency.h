@@ -10,20 +10,21 @@
 
 namespace awmr {
 
-/// The tables of one vehicle that the check of another table also uses.
+/// Vehicle and tables with which a table of this vehicle is compared.
 struct Tables {
   const Vehicle& vehicle;
   const std::optional<TrialSet<SurgeRow>>& surge;      ///< for the top speed and the unit of force
   const std::optional<TrialSet<TurningRow>>& turning;  ///< for the unit of force
 };
 
-/// Checks one table. Faults, each with the first such row and the mapping that would correct it:
+/// Checks one table. Adds these faults, each at the first wrong row and with the mapping that would
+/// correct it:
 ///   - a tau_speed above n F'max (n driven wheels), or a wheel force above F'max, with the likely
 ///     units (force_units.h); all tables have one unit of force;
 ///   - steering angles all below 2 % of the stop: probably radians;
 ///   - speeds and times in another unit (table_units.h);
-///   - turns that are faster than wheels can roll (turn_evidence.h).
-/// With `options.as_is`, they are findings (warning `table-contradiction`) instead.
+///   - turns that are faster than wheels can roll or than grip allows (turn_evidence.h).
+/// With `options.as_is`, adds them as findings (warning `table-contradiction`) instead.
 void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);

@@ -44,7 +44,8 @@ constexpr double kUsualLengthsPerSecond = 20.0;
 constexpr double kSlowTable_radps = 0.01;  // minimum for the fastest turn of a table
 constexpr Interval kMeanDeceleration_mps2{0.01, 20.0};
 
-/// The unit whose factor agrees with all ratios within 10 %; null if there is none.
+/// The unit whose `times` agrees within 10 % with all ratios of printed to timed values; null if
+/// there is none, or with fewer than two ratios.
 template <std::size_t N>
 const TableUnit* unit_of(const std::vector<double>& ratios, const std::array<TableUnit, N>& units) {
   for (const TableUnit& unit : units) {
@@ -56,9 +57,9 @@ const TableUnit* unit_of(const std::vector<double>& ratios, const std::array<Tab
   return nullptr;
 }
 
-/// A correction that makes values smaller, and its reason.
+/// A correction that makes values smaller, and its reason for messages.
 struct Smaller {
-  double factor;
+  double factor;  ///< corrected value = value in the file times this, < 1
   std::string_view words;
 };
 
@@ -104,8 +105,8 @@ std::vector<double> printed_over_timed(const std::vector<TurningRow>& rows) {
 
 /// Upper bound of the vehicle's speed at full thrust, from its fastest surge run. Assumes that the
 /// resistance grows at least with the square root of the speed: tau_speed/tau_run = (u/u_run)^b,
-/// b >= 1/2. Empty if that run used less than half of the full thrust, because static friction then
-/// dominates.
+/// b >= 1/2. Includes a margin of 30 %. Empty if that run used less than half of the full thrust,
+/// because static friction then dominates.
 std::optional<double> top_speed_mps(const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle) {
   constexpr double kRoom = 1.3;
@@ -267,7 +268,7 @@ std::optional<WrongUnit> wrong_unit(const std::vector<CoastCurve>& curves,
     fastest_mps = std::max(fastest_mps, most);
     include((most - least) / (curve.t_s.back() - curve.t_s.front()), deceleration_mps2);
   }
-  // Curves whose speed does not fall are set aside by the fit.
+  // The fit does not use curves whose speed does not fall.
   if (!(deceleration_mps2.hi > 0.0)) return std::nullopt;
   const bool of_bins = curves.front().of_bins;
   return wrong_unit({curves.front().line, fastest_mps, deceleration_mps2,

@@ -93,8 +93,8 @@ struct Header {
   std::vector<std::string> names;
 };
 
-/// Names in a file's header; for a directory of tables, both `TABLE.COLUMN` and `COLUMN`. nullopt if
-/// the file is unreadable or has a number in place of a name.
+/// Names in a file's header; for a directory of tables, both `TABLE.COLUMN` and `COLUMN`. nullopt
+/// if the file is unreadable or has a number in place of a name.
 std::optional<Header> header_of(const std::filesystem::path& path) {
   const auto sample = sample_of(path);
   if (!sample) return std::nullopt;
@@ -108,7 +108,7 @@ std::optional<Header> header_of(const std::filesystem::path& path) {
   return header;
 }
 
-/// Headers of all files; empty if one of them is unknown.
+/// Headers of all files; empty if one of them cannot be read.
 std::vector<Header> headers_of(std::span<const std::filesystem::path> files) {
   std::vector<Header> headers;
   for (const std::filesystem::path& path : files) {

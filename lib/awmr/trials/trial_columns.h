@@ -30,8 +30,10 @@ Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& v
 Status check_mappings(const TrialOptions& options, std::span<const std::size_t> used,
                       std::span<const std::filesystem::path> files);
 
-/// Faults for the mappings that none of the files can use. For reports of files that could not be
-/// read, because a misspelt mapping is a frequent cause.
+/// Returns a fault for each mapping that none of the files can use, because no file has its file
+/// name or its source columns. For reports of files that could not be read, where a misspelt
+/// mapping is a frequent cause. Skips the mappings of the vehicle file, and those of required
+/// columns, whose absence is already an error.
 std::vector<Fault> unusable_mappings(const TrialOptions& options,
                                      std::span<const std::filesystem::path> files);
 

@@ -78,7 +78,8 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
   if (!counted) return RateInRow{printed.value_or(0.0), {}, {}};
 
   if (*elapsed_s == 0.0) {
-    // elapsed_s may be 0 only in a row at rest: the printed rate is 0 or, without one, the amount.
+    // elapsed_s may be 0 only in a row at rest, whose printed rate (without one, whose amount) is
+    // 0.
     const double motion = printed.value_or(*amount);
     if (motion != 0.0) {
       reader.fault(ErrorCode::kOutOfRange, row, "elapsed_s",
@@ -128,7 +129,7 @@ void note_rows_set_aside(const TrialReader& reader, std::span<const std::size_t>
   if (rows.empty()) return;
   findings.push_back(
       reader.finding(rows.front(), Severity::kNote, "rows-set-aside",
-                     fmt::format("{} of {} rows set aside ({}): {}", rows.size(),
+                     fmt::format("{} of {} rows are not used ({}): {}", rows.size(),
                                  reader.table().rows(), lines_of(reader, rows), why)));
 }
 

@@ -20,19 +20,22 @@ class TrialReader {
 
   const CsvTable& table() const { return table_; }
   bool has(std::string_view column) const { return table_.has(column); }
-  /// Same as CsvTable::take().
+  /// Returns the values of a column, and leaves the column of the table empty (CsvTable::take()).
   std::vector<double> take(std::string_view column) { return table_.take(column); }
   /// Returns the value of a cell; empty if the file has no such column or the cell is empty.
   std::optional<double> cell(std::size_t row, std::string_view column) const;
   /// As cell(), and adds a fault if the value is negative.
   std::optional<double> non_negative(std::size_t row, std::string_view column);
 
+  /// Adds a fault at the cell of this row and column, or at the header.
   void fault(ErrorCode code, std::size_t row, std::string_view column, std::string message);
   void header_fault(ErrorCode code, std::string message);
   std::vector<Fault>& faults() { return faults_; }
 
+  /// Returns a finding with the file and the line of this row.
   Finding finding(std::size_t row, Severity severity, std::string code, std::string message) const;
 
+  /// last_place() and rounding_error() of agreement.h, for a column of this file.
   double last_place(std::string_view column) const;
   double rounding_error(double printed, std::string_view column) const;
 
@@ -53,7 +56,9 @@ struct Rate {
 
 /// The rate of one row, and the amount and time from which it was timed.
 struct RateInRow {
-  double used = 0.0;                ///< printed or timed value, as preferred; m/s or rad/s, >= 0
+  /// m/s or rad/s, >= 0: the preferred value if the row has both, else the one that it has; 0 if
+  /// the row has neither.
+  double used = 0.0;
   std::optional<double> amount;     ///< m or turns; absent unless elapsed_s > 0
   std::optional<double> elapsed_s;  ///< s; absent unless > 0
 };

@@ -14,7 +14,8 @@
 
 namespace awmr {
 
-/// A run at constant tau_speed with d_r = 0, to the steady speed u at which
+/// A run at constant thrust tau_speed and steering angle d_r = 0, to the steady speed u at which
+/// the thrust equals the surge resistance g1:
 ///   tau_speed = g1(u)                                                            [paper (45)-(46)]
 struct SurgeRow {
   int line = 0;                      ///< line in the file
@@ -24,16 +25,17 @@ struct SurgeRow {
   std::optional<double> elapsed_s;   ///< s, > 0
 };
 
-/// A run with the same F' on every wheel and a constant d_r, to the steady yaw rate r at which
-///   2 l_f F' sin d_r = g3(r)                                                     [paper (61)-(62)]
+/// A run with the same force F' on every wheel and a constant steering angle d_r, to the steady yaw
+/// rate r at which the yaw moment tau_turn equals the yaw resistance g3:
+///   tau_turn = 2 l_f F' sin d_r = g3(r)                                          [paper (61)-(62)]
 /// A differential turn has d_r = 0; without steering, every turn is differential:
-///   2 d (F'R - F'L) = g3(r)                                                           [paper (41)]
+///   tau_turn = 2 d (F'R - F'L) = g3(r)                                                [paper (41)]
 /// All values are magnitudes: a turn to the right is stored as its mirror image, because g3 is odd.
 struct TurningRow {
   int line = 0;                     ///< line in the file
   double steering_rad = 0.0;        ///< d_r, rad, > 0; 0 for differential turns
   double wheel_force = 0.0;         ///< F' of each wheel, over F_max, > 0; 0 for differential turns
-  double tau_turn_m = 0.0;          ///< m, > 0: from the file if given, else from the forces
+  double tau_turn_m = 0.0;          ///< yaw moment/F_max, m, > 0: from the file, else computed
   double yaw_rate_radps = 0.0;      ///< r, rad/s, > 0: as printed in the file or timed
   std::optional<double> turns;      ///< full turns, > 0; with elapsed_s if the run was timed
   std::optional<double> elapsed_s;  ///< s, > 0
@@ -57,24 +59,25 @@ struct CoastCurve {
   int line = 0;  ///< line of its first row
   std::vector<double> t_s;
   std::vector<double> speed_mps;
-  std::vector<std::size_t> mapped = {};  ///< indices of the TrialOptions' mappings that were used
+  std::vector<std::size_t> mapped = {};  ///< used mappings: indices in TrialOptions::columns
   bool of_bins = false;  ///< true: built from columns from_mps, to_mps, elapsed_s (speed bins)
 };
 
-/// Rows of one file. A row without motion or force is set aside and counted, because it has no
+/// Rows of one file. A row without motion or force is not used, only counted, because it has no
 /// logarithm for the fit of a power law.                                    [paper (49), corrected]
 /// Corrected: (49) prints twelve rows for eleven trials, the first of them the logarithm of zero.
 template <class Row>
 struct TrialSet {
   std::string file;
   std::vector<Row> rows;
-  int set_aside = 0;                     ///< number of rows set aside
-  std::vector<std::size_t> mapped = {};  ///< indices of the TrialOptions' mappings that were used
-  std::string force_column = {};         ///< source column of the force of a surge or turning run
+  int set_aside = 0;                     ///< number of rows that are not used
+  std::vector<std::size_t> mapped = {};  ///< used mappings: indices in TrialOptions::columns
+  std::string force_column = {};         ///< surge, turning: "tau_speed" or "wheel_force"
   std::string rate_column =
       {};  ///< source column of the rate of a turning run: "yaw_rate_radps" or "turns"
   /// Differential turns of a vehicle that also steers; not in `rows`. They are kept apart because
-  /// they include tyre scrub, which g3 of steered turns does not.
+  /// they include tyre scrub, which g3 of steered turns does not. Empty if the table has no steered
+  /// turn: the differential turns are then in `rows`.
   std::vector<Row> by_sides = {};
   /// Differential runs in which the vehicle did not turn. Their yaw moment is a lower bound of the
   /// moment at which the tyres begin to slide.

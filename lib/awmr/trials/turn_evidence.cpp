@@ -23,14 +23,15 @@ namespace {
 /// drift or also steer its rear wheels), 4 for a differential turn (u is interpolated twice).
 constexpr double kMostSteered = 3.0;
 constexpr double kMostBySides = 4.0;
-/// Smallest accepted value of this ratio for the fastest steered turn of a table. A real turn has a
-/// ratio several times larger, even with a wheelbase of five times l_f and strong understeer.
+/// Smallest accepted yaw rate of the fastest steered turn of a table, over that of rolling wheels.
+/// A real turn has a ratio several times larger, even with a wheelbase of five times l_f and strong
+/// understeer.
 constexpr double kLeastSteered = 0.01;
 constexpr double kMostAcceleration_mps2 = 60.0;
 constexpr double kFastestTurn_radps = 25.0;
 
-/// Ratios to rolling wheels that are usual in the right unit. A unit is suggested only if it brings
-/// the fastest turn into this range.
+/// Ratios of the yaw rate to that of rolling wheels that are usual in the right unit. A unit is
+/// suggested only if it brings the fastest turn into this range.
 constexpr Interval kPossibleShare{0.03, 2.5};
 constexpr double kPossibleAcceleration_mps2 = 15.0;
 
@@ -71,9 +72,9 @@ class SpeedCurve {
     double most = 0.0;
     for (auto& [tau, speed] : points_) most = speed = std::max(most, speed);
   }
-  /// Odd in tau. Above the largest tau_speed of the runs, u is continued in proportion to tau^2.
-  /// This is an upper bound, because resistance grows at least with the square root of the speed.
-  /// Empty above 1.5 times the largest tau_speed.
+  /// u at the thrust tau, m/s; odd in tau. Above the largest tau_speed of the runs, u is continued
+  /// in proportion to tau^2. This is an upper bound, because resistance grows at least with the
+  /// square root of the speed. Empty above 1.5 times the largest tau_speed.
   std::optional<double> at(double tau) const {
     if (tau < 0.0) {
       const auto forwards = at(-tau);
@@ -170,8 +171,8 @@ std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& spe
                                difference, most)};
 }
 
-/// r over the yaw rate at which the centripetal acceleration on the smallest circle reaches its
-/// limit.
+/// Yaw rate r of a steered turn over that at which the centripetal acceleration on the smallest
+/// possible circle, of radius l_f/tan(d_r), reaches its limit.
 TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
   const double radius_m = vehicle.front_axle_m / std::tan(row.steering_rad);
   const double most = std::sqrt(kMostAcceleration_mps2 / radius_m);
@@ -184,9 +185,9 @@ TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
 /// One limit, with the rows compared with it.
 struct TurnCriterion {
   std::vector<TurnShare> shares;
-  double most;        ///< largest accepted share
-  double least;       ///< smallest accepted share of the fastest row; 0: none
-  Interval possible;  ///< shares that are usual in the right unit
+  double most;        ///< largest accepted ratio of yaw rate to limit
+  double least;       ///< smallest accepted ratio of the row with the largest one; 0: none
+  Interval possible;  ///< ratios that are usual in the right unit
 };
 
 std::vector<TurnCriterion> criteria_of(const TrialSet<TurningRow>& turning,
@@ -216,7 +217,8 @@ std::vector<TurnCriterion> criteria_of(const TrialSet<TurningRow>& turning,
   return {std::move(steered), std::move(by_sides), std::move(circle), std::move(any)};
 }
 
-/// Corrections of the unit that bring a share into the usual range.
+/// Corrections of the unit that bring a ratio of yaw rate to limit (`share`) into the range
+/// `possible`. `is_printed`: the yaw rate was read from yaw_rate_radps, not computed from turns.
 std::vector<UnitFix> turn_unit_fixes(double share, const Interval& possible, bool is_printed) {
   const bool is_fast = share > possible.hi;
   std::vector<UnitFix> found;

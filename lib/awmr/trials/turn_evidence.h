@@ -13,10 +13,10 @@
 ///     by steering   r^2 l_f/tan(d_r) <= 60 m/s^2         6 g, twice that of a spinning model car
 ///     any           r <= 25 rad/s                        four turns per second
 ///
-/// The row with the largest ratio of yaw rate to limit is checked. If this row violates the limit,
-/// but the median row does not and has less than a tenth of its ratio, rows are reported as wrong.
-/// Otherwise the unit of the column is reported, also if even the fastest steered turn is below 1 %
-/// of u tan(d_r)/l_f.
+/// For each limit, the row with the largest ratio of yaw rate to limit is checked. If this row
+/// violates the limit, but the median row does not and has less than a tenth of its ratio, the rows
+/// beyond the limit are reported as wrong. Otherwise the unit of the column is reported. It is also
+/// reported if even the largest yaw rate of a steered turn is below 1 % of u tan(d_r)/l_f.
 #pragma once
 
 #include <optional>

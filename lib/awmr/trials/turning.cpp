@@ -21,7 +21,7 @@ const Rate kTurningRate{.printed_column = "yaw_rate_radps",
                         .per_amount = 2.0 * pi<double>(),
                         .code = "yaw-rate-mismatch"};
 
-/// Relative error of the computed tau_turn: l_f and the steering angle are known to about 1 %.
+/// Relative error of the computed tau_turn: l_f, d and the steering angle are known to about 1 %.
 constexpr double kGeometryError = 0.01;
 
 void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
@@ -54,7 +54,7 @@ struct Turn {
   std::optional<SideForces<double>> sides = {};
 };
 
-/// Adds a fault if `value` has not the sign of the turn.
+/// Adds a fault if the sign of `value` is opposite to that of the turn (left positive).
 void check_side(TrialReader& reader, std::size_t row, const char* column, double value,
                 const Turn& turn) {
   if (value * turn.left >= 0.0) return;
@@ -77,7 +77,8 @@ void check_stop(const TrialReader& reader, std::size_t row, const Vehicle& vehic
   if (std::abs(steering_deg) <= vehicle.steering_max_deg) return;
   findings.push_back(reader.finding(
       row, Severity::kWarning, "steering-stop",
-      fmt::format("steering_deg is {}, beyond the vehicle's stop at {}; the row is used as given",
+      fmt::format("steering_deg is {}, beyond the vehicle's stop at {} deg: correct the row or "
+                  "steering.max_deg; the row is used as given",
                   steering_deg, vehicle.steering_max_deg)));
 }
 
@@ -314,7 +315,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   }
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   if (set.rows.empty()) {
-    // The moment that the standing tyres hold is only evaluated if there are turns to compare with.
+    // The moment that tyres hold without turning is evaluated only if there are steered turns.
     set.standing.clear();
     set_aside.insert(set_aside.end(), standing.begin(), standing.end());
     std::sort(set_aside.begin(), set_aside.end());

@@ -23,7 +23,7 @@ constexpr double kHighestAgreement = 1.6;
 
 /// A unit that a channel may have by mistake.
 struct UnitFactor {
-  double factor;  ///< ratio of the two compared channels with this unit
+  double factor;  ///< ratio of the two compared channels if the unit is this one
   std::string_view words;
 };
 
@@ -126,8 +126,8 @@ std::vector<Contradiction> check_forces(const Evidence& evidence) {
   return found;
 }
 
-/// True if the values of the heading column span at most 6.4, so that they may be radians within
-/// one turn. (If they are degrees, the vehicle hardly turns in the whole log.)
+/// True if the values of the heading column span at most 6.4 (2 pi and a margin), so that they may
+/// be radians. (If they are degrees, the vehicle hardly turns in the whole log.)
 bool heading_spans_radians(const DrivingLog& log) {
   double least = 360.0;
   double most = -360.0;
@@ -139,8 +139,8 @@ bool heading_spans_radians(const DrivingLog& log) {
   return most - least < 2.0 * pi<double>() + 0.1;
 }
 
-/// If turning_rate() is below this, the unit of the yaw rate is not deg/s, because 2 deg/s would
-/// hardly be a turn.
+/// If turning_rate() is below this number, the unit of the yaw rate is not deg/s, because 2 deg/s
+/// would hardly be a turn.
 constexpr double kSlowTurn = 2.0;
 /// Typical yaw rate while turning: the 75 % quantile over windows, in the unit of the column.
 double turning_rate(const Evidence& evidence) {
@@ -233,7 +233,7 @@ std::optional<double> rate_over_rolling(const Evidence& evidence) {
 /// Detects a yaw rate in deg/s in logs without a heading, because the values are too large for a
 /// wheeled vehicle, or for its steering angle and speed.
 std::optional<Contradiction> check_rate_alone(const Evidence& evidence) {
-  constexpr double kLargest_radps = 25.0;  // as for turning tables
+  constexpr double kLargest_radps = 25.0;  // as for turning tables (turn_evidence.h)
   if (!evidence.has(LogChannel::kYawRate) || evidence.has(LogChannel::kHeading)) return {};
   const double rate_radps = usual_largest(*evidence.log[LogChannel::kYawRate]);
   // Sliding wheels turn the vehicle less or more than rolling ones, but not by this factor. deg/s
@@ -300,10 +300,10 @@ double position_variance_m2(const DrivingLog& log) {
   return quantile(std::move(squares), 0.25) / (12.0 * std::log(4.0 / 3.0));
 }
 
-/// Ratio of the distance between the ends of the windows to the integral of the speed. The noise
-/// sigma of the two positions makes the distance longer: E moved^2 = true^2 + 4 sigma^2. The term 4
-/// sigma^2 is therefore subtracted. Empty if the median distance in the faster half of the windows
-/// is below twice that of noise alone.
+/// Ratio, over the windows, of the distance between first and last position to the integral of the
+/// speed. The noise sigma of the two positions makes the distance longer: E moved^2 = true^2 +
+/// 4 sigma^2. The term 4 sigma^2 is therefore subtracted. Empty if the median distance in the
+/// faster half of the windows is below twice that of noise alone.
 std::optional<RobustRatio> moved_over_driven(const Evidence& evidence) {
   constexpr double kClear = 4.0;  // ratio of the squares
   const double noise_m2 = 4.0 * position_variance_m2(evidence.log);
@@ -382,9 +382,10 @@ std::optional<Contradiction> check_speed_alone(const Evidence& evidence) {
                   option_text("column '" + scaled_mapping(evidence, "speed_mps", 1e-3) + "'"))};
 }
 
-/// Curvature of the path over that of the steering angle: (r/u)/(tan(factor d_r)/l_f). This ratio
-/// is at most about 1 if `factor` converts the logged angle to rad. Windows in which the force
-/// difference turns the vehicle more than its steering are skipped.
+/// Ratio of the curvature of the path to that of the steering angle: (r/u)/(tan(factor d_r)/l_f).
+/// It is at most about 1 if `factor` converts the logged angle to rad. Windows in which the force
+/// difference turns the vehicle more than its steering are skipped. Empty without speed, or without
+/// both heading and yaw rate, or if the two curvatures are not proportional.
 std::optional<double> sharpness(const Evidence& evidence, double factor) {
   const bool heading = evidence.has(LogChannel::kHeading);
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
@@ -473,7 +474,7 @@ std::optional<Contradiction> check_steering_unit(const Evidence& evidence) {
             "map it with {}",
             option_text(fmt::format("column '{}=(COUNTS - CENTRE)*DEGREES_PER_COUNT'", column)))};
   }
-  // An angle in radians is at most 1.7 % of the stop in degrees.
+  // An angle in radians that is read as degrees is at most 1.7 % (pi/180) of the stop.
   if (largest_deg > 0.025 * stop_deg) return std::nullopt;
   const double degree = 180.0 / pi<double>();
   // Angles in radians that are read as degrees make the vehicle seem to turn 57 times as sharply as

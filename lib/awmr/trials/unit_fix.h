@@ -21,8 +21,8 @@ struct UnitFix {
 
 /// Advice for messages: "map it with --column 'A'", or for several corrections "map it with
 /// --column 'A' (percent) or with --column 'B' (PWM counts)". Empty for no corrections. `in_doubt`:
-/// other units without a known factor are also possible, so a single correction is named too.
-/// `mappings`: column mappings with which the table was read.
+/// true if units without a known factor are also possible; the unit of a single correction is then
+/// also named. `mappings`: column mappings with which the table was read.
 std::string mapped_by(std::span<const UnitFix> unit_fixes, std::span<const ColumnMapping> mappings,
                       bool in_doubt = false);
 
