@@ -299,7 +299,7 @@ void find_saturation(std::span<const double> all, std::span<const double> activi
     const auto count = static_cast<std::size_t>(std::count(value.begin(), value.end(), bound));
     if (count < std::max<std::size_t>(8, value.size() / 200)) continue;
     if (count < 4 * most_elsewhere) continue;
-    if (quality.stuck.empty() || count > quality.saturated) {
+    if (count > quality.saturated) {
       quality.saturated = count;
       quality.saturated_at = bound;
     }

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "awmr/core/csv_text.h"
+#include "awmr/core/option_text.h"
 #include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/trials/channel_quality.h"
@@ -99,10 +100,18 @@ std::vector<RowSpan> runs_of(const TrialReader& reader) {
 
 /// For a log with steering_deg and no steering_cmd_deg: removes the rows before the first angle,
 /// because the angle is the model's input.
-RowSpan from_known_steering(const TrialReader& reader, RowSpan run) {
+RowSpan from_known_steering(TrialReader& reader, RowSpan run) {
   if (reader.has("steering_cmd_deg") || !reader.has("steering_deg")) return run;
   const std::vector<std::size_t> known = rows_present(reader, run, "steering_deg");
-  run.begin = known.empty() ? run.end : run.begin + known.front();
+  if (known.empty()) {
+    reader.header_fault(
+        ErrorCode::kTooFewData,
+        fmt::format("the run from line {} has no value of steering_deg, the steering input; "
+                    "delete this run, or add steering_cmd_deg",
+                    reader.table().line(run.begin)));
+    return run;
+  }
+  run.begin += known.front();
   return run;
 }
 
@@ -137,9 +146,10 @@ void keep_used(TrialReader& reader, const TrialOptions& options, std::vector<Row
     const std::span<const double> t_s = reader.table().column("t_s");
     const auto [first, last] = std::ranges::minmax(t_s);
     reader.header_fault(ErrorCode::kTooFewData,
-                        fmt::format("no row is left: t_s goes from {} to {} s; correct --from, "
-                                    "--until or --exclude",
-                                    first, last));
+                        fmt::format("no row is left: t_s goes from {} to {} s; correct {}, "
+                                    "{} or {}",
+                                    first, last, option_text("from"), option_text("until"),
+                                    option_text("exclude")));
   }
   runs = std::move(parts);
 }

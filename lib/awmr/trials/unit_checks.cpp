@@ -342,9 +342,12 @@ std::optional<Contradiction> check_speed(const Evidence& evidence) {
   const std::string compared =
       fmt::format("the positions move by {:.4g} times the integral of the speed", ratio->ratio);
   if (const auto unit = known_factor(ratio->ratio, kPositionUnits)) {
-    return Contradiction{"x_m", compared + fmt::format(": the positions look like {}", unit->words),
-                         scaled_mapping(evidence, "x_m", 1.0 / unit->factor) + "' and column '" +
-                             scaled_mapping(evidence, "y_m", 1.0 / unit->factor)};
+    const std::string x = scaled_mapping(evidence, "x_m", 1.0 / unit->factor);
+    const std::string y = scaled_mapping(evidence, "y_m", 1.0 / unit->factor);
+    return Contradiction{
+        "x_m", compared + fmt::format(": the positions look like {}", unit->words), x,
+        fmt::format("map them with {} and {}", option_text(fmt::format("column '{}'", x)),
+                    option_text(fmt::format("column '{}'", y)))};
   }
   if (const auto unit = known_factor(ratio->ratio, kSpeedUnits)) {
     return Contradiction{"speed_mps",
