@@ -19,8 +19,8 @@ namespace {
 constexpr double kMinimumInvertibleBeta = 1e-3;
 
 /// g^-1(force), the steady rate at a force, with its derivatives; 0 if the force is below Coulomb
-/// friction. The root is found in double. One Newton step in T from there gives the derivatives of
-/// the implicit function.
+/// friction. The root is found in double precision. One Newton step from the root in T, a type with
+/// derivatives, gives the derivatives of the implicit function.
 template <class T>
 T inverse(const Resistance<T>& law, const T& force) {
   const Resistance<double> plain = value_of(law);
