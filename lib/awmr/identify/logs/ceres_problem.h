@@ -8,8 +8,9 @@
 
 namespace awmr {
 
+/// Result of solve().
 struct Solved {
-  SearchPoint point;  ///< end of the search
+  SearchPoint point;  ///< end of the search, converged or not
   double cost = std::numeric_limits<double>::infinity();
   bool converged = false;
   bool usable = false;  ///< the search did not fail: its cost is at most that of the start

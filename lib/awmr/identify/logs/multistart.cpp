@@ -36,8 +36,9 @@ LogProblem rough_problem(const LogProblem& problem) {
 }
 
 /// Random initial guess. Each parameter in `guessed` is multiplied by a factor in [e^-2, e^2]. An
-/// exponent is drawn from [0.3, 1.3], within its range. Terms of a family do not change. Uses one
-/// random number per quantity, changed or not.
+/// exponent in `guessed` is drawn from [0.3, 1.3] and limited to its range. Terms of a family do
+/// not change. Uses one random number per quantity, changed or not, so that the draws of the others
+/// do not depend on `guessed`.
 std::vector<double> drawn(const LogProblem& problem, const std::vector<ParameterId>& guessed,
                           Random& random) {
   std::vector<double> coordinates = problem.initial;
