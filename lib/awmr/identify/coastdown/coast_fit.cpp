@@ -48,7 +48,7 @@ CoastFit not_finite(CoastFit fit, const CoastProblem& problem) {
   return fit;
 }
 
-/// Parameters of the curve g1/a1 that a family frees, of b1, c1/a1 and q1/a1.
+/// Those of b1, c1/a1 and q1/a1, the parameters of the curve g1/a1, that are free in a family.
 std::vector<TransformedParameter> shapes_of(Family family) {
   const FamilyTerms terms = terms_of(family);
   std::vector<TransformedParameter> shapes;
@@ -76,8 +76,9 @@ bool is_inside(const Interval& range, double value) {
   return value > range.lo + kOnTheEdge && value < range.hi - kOnTheEdge;
 }
 
-/// Sets the variances of ln m', b1 and the ratios c1/a1 and q1/a1, and the ratios. The covariance
-/// begins with ln m' and the parameters `inside`, which are not at a bound.
+/// Sets the ratios c1/a1 and q1/a1, and the variances of ln m', b1 and these ratios; 0 for a
+/// parameter at a bound. The covariance begins with ln m' and the parameters `inside`, which are
+/// not at a bound.
 void add_shapes(CoastProblem& problem, const std::vector<TransformedParameter>& free,
                 const std::vector<TransformedParameter>& inside, const Eigen::MatrixXd& covariance,
                 CoastFit& fit) {
