@@ -19,7 +19,9 @@ struct Solved {
 
 /// Minimises the cost by Levenberg-Marquardt steps within the bounds, starting at `from`. Each
 /// window's initial state is eliminated from the linear system. Ends when a step changes the cost
-/// by less than `function_tolerance`, relative to the cost.
+/// by less than `function_tolerance`, relative to the cost, or when further steps promise less than
+/// 0.05 of -ln L. Ends without convergence after 60 steps, at the limit of effort or at the
+/// deadline.
 Solved solve(const LogProblem& problem, SearchPoint from, double function_tolerance);
 
 }  // namespace awmr

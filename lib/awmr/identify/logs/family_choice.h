@@ -46,7 +46,8 @@ struct FamilyContest {
   bool surge = true;  ///< true: compares all surge families; false: keeps that of `first`
   bool yaw = false;   ///< true: compares all yaw families; false: keeps that of `first`
   double lead = 0.0;  ///< another family replaces that of `first` if its AIC is lower by more
-  /// True: fits other families only if a score test or correlated errors suggest a missing term.
+  /// True: fits other families only if a score test or a slow drift suggests a missing term, or if
+  /// `first` did not converge.
   bool only_suspects = true;
 };
 

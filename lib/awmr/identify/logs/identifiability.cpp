@@ -110,7 +110,8 @@ void widen(const Scores& scores, Identifiability& found) {
   found.covariance = factor.asDiagonal() * found.covariance * factor.asDiagonal();
 }
 
-/// Refuses all quantities correlated with quantity number `stopped`, whose search ended at a bound.
+/// Refuses all quantities correlated (by more than kHangs) with quantity number `stopped`, whose
+/// search ended at a bound.
 void refuse_what_hangs_on(Eigen::Index stopped, const std::vector<FreeQuantity>& quantities,
                           Identifiability& found) {
   constexpr double kHangs = 0.3;  // smallest correlation that counts

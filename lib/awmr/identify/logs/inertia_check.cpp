@@ -34,7 +34,7 @@ std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_
   return " (speed_mps may be a rate of rotation of the wheels: multiply it by their radius)";
 }
 
-/// Reason why the fitted I'z is impossible; empty if it is plausible.
+/// Reason why the fitted I'z is impossible or not determined; empty if it is plausible.
 std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                            const Model& model, const LogStage& stage) {
   const auto estimate_of = [&](ParameterId id) -> const Estimate* {

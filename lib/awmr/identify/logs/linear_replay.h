@@ -20,7 +20,6 @@ struct LinearMotion {
   State<double> state{};
   std::vector<double> by_column;  ///< derivatives, [kStateSize][columns]; empty without columns
   /// Derivatives of one component of the state, by column. `channel`: the component.
-
   const double* row(LogChannel channel, std::size_t columns) const;
   double* row(LogChannel channel, std::size_t columns);
 };

@@ -165,8 +165,8 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
   if (frees_back_emf(fit)) fit = with_back_emf(std::move(fit));
 }
 
-/// True if back-EMF is to be tested: it is neither given nor requested, no parameters were
-/// requested, and no resistance comes from a table fit, which would have absorbed it.
+/// True if back-EMF is to be tested: it is not given, no parameters were requested, no resistance
+/// comes from a table fit, which would have absorbed it, and the logs contain enough coasting.
 bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                         const IdentifyOptions& options, const Model& model) {
   return options.requested.empty() && !vehicle.back_emf_s_per_m &&

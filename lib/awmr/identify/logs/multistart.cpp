@@ -18,8 +18,8 @@ std::vector<FitWindow> spread(const std::vector<FitWindow>& windows, std::size_t
   return some;
 }
 
-/// Problem that ranks initial guesses: twelve parts of 2.5 s, spread over all logs, with longer
-/// integration steps.
+/// Problem that ranks initial guesses: up to twelve parts of 2.5 s, spread over all logs, with
+/// longer integration steps.
 LogProblem rough_problem(const LogProblem& problem) {
   constexpr std::size_t kParts = 12;
   constexpr double kPart_s = 2.5;
