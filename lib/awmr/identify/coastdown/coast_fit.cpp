@@ -58,7 +58,8 @@ std::vector<TransformedParameter> shapes_of(Family family) {
   return shapes;
 }
 
-/// Initial guess of g1/a1: ln a1 = 0, b1 = 0.8 within its range, and terms of 0.1.
+/// Initial guess of g1/a1: ln a1 = 0, b1 = 0.8 within its range (1 if fixed), and 0.1 for those of
+/// c1/a1 and q1/a1 that the family has.
 TransformedParameters start_of(Family family, const Interval& beta_range) {
   constexpr double kTermOverAlpha = 0.1;
   const FamilyTerms terms = terms_of(family);

@@ -24,7 +24,7 @@ struct SuggestOptions {
   /// Target of the ranking: the name of a parameter or of one of `metrics`. Empty: all parameters
   /// (A-optimality), that is, the root of the sum of their squared relative standard errors. In
   /// this sum the error of an exponent is absolute, and that of a family's term is relative to the
-  /// whole resistance at 1 m/s or 1 rad/s.
+  /// resistance with all its terms at 1 m/s or 1 rad/s.
   std::string parameter = {};
   /// Sensor noise of future curves and logs. Use the robot's own values if they are known.
   SensorNoise sensors = {};

@@ -140,7 +140,8 @@ bool SteadySearch::is_at_bound(TransformedParameter c) const {
   return theta_[at(c)] <= bounds.lo || theta_[at(c)] >= bounds.hi;
 }
 
-/// Searches until convergence, or until coordinates stay at a bound. Returns those coordinates.
+/// Searches until convergence, or until coordinates stay at a bound. Returns the coordinates that
+/// stayed at a bound; empty after convergence.
 std::vector<TransformedParameter> SteadySearch::search_until_at_bound() {
   StopAtBound stop([this] {
     std::vector<TransformedParameter> at_bound;

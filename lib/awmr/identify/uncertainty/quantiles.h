@@ -7,8 +7,8 @@ namespace awmr {
 /// deviations.
 inline constexpr double kNormalQuantile995 = 2.576;
 
-/// 97.5 % quantile of Student's t: half width of a 95 % interval in standard errors. Precondition:
-/// degrees_of_freedom > 0.
+/// 97.5 % quantile of Student's t: half width of a 95 % interval in standard errors. Infinite if
+/// degrees_of_freedom is not positive.
 double t_quantile_95(double degrees_of_freedom);
 
 /// 95 % quantile of the chi-squared distribution. Precondition: degrees_of_freedom > 0.
