@@ -39,14 +39,16 @@ std::string why_not(double value, const NumberRule& rule) {
 
 /// Reason why the tables do not determine m': the upper end of its 95 % interval is more than
 /// 10,000 times the lower end, so that samples from the interval cannot be simulated. Empty if the
-/// tables determine m', and for an m' from logs, whose wide interval shows that the logs disagree.
+/// tables determine m', and for other parameters. Also empty for an m' from logs, whose interval is
+/// so wide only if several logs disagree.
 std::string why_open(ParameterId id, const Estimate& estimate) {
   constexpr double kMostOpen = 1e4;  // ratio of the interval's upper end to its lower end
   const auto& ci = estimate.ci95;
   const bool is_of_logs = estimate.method == name_in(kEstimatorNames, Estimator::kTrajectory);
   if (id != ParameterId::kMassNorm || is_of_logs || !ci || !(ci->lo > 0.0)) return {};
   if (ci->hi <= kMostOpen * ci->lo) return {};
-  return fmt::format("its 95 % interval by these trials is {:.2g} to {:.2g}", ci->lo, ci->hi);
+  return fmt::format("its 95 % interval by these trials is too wide, {:.2g} to {:.2g}", ci->lo,
+                     ci->hi);
 }
 
 /// Removes the parameters that depend on a removed parameter, and adds the reasons.

@@ -23,7 +23,7 @@ inline constexpr const char* kAssumedSwayMethod = "assumed of common tyres";
 
 /// Sets the assumed sway resistance and its covariance, and adds the finding `assumed-sway`. Does
 /// nothing if the model already has a sway resistance, if it lacks a3, I'z or m', or if no trial
-/// has a speed.
+/// has a speed above 0.
 void assume_sway(const TrialData& data, MainValues& values);
 
 }  // namespace awmr

@@ -15,20 +15,21 @@ struct Identification {
   std::vector<ParameterId> refused;  ///< requested parameters that the data do not identify
 };
 
-/// Identifies the model of a vehicle. `findings`: those of the data, put first in the record.
-/// Errors (input): contradictory options, such as a robust loss with the log-linear method; an
-/// option without the trials that it needs; a requested parameter or family that the vehicle cannot
-/// have; back-EMF together with tables; as run_log_stage() (log_stage.h).
-/// A parameter that the data do not identify is not an error: it gets no value and the finding
-/// `not-identifiable`, and is listed in `refused` if it was requested.
+/// Identifies the model of a vehicle. `findings`: findings from reading the data, which come first
+/// in the model's record. Errors (input): contradictory options, such as a robust loss with the
+/// log-linear method; an option without the trials that it needs; a requested parameter or family
+/// that the vehicle cannot have; back-EMF, given or requested, together with a surge or turning
+/// table; and the errors of run_log_stage() (log_stage.h). A parameter that the data do not
+/// identify is not an error: it gets no value and the finding `not-identifiable`, and is listed in
+/// `refused` if it was requested.
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings);
 
-/// Identifies the model from trials that load_trials() has read. Errors: as above.
+/// Identifies the model from trials that load_trials() has read. Errors: as the function above.
 Result<Identification> identify(const Trials& trials, const IdentifyOptions& options);
 
-/// Ratio of the upper end of the 95 % interval of the assumed sway resistance (`assumed-sway`) to
-/// its value, and of its value to the lower end; > 1. Excludes the uncertainty of m'.
+/// Half width of the 95 % interval of the assumed sway resistance (`assumed-sway`), as a factor >
+/// 1: the interval is from value/factor to value times factor. Excludes the uncertainty of m'.
 double assumed_sway_factor();
 
 }  // namespace awmr

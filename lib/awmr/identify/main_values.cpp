@@ -69,7 +69,7 @@ void set_mass_and_law(const SteadyFit& law, double log_mass, const Posterior& po
   if (posterior.empty()) return;
   const Eigen::MatrixXd covariance = posterior.covariance();
   const Eigen::Index first = values.covariance.add_block(covariance);
-  set_law_errors(Subject{}, law, posterior, first, values);  // names the parameters
+  set_law_errors(Subject{}, law, posterior, first, values);  // Subject{}: the surge law
   const Eigen::Index last = first + covariance.rows() - 1;
   for (const ParameterId id : {ParameterId::kMassNorm, ParameterId::kInertiaNorm}) {
     values.covariance.set(id, {{last, *model[id].value}});

@@ -12,8 +12,8 @@
 
 namespace awmr {
 
-/// A model under construction and the covariance of its fitted parameters. Each call below replaces
-/// the values that earlier calls have set.
+/// A model under construction and the covariance of its fitted parameters. Each function below
+/// replaces parameters that earlier calls have set.
 struct MainValues {
   Model& model;
   JointCovariance covariance = {};
@@ -25,8 +25,9 @@ void set_given(const Vehicle& vehicle, Model& model);
 /// Sets the parameters and the family of a resistance law. Precondition: `fit.chosen` is set.
 void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values);
 
-/// Sets m' from coast-downs, and I'z from m'. Without a surge law, sets b1 from the coast-down
-/// curves. Precondition: set_law() was called with the surge fit, if there is one.
+/// Sets m' from coast-downs, and I'z from m'. Without a surge law, sets only b1, from a power-law
+/// fit of the coast-down curves. `surge`: the surge law; absent if it is not identified.
+/// Precondition: set_law() was called with the surge fit, if there is one.
 void set_mass(const MassResult& mass, const std::optional<SteadyFit>& surge, MainValues& values);
 
 /// Sets the values, the families and the covariance that the logs determine.

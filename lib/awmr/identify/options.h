@@ -17,8 +17,8 @@ namespace awmr {
 
 /// Estimator that sets the values in the model.
 enum class Method {
-  kLogLinear,   ///< tables: the paper's least squares of logarithms; power law, squared loss
-  kNonlinear,   ///< tables: errors of speed or time, other families, robust losses
+  kLogLinear,   ///< tables: the paper's least squares of logarithms; power law, squared loss only
+  kNonlinear,   ///< tables: least squares of force, speed or time; all families and losses
   kTrajectory,  ///< driving logs; tables only set the parameters that the logs do not determine
 };
 inline constexpr NameTable<Method, 3> kMethodNames{{{"log-linear", Method::kLogLinear},
@@ -60,7 +60,8 @@ inline std::string title_of(Loss loss) {
 
 /// Resistance family to fit.
 struct FamilyChoice {
-  std::optional<Family> family = Family::kPower;  ///< absent: the family with the smallest AICc
+  /// Absent: the family with the smallest AICc (tables) or AIC (logs).
+  std::optional<Family> family = Family::kPower;
   /// True if the user selected the family. If false and the logs suggest a missing term, the other
   /// families are fitted to them too, and one that is significantly better replaces the power law.
   bool requested = false;
@@ -76,8 +77,8 @@ struct IdentifyOptions {
   /// Absent: trajectory if there are logs. Without logs: nonlinear if another family or a robust
   /// loss is requested, else log-linear.
   std::optional<Method> method = {};
-  /// Error model of the nonlinear fit. Absent, with `method` nonlinear: time if every run was
-  /// timed, else speed. Absent, with `method` absent too: the relative error of the force.
+  /// Error model of the nonlinear table fit. If absent, the fit assumes an error of the time (every
+  /// run was timed) or of the speed if `method` is nonlinear, else a relative error of the force.
   std::optional<ErrorModel> noise = {};
   FamilyChoice surge_family = {};
   FamilyChoice yaw_family = {};
@@ -86,13 +87,15 @@ struct IdentifyOptions {
   /// also improve a1 and b1.
   bool joint = false;
   std::vector<ParameterId> requested = {};  ///< empty: the parameters that the given trials measure
-  /// True if the user requested all parameters. Those that the vehicle lacks are then ignored
-  /// instead of refused.
+  /// True if the user requested all parameters. Those that the vehicle lacks, such as the servo's
+  /// without steering, are then ignored; otherwise requesting them is an input error.
   bool requested_all = false;
   bool fit_input_delay = false;         ///< logs: estimates one common delay of all commands, s
   std::vector<LogChannel> biases = {};  ///< logs: channels with an unknown constant offset
   std::uint64_t seed = 1;               ///< seed of the multistart and of the bootstrap
-  int starts = 6;     ///< logs: number of random initial guesses if no trial gives one; >= 0
+  /// Logs: number of random initial guesses, >= 0, in addition to the one from the logs. Not used
+  /// if tables or the vehicle file give the initial value of every fitted parameter.
+  int starts = 6;
   int bootstrap = 0;  ///< logs: number of bootstrap resamples, e.g. 1000; 0: no bootstrap
   /// Logs: time limit of all searches together, s; 0: none. A fit that has not converged by then is
   /// refused. The amount of computation is always limited.
@@ -100,9 +103,10 @@ struct IdentifyOptions {
   /// Logs: predicts each log by a fit of the other logs; needs two logs.
   bool cross_validate = false;
   int threads = 0;  ///< 0: one per core; the result does not depend on the number of threads
-  bool side_by_side =
-      true;  ///< false: only the requested estimator, without alternative fits and tests
-  bool keeps_outliers = false;  ///< tables: true keeps gross outliers in the fit
+  /// Tables: false fits only with the requested estimator, without fits for comparison and without
+  /// residual tests.
+  bool side_by_side = true;
+  bool keeps_outliers = false;  ///< tables: true keeps gross outliers (gross_outlier.h) in the fit
   /// Logs: called when a step of the fit begins, with a description of the step. For display only.
   std::function<void(std::string_view)> doing = {};
   /// Logs: called before a step that may take more than 10 s, with the reason. For display only.

@@ -93,8 +93,8 @@ std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Rea
                                 ? logged->second
                                 : table_reason(parameter.id, data, reasons);
     const std::string kept =
-        held ? fmt::format(" (the {} {:.4g} is kept)", is_assumed(estimate) ? "assumed" : "given",
-                           *estimate.value)
+        held ? fmt::format(" (the {} value {:.4g} is kept)",
+                           is_assumed(estimate) ? "assumed" : "given", *estimate.value)
              : std::string();
     model.record.findings.push_back(
         {"", 0, wanted ? Severity::kError : Severity::kNote, "not-identifiable",

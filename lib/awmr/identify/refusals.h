@@ -19,8 +19,9 @@ std::vector<ParameterId> requested_parameters(const Vehicle& vehicle, const Tria
 struct Reasons {
   std::string surge;    ///< why no fit of the surge rows is accepted; else empty
   std::string turning;  ///< why no fit of the turning rows is accepted; else empty
-  std::string mass;     ///< why the coast-downs give no m'
-  /// Coast-down curves were fitted without a surge law. `mass` is then also why a1 has no value.
+  std::string mass;     ///< why stop times or curves give no m'
+  /// True if coast-down curves were fitted without a surge trial. `mass` is then also the reason
+  /// why a1 has no value.
   bool curve_alone = false;
   /// By parameter: why its fitted value was removed (take_out_inadmissible()).
   std::map<ParameterId, std::string> inadmissible;
@@ -28,9 +29,9 @@ struct Reasons {
 };
 
 /// Adds the finding `not-identifiable` for every parameter without a value: an error if it was
-/// requested, else a note. Parameters that the vehicle lacks get no finding. If a log fit does not
-/// identify a parameter whose value was given or assumed, that value is kept and the finding says
-/// so. Returns the requested parameters that are refused.
+/// requested, else a note. Parameters that the vehicle lacks get no finding. If the logs do not
+/// identify a requested parameter whose value was given or assumed, that value is kept and the
+/// finding reports this. Returns the requested parameters that the data do not identify.
 std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Reasons& reasons,
                                                 const std::vector<ParameterId>& requested,
                                                 Model& model);

@@ -86,7 +86,8 @@ std::string ratios_in_words(const CoastFit& fit) {
   return words;
 }
 
-/// Adds `power-law-inadequate` if the AICc of another family is significantly lower.
+/// Adds `power-law-inadequate` if the AICc of another family is lower than that of the power law by
+/// at least kFamilyAicThreshold.
 void hold_against_others(const std::vector<CoastFit>& fits, const std::string& file,
                          MassResult& result) {
   const CoastFit& power = fits.front();

@@ -10,17 +10,19 @@
 
 namespace awmr {
 
-/// Adds number of rows, residual standard deviation, degrees of freedom, rank, condition number,
-/// stop reason and residual tests of a curve fit to its report.
+/// Writes number of rows, residual standard deviation, degrees of freedom, rank, condition number,
+/// stop reason and residual tests of a curve fit into its report.
 void add_curve_figures(EstimatorReport& report, const CoastFit& fit);
 
-/// Report entry of a positive number whose logarithm was fitted. `error`: standard error of the
-/// logarithm. `half`: half width of the 95 % interval in standard errors (quantile of Student's t).
+/// Report entry of a positive number whose logarithm was fitted. `value`: the number itself.
+/// `error`: standard error of the logarithm. `half`: half width of the logarithm's 95 % interval in
+/// standard errors (quantile of Student's t).
 EstimatorParameter by_logarithm(std::string name, double value, double error, double half);
 
 /// Estimates m'/a1, and those of b1, c1/a1 and q1/a1 that the family has, from coast-down curves
 /// alone. Family: the requested one; for `auto` the one with the smallest AICc; else the power law.
-/// Adds these values to `result`, with the reason why m' itself is not identified.
+/// Returns `result` with these values and with the reason why m' itself is not identified. Without
+/// curves or a usable fit, it has only the reason.
 MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& vehicle,
                          const FamilyChoice& family, MassResult result);
 

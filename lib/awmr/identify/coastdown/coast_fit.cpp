@@ -48,7 +48,7 @@ CoastFit not_finite(CoastFit fit, const CoastProblem& problem) {
   return fit;
 }
 
-/// Parameters of the curve g1/a1 that a family frees, of b1, c1/a1 and q1/a1.
+/// Those of b1, c1/a1 and q1/a1, the parameters of the curve g1/a1, that are free in a family.
 std::vector<TransformedParameter> shapes_of(Family family) {
   const FamilyTerms terms = terms_of(family);
   std::vector<TransformedParameter> shapes;
@@ -58,7 +58,8 @@ std::vector<TransformedParameter> shapes_of(Family family) {
   return shapes;
 }
 
-/// Initial guess of g1/a1: ln a1 = 0, b1 = 0.8 within its range, and terms of 0.1.
+/// Initial guess of g1/a1: ln a1 = 0, b1 = 0.8 within its range (1 if fixed), and 0.1 for those of
+/// c1/a1 and q1/a1 that the family has.
 TransformedParameters start_of(Family family, const Interval& beta_range) {
   constexpr double kTermOverAlpha = 0.1;
   const FamilyTerms terms = terms_of(family);
@@ -76,8 +77,9 @@ bool is_inside(const Interval& range, double value) {
   return value > range.lo + kOnTheEdge && value < range.hi - kOnTheEdge;
 }
 
-/// Sets the variances of ln m', b1 and the ratios c1/a1 and q1/a1, and the ratios. The covariance
-/// begins with ln m' and the parameters `inside`, which are not at a bound.
+/// Sets the ratios c1/a1 and q1/a1, and the variances of ln m', b1 and these ratios; 0 for a
+/// parameter at a bound. The covariance begins with ln m' and the parameters `inside`, which are
+/// not at a bound.
 void add_shapes(CoastProblem& problem, const std::vector<TransformedParameter>& free,
                 const std::vector<TransformedParameter>& inside, const Eigen::MatrixXd& covariance,
                 CoastFit& fit) {

@@ -21,12 +21,13 @@ struct TermOverAlpha {
 /// Fit of coast-down curves to
 ///   m' u_dot = -g1(u), u(0) = u0:
 ///   u(t)^(1-b) = u0^(1-b) - (1-b) (a/m') t,   u = u0 exp(-(a/m') t) for b -> 1       [paper (58)]
-/// for a power law; other families are integrated numerically. Each run has its own u0. A run whose
-/// record begins before motors-off also has its own time of motors-off.
+/// for a power law, with a = a1, b = b1 and the time t since motors-off; other families are
+/// integrated numerically. Each run has its own u0. A run whose record begins before motors-off
+/// also has its own time of motors-off.
 struct CoastFit {
   double log_mass_norm = 0.0;  ///< ln m'; ln (m'/a1) without a surge law
   double variance = 0.0;       ///< variance of log_mass_norm by the noise of the curves alone
-  double dof = 0.0;            ///< degrees of freedom of `variance`, reduced if autocorrelated
+  double dof = 0.0;            ///< degrees of freedom of `variance`, fewer if autocorrelated
   /// d ln m' / d theta for the free coordinates theta of the fixed surge law (SteadyFit::free).
   Eigen::VectorXd by_surge;
   double beta = 0.0;                 ///< b1: fitted or given
@@ -45,7 +46,7 @@ struct CoastFit {
   std::string stop_reason;
 };
 
-/// Fits m' and each run's initial state for a given surge law.
+/// Fits m' and each run's initial speed (and time of motors-off) for a given surge law.
 CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge);
 
 /// Fits curves without a surge law. The curves then determine only m'/a1, b1, c1/a1 and q1/a1:

@@ -41,8 +41,8 @@ T coast_step(const Resistance<T>& law, const T& mass, const T& u, const T& h) {
   return next > T(0.0) ? next : T(0.0);
 }
 
-/// Largest number of steps between two samples: half an hour in steps of 2 ms. Parameters that
-/// need more steps, because their t0 diverges, are rejected.
+/// Largest number of steps between two samples: half an hour in steps of 2 ms. A point of the
+/// search that needs more steps, because its t0 diverges, is rejected.
 constexpr double kMaximumSteps = 1e6;
 
 /// Residuals of one curve as a function of ln a, b, c, q, ln m' and (u0, t0).
@@ -80,7 +80,8 @@ struct CoastResidual {
     return true;
   }
 
-  bool derivative_wanted = false;  ///< true: derivatives by c or q are needed, so no closed form
+  /// True: derivatives by c or q are needed, which the closed form does not have.
+  bool derivative_wanted = false;
 };
 
 using CoastCost = ceres::AutoDiffCostFunction<CoastResidual, ceres::DYNAMIC, 1, 1, 1, 1, 1, 2>;
@@ -89,10 +90,10 @@ using CoastCost = ceres::AutoDiffCostFunction<CoastResidual, ceres::DYNAMIC, 1, 
 /// (h/T)^4/120 of the speed: 2e-8 for T = 0.05 s.
 constexpr double kLongestStep_s = 2e-3;
 
-/// Finds the plateau before motors-off. The plateau ends at the last sample within 4 standard
-/// deviations of the mean of the samples before it. The standard deviation of the noise is the root
-/// mean square of the second differences over sqrt(6), because second differences of a smooth curve
-/// are small.
+/// Finds the plateau of the speed before motors-off. It ends at the last sample within 4 standard
+/// deviations of the mean of the samples before it; a plateau needs more than eight samples. The
+/// standard deviation of the noise is the root mean square of the second differences over sqrt(6),
+/// because second differences of a smooth curve are small.
 CoastInitialState initial_state_of(const CoastCurve& curve) {
   const std::vector<double>& u = curve.speed_mps;
   double squares = 0.0;

@@ -13,16 +13,18 @@
 
 namespace awmr {
 
-/// Initial state of a run. If the record begins before motors-off, the speed has a plateau, with
-/// the mean u0 and the end t0. Otherwise u0 and t0 are those of the first sample.
+/// Speed u0 and time t0 of motors-off of a run. If the record begins before motors-off, the speed
+/// begins with a plateau; its mean and its end are the initial guesses of u0 and t0. Otherwise u0
+/// starts at the first sample's speed, and t0 is fixed at the first sample's time.
 struct CoastInitialState {
   double block[2];         ///< u0 in m/s, t0 in s
   bool free_time = false;  ///< true if t0 is fitted
 };
 
 /// Residuals u(t) - measured of every sample, run after run. Parameters: the surge law (ln a, b, c,
-/// q), ln m' and each run's (u0, t0). The surge law is constant unless its blocks are set variable.
-/// Not movable, because the problem has pointers to its members. `curves` must outlive this object.
+/// q), ln m' and each run's (u0, t0). The surge law is constant unless the caller sets its
+/// parameter blocks variable. Not movable, because the problem has pointers to its members.
+/// `curves` must outlive this object.
 class CoastProblem {
  public:
   /// `terms_free`: true if c or q will be fitted. The curve is then integrated numerically, because
@@ -62,7 +64,8 @@ class CoastProblem {
   ceres::Solver::Summary summary_;
 };
 
-/// Initial guess of ln m' from the deceleration early in a curve: m' ~ g(u) dt/|du|.
+/// Initial guess of ln m' from the first curve that falls from 90 % to 50 % of its highest speed,
+/// du in the time dt: m' ~ g(u) dt/|du|, with u at 70 %. Without such a curve: ln 0.1.
 double guess_log_mass(const std::vector<CoastCurve>& curves, const Resistance<double>& law);
 
 }  // namespace awmr

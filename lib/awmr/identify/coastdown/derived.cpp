@@ -24,7 +24,8 @@ std::optional<double> log_unit_stop_time(const Resistance<double>& law, double s
   return std::log(*stop_s);
 }
 
-/// Derivative of ln m' by one coordinate of the surge law, by a central difference.
+/// Derivative of ln m' (for a given stop time) by one coordinate of the surge law, by a central
+/// difference; 0 if the vehicle would not stop.
 double derivative(const SteadyFit& surge, TransformedParameter c, double speed_mps) {
   if (c == TransformedParameter::kDeadZone) return 0.0;  // the motors are off
   const double h = 1e-6 * std::max(1e-3, std::abs(surge[c]));
@@ -37,8 +38,8 @@ double derivative(const SteadyFit& surge, TransformedParameter c, double speed_m
   return high && low ? -(*high - *low) / (2.0 * h) : 0.0;
 }
 
-/// Derivative of ln m' by one coordinate of the surge law. For a power law in closed form:
-/// 1 by ln a1, -1/(1 - b1) + ln u_max by b1.
+/// Derivative of ln m' (for a given stop time) by one coordinate of the surge law. For a power law
+/// in closed form, with u_max = speed_mps: 1 by ln a1, -1/(1 - b1) + ln u_max by b1.
 double by_coordinate(const SteadyFit& surge, TransformedParameter c, double speed_mps) {
   const Resistance<double> law = surge.law();
   if (law.coulomb > 0.0 || law.quadratic > 0.0) return derivative(surge, c, speed_mps);
@@ -88,9 +89,9 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
         {coastdown.file, run.line, Severity::kWarning, "implausible-deceleration",
          fmt::format(
              "stopping from {:.3g} m/s in {:.3g} s means an initial deceleration of {:.1f} m/s^2 "
-             "({:.1f} g), more than a tyre can give, and F_max = {:.0f} N per motor. Tyres of "
-             "friction {:g} allow m' = {:.3g}, which compare and validate use in a quarter of "
-             "their samples. Check the stop time, or record the coast-down curve",
+             "({:.1f} g), more than a tyre can give, and F_max = {:.0f} N per motor. With tyres of "
+             "friction {:g}, m' is at least {:.3g}, to which compare and validate raise it in a "
+             "quarter of their samples. Check the stop time, or record the coast-down curve",
              run.initial_speed_mps, run.stop_time_s, deceleration, deceleration / kGravity_mps2,
              mass_kg / mass_norm, kTyreFriction, mass_norm_by_grip(surge, run.initial_speed_mps))});
   }
@@ -143,9 +144,10 @@ void check_inertia(const Vehicle& vehicle, std::vector<Finding>& findings) {
   if (std::abs(given - expected) <= kInertiaDisagreement * std::max(given, expected)) return;
   findings.push_back(
       {"", 0, Severity::kNote, "inertia-mismatch",
-       fmt::format("yaw_inertia_kgm2 is {:.4g} in the vehicle file, but a uniform box has {:.4g} "
-                   "kg m^2; the value of the file is used",
-                   given, expected)});
+       fmt::format(
+           "yaw_inertia_kgm2 is {:.4g} in the vehicle file, but a uniform box of the vehicle's "
+           "size and mass has {:.4g} kg m^2; the value of the file is used",
+           given, expected)});
 }
 
 }  // namespace awmr

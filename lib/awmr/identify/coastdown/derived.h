@@ -27,21 +27,22 @@ struct MassFromStopTime {
 std::optional<MassFromStopTime> mass_from_stop_time(const SteadyFit& surge,
                                                     const std::vector<StopTimeRow>& runs);
 
-/// Adds the findings about m' from stop times, where they apply: `implausible-deceleration`,
-/// `fragile-mass`, `single-stop-time`. `relative_std_error`: standard error of m' over m'; absent
-/// if unknown.
+/// Adds the findings about m' from stop times, where they apply: `implausible-deceleration` (above
+/// g), `fragile-mass` (standard error above 10 %), `single-stop-time`. `relative_std_error`:
+/// standard error of m' over m'; if absent, `fragile-mass` is not checked.
 void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& coastdown,
                 double mass_kg, double mass_norm, std::optional<double> relative_std_error,
                 std::vector<Finding>& findings);
 /// Adds `implausible-deceleration` for each curve whose initial deceleration g1(u)/m' is above g,
-/// more than a tyre gives.
+/// the acceleration of gravity, which a tyre cannot give.
 void check_mass(const Resistance<double>& surge, const std::vector<CoastCurve>& curves,
                 double mass_norm, std::vector<Finding>& findings);
 
-/// True if the initial deceleration g1(u)/m' of a coast-down from `speed_mps` is above g.
+/// True if the initial deceleration g1(u)/m' of a coast-down from `speed_mps` is above the
+/// acceleration of gravity.
 bool is_implausible(const Resistance<double>& surge, double speed_mps, double mass_norm);
 /// The m' for which the initial deceleration of a coast-down from the speed u is mu g, the limit of
-/// tyres with the friction mu = kTyreFriction:
+/// tyres with the friction coefficient mu = kTyreFriction:
 ///   m' = g1(u)/(mu g)
 double mass_norm_by_grip(const Resistance<double>& surge, double speed_mps);
 

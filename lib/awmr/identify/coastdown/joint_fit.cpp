@@ -24,8 +24,8 @@ struct BySet {
   double coast = 0.0;
 };
 
-/// Jacobian columns that surge rows and curves share: the surge law without the dead zone, which
-/// does not act in a coast-down.
+/// Columns of the curves' Jacobian for the parameters in common with the surge rows (the surge law
+/// without the dead zone, which does not act in a coast-down), then for ln m'.
 struct SharedColumns {
   std::vector<double*> blocks;         ///< parameter blocks of CoastProblem; the last one is ln m'
   std::vector<Eigen::Index> of_surge;  ///< column of each block but the last in the surge Jacobian
@@ -82,8 +82,8 @@ Eigen::VectorXd gauss_newton_step(const Stacked& s, const Rows& rows, const BySe
                           s.coast.transpose() * rows.coast_residuals / variance.coast);
 }
 
-/// Residual degrees of freedom n - tr(C J^T J)/v of the surge rows and of the curves: the number of
-/// rows minus their share of the parameters.
+/// Residual degrees of freedom n - tr(C J^T J)/v of the surge rows and of the curves: the number n
+/// of rows minus the effective number of parameters that these rows determine.
 BySet degrees_of_freedom(const Stacked& s, const Rows& rows, const BySet& variance) {
   const double surge_spent =
       (s.covariance * (s.surge.transpose() * s.surge)).trace() / variance.surge;

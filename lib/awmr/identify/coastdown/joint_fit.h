@@ -17,7 +17,8 @@ struct JointFit {
   CoastFit coast;              ///< residuals and noise of the curves; stop reason; usable or not
 };
 
-/// Fits surge rows and curves together. `alone`: fit of the surge rows alone, the initial guess.
+/// Fits surge rows and curves together. `alone`: fit of the surge rows alone, the initial guess. If
+/// the search fails, `coast.usable` is false and the stop reasons are set.
 JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& alone,
                    const std::vector<CoastCurve>& curves);
 

@@ -117,7 +117,7 @@ EstimatorReport report_of(const JointFit& joint, std::size_t surge_rows) {
   report.subject = FitSubject::kMass;
   report.estimator = Estimator::kJoint;
   report.noise = "as the surge fit, and speed";
-  const Subject surge{};  // names the parameters
+  const Subject surge{};  // names of the surge parameters
   for (std::size_t i = 0; i < joint.surge.free.size(); ++i) {
     const Eigen::Index row = eigen_index(i);
     const TransformedParameter c = joint.surge.free[i];
@@ -221,16 +221,15 @@ void check_noise(const std::vector<NoiseAlternative>& laws, const std::string& f
        fmt::format(
            "mass_norm depends on which quantity of the surge runs has the error, which is unknown: "
            "it is {:.3g} with errors on {}, and the median over all error models is {:.3g} "
-           "(weights "
-           "in /estimates). Its interval, tune and compare include all of them. Select one with "
-           "{}, "
-           "or record a coast-down curve, which depends less on the surge law",
+           "(weights in /estimates). Its interval and the samples of tune and compare include all "
+           "error models. Select one with {}, or record a coast-down curve, which depends less on "
+           "the surge law",
            std::exp(result.estimate->log_mass_norm), name_of(laws.front().noise), std::exp(median),
            option_text("noise"))});
 }
 
-/// m' by the grip of tyres (mass_norm_by_grip()), if the coast-down from the highest speed begins
-/// with an implausible deceleration; else empty.
+/// m' at the limit of the tyres' grip (mass_norm_by_grip()), if the coast-down from the highest
+/// initial speed begins with an implausible deceleration; else empty.
 std::optional<double> demanded_by_grip(const SteadyFit& surge,
                                        const std::optional<TrialSet<StopTimeRow>>& stops,
                                        const std::vector<CoastCurve>& curves, double mass_norm) {

@@ -11,15 +11,19 @@
 
 namespace awmr {
 
+/// Result of estimate_mass().
 struct MassResult {
   std::optional<MassEstimate> estimate;  ///< reported m', under the chosen surge law
   /// Joint distribution of the surge law's free coordinates (SteadyFit::free) and ln m': a mixture
   /// over the alternative surge laws that give an m'. Empty if the surge fit has no covariance.
   Posterior posterior;
-  std::optional<double> by_grip;  ///< see Model::mass_norm_by_grip
+  /// m' at the limit of the tyres' grip (mass_norm_by_grip()), if a coast-down begins with an
+  /// implausible deceleration.
+  std::optional<double> by_grip;
   std::optional<JointFit> joint;  ///< present if requested and usable
   std::optional<CoastFit> alone;  ///< fit of the curves, if there is no surge law
-  std::string reason;             ///< why there is no estimate
+  /// Why stop times or curves give no estimate; may be set although the other kind gives one.
+  std::string reason;
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
 };

@@ -32,11 +32,12 @@ struct MassEstimate {
 MassEstimate from_stop_time(const MassFromStopTime& mass, std::size_t runs);
 MassEstimate from_curve(const CoastFit& fit);
 
-/// Weighted mean w a + (1 - w) b with the smallest variance. The error of the surge fit is common
-/// to a and b. Precondition: the surge fit has a covariance.
+/// Weighted mean w a + (1 - w) b of two estimates of ln m', with the w of the smallest variance.
+/// The error of the surge fit is common to a and b. Precondition: the surge fit has a covariance.
 MassEstimate combined(const MassEstimate& a, const MassEstimate& b, const SteadyFit& surge);
 
-/// The warning `estimates-disagree` if a and b differ significantly (p < 0.01); else empty.
+/// The warning `estimates-disagree` if the estimates a and b differ significantly (p < 0.01 by a
+/// two-sided normal test); else empty.
 std::vector<Finding> disagreement(const MassEstimate& a, const MassEstimate& b,
                                   const SteadyFit& surge, const std::string& file);
 

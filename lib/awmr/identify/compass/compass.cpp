@@ -54,7 +54,8 @@ std::vector<double> headings_of(const Ellipse& ellipse, const Points& points) {
   return headings;
 }
 
-/// Largest gap in the circle without a heading: its beginning and its size, rad.
+/// Largest gap in the circle without a heading: its beginning (the heading from which it extends
+/// counter-clockwise) and its size, rad.
 std::pair<double, double> largest_gap_rad(std::vector<double> headings) {
   std::sort(headings.begin(), headings.end());
   std::pair<double, double> largest{headings.back(),

@@ -10,7 +10,8 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 /// Parameters of an ellipse: o_1, o_2, S_11, S_12, S_22.
 using Parameters = Eigen::Matrix<double, 5, 1>;
 
-/// Ellipse of the points f with |S (f - o)| = 1: centre o, gain S, symmetric and positive definite.
+/// Ellipse of the points f with |S (f - o)| = 1: centre o and gain S, a symmetric and positive
+/// definite matrix.
 struct Ellipse {
   Parameters p = Parameters::Zero();
 

@@ -12,8 +12,8 @@
 namespace awmr {
 namespace {
 
-/// Adds reports of the other families of surge resistance. Returns advice if one of them is better
-/// than the chosen fit.
+/// Adds reports of the other families of surge resistance. Returns the advice to use a better
+/// family; empty if the power law is the best.
 std::optional<std::string> try_rivals(BestFamily alternatives, const FamilyFit& chosen,
                                       Adequacy& adequacy) {
   for (EstimatorReport& report : reports_of(alternatives.others, chosen)) {
@@ -28,8 +28,8 @@ std::optional<std::string> try_rivals(BestFamily alternatives, const FamilyFit& 
 }
 
 /// True for channels whose large drift invalidates the intervals: speed and yaw rate, the position
-/// if there is no speed, the heading if there is no yaw rate. (Otherwise a drift of position or
-/// heading can come from the GNSS receiver or the compass.)
+/// if there is no speed, the heading if there is no yaw rate. (With a speed or yaw rate, a drift of
+/// position or heading alone can come from the GNSS receiver or the compass.)
 bool is_evaluated(const NoiseLevels& noise, LogChannel channel) {
   switch (channel) {
     case LogChannel::kSpeed:

@@ -23,8 +23,9 @@ std::optional<Finding> disagreement(const LogFit& fit, std::size_t i, const Esti
   if (p >= kSignificant) return std::nullopt;
   return Finding{
       file, 0, Severity::kWarning, "estimates-disagree",
-      fmt::format("{} is {:.4g} by the logs and {:.4g} by the {}, {:.1f} standard deviations "
-                  "apart (p = {:.2g}); check the units and that all trials are of one vehicle",
+      fmt::format("{} is {:.4g} by the logs and {:.4g} by the other trials ({}), {:.1f} standard "
+                  "deviations apart (p = {:.2g}); check the units and that all trials are of one "
+                  "vehicle",
                   info(q.id).name, q.value(fit.coordinates[i]), *known.value, known.method, z, p)};
 }
 

@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Total time, s, with the motors off while the vehicle probably still rolls: within kRolls_s of
-/// driving, without gaps in the log.
+/// Total time, s, with the motors off while the vehicle probably still rolls: within kRolls_s after
+/// driving. Gaps between rows of the log are not counted.
 double coasting_s(const DrivingLog& log) {
   constexpr double kRolls_s = 3.0;
   const double gap_s = kGapSteps * log.median_step_s();
@@ -46,8 +46,8 @@ std::string why_no_back_emf(const std::vector<DrivingLog>& logs) {
   for (const DrivingLog& log : logs) coasts_s += coasting_s(log);
   if (coasts_s >= kEnough_s) return {};
   return fmt::format(
-      "the vehicle coasts (both forces 0) for only {:.2g} s, and while the motors drive, back-EMF "
-      "is indistinguishable from linear resistance",
+      "the vehicle coasts (both forces 0) within 3 s of driving for only {:.2g} s in total, but "
+      "1 s is needed: while the motors drive, back-EMF is indistinguishable from linear resistance",
       coasts_s);
 }
 

@@ -2,8 +2,8 @@
 ///
 /// While the motors drive, back-EMF cannot be separated from a linear resistance. Straight ahead,
 ///     m' du/dt = 4 (F' - k_e u) - g1(u)
-/// (F': force of a motor at rest, over F_max; k_e in s/m.) With the motors off only g1 acts. Logs
-/// for k_e therefore need driving and coasting.
+/// (F': force that the command gives at rest, over F_max; k_e in s/m.) With the motors off only g1
+/// acts. Logs for k_e therefore need driving and coasting.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@
 
 namespace awmr {
 
-/// Reason why these logs cannot separate k_e from the resistance. Empty if the vehicle coasts for
-/// at least a second in all, within 3 s of driving.
+/// Reason why these logs cannot separate k_e from the resistance. Empty if all logs together have
+/// at least a second of coasting (both forces 0), counted only within 3 s after driving.
 std::string why_no_back_emf(const std::vector<DrivingLog>& logs);
 
 /// Returns the options with k_e free, and with an initial guess of k_e if there was none.
@@ -23,15 +23,15 @@ LogFitOptions with_back_emf(LogFitOptions options);
 /// True if k_e is free in a fit with these options.
 bool frees_back_emf(const LogFitOptions& options);
 
-/// True if a fit with k_e free should be tried after `fit`: the score test of k_e has a large gain,
-/// a slow drift of a channel may hide k_e, or `fit` did not converge. Precondition: k_e is a
-/// candidate term of `fit`.
+/// True if a fit with k_e free should be tried after `fit`: the score test of k_e estimates a
+/// decrease of -2 ln L above 4, a slow drift of a channel may hide k_e, or `fit` did not converge.
+/// False if k_e is not among `candidate_terms`, those of the options of `fit`.
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms);
 
-/// True if the fit with k_e is significantly better than the fit without, and identifies k_e.
+/// True if the fit with k_e lowers AIC by more than kFamilyAicThreshold and identifies k_e.
 bool shows_back_emf(const FamilyFit& with, const FamilyFit& without);
 
-/// The warning `back-emf`: the model with k_e is used; its k_e and the improvement of the fit.
+/// The warning `back-emf`: reports that the model with k_e is used, its k_e, and its gain of AIC.
 Finding back_emf_finding(const std::string& file, const FamilyFit& with, const FamilyFit& without);
 
 }  // namespace awmr

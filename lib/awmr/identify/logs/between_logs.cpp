@@ -57,7 +57,7 @@ ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& 
 /// Result of Cochran's Q test that the logs agree on a quantity.
 struct Heterogeneity {
   double p_value = 1.0;
-  double std_error = 0.0;    ///< of the coordinate's mean over such logs, with tau^2 included
+  double std_error = 0.0;    ///< of the mean over logs, with the variance tau^2 between them
   double mean_square = 0.0;  ///< Q/(L - 1), about 1 if the L logs agree
 };
 
@@ -81,9 +81,10 @@ Heterogeneity heterogeneity(const ByLog& by_log) {
           q / degrees};
 }
 
-/// Raises the standard error of quantity `i` of the common fit to `std_error`, which comes from
-/// `logs` logs, and sets the interval. Keeps the standard error of the common fit if that is
-/// larger, because it includes the scatter between parts of the logs.
+/// Raises the standard error of quantity `i` of the common fit to `std_error`, and sets the
+/// interval by Student's t. `logs`: number of logs from which `std_error` was computed. Keeps the
+/// standard error of the common fit if that is larger, because it includes the scatter between
+/// parts of the logs.
 void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   const Eigen::Index row = eigen_index(i);
   const double by = std::max(1.0, std_error / std::sqrt(fit.covariance(row, row)));
@@ -98,7 +99,8 @@ void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   parameter.ci95 = Interval{q.value(x - half), q.value(x + half)};
 }
 
-/// The rows of a log from the share `from` to the share `to` of its duration.
+/// The rows of the one log in `log`, from the fraction `from` to the fraction `to` of its duration.
+/// `which`: name of the part, for example "first half".
 LogPart part_of(const std::vector<DrivingLog>& log, double from, double to,
                 const std::string& which) {
   const std::vector<double>& t_s = log.front().t_s;
@@ -140,10 +142,10 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
   return disagreements;
 }
 
-/// The term outside the common fit whose score tests differ most between the logs; empty if no term
-/// differs by more than three standard errors (root mean square). The standard errors are those by
-/// the noise model: all blocks of one log have the same command error, so their scatter does not
-/// show it.
+/// The delay or command error outside the common fit whose score tests differ most between the
+/// logs; empty if no term differs by more than three standard errors (root mean square). The
+/// standard errors are those by the noise model. The scatter between blocks is no measure of this
+/// difference, because all blocks of one log have the same command error.
 std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>& logs,
                                                    const LogFitOptions& options,
                                                    const LogFit& common) {
@@ -168,7 +170,8 @@ std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>
   return strongest;
 }
 
-/// Fits the strongest missing term to each log. Returns the disagreement of the logs on it, if any.
+/// Fits strongest_missing_term() to each log. Returns the disagreement of the logs on its value, if
+/// any.
 std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLog>& logs,
                                                      const std::vector<std::string>& files,
                                                      LogFitOptions options, const LogFit& common) {

@@ -14,7 +14,7 @@ namespace awmr {
 /// A quantity whose values by single logs differ significantly.
 struct LogDisagreement {
   std::string name;
-  double p_value = 1.0;            ///< p of the hypothesis that all logs have the same value
+  double p_value = 1.0;            ///< of the hypothesis that all logs have the same value
   std::vector<std::string> files;  ///< logs that determine the quantity on their own
   std::vector<double> values;      ///< value by each of these logs
   bool withdraws = false;          ///< true: all intervals of the common fit are invalid
@@ -29,8 +29,9 @@ struct LogComparison {
   std::optional<HeldOut> missed;
 };
 
-/// Fits every log on its own, starting from the common optimum, and compares the values. For a
-/// coordinate with the values x_l and the weights w_l = 1/var(x_l) in L logs,
+/// Fits every log on its own, starting from the optimum of the `common` fit of all logs, and
+/// compares the values. For a coordinate with the values x_l and the weights w_l = 1/var(x_l) in L
+/// logs,
 ///
 ///     Q = sum w_l (x_l - mean)^2,   chi-squared with L - 1 degrees of freedom if the logs agree,
 ///     tau^2 = (Q - (L - 1)) / (sum w - sum w^2 / sum w)                    (DerSimonian and Laird)
@@ -42,10 +43,11 @@ struct LogComparison {
 /// not compared, because they may differ between logs.
 ///
 /// The common fit may lack a delay or command error that differs between the logs, for example a
-/// trim that was changed between two logs. Of these terms, the one whose score tests differ most
-/// between the logs is therefore fitted to each log too. If the logs disagree on this term, or on a
-/// trim or imbalance of the common fit, all intervals of the common fit are invalid, because the
-/// other quantities absorb the effect.
+/// steering trim that was changed between two logs. Of these terms, the one whose score tests
+/// differ most between the logs is therefore also fitted to each log, if they differ by more than
+/// three standard errors. If the logs disagree on this term, or on a steering trim or force
+/// imbalance of the common fit, all intervals of the common fit are invalid, because the other
+/// quantities absorb the effect.
 ///
 /// A single log of 20 s or more is split: a fit of its first half predicts its second half and its
 /// last fifth (held_out.h). If both are predicted (p > 0.05), there is no disagreement. Otherwise

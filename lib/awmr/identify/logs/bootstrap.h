@@ -14,7 +14,8 @@ struct BootstrapOptions {
   std::uint64_t seed = 1;
 };
 
-/// Solution with n quantities, its covariance (n x n), and the score (n) of each block of the logs.
+/// Solution of a log fit with n quantities, its covariance (n x n), and the score (gradient of -ln
+/// L, of length n) of each block of some seconds of the logs.
 struct BootstrapInput {
   const std::vector<FreeQuantity>& quantities;
   const std::vector<double>& coordinates;

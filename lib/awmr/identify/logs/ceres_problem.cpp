@@ -17,12 +17,12 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 double prior_std(const LogProblem& problem, std::size_t i) {
   return kPriorStd * problem.model.quantities[i].large_change;
 }
-/// Residual (x_i - initial_i) / std_i of the prior of coordinate x_i at its initial guess.
+/// Residual (x_i - initial_i) / std_i of the prior of coordinate x_i, centred on its initial guess.
 double prior_residual(const LogProblem& problem, std::size_t i, double x) {
   return (x - problem.initial[i]) / prior_std(problem, i);
 }
 
-/// Work of one evaluation of all windows with derivatives: number of integrated values.
+/// Work of one evaluation of all windows with derivatives, in the unit of Effort.
 std::int64_t numbers_integrated(const LogProblem& problem) {
   double steps = 0.0;
   for (const FitWindow& window : problem.windows) {
@@ -127,7 +127,7 @@ class WindowCost : public ceres::CostFunction {
   int initial_;
 };
 
-/// Cost function of the weak prior of every coordinate at its initial guess.
+/// Cost function of the weak priors of all coordinates, centred on their initial guess.
 class PriorCost : public ceres::CostFunction {
  public:
   explicit PriorCost(const Evaluator& evaluator) : evaluator_(evaluator) {
@@ -221,16 +221,16 @@ void tell_end(const ceres::Solver::Summary& summary, bool at_limit, Solved& solv
   solved.cost = summary.final_cost;
   solved.converged = rough || converged(summary);
   solved.usable = summary.IsSolutionUsable();
-  solved.stop_reason = at_limit ? "the limit of the search was reached"
+  solved.stop_reason = at_limit ? "the limit of computation was reached"
                        : rough  ? "converged: further steps improve -ln L by less than 0.05"
                                 : stop_reason(summary);
 }
 
-/// Treatment of steps to points that cannot be simulated.
+/// Treatment of search steps to points at which the simulation is not finite.
 enum class LineSearch {
   /// Ceres cuts steps at the bounds and shortens steps that fail. One Jacobian per step.
   kOff,
-  /// Ceres searches along every step for a point that can be simulated. Two Jacobians per step.
+  /// Ceres searches along every step for a point with a finite simulation. Two Jacobians per step.
   kOn,
 };
 

@@ -44,8 +44,8 @@ struct ChannelNoise {
     constexpr double kMany = 2.5;
     return of_the_model() && drift_std > kMany * sensor_std;
   }
-  /// True if the drift is above a quarter of the sensor noise and lasts over 0.2 s: a term that the
-  /// model lacks may have caused it.
+  /// True if the drift is above a quarter of the sensor noise and lasts over 0.2 s: a missing term
+  /// of the model may cause such a drift.
   bool has_slow_drift() const { return drift_std > 0.25 * sensor_std && correlation_s > 0.2; }
 };
 
@@ -75,9 +75,10 @@ using ErrorsByChannel = std::map<LogChannel, std::vector<ErrorSeries>>;
 double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
 
 /// Maximum-likelihood noise model of these errors. It has a first-order drift if this lowers -2 ln
-/// L by more than 10, and a second-order drift if this lowers -2 ln L by another 10. `free_share`:
-/// degrees of freedom of the fit over the number of errors, in (0, 1]. `before`: noise model of the
-/// round before; its sensor_std and count are kept, and a second-order drift is searched from it.
+/// L by more than 10, and a second-order drift if this lowers -2 ln L by more than another 10.
+/// `free_share`: degrees of freedom of the fit over the number of errors, in (0, 1]; the variances
+/// are divided by it. `before`: noise model of the round before; its sensor_std and count are kept,
+/// and the search for a second-order drift starts at that of `before`, if it has one.
 ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_share,
                              const ChannelNoise& before);
 

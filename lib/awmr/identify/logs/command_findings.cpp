@@ -52,8 +52,9 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
                                : "more likely by a dead time than by motor lag")};
 }
 
-/// Reports motor lag, dead time or late time stamps of the commands. Without these, reports if all
-/// measured channels (two or more) have a latency, which indicates a common cause in the commands.
+/// Reports motor lag, dead time or late time stamps of the commands. If the fit has found none of
+/// these, but a latency of every measured channel (two or more), reports a common cause in the
+/// commands.
 std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWhy =
       "actuator lag, command latency or a slew-rate limit. m', I'z and the sway resistance may be "
@@ -63,7 +64,7 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
     findings.push_back(
         {file, 0, Severity::kWarning, "actuator-lag",
          fmt::format("the motors have a lag with a time constant of {:.3f} +- {:.3f} s; the fit "
-                     "includes it. Set motor.time_constant_s in the vehicle file",
+                     "includes it. Set motor.time_constant_s in the vehicle file to this value",
                      lag.value, lag.error)});
   }
   const bool with_lag = has_kind(fit.quantities, FreeQuantity::Kind::kMotorLag);
@@ -84,7 +85,8 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
                        least.value, most.value, kWhy)}};
 }
 
-/// `sensor-delay` for every sensor with an identified latency, `sensor-lag` for every filter.
+/// `sensor-delay` for every sensor with an identified latency, `sensor-lag` for every identified
+/// low-pass filter.
 std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const auto& [quantity, value_s, error_s] :
@@ -103,7 +105,7 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
     findings.push_back(
         {file, 0, Severity::kWarning, "sensor-lag",
          fmt::format("{} is low-pass filtered with a time constant of {:.3f} +- {:.3f} s; the fit "
-                     "compensates. Log the unfiltered reading, or make the filter faster",
+                     "compensates this. Log the unfiltered reading, or make the filter faster",
                      info(quantity.channel).name, value_s, error_s)});
   }
   return findings;
@@ -134,7 +136,7 @@ std::vector<Finding> steering_findings(const LogFit& fit, const std::string& fil
                      has_kind(fit.quantities, FreeQuantity::Kind::kForceImbalance)
                          ? ""
                          : ". With equal forces left and right, motors that push more on one side "
-                           "look the same")});
+                           "have the same effect")});
   }
   for (const FoundTerm& imbalance : found_terms(fit, FreeQuantity::Kind::kForceImbalance)) {
     findings.push_back(
@@ -146,7 +148,7 @@ std::vector<Finding> steering_findings(const LogFit& fit, const std::string& fil
              100.0 * imbalance.error,
              has_kind(fit.quantities, FreeQuantity::Kind::kSteeringTrim)
                  ? ""
-                 : "; wheels of unequal size look the same")});
+                 : "; wheels of unequal size have the same effect")});
   }
   return findings;
 }

@@ -13,8 +13,8 @@ struct CrossValidation {
   std::vector<Finding> findings;           ///< `held-out-log` with the prediction errors, by log
 };
 
-/// Leaves out each log in turn, fits the others and predicts the log. Precondition: two logs or
-/// more.
+/// Leaves out each log in turn, fits the others and predicts the omitted log. `options`: those of
+/// the fit of all logs. Precondition: two logs or more.
 CrossValidation leave_one_log_out(const std::vector<DrivingLog>& logs, LogFitOptions options);
 
 }  // namespace awmr

@@ -68,7 +68,7 @@ struct CandidateTerm {
   double significance;  ///< |value| over its standard error by the noise model
 };
 
-/// The terms with a significant score test, most significant first.
+/// The terms whose score test exceeds three standard errors, most significant first.
 std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   constexpr double kWorthATry = 3.0;
   const std::vector<FreeQuantity> channels = further_terms(settled.problem);
@@ -88,7 +88,7 @@ double akaike_of(const NoiseIteration& fit) {
   return akaike(fit.problem.model.noise, rows_of(fit.problem.model.quantities));
 }
 
-/// One round of the fit with the terms `more` free.
+/// Frees the terms `more` and fits one round, starting with white noise in place of drift.
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more, Loss loss) {
   constexpr double kLargestFirstStep = 0.3;
   std::vector<FreeQuantity> quantities;
@@ -142,8 +142,8 @@ void consider_filters(const NoiseIteration& settled,
 }
 
 /// Fits each candidate term for one round and returns the fit with the lowest AIC. If no term
-/// lowers AIC, returns the fit of the first candidate if its score test is beyond doubt, else
-/// empty.
+/// lowers AIC, returns the fit of the most significant candidate if its score test exceeds 20
+/// standard errors, else empty.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
   constexpr double kComparable = 0.2;  // smallest significance relative to that of the strongest
   constexpr double kBeyondDoubt = 20.0;
@@ -155,7 +155,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   std::vector<std::pair<LogChannel, double>> filters;
   const std::vector<CandidateTerm> terms = candidate_terms(settled);
   for (const CandidateTerm& candidate_term : terms) {
-    // Much weaker candidates wait: they are tested again after the best term was added to the fit.
+    // Much weaker candidates are skipped now and tested again after the best term was added.
     if (lowest.best() && candidate_term.significance < kComparable * terms.front().significance)
       break;
     const FreeQuantity& more = candidate_term.quantity;
@@ -189,8 +189,9 @@ bool is_of_turning(const FreeQuantity& q) {
          q.kind == FreeQuantity::Kind::kForceImbalance;
 }
 
-/// Frees trim and imbalance together if one of them is free and the commands allow both. Their
-/// effects are nearly the same, so intervals of one are valid only if the other is free too.
+/// Frees steering trim and force imbalance together if one of them is free and the commands allow
+/// both. Their effects are nearly the same, so the interval of one is valid only if the other is
+/// free too.
 Extended with_both_of_turning(NoiseIteration fit) {
   const std::vector<FreeQuantity>& quantities = fit.problem.model.quantities;
   std::vector<FreeQuantity> other;

@@ -9,21 +9,22 @@
 namespace awmr {
 
 /// Terms that can still be added to the fit:
-///   - a delay of the commands and of every measured channel (one for x and y together). One of
-///     these signals always stays without a delay, as the time reference;
+///   - a delay of the commands and of every measured channel (one for x and y together). At least
+///     one of these signals has no delay, as the time reference of the others;
 ///   - an additional delay of the steering, if the servo's time constant is free;
 ///   - a steering trim, if the steering moves;
 ///   - a force imbalance, if left and right forces differ.
 std::vector<FreeQuantity> further_terms(const LogProblem& problem);
 
-/// Adds such terms one at a time to the fit `settled`. Score tests select candidates, and one round
-/// of settle_noise() ranks them. The best candidate is kept if its final fit lowers AIC by more
-/// than 10. (Without these terms, latency of the speed, for example, would bias the mass upwards.)
+/// Adds the terms of further_terms() one at a time to the converged fit `settled`, until none
+/// improves the fit. Score tests select candidates, and one round of settle_noise() ranks them. The
+/// best candidate is kept if its final fit lowers AIC by more than 10. (Without these terms,
+/// latency of the speed, for example, would bias the mass upwards.)
 ///   - The delay of the commands is negative if their time stamps are late.
 ///   - A motor lag is tried in place of the command delay and in addition to it, unless the vehicle
-///     file gives the lag. A filter is tried in place of a delay of the speed or the yaw rate.
-///   - Trim and imbalance have nearly the same effect. If one of them is found and both can be
-///     added, both are freed.
+///     file gives the lag. A low-pass filter is tried in place of a delay of the speed or yaw rate.
+///   - Steering trim and force imbalance have nearly the same effect. If one of them is found and
+///     the commands allow both, both are freed.
 NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss);
 
 }  // namespace awmr

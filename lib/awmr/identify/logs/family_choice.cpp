@@ -132,8 +132,9 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
   return most;
 }
 
-/// True if a family with more terms may be better: the score test of a term has a large gain, or
-/// the errors have a slow drift, which can hide a missing term.
+/// True if a family with more terms may be better: the score test of a term estimates a large gain,
+/// the errors have a slow drift, which can hide a missing term, or `fit` did not converge.
+/// `of_yaw`: true for terms of yaw, false for terms of surge.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // decrease of -2 ln L
   if (!fit.usable) return true;
@@ -170,9 +171,10 @@ Finding taken(const std::string& file, const FamilyFit& best, const LogFit& powe
   const std::string why =
       power_law.usable
           ? fmt::format("the AIC of {} is lower by {:.0f}", families, aic_lead(best.fit, power_law))
-          : fmt::format("its fit did not converge, that of {} did", families);
+          : fmt::format("its fit did not converge, but that of {} did", families);
   return {file, 0, Severity::kWarning, "power-law-inadequate",
-          "a power law does not describe these logs, and another family is used: " + why};
+          "another resistance family is used, because a power law does not describe these logs: " +
+              why};
 }
 
 /// The finding `family-undecided` if the alternative is better than the selected family, but not
@@ -227,8 +229,9 @@ std::vector<Contender> contenders(const FamilyFit& first, bool of_yaw) {
   return found;
 }
 
-/// Fits the families `others` and stores the best fit in `result.best`. Returns the fit of the
-/// families that were in `result.best` before, searched again if an alternative is better.
+/// Fits the families `others`. The best of them replaces the fit in `result.best` if its AIC is
+/// lower by more than `lead`. Returns the fit of the families that were in `result.best` before;
+/// the search for it is repeated if an alternative is better (searched_again()).
 LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                const std::vector<Contender>& others, double lead, BestFamily& result) {
   FamilyFit first = std::move(result.best);
@@ -263,8 +266,9 @@ LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_l
   return of_first;
 }
 
-/// Searches delays, lags and command errors again for the best families, because those found with
-/// other families can compensate for a wrong resistance. Keeps the new fit if it is better.
+/// Searches delays, lags and command errors again for the best families, because terms that were
+/// found with other families may only have compensated for a wrong resistance. Keeps the new fit if
+/// it is better.
 void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         BestFamily& result) {
   FamilyFit& best = result.best;
@@ -375,7 +379,8 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
                        FamilyFit first, const FamilyContest& contest) {
   const bool surge = is_contested(power_law, first, contest, false);
   const bool yaw = is_contested(power_law, first, contest, true);
-  // The axis with the larger gain goes first: its wrong law also causes errors in the other axis.
+  // The axis (surge or yaw) whose score tests have the larger gain goes first, because its wrong
+  // law also causes errors in the other axis.
   const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
                          largest_gain(first.fit, power_law.candidate_terms, false);
   LogFit power_fit = first.fit;

@@ -30,7 +30,8 @@ FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& p
 
 /// Fits the logs under the families `surge` and `yaw`, starting from the optimum of `inner`, a fit
 /// of other families. There are two starts: the curves of the new families nearest to those of
-/// `inner`, and the values of `inner` with 0 for the terms that `inner` lacks.
+/// `inner`, and the values of `inner`, with the initial guess of `power_law` for terms that are 0
+/// in `inner`. If `inner` did not converge, as fit_family().
 FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const FamilyFit& inner, Family surge, Family yaw);
 
@@ -40,29 +41,31 @@ FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& alternative);
 
-/// Options of best_family().
+/// Options of best_family(), which compares other families with those of a fit `first`.
 struct FamilyContest {
-  bool surge = true;  ///< compares all families of surge resistance; false: power law
-  bool yaw = false;   ///< compares all families of yaw resistance; false: power law
-  double lead = 0.0;  ///< a family replaces `first` if its AIC is lower by more than this
-  /// True: fits other families only if a score test or correlated errors suggest a missing term.
+  bool surge = true;  ///< true: compares all surge families; false: keeps that of `first`
+  bool yaw = false;   ///< true: compares all yaw families; false: keeps that of `first`
+  double lead = 0.0;  ///< another family replaces that of `first` if its AIC is lower by more
+  /// True: fits other families only if a score test or a slow drift suggests a missing term, or if
+  /// `first` did not converge.
   bool only_suspects = true;
 };
 
 /// Result of best_family().
 struct BestFamily {
   FamilyFit best;
-  std::vector<FamilyFit> others;
-  std::vector<Finding>
-      findings;  ///< `power-law-inadequate`, `family-undecided`, `families-not-compared`
-  bool is_out_of_time = false;  ///< true: the limit was reached before all comparisons were done
+  std::vector<FamilyFit> others;  ///< the other fits that were made
+  /// `power-law-inadequate`, `family-undecided`, `families-not-compared`, where they apply.
+  std::vector<Finding> findings;
+  /// True: the limit of effort or time was reached before all comparisons were done.
+  bool is_out_of_time = false;
 };
 
 /// Reports of the fits for /estimates, each with its AIC under the noise of `reference`.
 std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference);
 
-/// Number of other families that best_family() fits at least if it does not reach the limit.
+/// Smallest number of other families that best_family() fits, unless it reaches a limit.
 std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
                             const FamilyContest& contest);
 

@@ -20,14 +20,15 @@ struct LogPart {
 /// Result of predict().
 struct HeldOut {
   std::string rows;      ///< name of the tested rows: "the last fifth of log.csv"
-  double p_value = 1.0;  ///< p of the hypothesis that the fit's values describe these rows too
+  double p_value = 1.0;  ///< of the hypothesis that the fit's values describe these rows too
   std::string quantity;  ///< the quantity with the largest change over its standard error
   double by_fit = 0.0;   ///< value of that quantity by the fit
   double by_rows = 0.0;  ///< value of that quantity by the tested rows
 };
 
 /// Tests whether `rows` agree with `fit`, a fit of other rows with these options. The test
-/// statistic is the change d of the coordinates by one Gauss-Newton step to these rows:
+/// statistic X^2 is computed from the change d of the fitted coordinates by one Gauss-Newton step
+/// of a fit to `rows`:
 ///
 ///     d = -H^-1 S,   cov d = f^2 H^-1 + C,   X^2 = d^T (cov d)^-1 d,   chi-squared
 ///
@@ -37,8 +38,8 @@ struct HeldOut {
 /// (identifiability.h). Quantities at an end of their range are fixed.
 ///
 /// The noise levels are those of the fit, because noise estimated from the tested rows would take a
-/// change of the vehicle for sensor drift. Returns nothing if the rows determine no direction or
-/// cannot be simulated.
+/// change of the vehicle for sensor drift. Empty if the rows determine no direction or cannot be
+/// simulated.
 std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOptions options);
 
 /// A delay or command error that a fit does not contain, with its score test (score_test.h).

@@ -69,7 +69,7 @@ bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
   return coordinate <= bounds.lo || coordinate >= bounds.hi;
 }
 
-/// Variances of the coordinates from the scatter of the scores s_b of m blocks or logs: the diagonal
+/// Variances of the coordinates by the scatter of the scores s_b of m blocks or logs: the diagonal
 /// of m/(m - 1) C (sum s_b s_b^T) C, with C = `covariance`.
 Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
                                      const std::vector<Eigen::VectorXd>& scores) {
@@ -79,8 +79,9 @@ Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
   return m / (m - 1.0) * variances;
 }
 
-/// Raises the factors of the standard errors to the scatter of these parts, where the ratio of the
-/// variances exceeds `allowed` and the factor becomes larger.
+/// Raises the factors of the standard errors to the scatter of these parts (blocks or logs), where
+/// the variance by scatter over that by the noise model exceeds `allowed` and the factor becomes
+/// larger.
 void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
                   Identifiability& found) {
   if (scores.size() < 2) return;
@@ -93,8 +94,8 @@ void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
   }
 }
 
-/// Widens a standard error to that from the scatter of the scores, if the scores scatter more
-/// between blocks or significantly more between three or more logs.
+/// Widens a standard error to that from the scatter of the scores, if the scores scatter more than
+/// the noise model predicts between blocks, or significantly more between three or more logs.
 void widen(const Scores& scores, Identifiability& found) {
   constexpr double kManyDegrees = 1e6;  // Student's t is then the normal distribution
   constexpr std::size_t kEnoughLogs = 3;
@@ -109,7 +110,8 @@ void widen(const Scores& scores, Identifiability& found) {
   found.covariance = factor.asDiagonal() * found.covariance * factor.asDiagonal();
 }
 
-/// Refuses all quantities correlated with quantity number `stopped`, whose search ended at a bound.
+/// Refuses all quantities correlated (by more than kHangs) with quantity number `stopped`, whose
+/// search ended at a bound.
 void refuse_what_hangs_on(Eigen::Index stopped, const std::vector<FreeQuantity>& quantities,
                           Identifiability& found) {
   constexpr double kHangs = 0.3;  // smallest correlation that counts
@@ -132,7 +134,9 @@ std::string why_stopped(const FreeQuantity& q, double coordinate) {
   return why;
 }
 
-/// The reason of `dependent`, still empty, if `cause` is refused; else null.
+/// Pointer to the empty reason of the parameter `dependent`, to be filled in, if `cause` is
+/// refused. Null if `cause` is not refused, `dependent` already has a reason, or one of them is not
+/// free.
 std::string* reason_to_add(const std::vector<FreeQuantity>& quantities, ParameterId dependent,
                            ParameterId cause, Identifiability& found) {
   const auto place = place_of(quantities, dependent);

@@ -48,9 +48,9 @@ struct Identifiability {
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities);
 
-/// Refuses every quantity whose search ended at an end of its range, and the quantities correlated
-/// with such a quantity. Also refuses the factor of a resistance of which another term is refused,
-/// and an exponent whose factor is refused.
+/// Refuses every quantity whose search ended at an end of its range, and the quantities with a
+/// correlation above 0.3 with such a quantity. Also refuses the coefficient alpha of a resistance
+/// of which c, q or the dead zone is refused, and the exponent beta if alpha is refused.
 Identifiability without_stopped(Identifiability found, const LogProblem& problem,
                                 const std::vector<double>& coordinates);
 

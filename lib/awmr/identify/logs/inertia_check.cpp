@@ -14,9 +14,9 @@
 namespace awmr {
 namespace {
 
-/// Names a unit of the speed that would explain I'z/m'. Empty if I'z/m' is not too large, or if
-/// positions check the speed. (A speed that reads k times the true speed makes m' 1/k of the true
-/// m', and I'z/m' k times the true ratio.)
+/// Names a unit of the speed that would explain I'z/m'. Empty if I'z/m' is not too large, or if the
+/// logs have positions, with which the speed was compared before. (A speed that reads k times the
+/// true speed makes m' 1/k of the true m', and I'z/m' k times the true ratio.)
 std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_over_box) {
   constexpr Interval kUsual{0.3, 2.0};  // I'z/m' of real vehicles over that of a uniform box
   const bool is_compared = std::ranges::all_of(
@@ -34,7 +34,7 @@ std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_
   return " (speed_mps may be a rate of rotation of the wheels: multiply it by their radius)";
 }
 
-/// Reason why the fitted I'z is impossible; empty if it is plausible.
+/// Reason why the fitted I'z is impossible or not determined; empty if it is plausible.
 std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                            const Model& model, const LogStage& stage) {
   const auto estimate_of = [&](ParameterId id) -> const Estimate* {
@@ -65,7 +65,7 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
       times, speed_unit_hint(logs, times));
 }
 
-/// True if a wheel force acts while the wheels are steered.
+/// True if a wheel force acts while the wheels are steered, so that it turns the vehicle.
 bool has_steered_force(const DrivingLog& log) {
   constexpr double kMuch = 0.01;  // share of the largest force
   const std::vector<double>& angle = log.driving_steering_rad();

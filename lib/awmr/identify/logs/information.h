@@ -18,11 +18,12 @@ struct FitEvidence {
   Eigen::MatrixXd information;  ///< H, Fisher information: n x n, symmetric, positive semidefinite
   Eigen::VectorXd score;        ///< S, of length n
 };
-/// Computes information and score from the sums of all windows.
+/// Computes information and score of the n coordinates from the sums of all windows.
 FitEvidence fit_evidence(const std::vector<WindowSums>& sums, Eigen::Index n);
 
-/// Score vectors S of length n (see FitEvidence) of parts of the logs, each with the gradients of
-/// that part alone. Their scatter gives the variance of the fit without a noise model.
+/// Score vectors S of length n (see FitEvidence) of parts of the logs, each computed from the
+/// gradients of that part alone. Their scatter gives the variance of the estimates without relying
+/// on the noise model.
 struct Scores {
   std::vector<Eigen::VectorXd> blocks;  ///< blocks of some seconds within a window
   std::vector<Eigen::VectorXd> logs;    ///< whole logs: sums over their blocks

@@ -191,7 +191,7 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
   const Plant<double>& p = plant.plant;
   const double sin_d = std::sin(s.steering_rad);
   const double cos_d = std::cos(s.steering_rad);
-  const double reach = cos_d + p.rear_driven;  // forward share of the front and the rear wheel
+  const double reach = cos_d + p.rear_driven;  // forward force of front and rear wheel over F'
   const WheelForce left = wheel_force(command.force.left, p.wheel_dead_zone);
   const WheelForce right = wheel_force(command.force.right, p.wheel_dead_zone);
   const double sum = left.value + right.value;

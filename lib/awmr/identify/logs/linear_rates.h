@@ -1,9 +1,9 @@
 /// Rates of change of the vehicle's state and their partial derivatives, for log fits. Private to
 /// identify/.
 ///
-/// The equations are those of model/dynamics.h for left and right wheel forces. They are
-/// differentiated by hand, because automatic differentiation takes ten times as long. A test
-/// compares the results of both.
+/// The equations are those of model/dynamics.h for left and right wheel forces. Their derivatives
+/// are coded by hand, because automatic differentiation takes ten times as long. A test compares
+/// the results of both.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ struct ResistanceSlopes {
   double by_quadratic = 0.0;
 };
 
-/// Resistance with derivatives. Below the law's rest_speed the curve is replaced by a straight line
-/// through 0, which is precomputed.
+/// Resistance with derivatives. Below the law's rest_speed the curve is replaced by the straight
+/// line through 0 and the curve's point at rest_speed, so that integration steps stay stable.
 class LinearResistance {
  public:
   explicit LinearResistance(const Resistance<double>& law);
@@ -35,8 +35,8 @@ class LinearResistance {
   ///     g = c + alpha e^(beta L) + q w^2,   dg/dw = (alpha beta e^(beta L))/|w| + 2 q |w|
   ///
   /// All results but by_speed have the sign of w. Below rest_speed, they are the results at
-  /// rest_speed times w/rest_speed, and by_speed is g(rest_speed)/rest_speed. rest_speed depends
-  /// only on the step length, so it has no derivative.
+  /// rest_speed times w/rest_speed, and by_speed is g(rest_speed)/rest_speed. The derivatives treat
+  /// rest_speed as a constant.
   ResistanceSlopes operator()(double speed) const;
 
  private:
@@ -68,13 +68,13 @@ struct LinearPlant {
   double per_mass;
   double per_inertia;
   double per_lag;
-  /// Factor on v_dot, <= 1. Below 1 if sway is faster than the steps resolve: v then reaches the
-  /// same steady value in about one step.
+  /// Factor on v_dot, <= 1. Below 1 if the time constant m'/a_s of sway is shorter than a step: v
+  /// then reaches the same steady value with a time constant of one step.
   double sway_pace;
   bool has_back_emf;
 };
 
-/// Wheel forces and steering command at one time.
+/// Wheel forces and steering command, held constant over a step.
 struct HeldCommand {
   SideForces<double> force{};
   double steering_rad = 0.0;
@@ -114,8 +114,8 @@ struct LinearRates {
 void linear_rates(const LinearPlant& p, const State<double>& s, const HeldCommand& command,
                   LinearRates& out);
 
-/// Adds Coulomb friction to the rates. For a speed that friction holds at rest, the rate and its
-/// derivatives are set to 0. `way`: direction of motion of each speed.
+/// Adds Coulomb friction to the rates. For a speed u or r that friction holds at 0, its rate and
+/// the derivatives of that rate are set to 0. `way`: sign of each speed's motion, 0 if held.
 void add_friction(const LinearPlant& p, const Sliding& way, LinearRates& out);
 
 }  // namespace awmr

@@ -12,7 +12,7 @@ struct RateOfParameter {
   double DrivenSlopes::*rate;
 };
 
-/// The rates on which each parameter acts.
+/// The rates that depend directly on each parameter.
 constexpr RateOfParameter kActs[] = {
     {ParameterId::kSurgeAlpha, &DrivenSlopes::u},
     {ParameterId::kSurgeBeta, &DrivenSlopes::u},
@@ -59,7 +59,8 @@ std::size_t place_of(LogChannel channel) {
   return 6;
 }
 
-/// By column, [kStateSize]: the rate of the derivatives at one moment.
+/// Time derivative A S + B of one column of the derivatives S of the state. `b` and `s`: first
+/// number of this column in B and S.
 std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double* b,
                                               std::size_t columns, const double* s) {
   const double psi = s[2 * columns];
@@ -155,7 +156,7 @@ void LinearStepper::find_way(const DelayedCommand& command, LinearMotion& motion
 
 State<double> LinearStepper::state_after(const DelayedCommand& command, double h,
                                          const State<double>& from) {
-  // Coefficients of rk4_step().
+  // Coefficients of the classical Runge-Kutta method, as in rk4_step(). kShare: reciprocal weights.
   constexpr double kToNext[kStages] = {0.5, 0.5, 1.0, 0.0};
   constexpr double kShare[kStages] = {6.0, 3.0, 3.0, 6.0};
   State<double> at_stage = from;
@@ -258,7 +259,7 @@ void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
 
 namespace {
 
-/// Rows of the log whose commands act.
+/// Rows of the log whose commands act at one time. They differ if the steering has its own delay.
 struct ActingRows {
   std::size_t forces;
   std::size_t steering;
@@ -289,7 +290,8 @@ double steering_delay_s(const CommandPath& path) {
   return force_delay_s(path) + (path.steering_delay ? path.steering_delay->delay_s : 0.0);
 }
 
-/// The command over [t, t + h], in which these rows act.
+/// The command that reaches the wheels over [t, t + h], in which the commands of `rows` act. Forces
+/// of motors with lag are the mean over this time.
 DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, double t_s,
                             double h_s, const CommandPath& path) {
   DelayedCommand at{logged_command(*signals.log, rows)};
@@ -303,7 +305,7 @@ DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, d
   return with_errors(at, path);
 }
 
-/// The command at t.
+/// The command that reaches the wheels at the time t.
 DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPath& path) {
   constexpr double kMoment_s = 1e-6;
   const auto row_at = [&](double at_s) {  // a change at this time has happened
@@ -314,8 +316,8 @@ DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPa
                       t_s, kMoment_s, path);
 }
 
-/// Adds the derivatives by the delays where other rows begin to act. Forces of motors with lag do
-/// not jump.
+/// Adds the derivatives by the delays at a time at which the acting rows change from `before` to
+/// `after`. Forces of motors with lag are left out, because they do not jump.
 void change_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
                  const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
   if (path.lag) before.forces = after.forces;

@@ -18,9 +18,8 @@ namespace awmr {
 /// free component of the initial state.
 struct LinearMotion {
   State<double> state{};
-  std::vector<double> by_column;  ///< [kStateSize][columns]; empty for the state alone
-  /// Derivatives of one component of the state, by column.
-
+  std::vector<double> by_column;  ///< derivatives, [kStateSize][columns]; empty without columns
+  /// Derivatives of one component of the state, by column. `channel`: the component.
   const double* row(LogChannel channel, std::size_t columns) const;
   double* row(LogChannel channel, std::size_t columns);
 };
@@ -38,7 +37,7 @@ struct DelayColumn {
   std::size_t column;
 };
 
-/// A constant error of the commands and the column of its derivatives.
+/// A constant error of the commands (trim in rad, or imbalance) and the column of its derivatives.
 struct OffsetColumn {
   double value;
   std::size_t column;
@@ -69,17 +68,20 @@ CommandColumns columns_of(const CommandPath& path);
 /// Commands as they reach the wheels, with derivatives by the free quantities of their path.
 struct DelayedCommand {
   HeldCommand command;
-  SideForces<double> by_delay{};  ///< of motors with lag; see LinearStepper::change_command()
-  SideForces<double> by_lag{};
-  SideForces<double> by_imbalance{};
-  double steering_by_trim = 0.0;  ///< 1 if there is a trim, else 0
+  /// d force / d delay, 1/s, of motors with lag. Without lag, the derivative by a delay is added by
+  /// LinearStepper::change_command().
+  SideForces<double> by_delay{};
+  SideForces<double> by_lag{};        ///< d force / d time constant of the motors, 1/s
+  SideForces<double> by_imbalance{};  ///< d force / d imbalance
+  double steering_by_trim = 0.0;      ///< d steering / d trim: 1 if there is a trim, else 0
 };
 
 /// Integrates the state and its derivatives step by step.
 class LinearStepper {
  public:
-  /// `columns`: number of derivatives; 0: the state alone is computed. `command_columns`: columns_of() of the
-  /// command path. `longest_step_s`: as for LinearPlant.
+  /// `columns`: number of derivatives; 0: the state alone is computed. `parameters`: the columns
+  /// that belong to model parameters. `command_columns`: columns_of() of the command path.
+  /// `longest_step_s`: as for LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
                 const std::vector<ParameterColumn>& parameters,
                 const CommandColumns& command_columns, double longest_step_s = 0.0);
@@ -88,18 +90,18 @@ class LinearStepper {
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// Makes one Euler step of h_s seconds (of either sign). Returns the rates before the step.
   State<double> step_along_tangent(const DelayedCommand& command, double h_s, LinearMotion& motion);
-  /// Adds the derivatives by the delays at a change of the commands from `before` to `after`: a
-  /// longer delay makes the motion follow `before` for longer.
-  ///     dS = rates before - rates after
+  /// Adds to the derivatives S by the delays at a change of the commands from `before` to `after`.
+  /// A longer delay makes the motion follow `before` for longer, so
+  ///     S += rates before - rates after
   void change_command(const DelayedCommand& before, const DelayedCommand& after,
                       LinearMotion& motion);
-  /// The rates of the state.
+  /// The rates of the state, friction included. Sets the derivatives of a held speed to 0.
   State<double> rates(const DelayedCommand& command, LinearMotion& motion);
 
   std::size_t columns() const { return columns_; }
 
  private:
-  /// A derivative of rates_ by a parameter and its destination in driven_.
+  /// A derivative of one rate by a parameter, and its destination in driven_.
   struct Term {
     std::size_t parameter;
     double DrivenSlopes::*rate;
@@ -111,16 +113,16 @@ class LinearStepper {
   void set_column(const HeldCommand& by, std::size_t column, double* driven) const;
   /// Computes the rates and their derivatives at `s`, friction included.
   void find_rates(const DelayedCommand& command, const State<double>& s);
-  /// Sets way_, the direction in which each speed moves next. For a speed that friction holds at 0,
-  /// sets the derivatives to 0.
+  /// Sets way_, the direction in which u and r move next. For a speed that friction holds at 0,
+  /// sets its derivatives in `motion` to 0.
   void find_way(const DelayedCommand& command, LinearMotion& motion);
   /// Returns the state after h_s seconds. Stores the stages that move_to() needs for the
   /// derivatives.
   State<double> state_after(const DelayedCommand& command, double h_s, const State<double>& from);
   /// Moves state and derivatives of `motion` to `next`, the result of the last state_after().
   void move_to(const State<double>& next, double h_s, LinearMotion& motion);
-  /// Handles a speed that has reached 0: friction keeps it at rest, or it continues in the other
-  /// direction. Adapts the derivatives.
+  /// Handles a speed that has reached 0: friction keeps it at 0, or it continues in the other
+  /// direction. Scales the derivatives of this speed accordingly.
   void stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion);
 
   LinearPlant plant_;
@@ -133,14 +135,14 @@ class LinearStepper {
   std::vector<double> driven_;  ///< [kStages][kDrivenSize][columns]
 };
 
-/// Moves the motion from `from_s` to `to_s`, times between `row` and the next one, as
-/// advance_after_row() does.
+/// Integrates the motion from `from_s` to `to_s`, times between `row` and the next row, like
+/// advance_after_row() in trials/replay.h, with derivatives.
 void advance_after_row(const LogSignals& signals, std::size_t row, double from_s, double to_s,
                        const CommandPath& path, LinearStepper& stepper, double longest_step_s,
                        LinearMotion& motion);
 
-/// Sets the steering to the logged angle at a fraction of the time from a row to the next. Its
-/// derivatives depend on its trim alone.
+/// Sets the steering angle of `motion` to the logged angle plus the trim, at the fraction `share`
+/// of the time from `row` to the next row. Its derivative is 1 by the trim and 0 by other columns.
 void steer(const LogSignals& signals, std::size_t row, double share, const CommandPath& path,
            std::size_t columns, LinearMotion& motion);
 
@@ -160,9 +162,9 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
   }
 }
 
-/// The motion at delay.delay_s >= 0 before the last of `motions`, which are the motions at the rows
-/// from `begin` on. Integrated by Runge-Kutta steps from the preceding row. Before the first row,
-/// its rates are extrapolated.
+/// Returns the motion delay.delay_s >= 0 seconds before the last of `motions`, which are the
+/// motions at the rows from `begin` on. Integrates from the row before that time. If that time is
+/// before the first of these rows, extrapolates with the rates at this row.
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
                             const DelayColumn& delay, double longest_step_s,

@@ -24,8 +24,8 @@ namespace {
 /// step is therefore shorter than 0.01 standard errors.
 constexpr double kFine = 1e-9;
 
-/// Largest number of rough optima to refine. A rough optimum is skipped if the logs cannot be
-/// simulated at the refined optimum.
+/// Largest number of rough optima to refine, best first, until the simulation of the logs is finite
+/// at the refined optimum.
 constexpr std::size_t kTries = 3;
 
 LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
@@ -73,8 +73,8 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .usable = solved.usable && solved.converged};
 }
 
-/// Fits the logs by a search from these coordinates. Empty if the logs cannot be simulated at its
-/// end.
+/// Fits the logs by a search from these coordinates. Empty if the simulation of the logs is not
+/// finite at the end of the search.
 std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double>& coordinates,
                                const LogFitOptions& options) {
   LogProblem problem = guess;
@@ -114,8 +114,8 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
     fit = fit_from(guess, search.ends[i], options);
   }
   if (!fit) {
-    return without_solution("failed: the logs cannot be simulated where the search ended",
-                            search.starts);
+    return without_solution(
+        "failed: the simulation of the logs is not finite where the search ended", search.starts);
   }
   fit->report.starts = std::move(search.starts);
   return *std::move(fit);

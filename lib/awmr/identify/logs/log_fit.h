@@ -23,16 +23,17 @@ struct LogFit {
   std::vector<std::string> why_not;  ///< by quantity: why it is refused; empty if identified
   NoiseLevels noise;
   ErrorsByChannel errors;  ///< model + bias - measured at the optimum, SI, not whitened
-  /// By candidate term of the options: estimated decrease of -2 ln L if the term were free.
+  /// By LogFitOptions::candidate_terms: score-test estimate of the decrease of -2 ln L if the term
+  /// were free, >= 0.
   std::vector<double> suspect_gain;
   double widened = 1.0;    ///< see Identifiability::widened()
   EstimatorReport report;  ///< report for /estimates; its parameters are the quantities
-  bool usable = false;     ///< true if the search converged
+  bool usable = false;     ///< true if the final search converged
 };
 
 /// Fits the logs. Precondition: an initial guess for every parameter. The fit is not usable and has
-/// no quantities if nothing is measured or free, if there are fewer readings than unknowns, or if
-/// all searches fail. Its report then states the reason.
+/// no quantities if nothing is measured or free, if there are not more readings than unknowns, or
+/// if all searches fail. Its report then states the reason.
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
 /// Returns the options with the delays and command errors of `fit` as the free terms, starting at

@@ -16,9 +16,9 @@
 
 namespace awmr {
 
-/// Counter of the work of all searches of one identification, with a limit. The unit is one
-/// integrated state or derivative in one step. Unlike a time limit, it does not depend on the
-/// machine or its load.
+/// Counter of the work of all searches of one identification, with a limit. The unit is the
+/// integration of one state vector, or of its derivatives by one quantity, over one step. Unlike a
+/// time limit, it does not depend on the machine or its load.
 class Effort {
  public:
   explicit Effort(std::int64_t limit) : limit_(limit) {}
@@ -58,7 +58,7 @@ struct LogFitOptions {
   int multistart = 6;          ///< number of random initial guesses in addition to the given one
   int bootstrap = 0;           ///< number of resamples of the block bootstrap; 0: no bootstrap
   int threads = 0;             ///< 0: every core; the result does not depend on it
-  /// Counts the work of the searches and limits it. Absent: no limit.
+  /// Counts the work of the searches and limits it; shared by all fits. Absent: no limit.
   std::shared_ptr<Effort> effort;
   /// Time at which all searches stop. Absent: no time limit.
   std::optional<std::chrono::steady_clock::time_point> deadline;

@@ -28,7 +28,7 @@ double step_s_at(const LogModel& model, const std::vector<double>& coordinates) 
   const double servo_s = 0.25 * plant.steering_time_constant_s;
   plant.sway_alpha = 0.0;
   plant.steering_time_constant_s = std::numeric_limits<double>::infinity();
-  // The lower limit is for guesses with time constants shorter than those of any vehicle.
+  // The lower limit matters only for guesses with time constants shorter than those of any vehicle.
   return std::max(
       kShortestReplayStep_s,
       std::min({replay_step_s(plant), std::max(sway_s, model.row_spacing_s / kSwayStepsOfRow),

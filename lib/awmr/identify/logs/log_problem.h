@@ -10,7 +10,7 @@
 
 namespace awmr {
 
-/// Standard deviation of each coordinate's prior, in its large changes
+/// Standard deviation of the weak prior of each coordinate, in units of its large change
 /// (FreeQuantity::large_change).
 inline constexpr double kPriorStd = 5.0;
 
@@ -29,7 +29,7 @@ struct LogProblem {
   int threads = 0;               ///< 0: every core
   std::optional<std::chrono::steady_clock::time_point> deadline;  ///< of all searches
   std::shared_ptr<Effort> effort;                                 ///< of all searches
-  bool ends_at_limit = true;  ///< the search stops at the limit of effort
+  bool ends_at_limit = true;  ///< true: a search stops at the limit of effort
 
   /// Number of unknowns: the quantities, and the free initial states of all windows.
   std::size_t unknowns() const {
@@ -43,16 +43,16 @@ struct SearchPoint {
   std::vector<double> initial_states;  ///< by window, then by component
 };
 
-/// Longest integration step at these coordinates, s: that of replay_step_s(), but sway and servo
-/// shorten it to no less than 1/4 and 1/8 of the row spacing. (LinearPlant::sway_pace slows sway
-/// that is faster.)
+/// Longest integration step at these coordinates, s: that of replay_step_s(), except that fast sway
+/// shortens it to no less than 1/4 of the row spacing, and a fast servo to no less than 1/8. (Sway
+/// that is faster is slowed, LinearPlant::sway_pace.) At least kShortestReplayStep_s.
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates);
 
 /// Builds the problem at the initial guess, with the noise by sensor_noise() and without weights of
 /// a robust loss. The logs must outlive the problem.
 LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
-/// Combines the coordinates with the measured initial state of every window.
+/// Returns the point with these coordinates and with the measured initial state of every window.
 SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates);
 
 /// Factor on the longest integration step in rough searches: those that only rank initial guesses

@@ -80,7 +80,8 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
   }
 }
 
-/// True if a command of the logs turns the vehicle.
+/// True if commands of the logs turn the vehicle: left and right forces differ, or a steering angle
+/// is above kMuch_rad.
 bool turns(const std::vector<DrivingLog>& logs) {
   constexpr double kMuch_rad = 0.01;
   return std::ranges::any_of(logs, [](const DrivingLog& log) {
@@ -148,8 +149,8 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
     const Estimate& known = model[parameter.id];
     if (known.value) fit.initial_guess[at(parameter.id)] = *known.value;
     const bool wanted = contains(requested, parameter.id) || !known.value;
-    // A servo without a command that changes has no effect, but with its lag free the angle at the
-    // begin of each window would act like a trim.
+    // A servo whose command never changes has no effect. But with its time constant free, the
+    // fitted steering angle at the beginning of each window would act like a trim.
     const bool never_acts =
         parameter.id == ParameterId::kBackEmf || parameter.id == ParameterId::kSteeringTimeConstant;
     if (!can_be_requested(parameter) || !wanted) continue;
@@ -164,8 +165,8 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
   if (frees_back_emf(fit)) fit = with_back_emf(std::move(fit));
 }
 
-/// True if back-EMF is to be tested: it is neither given nor requested, no parameters were
-/// requested, and no resistance comes from a table fit, which would have absorbed it.
+/// True if back-EMF is to be tested: it is not given, no parameters were requested, no resistance
+/// comes from a table fit, which would have absorbed it, and the logs contain enough coasting.
 bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                         const IdentifyOptions& options, const Model& model) {
   return options.requested.empty() && !vehicle.back_emf_s_per_m &&
@@ -231,8 +232,8 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   Chosen chosen{{.best = std::move(first), .others = {}, .findings = {}}};
   chosen.may_have_back_emf = suspects_back_emf(chosen.found.best.fit, power_law.candidate_terms);
   if (!surge_open && !yaw_open) return chosen;
-  // Unless the user requests the best family, another family has to be significantly better than
-  // the power law.
+  // Unless the user requests the best family (`--family auto`), another family has to be
+  // significantly better than the power law.
   report(options, "trying families of resistance");
   const bool is_family_requested = !surge.family || !yaw.family;
   const FamilyContest contest{.surge = surge_open,
@@ -292,9 +293,9 @@ Finding measured_steering_finding(const std::string& file) {
                       option_text(R"(column 'steering_deg="steering_cmd_deg"')"))};
 }
 
-/// Refits the best families of `ideal`, a result without back-EMF, with back-EMF. Returns the
-/// better model, and puts the other fit among its alternatives. Back-EMF has to be significantly
-/// better.
+/// Refits the best families of `ideal`, a result without back-EMF, with back-EMF. Returns the model
+/// with back-EMF if it is significantly better, else `ideal`; the other fit is among its
+/// alternatives. If back-EMF is selected, it becomes free in `power_law`.
 BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
                             const IdentifyOptions& options, BestFamily ideal) {
   report(options, "trying back-EMF of the motors");
@@ -376,7 +377,7 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements,
                      one.withdraws ? "The fit uses one value for all logs, so all intervals are "
                                      "withdrawn; identify each log separately"
                      : one.refuses
-                         ? "An interval that covers all values would be too wide, so it is refused"
+                         ? "An interval for all logs would be too wide, so this quantity is refused"
                      : withdrawn ? "Its interval is withdrawn"
                                  : "Its interval is widened: it covers the mean over such logs, "
                                    "not an individual log")});

@@ -18,8 +18,8 @@ std::vector<FitWindow> spread(const std::vector<FitWindow>& windows, std::size_t
   return some;
 }
 
-/// Problem that ranks initial guesses: twelve parts of 2.5 s, spread over all logs, with longer
-/// integration steps.
+/// Problem that ranks initial guesses: up to twelve parts of 2.5 s, spread over all logs, with
+/// longer integration steps.
 LogProblem rough_problem(const LogProblem& problem) {
   constexpr std::size_t kParts = 12;
   constexpr double kPart_s = 2.5;
@@ -36,8 +36,9 @@ LogProblem rough_problem(const LogProblem& problem) {
 }
 
 /// Random initial guess. Each parameter in `guessed` is multiplied by a factor in [e^-2, e^2]. An
-/// exponent is drawn from [0.3, 1.3], within its range. Terms of a family do not change. Uses one
-/// random number per quantity, changed or not.
+/// exponent in `guessed` is drawn from [0.3, 1.3] and limited to its range. Terms of a family do
+/// not change. Uses one random number per quantity, changed or not, so that the draws of the others
+/// do not depend on `guessed`.
 std::vector<double> drawn(const LogProblem& problem, const std::vector<ParameterId>& guessed,
                           Random& random) {
   std::vector<double> coordinates = problem.initial;

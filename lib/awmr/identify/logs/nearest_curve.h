@@ -6,11 +6,11 @@
 
 namespace awmr {
 
-/// Returns the curve with the free terms `terms` that is nearest to `curve`, by least squares at
-/// equidistant speeds up to `fastest` (m/s or rad/s, > 0). A constant term, Coulomb friction or
-/// dead zone, is returned as `coulomb`. This term is at least a tenth of the resistance at half of
-/// `fastest`, because the following search could not leave 0. Returns `curve` if no such curve
-/// exists.
+/// Returns the resistance curve with the free terms `terms` that is nearest to `curve`, by least
+/// squares at equidistant speeds up to `fastest` (m/s or rad/s, > 0). A constant term, Coulomb
+/// friction or dead zone, is returned as `coulomb`. It is at least a tenth of the resistance at
+/// half of `fastest`, because the log fit that starts there could not leave 0. Returns `curve` if
+/// no such curve exists.
 Resistance<double> nearest_curve(const Resistance<double>& curve, const FamilyTerms& terms,
                                  double fastest);
 

@@ -72,8 +72,9 @@ NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErro
   return levels;
 }
 
-/// Largest change of the noise: of a standard deviation, relative to that of its channel; or a
-/// tenth of the relative change of a correlation time, for drifts above a tenth of the noise.
+/// Largest change of the noise of any channel: change of its total or drift standard deviation over
+/// the total one, or, for drifts above a tenth of the total noise, a tenth of the relative change
+/// of the correlation time.
 double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
   double change = 0.0;
   for (const auto& [channel, noise] : after) {

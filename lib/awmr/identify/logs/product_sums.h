@@ -31,8 +31,8 @@ class ProductSums {
   Eigen::VectorXd gradient_;  ///< J^T r at the last call
 };
 
-/// Small equivalent of the rows for least squares: [R z; 0 rest] has the same M^T M. R is
-/// triangular up to a permutation of its columns.
+/// Matrix [R z; 0 rest] with few rows that replaces M = [J r] in least squares: both have the same
+/// M^T M. R is triangular up to a permutation of its columns.
 struct Triangle {
   Eigen::MatrixXd r;
   Eigen::VectorXd z;

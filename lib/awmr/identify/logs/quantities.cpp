@@ -73,7 +73,7 @@ double FreeQuantity::jacobian(double coordinate) const {
 }
 
 FreeQuantity free_parameter(ParameterId id) {
-  // The large change of a term is a share of the largest force.
+  // A term of a family is a force or moment over F_max; a fifth of F_max counts as a large change.
   return {.id = id, .scale = scale_of(id), .large_change = info(id).term ? 0.2 : 1.0};
 }
 

@@ -24,7 +24,7 @@ struct FreeQuantity {
     kSteeringDelay,   ///< additional delay of the steering command
     kMotorLag,        ///< time constant of the motors
     kSteeringTrim,    ///< steering angle at a command of 0
-    kForceImbalance,  ///< half the relative difference between right and left forces
+    kForceImbalance,  ///< (right - left)/(right + left) of the forces at equal commands
     kBias,            ///< constant offset of a channel
     kSensorDelay,     ///< latency of a channel
     kSensorLag        ///< time constant of a filter that smooths a channel
@@ -35,8 +35,8 @@ struct FreeQuantity {
       LogChannel::kX;  ///< of kSensorDelay (kX: x and y together), kSensorLag, kBias
   Scale scale = Scale::kLinear;
   /// Change of the coordinate that counts as large: 1 for a logarithm (a factor e), an exponent or
-  /// a bias; 0.2 for a term of a family; 0.1 for a delay or lag (s), trim (rad) or imbalance.
-  /// Priors and limits of identifiability are multiples of it.
+  /// a bias (SI); 0.2 for a term of a family; 0.1 for a delay or lag (s), trim (rad) or imbalance.
+  /// Standard deviations of priors and limits of identifiability are multiples of this change.
   double large_change = 1.0;
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
@@ -56,7 +56,8 @@ FreeQuantity free_parameter(ParameterId id);
 /// Delay of all commands, s; negative if their time stamps are late.
 FreeQuantity input_delay();
 
-/// Additional delay of the steering command relative to the forces, s, e.g. by a servo's frame.
+/// Additional delay of the steering command relative to the forces, s, e.g. by the period of the
+/// servo's pulses.
 FreeQuantity steering_delay();
 
 /// Time constant of the motors, s.
@@ -75,10 +76,10 @@ FreeQuantity sensor_lag_of(LogChannel channel);
 /// Latency of a channel, s.
 FreeQuantity sensor_delay_of(LogChannel channel);
 
-/// A free delay, lag or command error with its initial guess, as a coordinate.
+/// A free quantity with its initial guess.
 struct FreeTerm {
   FreeQuantity quantity;
-  double begin;
+  double begin;  ///< coordinate of the initial guess
 };
 
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind);

@@ -16,7 +16,8 @@
 namespace awmr {
 namespace {
 
-/// Values of one evaluation, and the columns of the free quantities.
+/// Plant, command path, sensor errors and initial state at one point of the search, with the
+/// columns of the free quantities.
 struct Unpacked {
   Plant<double> plant;
   std::vector<ParameterColumn> parameters;
@@ -32,9 +33,9 @@ struct Unpacked {
   }
 };
 
-/// Raises the servo's time constant to h/2, which Runge-Kutta steps of h seconds resolve, and drops
-/// its derivative. Otherwise a search for a time constant near 0 would end where the integration
-/// diverges.
+/// Raises a servo time constant below h/2 to h/2, which Runge-Kutta steps of h seconds resolve, and
+/// drops its derivative. Otherwise a search for a time constant near 0 would end where the
+/// integration diverges.
 void slow_servo(double h, std::vector<ParameterColumn>& parameters, Plant<double>& plant) {
   if (!(plant.steering_time_constant_s < 0.5 * h)) return;
   plant.steering_time_constant_s = 0.5 * h;

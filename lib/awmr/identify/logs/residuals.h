@@ -13,10 +13,10 @@
 
 namespace awmr {
 
-/// Data shared by all windows of a fit.
+/// Model, free quantities and noise of a log fit, shared by all windows.
 struct LogModel {
   Vehicle vehicle;
-  ParameterValues<double> held;  ///< values of all parameters; the coordinates replace free ones
+  ParameterValues<double> held;  ///< values of all parameters; those of free ones are not used
   std::vector<FreeQuantity> quantities;
   std::vector<InitialComponent> initial;
   NoiseLevels noise;

@@ -24,16 +24,17 @@ struct ScoreTest {
 ///     value = -(g_c - H_ct H_tt^-1 g_t) / (H_cc - H_ct H_tt^-1 H_tc)
 ///
 /// The noise model is replaced by with_white_noise(), so that drift cannot absorb the effect of a
-/// candidate. `point`: the solution without the candidates. Precondition: the coordinate of each
-/// candidate is its value.
+/// candidate. `point`: the solution without the candidates. A candidate that the data contain no
+/// information about has the result 0, and so have all if the simulation is not finite.
+/// Precondition: the coordinate of each candidate is its value.
 std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& point,
                                   const std::vector<FreeQuantity>& candidates);
 
-/// Returns the problem with the drift of every channel replaced by white noise of the same total
-/// variance, so that slow errors count against the model.
+/// Returns the problem with the drift of every channel replaced by white noise, so that slow errors
+/// count against the model. The total variance of each channel's noise stays the same.
 LogProblem with_white_noise(LogProblem problem);
 
-/// A problem with further free quantities, and its point.
+/// A problem with additional free quantities, and the point that includes their coordinates.
 struct Extended {
   LogProblem problem;
   SearchPoint point;

@@ -14,14 +14,15 @@ namespace awmr {
 ///
 ///     y(t + h) = u(t + h) - q (u(t + h) - u(t)) + e (y(t) - u(t))
 ///
-/// y starts at the first reading of the window. The effect of that reading's noise decays with T.
+/// y starts at the first reading of the window. The effect of that reading's noise decays with the
+/// time constant T.
 class SmoothedChannel {
  public:
   /// `first`: first reading of the window. `columns`: number of derivatives; 0: only y is computed.
   SmoothedChannel(LogChannel channel, const DelayColumn& lag, double first, std::size_t columns)
       : channel_(channel), lag_(lag), y_(first), by_column_(columns, 0.0) {}
 
-  /// Advances to the motion `now`, h_s seconds after the previous motion.
+  /// Advances the filter to the motion `now`, h_s seconds after the motion of the previous call.
   void next(const LinearMotion& now, double h_s, std::size_t columns);
   double value() const { return y_; }
   const std::vector<double>& by_column() const { return by_column_; }

@@ -70,7 +70,7 @@ class WhitenerGains {
     double gain1 = 0.0;
     double variance = 0.0;  ///< S
   };
-  /// Advances to the next error, `since_s` seconds after the previous error; 0 for the first. At a
+  /// Advances to the next residual, `since_s` seconds after the previous one; 0 for the first. At a
   /// constant interval the gains converge and are then reused.
   const Step& next(double since_s) {
     if (settled_ && same_step(since_s)) return last_;

@@ -1,7 +1,7 @@
 /// Division of the logs into windows for the fit. Private to identify/.
 ///
-/// Each window has its own initial state (multiple shooting without continuity constraints), so
-/// that a disturbance affects only one window.
+/// Each window has its own fitted initial state (multiple shooting without continuity constraints),
+/// so that a disturbance affects only one window.
 #pragma once
 
 #include <cstdint>
@@ -42,17 +42,17 @@ struct FitWindow {
 std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
                                    const std::optional<Interval>& only_s = {});
 
-/// Divides a window into equal parts of at most `longest_s` seconds, each with its own initial
-/// state.
+/// Divides a window into parts with equal numbers of rows, each with its own initial state. A part
+/// lasts about `longest_s` seconds or less, but has at least three rows.
 std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s);
 
 /// A component of the initial state that is fitted in every window.
 struct InitialComponent {
-  LogChannel channel;  ///< names the component
+  LogChannel channel;  ///< the component, for example kSpeed for u
   double prior_std;  ///< standard deviation of the weak prior about the measured initial state, SI
 };
 
-/// The components of the initial state that affect a measurement of the logs.
+/// The components of the initial state that affect a measured channel of the logs.
 std::vector<InitialComponent> initial_components(const std::vector<DrivingLog>& logs);
 
 /// Measured initial states of all windows, by window, then by component.

@@ -20,8 +20,8 @@ constexpr double kRate_hz = 100.0;
 /// Speed (m/s) or yaw rate (rad/s) in place of rest, whose logarithm does not exist.
 constexpr double kAtRest = 1e-6;
 
-/// Relative standard deviation of the measured rows of this kind, as recorded in the model, about
-/// its predictions; 5 % for fewer than three rows.
+/// Relative standard deviation of the model's measured rows of this kind of trial about its
+/// predictions; 5 % for fewer than three rows.
 double relative_scatter(const Model& model, TrialKind kind) {
   double squares = 0.0;
   int count = 0;
@@ -105,7 +105,7 @@ CandidateTrial coastdown_candidate(double from_mps, double duration_s, double no
           }};
 }
 
-/// Driving log: measures speed, yaw rate, heading and position.
+/// Driving log: measures speed, yaw rate and heading. The position is not used.
 CandidateTrial log_candidate(const std::string& what, const Vehicle& vehicle, const DrivePlan& plan,
                              const SensorNoise& sensors) {
   return {.trial = {.kind = TrialKind::kLog,
@@ -208,8 +208,8 @@ std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptio
 
 namespace {
 
-/// Range of the scrub moment, m: its 95 % interval, or without one 0 to the moment of sliding
-/// tyres.
+/// Range of the scrub moment, m: its 95 % interval, cut at 0. Without an interval: from the largest
+/// moment at which the vehicle did not turn (else 0) to the moment of sliding tyres.
 Interval possible_scrub_m(const Model& model, const Plant<double>& plant) {
   const double held_m = model.yaw_held_m.value_or(0.0);
   if (const auto& scrub = model.yaw_scrub) {
@@ -335,7 +335,7 @@ std::vector<std::string> assumptions_of(const Model& model, const SuggestOptions
                       "Hz; position {:g} m at {:g} Hz",
                       sensors.speed_mps, sensors.yaw_rate_radps, sensors.heading_rad,
                       sensors.position_m, sensors.position_rate_hz),
-          fmt::format("{} runs of each", options.repeats)};
+          fmt::format("{} runs of each trial", options.repeats)};
 }
 
 }  // namespace awmr

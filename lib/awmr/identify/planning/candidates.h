@@ -18,8 +18,9 @@ struct CandidateTrial {
   std::function<std::vector<double>(const Plant<double>&)> standardised;
 };
 
-/// All candidates, within the limits of the wheels and the steering. If the model has only
-/// parameters of straight motion, the candidate logs drive straight.
+/// All candidates, within the limits of the wheel forces and the steering. Only trials that the
+/// model can simulate: if it has only parameters of straight motion, the candidate logs drive
+/// straight.
 std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptions& options);
 
 /// Differential turns to record for the tyre scrub.

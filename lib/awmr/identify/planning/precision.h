@@ -1,5 +1,4 @@
-/// Precision of a model's parameters, from which a command decides whether enough trials were
-/// recorded.
+/// Precision of a model's parameters, from which a command decides whether more trials are needed.
 #pragma once
 
 #include <optional>

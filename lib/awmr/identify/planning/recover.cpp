@@ -24,8 +24,8 @@ ErrorModel error_of(const IdentifyOptions& options) {
   return options.noise.value_or(ErrorModel::kTime);
 }
 
-/// Residual standard deviation of the model's own surge or yaw fit under this error model, in the
-/// unit of the error.
+/// Residual standard deviation of the model's own surge or yaw fit of a power law under this error
+/// model, in the unit of the error; 0 if the model has no such fit.
 double scatter(const Model& model, FitSubject subject, ErrorModel error) {
   for (const EstimatorReport& report : model.record.reports) {
     if (report.subject == subject && report.noise == name_of(error) &&
@@ -172,7 +172,7 @@ OneRun identified_again(const Vehicle& vehicle, const TrialData& data, IdentifyO
 }
 
 /// Simulates and identifies the runs of a part, in order. `progress` is called on this thread; its
-/// last call has the number of all runs.
+/// last call has the number of all runs of the part.
 std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOptions& options,
                                    const Shard& shard, const std::vector<RecoverTruth>& truths,
                                    const std::function<void(int)>& progress) {
@@ -209,7 +209,8 @@ std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<Parame
   return truths;
 }
 
-/// Stores the runs in the part, with the first refusal and its reason.
+/// Stores the runs in the part, with the first refusal and its reason, and with the first run's
+/// error if every run failed.
 void put_runs(std::vector<OneRun> runs, RecoverPart& part) {
   if (std::ranges::all_of(runs, [](const OneRun& run) { return run.error.has_value(); })) {
     part.error = runs.front().error;
@@ -246,8 +247,9 @@ Status check_drive(const DrivePlan& drive) {
                   drive.duration_s, drive.rate_hz, rows, kFewest, kMost));
 }
 
-/// Adapts the options to the model. If the model has only parameters of straight motion, the log
-/// drives straight and only these parameters are requested. A fitted back-EMF is requested too.
+/// Adapts the options of a log to the model, unless the user requested parameters. If the model has
+/// only parameters of straight motion, the log drives straight and a1, b1 and m' are requested. If
+/// its back-EMF was fitted, all fitted parameters are requested.
 RecoverOptions options_for(const Model& model, RecoverOptions options) {
   const bool log = options.plan == RecoverPlan::kLog;
   if (log && options.identify.requested.empty() && !is_absent_term(model, ParameterId::kBackEmf) &&

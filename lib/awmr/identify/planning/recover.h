@@ -40,15 +40,16 @@ struct RecoverOptions {
   DrivePlan drive;
 };
 
-/// Statistics of one parameter. truth, bias, rmse and mean_std_error are in the parameter's unit.
+/// Statistics of one parameter over the runs. truth (the model's value), bias, rmse and
+/// mean_std_error are in the parameter's unit.
 struct RecoveredParameter {
   ParameterId id = ParameterId::kMassNorm;
   double truth = 0.0;
   double bias = 0.0;            ///< mean of estimate - truth
   double rmse = 0.0;            ///< root mean square of estimate - truth
   double mean_std_error = 0.0;  ///< mean of the standard errors that the fits report
-  double coverage95 = 0.0;      ///< share of runs whose interval contains the truth
-  double worst_error = 0.0;     ///< largest |estimate/truth - 1|; 0 if the truth is 0
+  double coverage95 = 0.0;      ///< fraction of `runs` whose 95 % interval contains the truth
+  double worst_error = 0.0;     ///< largest |estimate/truth - 1| of a run; 0 if the truth is 0
   int runs = 0;                 ///< runs with an estimate and an interval
 };
 
@@ -57,14 +58,14 @@ struct Recovery {
   std::vector<RecoveredParameter> parameters;
   std::string noise_text;  ///< description of the simulated noise
   int runs = 0;
-  int failed = 0;  ///< number of runs that refused a requested parameter
+  int failed = 0;  ///< number of runs in which a requested parameter was refused
 };
 
 /// Runs the self-test. `progress` is called on the calling thread with the number of completed
-/// runs. If the model has only parameters of straight motion, the log drives straight and only
-/// these parameters are fitted. Errors (input): the model lacks a parameter that a trial of the
-/// plan needs, or has no trials for the plan; fewer than 2 runs; a simulated log of fewer than 20
-/// or more than a million rows; as check_replay(). Errors (refused): no run estimates a requested
+/// runs. If the model has only parameters of straight motion, the log drives straight and only a1,
+/// b1 and m' are fitted. Errors (input): the model lacks a parameter that a trial of the plan
+/// needs, or has no trials for the plan; fewer than 2 runs; a simulated log of fewer than 20 or
+/// more than a million rows; as check_replay(). Errors (refused): no run estimates a requested
 /// parameter, or any parameter.
 Result<Recovery> recover(const Model& model, const RecoverOptions& options,
                          const std::function<void(int)>& progress);

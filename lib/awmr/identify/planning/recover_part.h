@@ -14,7 +14,7 @@
 
 namespace awmr {
 
-/// A parameter with the value at which trials are simulated, in its unit.
+/// A parameter with its true value, at which the trials are simulated, in its unit.
 struct RecoverTruth {
   ParameterId id = ParameterId::kMassNorm;
   double value = 0.0;
@@ -37,7 +37,7 @@ struct RecoverRun {
   std::vector<std::optional<RecoverEstimate>> estimates;
 };
 
-/// The first run that refused a requested parameter, with the reason.
+/// The first run in which a requested parameter was refused, with the reason.
 struct RecoverRefusal {
   int run = 0;
   std::string message;

@@ -111,8 +111,9 @@ Result<std::vector<RecoverRun>> read_runs(const Part& part, const RecoverPart& p
   if (std::ssize(runs) != expected) {
     return input_error(
         ErrorCode::kStaleResult, (part.directory / table.name).string(),
-        fmt::format("has {} runs, part {} of {} of {} runs has {}: run the part again", runs.size(),
-                    shard.index, shard.count, payload.all_runs, expected));
+        fmt::format(
+            "has {} runs, but part {} of {} (of {} runs in all) needs {}; run the part again",
+            runs.size(), shard.index, shard.count, payload.all_runs, expected));
   }
   AWMR_RETURN_IF_ERROR(check_items(part, table, "run", payload.all_runs, runs.size(),
                                    [&](std::size_t i) { return runs[i].index; }));

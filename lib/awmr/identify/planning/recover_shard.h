@@ -12,10 +12,10 @@
 
 namespace awmr {
 
-/// Description of the files of a part, of which recovery.csv has a row per run.
+/// Description of the files of a part: shard.json, and recovery.csv with a row per run.
 const ShardKind& recover_shards();
 
-/// Texts of the files of the part `shard`.
+/// Texts of the files of the part `shard`: shard.json and recovery.csv.
 PartText recover_part_text(const RecoverPart& part, const Shard& shard,
                            const Provenance& provenance);
 

@@ -114,8 +114,9 @@ Result<std::vector<RecoverRun>> recover_runs(std::string_view text, const std::s
   std::string_view rest = text;
   const auto places = places_of(take_text_record(rest), truths);
   if (!places) {
-    return input_error(ErrorCode::kStaleResult, file + ":1:1",
-                       "these are not the columns of a recovery; run the part again");
+    return input_error(
+        ErrorCode::kStaleResult, file + ":1:1",
+        "these are not the columns of a recovery.csv for this part; run the part again");
   }
   std::vector<RecoverRun> runs;
   while (!rest.empty()) {
@@ -124,7 +125,7 @@ Result<std::vector<RecoverRun>> recover_runs(std::string_view text, const std::s
     if (!run) {
       const auto line = 1 + std::count(before.begin(), before.end(), '\n');
       return input_error(ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line),
-                         "is not a run of a recovery; run the part again");
+                         "is not a run of a recovery with these columns; run the part again");
     }
     runs.push_back(std::move(*run));
   }

@@ -75,7 +75,7 @@ Plant<double> moved(Model model, ParameterId id, double step) {
 }
 
 /// Derivatives of values by the parameters' coordinates, by central differences: one row per value,
-/// one column per parameter. The backward step of a term ends at 0 at the latest.
+/// one column per parameter. A backward step makes no term of a resistance negative.
 template <class Values>
 Eigen::MatrixXd jacobian_of(const Model& model, const std::vector<ParameterId>& ids,
                             const Values& values_at) {
@@ -106,16 +106,17 @@ struct Target {
   }
 };
 
-/// Whole resistance at 1 m/s or 1 rad/s, by which the error of a term is divided, because the term
-/// itself may be 0. For a term of a single wheel (dead zone, back-EMF): a quarter of it.
+/// Resistance with all its terms at 1 m/s or 1 rad/s, by which the error of a term is divided,
+/// because the term itself may be 0. For a term of a single wheel (dead zone, back-EMF): a quarter
+/// of this resistance.
 double whole_of(ParameterId id, const Plant<double>& plant) {
   if (id == ParameterId::kYawCoulomb || id == ParameterId::kYawQuadratic) return plant.yaw(1.0);
   const bool of_a_wheel = id == ParameterId::kWheelDeadZone || id == ParameterId::kBackEmf;
   return plant.surge(1.0) / (of_a_wheel ? 4.0 : 1.0);
 }
 
-/// Target of A-optimality: all parameters with equal weights. The errors are relative (coordinate
-/// is a logarithm), absolute (exponents) or relative to the whole resistance (terms).
+/// Target of A-optimality: all parameters with equal weights. Their errors are relative (parameters
+/// whose coordinate is a logarithm), absolute (exponents) or relative to whole_of() (terms).
 Target all_parameters(const std::vector<ParameterId>& ids, const Plant<double>& plant) {
   Eigen::MatrixXd gradient = Eigen::MatrixXd::Identity(rows_of(ids), rows_of(ids));
   for (std::size_t i = 0; i < ids.size(); ++i) {

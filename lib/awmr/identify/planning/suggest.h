@@ -24,7 +24,7 @@ struct SuggestOptions {
   /// Target of the ranking: the name of a parameter or of one of `metrics`. Empty: all parameters
   /// (A-optimality), that is, the root of the sum of their squared relative standard errors. In
   /// this sum the error of an exponent is absolute, and that of a family's term is relative to the
-  /// whole resistance at 1 m/s or 1 rad/s.
+  /// resistance with all its terms at 1 m/s or 1 rad/s.
   std::string parameter = {};
   /// Sensor noise of future curves and logs. Use the robot's own values if they are known.
   SensorNoise sensors = {};
@@ -42,7 +42,9 @@ struct SuggestedTrial {
   std::string parameter = {};                           ///< name of the target
   double std_error_before = 0.0;  ///< standard error of the target now, in its unit, >= 0
   double std_error_after = 0.0;   ///< standard error of the target with this trial, >= 0
-  double d_gain = 0.0;            ///< decrease of ln det C by the trial, >= 0 (D-optimality)
+  /// Decrease of ln det C by the trial, >= 0 (D-optimality), with the covariance C of all
+  /// parameters.
+  double d_gain = 0.0;
 };
 
 /// A parameter without a value.
@@ -62,12 +64,12 @@ struct ScrubTurn {
   SideForces<double> least, most;
 };
 
-/// A turn with the motors off, which decides between the 3-DOF model and the tyre model. In the
-/// 3-DOF model steered wheels turn the vehicle only by the thrust of the motors. Rolling tyres turn
-/// it also with the motors off.
+/// A turn with the motors off, which decides between the 3-DOF model and the four-wheel tyre model.
+/// In the 3-DOF model, steered wheels turn the vehicle only by the thrust of the motors. Rolling
+/// tyres turn it also with the motors off.
 struct CoastingTurn {
   double speed_mps = 0.0;     ///< speed at which the motors are switched off, > 0
-  double steering_deg = 0.0;  ///< steering angle after that, > 0
+  double steering_deg = 0.0;  ///< steering angle set at that time, > 0: to the left
   /// Yaw rate, deg/s, if the wheels roll without slip at this speed and angle, > 0. The 3-DOF model
   /// predicts 0.
   double rolling_yaw_rate_degps = 0.0;
@@ -90,8 +92,9 @@ struct Suggestion {
 ///   C_after = (C^-1 + J^T W J)^-1
 /// with the derivatives J of its measurements by the coordinates, and the inverse variances W of
 /// its errors. A parameter without a value is reported as missing, and trials that measure it are
-/// not ranked. Errors (input): the model has all values but no covariance; the target is unknown or
-/// has no value; the effect of a trial is not finite; as check_replay().
+/// not ranked. Errors (input): every parameter of the model was given, so that no trial can improve
+/// it; the target is unknown or has no value; the effect of a trial is not finite; as
+/// check_replay().
 Result<Suggestion> suggest(const Model& model, const SuggestOptions& options);
 
 /// Content of suggest.json.

@@ -87,8 +87,8 @@ std::string scrub_sheet(const Suggestion& suggestion) {
   return text;
 }
 
-/// Part of the field sheet: the turn with motors off, which decides between the two plants of
-/// compare.
+/// Part of the field sheet: the turn with motors off, which decides between the 3-DOF model and the
+/// four-wheel tyre model.
 std::string coasting_sheet(const Suggestion& suggestion) {
   const auto& coasting = suggestion.coasting;
   if (!coasting) return {};

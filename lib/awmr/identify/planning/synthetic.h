@@ -19,7 +19,7 @@ struct SensorNoise {
   double correlation_s = 0.0;       ///< correlation time of every sensor's error; 0: white
 };
 
-/// Settings of the runs of all tables, in order.
+/// Settings of the runs of all tables, in the order of the rows. An empty list: no such table.
 struct TablePlan {
   std::vector<double> surge_tau_speed;       ///< dimensionless, > 0
   std::vector<double> turning_steering_rad;  ///< d_r, > 0: to the left
@@ -50,7 +50,8 @@ CoastCurve simulate_coastdown(const Plant<double>& plant, double speed_mps, doub
                               Random& random);
 
 /// A drive that makes all parameters identifiable. Every `hold_s`, thrust and steering change to
-/// random values within the vehicle's limits, with different left and right forces.
+/// random values within the vehicle's limits, with different left and right forces. One change in
+/// four switches the motors off, so that the vehicle coasts.
 struct DrivePlan {
   double duration_s = 60.0;     ///< duration of the log, > 0
   double rate_hz = 100.0;       ///< rate of the log's rows, > 0
@@ -61,7 +62,7 @@ struct DrivePlan {
   std::uint64_t drive = 1;      ///< seed of the random commands
 };
 /// Simulates a log of a drive from rest at the origin. Channels: x, y, heading, speed and yaw rate,
-/// each with its noise.
+/// each with its noise, and the steering angle if plan.servo_measured and the vehicle has steering.
 DrivingLog simulate_log(const Plant<double>& plant, const Vehicle& vehicle, const DrivePlan& plan,
                         const SensorNoise& noise, Random& random);
 

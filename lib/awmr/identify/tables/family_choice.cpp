@@ -49,7 +49,7 @@ FamilyCandidate candidate_from(const Subject& subject, const SteadyProblem& prob
   return candidate;
 }
 
-/// The pairs of family and error model to fit, in the order of the reports.
+/// The pairs of family and error model that fit_candidates() fits, in the order of the reports.
 std::vector<std::pair<Family, ErrorModel>> plan(const Subject& subject,
                                                 const SubjectOptions& options, ErrorModel wanted) {
   std::vector<std::pair<Family, ErrorModel>> fits;

@@ -9,16 +9,17 @@
 
 namespace awmr {
 
+/// Options of the fit of a surge or turning table.
 struct SubjectOptions {
   Method method = Method::kLogLinear;
-  /// Absent: time if every run was timed, else speed.
+  /// Quantity with the error in nonlinear fits. Absent: time if every run was timed, else speed.
   std::optional<ErrorModel> noise;
   /// True if the user requested a nonlinear fit with `noise`. If false, intervals average over all
   /// error models (noise_average.h).
   bool knows_noise = false;
   FamilyChoice family;
   Loss loss = Loss::kSquared;
-  bool side_by_side = true;     ///< false: only the requested fit
+  bool side_by_side = true;     ///< false: only the requested fit, without fits for comparison
   bool keeps_outliers = false;  ///< true keeps gross outliers in the fit
 };
 
@@ -46,8 +47,9 @@ std::vector<FamilyCandidate> fit_candidates(const Subject& subject, const Subjec
 const FamilyCandidate* candidate_of(const std::vector<FamilyCandidate>& candidates, Family family,
                                     ErrorModel noise);
 
-/// The converged fit with the smallest AICc under the error model `noise`. If two are equal, the
-/// one that was fitted first. Null if no fit has an AICc.
+/// The converged fit with the smallest AICc among the fits under the error model `noise`. If two
+/// AICc are equal, the one that was fitted first. Null if no fit has an AICc, for example because
+/// there are too few runs.
 const FamilyCandidate* best_candidate(const std::vector<FamilyCandidate>& candidates,
                                       ErrorModel noise);
 

@@ -10,16 +10,20 @@
 namespace awmr {
 
 struct GrossOutlier {
-  std::size_t point = 0;    ///< index of the run in Subject::points
-  double deviations = 0.0;  ///< from the power law of the other runs, in standard deviations
+  std::size_t point = 0;  ///< index of the run in Subject::points
+  /// Deviation of ln f from the power law of the other runs, in standard deviations; > 0.
+  double deviations = 0.0;
 };
 
 /// Returns the run farthest from the power law of the other runs if it is a gross outlier:
-///   1. The run deviates by more than ten standard deviations, with p < 0.001 by Student's t for
-///      the whole table. If the runs were timed, the time also deviates by more than ten, because
-///      an equal error of all times is the largest in the logarithm of the shortest one.
-///   2. No family fits all runs, this one included, with a residual below three times that of the
-///      power law of the other runs. (A slow run can be off a power law by Coulomb friction.)
+///   1. The logarithm of its force deviates by more than ten standard deviations, with p < 0.001 by
+///      Student's t for the whole table (Bonferroni). If the runs were timed, its time also
+///      deviates by more than ten standard deviations from a fit of the other times. (The same
+///      timing error is relatively larger in a faster run, which alone does not exclude this run.)
+///   2. No resistance family fits all runs, this one included, with a root mean square residual of
+///      ln f below three times that of the power law of the other runs. (A slow run can deviate
+///      from a power law because of Coulomb friction.)
+/// Empty if there is no such run or the runs are too few for the test.
 std::optional<GrossOutlier> gross_outlier(const Subject& subject, const SubjectOptions& options);
 
 /// The finding `outlier`, which reports that the run is excluded from the fit.

@@ -42,7 +42,7 @@ class OneStep {
   OneStep(const SteadyProblem& problem, bool log_linear, const SteadyFit& fit)
       : problem_(problem), fit_(fit) {
     const double variance = fit.residual_std * fit.residual_std;
-    // A robust loss weights the rows; this step does not include the weights.
+    // Not available with a robust loss, whose weights of the rows this step does not include.
     if (!fit.has_covariance() || !(variance > 0.0) || problem.loss != Loss::kSquared) return;
     inverse_ = fit.covariance / variance;
     if (log_linear) {

@@ -9,15 +9,18 @@
 namespace awmr {
 
 struct Influence {
-  std::vector<LeaveOneOut> without;  ///< by run; excludes runs without which the fit fails
-  std::vector<Finding> findings;     ///< `influential-row`: a parameter changes by a standard error
+  /// Parameter values of the fit without each run. Excludes runs without which the fit fails.
+  std::vector<LeaveOneOut> without;
+  /// `influential-row` for each run without which a parameter changes by more than one standard
+  /// error.
+  std::vector<Finding> findings;
 };
 
 /// Fits the curve without each run in turn: by log-linear least squares if `log_linear`, else by
 /// the method of `problem`, starting at the optimum `fit` of all runs. Above kExactRows rows, each
 /// of these fits is one Gauss-Newton step from `fit`, which is exact for log-linear fits. With a
 /// robust loss and so many rows, the result is empty. Precondition: at least two degrees of
-/// freedom, so that one remains.
+/// freedom, so that one remains without a run.
 Influence leave_one_out(const Subject& subject, const SteadyProblem& problem, bool log_linear,
                         const SteadyFit& fit);
 

@@ -44,8 +44,8 @@ bool has_evidence(const SteadyFit& fit) {
   return fit.usable && fit.has_covariance() && fit.residual_std > 0.0;
 }
 
-/// Sets the weights from their unnormalised logarithms. The first weight is at least
-/// kLeastOwnWeight. Removes alternatives with weight 0.
+/// Sets the weights from their unnormalised logarithms. Raises the weight of the first alternative,
+/// the chosen fit, to kLeastOwnWeight. Removes alternatives with weight 0.
 void normalise(std::vector<NoiseAlternative>& alternatives, const std::vector<double>& logarithms) {
   const double largest = *std::max_element(logarithms.begin(), logarithms.end());
   double others = 0.0;

@@ -29,8 +29,9 @@ struct NoiseAlternative {
   double weight = 1.0;  ///< in (0, 1]; all weights add up to 1
 };
 
-/// Smallest weight of the chosen fit. Its distribution is centred on the reported value, so at
-/// least 2.5 % of the mixture lies on either side, and the 95 % interval always contains the value.
+/// Smallest weight of the chosen fit, whose value is reported. Half of its distribution lies on
+/// either side of this value. With a weight of 5 %, at least 2.5 % of the mixture then lies on
+/// either side, so the 95 % interval always contains the reported value.
 inline constexpr double kLeastOwnWeight = 0.05;
 
 /// Returns the chosen fit, then the usable fits of the same family with the same free parameters
@@ -43,8 +44,8 @@ std::vector<NoiseAlternative> noise_alternatives(const Subject& subject,
                                                  const SteadyFit& chosen,
                                                  const std::vector<FamilyCandidate>& candidates);
 
-/// Mixture of the alternatives. Its coordinates are SteadyFit::free of the chosen fit. Empty if a
-/// fit has no covariance.
+/// Distribution of the fitted coordinates (SteadyFit::free): the mixture of the alternatives with
+/// their weights. Empty if a fit has no covariance.
 Posterior posterior_of(const std::vector<NoiseAlternative>& alternatives);
 
 }  // namespace awmr

@@ -11,7 +11,7 @@
 namespace awmr {
 namespace {
 
-/// A value x of the coordinate, and zeta(x) as in Profile.
+/// A value x of the coordinate, and zeta(x) as defined at Profile.
 struct Place {
   double x = 0.0;
   double zeta = 0.0;
@@ -45,7 +45,8 @@ double crossing(const Profile& profile, Place near, Place far, double t, double 
   return 0.5 * (near.x + far.x);
 }
 
-/// The upper (sign 1) or lower (sign -1) end of the interval.
+/// The upper (sign 1) or lower (sign -1) end of the interval, where zeta = t; the bound if zeta < t
+/// there.
 double end_of(const Profile& profile, double sign, double t) {
   const Interval bounds = bounds_of(profile.problem, profile.c);
   const double std_error = *profile.fit.std_error(profile.c);

@@ -7,14 +7,15 @@
 
 namespace awmr {
 
-/// Minimum of the sum of squared residuals with the coordinate `held` fixed at `value`. Infinite if
-/// the search fails.
+/// Minimum of the sum of squared residuals over the other coordinates, with the coordinate `held`
+/// fixed at `value`. The search starts at `initial_guess`. Infinite if the search fails.
 double profile_cost(const SteadyProblem& problem, const TransformedParameters& initial_guess,
                     TransformedParameter held, double value);
 
-/// 95 % profile-likelihood interval of a coordinate. At each end, profile_cost() is t^2 s^2 above
-/// the minimum, with the residual standard deviation s and Student's t. An end beyond a bound is
-/// set to the bound. Precondition: squared loss, degrees of freedom, `c` free.
+/// 95 % profile-likelihood interval of the coordinate `c`. At each end, profile_cost() is t^2 s^2
+/// above the minimum, with the residual standard deviation s and the 97.5 % quantile t of Student's
+/// t. An end beyond a bound is set to the bound. Precondition: squared loss, degrees of freedom,
+/// `c` free.
 Interval profile_interval(const SteadyProblem& problem, const SteadyFit& fit,
                           TransformedParameter c);
 

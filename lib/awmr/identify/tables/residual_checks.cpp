@@ -46,10 +46,10 @@ std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit
   if (fit.degrees_of_freedom == 0) {
     findings.push_back(
         {subject.file, 0, Severity::kWarning, "no-degrees-of-freedom",
-         fmt::format("{} rows determine the {} parameters of {} exactly, so there are no residuals "
-                     "for a standard error; record another run",
-                     subject.points.size(), fit.free.size(),
-                     name_in(kFitSubjectNames, subject.name))});
+         fmt::format(
+             "{} rows determine the {} parameters of the {} resistance exactly, so there are "
+             "no residuals for a standard error; record another run",
+             subject.points.size(), fit.free.size(), name_in(kFitSubjectNames, subject.name))});
   }
   const double beta = fit[TransformedParameter::kBeta];
   if (terms_of(family).beta && !subject.beta_range.contains(beta)) {

@@ -8,12 +8,13 @@
 
 namespace awmr {
 
-/// The error `exponent-at-bound` of a fit whose exponent is at an end of its range, with the
-/// remedy.
+/// The error `exponent-at-bound`, with the remedy. Precondition: the search for the exponent ended
+/// at an end of its range.
 Finding held_exponent(const Subject& subject, const SteadyFit& fit);
 
-/// The warnings `no-degrees-of-freedom` and `exponent-at-bound` and the note `term-at-zero`, where
-/// they apply.
+/// The warnings `no-degrees-of-freedom` (as many parameters as runs) and `exponent-at-bound` (the
+/// exponent of a log-linear fit is outside its range), and the note `term-at-zero` for each term
+/// whose fitted value is 0, where they apply.
 std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit, Family family);
 
 /// Tests the residuals for normality, curvature and lack of fit. Skips a test if there are too few

@@ -2,10 +2,9 @@
 /// to identify/.
 ///
 /// A differential turn drags the tyres sideways, which g3 of steered turns does not include. For
-/// differential turn i, with the yaw rate r_i and the moment tau_i = 2 d (F'R - F'L), the scrub
-/// moment is
+/// differential turn i, with the yaw rate r_i and half of the track width d, the scrub moment is
 ///
-///     c_i = tau_i - g3(r_i),    c = mean c_i,    var c = s^2/n + h' C h
+///     c_i = tau_i - g3(r_i),   tau_i = 2 d (F'R - F'L),   c = mean c_i,   var c = s^2/n + h' C h
 ///
 /// with s the standard deviation of the n moments c_i, C the covariance of g3's parameters and h
 /// the mean gradient of g3 by its parameters. The interval is Student's t with the degrees of
@@ -22,11 +21,12 @@ namespace awmr {
 /// Smallest number of differential turns for a scrub estimate with an interval.
 inline constexpr std::size_t kFewestScrubRows = 3;
 
-/// Does nothing without differential turns or without g3. Sets model.yaw_held_m, the largest
-/// moment, in m, at which the vehicle did not turn, with the finding `scrub-holds`. Sets
-/// model.yaw_scrub, unless there are too few turns (`few-scrub-rows`) or the whole interval is
-/// negative (`negative-scrub`). Warns of turns outside the yaw rates that g3 was fitted to
-/// (`scrub-beyond-trials`), and of moments c_i that change with the yaw rate (`scrub-grows`).
+/// Computes the scrub from the differential turns of the table. Does nothing without differential
+/// turns or without g3. Sets model.yaw_held_m, the largest moment (over F_max, m) at which the
+/// vehicle did not turn, with the finding `scrub-holds`. Sets model.yaw_scrub, unless there are too
+/// few turns (`few-scrub-rows`) or the whole interval is negative (`negative-scrub`). Warns of
+/// turns outside the yaw rates that g3 was fitted to (`scrub-beyond-trials`), and of moments c_i
+/// that change with the yaw rate (`scrub-grows`).
 void measure_scrub(const TrialSet<TurningRow>& turning, Model& model);
 
 }  // namespace awmr

@@ -48,7 +48,7 @@ struct SteadyFit {
   /// Free coordinates of the family. A term that ended at 0, its lower bound, is included, so that
   /// it contributes to the uncertainty of the others. An exponent at a bound is excluded.
   std::vector<TransformedParameter> free;
-  std::vector<TransformedParameter> at_bound;  ///< coordinates that ended at a bound
+  std::vector<TransformedParameter> at_bound;  ///< coordinates whose search ended at a bound
   Eigen::MatrixXd covariance;  ///< free x free, positive definite; 0 x 0 without degrees of freedom
   Eigen::VectorXd residuals;   ///< curve - measured, by point, in the unit of the noise
   Eigen::VectorXd leverages;   ///< by point, in [0, 1]; empty without full rank
@@ -88,8 +88,8 @@ SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& 
 /// computes.
 SteadyFit fit_steady(const SteadyProblem& problem, std::map<Family, TransformedParameters>& known);
 
-/// Returns the problem with the error model kTime and each run's time set to travel/w. Empty if a
-/// run was not timed.
+/// Returns the problem with the error model kTime and each run's time set to travel/w, with its
+/// measured rate w. Empty if a run was not timed.
 std::optional<SteadyProblem> by_time(SteadyProblem problem);
 
 /// True if all parameters of the law are finite and alpha > 0.
@@ -100,8 +100,8 @@ struct SteadyRows {
   Eigen::VectorXd residuals;  ///< by point
   Eigen::MatrixXd jacobian;   ///< points x coordinates
 };
-/// Residuals at the coordinates `theta`, and their derivatives by the coordinates `by`. Empty if
-/// one of them is not finite.
+/// Residuals at the coordinates `theta`, and their derivatives by the coordinates `by`. Empty if a
+/// residual or a derivative is not finite.
 std::optional<SteadyRows> steady_rows(const SteadyProblem& problem,
                                       const TransformedParameters& theta,
                                       const std::vector<TransformedParameter>& by);

@@ -19,8 +19,8 @@ namespace {
 constexpr double kMinimumInvertibleBeta = 1e-3;
 
 /// g^-1(force), the steady rate at a force, with its derivatives; 0 if the force is below Coulomb
-/// friction. The root is found in double. One Newton step in T from there gives the derivatives of
-/// the implicit function.
+/// friction. The root is found in double precision. One Newton step from the root in T, a type with
+/// derivatives, gives the derivatives of the implicit function.
 template <class T>
 T inverse(const Resistance<T>& law, const T& force) {
   const Resistance<double> plain = value_of(law);
@@ -140,7 +140,8 @@ bool SteadySearch::is_at_bound(TransformedParameter c) const {
   return theta_[at(c)] <= bounds.lo || theta_[at(c)] >= bounds.hi;
 }
 
-/// Searches until convergence, or until coordinates stay at a bound. Returns those coordinates.
+/// Searches until convergence, or until coordinates stay at a bound. Returns the coordinates that
+/// stayed at a bound; empty after convergence.
 std::vector<TransformedParameter> SteadySearch::search_until_at_bound() {
   StopAtBound stop([this] {
     std::vector<TransformedParameter> at_bound;

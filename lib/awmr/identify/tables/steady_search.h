@@ -13,8 +13,9 @@
 namespace awmr {
 
 /// Ceres problem of a table fit, with one parameter block per coordinate. The coordinates of the
-/// family except `held` are variable. Clamps the initial guess to the bounds. Not movable.
-/// `problem` must outlive the object.
+/// family are variable, except `held`, which keeps its initial value. Clamps the initial guess of
+/// the others to the bounds. Not movable, because Ceres has pointers to its members. `problem` must
+/// outlive the object.
 class SteadySearch {
  public:
   SteadySearch(const SteadyProblem& problem, const TransformedParameters& initial_guess,
@@ -32,8 +33,8 @@ class SteadySearch {
   /// Residuals by point, in the unit of the noise, before the robust loss. Empty if one is not
   /// finite.
   std::optional<Eigen::VectorXd> residuals();
-  /// Derivatives of the residuals, points x `columns`, before the robust loss. Empty if
-  /// one is not finite.
+  /// Derivatives of the residuals, points x `columns`, before the robust loss. Empty if one is not
+  /// finite.
   std::optional<Eigen::MatrixXd> jacobian(const std::vector<TransformedParameter>& columns);
 
   const TransformedParameters& theta() const { return theta_; }

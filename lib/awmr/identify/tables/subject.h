@@ -13,7 +13,8 @@
 
 namespace awmr {
 
-/// One resistance law, the names of its parameters and the runs that measure it.
+/// Input of a table fit: one resistance law, the names of its parameters and the runs that measure
+/// it. A default-constructed Subject has the names of the surge law.
 struct Subject {
   FitSubject name = FitSubject::kSurge;  ///< surge or yaw
   ParameterId alpha = ParameterId::kSurgeAlpha;
@@ -32,8 +33,9 @@ Subject surge_subject(const Vehicle& vehicle, const TrialSet<SurgeRow>& runs);
 /// zone F'0.                                                                    [paper (61)-(63)]
 Subject yaw_subject(const Vehicle& vehicle, const TrialSet<TurningRow>& runs, double dead_zone);
 
-/// Converts turning rows to points. Subtracts the dead zone F'0 from each wheel force F' and
-/// reduces tau_turn by the same factor. Omits rows whose forces are within the dead zone.
+/// Converts turning rows to points. Subtracts the dead zone F'0 from the magnitude of each wheel
+/// force F' and reduces tau_turn in the same ratio. Omits rows whose forces are within the dead
+/// zone.
 std::vector<SteadyPoint> turning_points(const std::vector<TurningRow>& rows, double dead_zone);
 
 /// The model parameter that belongs to a coordinate of the fit.

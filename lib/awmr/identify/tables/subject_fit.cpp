@@ -16,14 +16,15 @@
 namespace awmr {
 namespace {
 
-/// AICc difference above which another family is significantly better (a likelihood ratio of e^5).
+/// AICc difference from which on another family is significantly better (a likelihood ratio of
+/// e^5).
 constexpr double kTablesPlainlyBetter = 10.0;
 
-/// Smallest number of runs with an AICc. The denominator n - p - 2 is positive from 5 runs n on,
-/// with the p = 2 parameters of the smallest families.
+/// Smallest number n of runs with an AICc, whose denominator n - p - 2 must be positive. The
+/// smallest families have p = 2 parameters.
 constexpr std::size_t kFewestToCompare = 5;
 
-/// The chosen fit and the index of its report; no fit if none is accepted.
+/// The chosen fit and the index of its report in SubjectFit::reports; no fit if none is accepted.
 struct Choice {
   std::optional<SteadyFit> fit;
   SteadyProblem problem;
@@ -53,8 +54,8 @@ Choice choose_log_linear(const Subject& subject, const SubjectOptions& options,
 /// rows.
 Finding not_compared(const Subject& subject) {
   return about(subject, Severity::kWarning, "families-not-compared",
-               fmt::format("{} rows of {} are too few to compare families by AICc, which needs {} "
-                           "rows; the power law is used. Record another run",
+               fmt::format("{} rows for the {} resistance are too few to compare families by AICc, "
+                           "which needs {} rows; the power law is used. Record another run",
                            subject.points.size(), name_in(kFitSubjectNames, subject.name),
                            kFewestToCompare));
 }
@@ -63,13 +64,14 @@ Finding not_compared(const Subject& subject) {
 /// least one family was fitted.
 Finding nothing_to_choose(const Subject& subject, bool tried) {
   if (!tried) {
-    return about(subject, Severity::kError, "too-few-rows",
-                 fmt::format("{} rows are too few for the requested family; record more runs",
-                             subject.points.size()));
+    return about(
+        subject, Severity::kError, "too-few-rows",
+        fmt::format("{} rows are too few for the requested resistance family; record more runs",
+                    subject.points.size()));
   }
   return about(subject, Severity::kError, "not-converged",
-               fmt::format("no family has a converged fit of {} with more runs than parameters; "
-                           "record more runs",
+               fmt::format("no resistance family has a converged {} fit with an AICc, which needs "
+                           "three runs more than parameters; record more runs",
                            name_in(kFitSubjectNames, subject.name)));
 }
 
@@ -83,7 +85,7 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
   const bool tried = std::ranges::any_of(
       candidates, [&](const FamilyCandidate& c) { return c.problem.noise == wanted; });
   if (!chosen && !options.family.family && subject.points.size() < kFewestToCompare) {
-    // The power law has two free parameters, and no family has fewer.
+    // No family has an AICc with so few runs. The power law has as few parameters as any family.
     chosen = candidate_of(candidates, Family::kPower, wanted);
     choice.findings.push_back(not_compared(subject));
   }
@@ -109,7 +111,8 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
   return choice;
 }
 
-/// `power-law-inadequate` if another family has a significantly lower AICc.
+/// `power-law-inadequate` if the AICc of another family is lower than that of the power law by at
+/// least kTablesPlainlyBetter.
 std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wanted,
                                         const std::vector<FamilyCandidate>& candidates,
                                         Family used) {
@@ -154,9 +157,10 @@ void add_diagnostics(const Subject& subject, std::size_t report, SubjectFit& res
 std::optional<Finding> obstacle(const Subject& subject, const SubjectOptions& options,
                                 ErrorModel wanted, const SteadyFit& line) {
   if (!line.usable) {
-    return about(subject, Severity::kError, "not-converged",
-                 fmt::format("the log-linear fit of {} gives no curve ({})",
-                             name_in(kFitSubjectNames, subject.name), line.stop_reason));
+    return about(
+        subject, Severity::kError, "not-converged",
+        fmt::format("the log-linear fit of the {} resistance gives no curve ({}); check the rows",
+                    name_in(kFitSubjectNames, subject.name), line.stop_reason));
   }
   const bool by_time = options.method != Method::kLogLinear && wanted == ErrorModel::kTime;
   if (by_time && !all_timed(subject.points)) {

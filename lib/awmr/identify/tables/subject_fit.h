@@ -9,8 +9,10 @@
 
 namespace awmr {
 
+/// Result of fit_subject().
 struct SubjectFit {
-  /// Absent if the rows cannot determine the resistance law or no fit is accepted.
+  /// Absent if the rows cannot determine the resistance law (they need two different forces with
+  /// different rates) or no fit is accepted.
   std::optional<SteadyFit> chosen;
   /// Why no fit is accepted. Empty if a fit was chosen or the rows cannot determine the law.
   std::string why_not;
@@ -26,8 +28,8 @@ struct SubjectFit {
 
 /// Fits the table by all estimators and chooses one. Checks the chosen fit for outliers
 /// (`outlier`), influential rows (`influential-row`) and a better family (`power-law-inadequate`).
-/// With squared loss, excludes gross outliers before the fit: at most a tenth of the runs, but
-/// always up to one run.
+/// With squared loss and unless options.keeps_outliers, excludes gross outliers before the fit: at
+/// most a tenth of the runs, or one run if there are fewer than 20.
 SubjectFit fit_subject(Subject subject, const SubjectOptions& options);
 
 }  // namespace awmr

@@ -29,7 +29,7 @@ std::vector<TransformedParameter> coordinates_of(Family family);
 /// unchanged.
 double value_from(TransformedParameter c, double coordinate);
 Interval values_from(TransformedParameter c, const Interval& coordinate);
-/// Derivative of value_from() by the coordinate.
+/// d value_from(c, coordinate) / d coordinate.
 double jacobian_of(TransformedParameter c, double coordinate);
 
 }  // namespace awmr

@@ -6,9 +6,10 @@
 
 namespace awmr {
 
-/// Unless the user selects a family, another family replaces the power law if its AIC is lower by
-/// this value. It is twice the usual threshold of 10, because the simulation replaces every
-/// resistance by a straight line near rest, which also changes the AIC.
+/// In a log fit, unless the user selects a family, another family (or back-EMF) replaces the power
+/// law if its AIC is lower by more than this. It is twice the usual threshold of 10, because near
+/// rest the simulation replaces the resistance, except Coulomb friction, by a straight line, which
+/// also changes the AIC. Also the threshold of `power-law-inadequate` for coast-down curves.
 inline constexpr double kFamilyAicThreshold = 20.0;
 
 /// AICc of a fit with n normal residuals, their sum of squares SSE and k = free + 1 estimated

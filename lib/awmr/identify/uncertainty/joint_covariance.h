@@ -9,9 +9,10 @@
 
 namespace awmr {
 
-/// Every parameter is a function of independent blocks of numbers: the surge fit, the yaw fit, a
-/// timing error, ... The covariance of the parameters is C = G B G^T, with the blocks' covariances
-/// on the diagonal of B and the gradient of each parameter in a row of G.
+/// Every parameter is a function of estimated numbers, which form independent blocks: the
+/// coordinates of the surge fit (and ln m'), of the yaw fit, of the log fit, ... The covariance of
+/// the parameters is C = G B G^T, with the blocks' covariances on the diagonal of B and the
+/// gradient of each parameter in a row of G.
 class JointCovariance {
  public:
   /// Derivatives of one parameter by the numbers of the blocks, by the number's index over all
@@ -23,6 +24,7 @@ class JointCovariance {
   /// Sets the gradient of a parameter; replaces an earlier gradient.
   void set(ParameterId id, Gradient gradient) { gradients_[id] = std::move(gradient); }
   bool has(ParameterId id) const { return gradients_.contains(id); }
+  /// Variance of a parameter with this gradient.
   double variance(const Gradient& gradient) const;
   const Gradient& gradient(ParameterId id) const { return gradients_.at(id); }
   /// Covariance of the parameters with a gradient, in the order of ParameterId. Exactly symmetric.

@@ -23,8 +23,8 @@ struct Posterior {
   std::vector<Alternative> alternatives;
 
   bool empty() const { return alternatives.empty(); }
-  /// False if under an alternative the centre or the variance of x_i is not finite, or the degrees
-  /// of freedom are not positive.
+  /// True if x_i has a finite centre, a finite variance >= 0 and positive degrees of freedom under
+  /// every alternative.
   bool is_proper(Eigen::Index i) const;
   /// Covariance of x about its mean m = sum w_k m_k:
   ///   C = sum w_k (C_k + (m_k - m)(m_k - m)')
@@ -37,7 +37,7 @@ struct Posterior {
 /// Sets standard error, quantiles and 95 % interval (2.5 % to 97.5 % quantile) of an estimate whose
 /// value is already set. `to_value` converts number `i` of the posterior to the estimate's unit and
 /// is increasing; `slope` is its derivative at the value. If the posterior is not proper, the
-/// standard error is infinite and there is no interval.
+/// standard error is infinite and there is no interval. An empty posterior changes nothing.
 void set_uncertainty(const Posterior& posterior, Eigen::Index i, double slope,
                      const std::function<double(double)>& to_value, Estimate& estimate);
 
