@@ -24,16 +24,23 @@ ErrorModel error_of(const IdentifyOptions& options) {
   return options.noise.value_or(ErrorModel::kTime);
 }
 
-/// Residual standard deviation of the model's own surge or yaw fit of a power law under this error
-/// model, in the unit of the error; 0 if the model has no such fit.
-double scatter(const Model& model, FitSubject subject, ErrorModel error) {
+/// Residual standard deviation of the fit of the model's surge or yaw resistance under this error
+/// model, in the unit of the error. Errors (input): the model has no such fit.
+Result<double> scatter(const Model& model, FitSubject subject, ErrorModel error) {
+  const bool is_surge = subject == FitSubject::kSurge;
+  const std::string_view family = name_of(is_surge ? model.surge_family : model.yaw_family);
   for (const EstimatorReport& report : model.record.reports) {
-    if (report.subject == subject && report.noise == name_of(error) &&
-        (report.family.empty() || report.family == name_of(Family::kPower))) {
+    const std::string_view fitted = report.family.empty() ? name_of(Family::kPower) : report.family;
+    if (report.subject == subject && report.noise == name_of(error) && fitted == family &&
+        std::isfinite(report.residual_std)) {
       return report.residual_std;
     }
   }
-  return 0.0;
+  return input_error(
+      ErrorCode::kMissing, model.file + ":/estimates",
+      fmt::format("there is no fit of the {} resistance with errors on {}, whose residuals the "
+                  "simulated trials need; choose another error with {}",
+                  is_surge ? "surge" : "yaw", name_of(error), option_text("error")));
 }
 
 /// Left and right wheel forces that give a yaw moment, m, without steering. The forces are
@@ -86,13 +93,22 @@ double top_speed_mps(const Model& model) {
   return top;
 }
 
-RowNoise noise_of(const Model& model, const RecoverOptions& options) {
-  const ErrorModel error = options.error.value_or(error_of(options.identify));
+/// Errors (input): as scatter(), for tables with rows to simulate.
+Result<RowNoise> noise_of(const Model& model, const TablePlan& plan,
+                          const RecoverOptions& options) {
   constexpr double kStopWatch_s = 0.02;
-  return {.error = error,
-          .surge = scatter(model, FitSubject::kSurge, error),
-          .turning = scatter(model, FitSubject::kYaw, error),
-          .stop_time_s = kStopWatch_s};
+  RowNoise noise{.error = options.error.value_or(error_of(options.identify)),
+                 .surge = 0.0,
+                 .turning = 0.0,
+                 .stop_time_s = kStopWatch_s};
+  if (options.plan == RecoverPlan::kLog) return noise;
+  if (!plan.surge_tau_speed.empty()) {
+    AWMR_ASSIGN_OR_RETURN(noise.surge, scatter(model, FitSubject::kSurge, noise.error));
+  }
+  if (!plan.turning_steering_rad.empty() || !plan.turning_sides.empty()) {
+    AWMR_ASSIGN_OR_RETURN(noise.turning, scatter(model, FitSubject::kYaw, noise.error));
+  }
+  return noise;
 }
 
 /// Data shared by all runs.
@@ -300,10 +316,12 @@ Result<RecoverPart> recover_part(const Model& model, const RecoverOptions& given
   AWMR_ASSIGN_OR_RETURN(const Plant<double> truth, truth_of(model, options.plan));
   AWMR_RETURN_IF_ERROR(check_plan(model, truth, options));
   if (auto fault = shard_fault(shard, options.runs, "runs")) return input_errors({*fault});
+  const TablePlan tables = plan_of(model);
+  AWMR_ASSIGN_OR_RETURN(const RowNoise noise, noise_of(model, tables, options));
   const Experiment experiment{.truth = truth,
                               .vehicle = model.vehicle,
-                              .tables = plan_of(model),
-                              .noise = noise_of(model, options),
+                              .tables = tables,
+                              .noise = noise,
                               .coast_from_mps = top_speed_mps(model)};
   RecoverPart part{.all_runs = options.runs,
                    .noise_text = noise_in_words(experiment.noise, options),
