@@ -1,8 +1,10 @@
-/// Allocation: (tau_speed, tau_turn) -> (F'L, F'R, d_r). Freestanding C++14.
+/// Allocation: computes the left and right wheel forces F'L, F'R and the steering angle d_r from
+/// the surge force tau_speed and the yaw moment tau_turn. Freestanding C++14.
 ///
-/// Order of limits: tau_speed is clipped to the motors' thrust; d_r to |d_r| <= d_max, and the F'
-/// follow from the clipped d_r; each F' to [F'min, F'max]. With CombinedSplit::kRedistribute, the
-/// moment that one of the two paths cannot make goes to the other.
+/// The limits are applied in this order: tau_speed is clipped to the motors' thrust, d_r to
+/// |d_r| <= d_max, and then each F', computed with the clipped d_r, to [F'min, F'max]. With
+/// CombinedSplit::kRedistribute, the moment that the steering cannot make goes to the wheel forces,
+/// or the reverse.
 #pragma once
 
 #include "awmr/control/allocation_limits.h"
@@ -16,8 +18,9 @@ namespace awmr {
 
 namespace detail {
 
-/// The q (steering_geometry.h) that makes a yaw moment. `limited`: q was clipped. `powerless`:
-/// tau_speed is too small to steer with, and q is 0.
+/// The steering that makes a yaw moment, as q (steering_geometry.h; tan(d_r/2) with four driven
+/// wheels). `limited`: q was clipped. `powerless`: tau_speed is below steering_authority_min(), and
+/// q is 0.
 template <class T>
 struct Steering {
   T q;
@@ -25,7 +28,8 @@ struct Steering {
   Mask<T> powerless;
 };
 
-/// Computes the q that makes the moment with tau_speed: q = moment/(l_f tau_speed), |q| <= limit.
+/// Computes the q that makes the yaw moment `moment_m` with the surge force tau_speed:
+///   q = moment/(l_f tau_speed), clipped to |q| <= limit
 template <class T>
 AWMR_INLINE Steering<T> steer(const AllocationConstants<T>& c, const T& tau_speed,
                               const T& moment_m, const T& limit) {
@@ -36,7 +40,7 @@ AWMR_INLINE Steering<T> steer(const AllocationConstants<T>& c, const T& tau_spee
   return {clipped, math::is_different(clipped, q), powerless};
 }
 
-/// The steering angle d_r for q; exactly +-d_max if q was clipped to +-q_max.
+/// The steering angle d_r for q; exactly +-d_max where `at_stop` is true: q was clipped to +-q_max.
 template <class T>
 AWMR_INLINE T steering_angle_rad(const SteeringGeometry& geometry, const AllocationConstants<T>& c,
                                  const T& q, const Mask<T>& at_stop) {
@@ -81,12 +85,13 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
   const T speed = math::clamp(tau_speed, c.tau_speed_min, c.tau_speed_max);
   a.speed_limited = math::is_different(speed, tau_speed);
 
-  // Steering makes its share of the moment, up to the stop.
+  // Steering makes the fraction s of the yaw moment, or less if it reaches its stop.
   const T steered_m = split.steering_share * tau_turn_m;
   const T limit = steering_limit(c, speed);
   detail::Steering<T> steering = detail::steer(c, speed, steered_m, limit);
 
-  // The forces make the rest, including the moment lost at the stop if the split redistributes it.
+  // The wheel forces make the remaining moment. If the split redistributes, this includes the
+  // moment that the steering cannot make, at its stop or because tau_speed is too small.
   const Mask<T> leaves = split.redistributes && (steering.limited || steering.powerless);
   T moment_m = tau_turn_m - steered_m;
   if (any(leaves))
@@ -94,9 +99,10 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
   const T k = geometry.to_force_share(steering.q);
   detail::split_forces(c, speed, moment_m, k, a);
 
-  // The moment that clipped forces do not make goes back to the steering, up to its stop. Clipped
-  // forces make tau_speed = (F'L + F'R)/(2 k) and tau_diff = d (F'R - F'L)/(2 k). In
-  // q = rest/(l_f tau_speed), numerator and denominator are therefore multiplied by 2 k.
+  // If forces were clipped, the steering makes the moment that they do not make, up to its stop.
+  // Clipped forces make tau_speed = (F'L + F'R)/(2 k) and the moment tau_diff =
+  // d (F'R - F'L)/(2 k). In q = (tau_turn - tau_diff)/(l_f tau_speed), numerator and denominator
+  // are multiplied by 2 k.
   const Mask<T> returns = split.redistributes && a.force_limited && !leaves;
   if (any(returns)) {
     const T rest_m = (k + k) * tau_turn_m - c.half_track_m * (a.force.right - a.force.left);
@@ -111,8 +117,8 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
       geometry, c, steering.q, a.steering_limited && !math::is_different(limit, c.q_max));
 }
 
-/// allocate() for a yaw mode. The speed u, m/s, matters if the motors have back-EMF, which lowers
-/// the force limits. `constants`: prepared(limits).
+/// allocate() for a yaw mode. The speed u, m/s, forward positive, has an effect only if the motors
+/// have back-EMF, which lowers the force limits by k_e u. `constants` must be prepared(limits).
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits, const T& u_mps,

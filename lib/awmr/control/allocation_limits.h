@@ -1,4 +1,5 @@
-/// Limits of the actuators for the allocation, and its result. Freestanding C++14.
+/// Actuator limits that the allocation respects, and the commands that it returns. Freestanding
+/// C++14.
 #pragma once
 
 #include "awmr/control/flash.h"
@@ -19,17 +20,17 @@ struct AllocationLimits {
   T force_max;              ///< F'max of one wheel, over F_max, in (0, 1]
   T steering_max_rad;       ///< d_max, rad, in (0, pi/2): stop of the front wheels, either side
   T steering_max_tan_half;  ///< tan_half(d_max): precomputed for the chip
-  /// Action of the combined mode when one path saturates.
+  /// Reaction of the combined mode when the steering or a wheel force saturates.
   CombinedSplit split = CombinedSplit::kRedistribute;
-  /// The chip supports only kExact.
+  /// Exact equations, or those for small angles (kPaper). The chip supports only kExact.
   AllocationForm form = AllocationForm::kExact;
-  /// F'0 of every wheel, over F_max, >= 0. The allocated forces and the limits above exclude the
-  /// dead zone; with_dead_zone() adds it to the motor command.
+  /// F'0, the dead zone of every motor, over F_max, >= 0. The allocated forces and the limits above
+  /// exclude the dead zone; with_dead_zone() adds it to the motor command.
   T dead_zone = T(0.0);
-  /// k_e of every motor, s/m, >= 0 (motor_force() in model/dynamics.h): a wheel that rolls at u m/s
-  /// can make forces in [F'min - k_e u, F'max - k_e u].
+  /// k_e, the back-EMF coefficient of every motor, s/m, >= 0 (motor_force() in model/dynamics.h): a
+  /// wheel that rolls at u m/s can make forces in [F'min - k_e u, F'max - k_e u].
   T back_emf_s_per_m = T(0.0);
-  /// False: only the front wheels are driven. The chip supports only four driven wheels.
+  /// True: all four wheels are driven; false: only the front wheels. The chip supports only true.
   bool is_rear_driven = true;
 };
 
@@ -45,16 +46,16 @@ struct AllocationConstants {
   T half_track_m;        ///< d, m
   T half_track_inverse;  ///< 1/d, 1/m
   T steering_max_rad;    ///< d_max, rad
-  T q_max;               ///< q of d_max, see steering_geometry.h
+  T q_max;               ///< the steering q (steering_geometry.h) at d_r = d_max
 };
 
-/// The steering geometry of the vehicle.
 template <class T>
 SteeringGeometry geometry_of(const AllocationLimits<T>& limits) {
   return {limits.is_rear_driven, limits.form};
 }
 
-/// Computes the constants from the limits.
+/// Computes the constants from the limits. With the geometry of the chip, q_max is the stored
+/// steering_max_tan_half, so that the chip need not compute it.
 template <class T>
 AllocationConstants<T> prepared(const AllocationLimits<T>& l) {
   const SteeringGeometry geometry = geometry_of(l);
@@ -71,12 +72,14 @@ AllocationConstants<T> prepared(const AllocationLimits<T>& l) {
           on_chip ? l.steering_max_tan_half : geometry.to_q(l.steering_max_rad)};
 }
 
-/// Below this tau_speed, the front wheels push too little to turn the vehicle: d_r is 0.
+/// Below this tau_speed (dimensionless), the front wheels push too little to turn the vehicle: d_r
+/// is 0.
 template <class T>
 constexpr T steering_authority_min() {
   return T(1e-6);
 }
-/// From this tau_speed on (1/64 of the thrust of four motors), d_r can reach its stop.
+/// Smallest tau_speed (dimensionless; 1/64 of the thrust of four motors) at which d_r may reach its
+/// stop.
 template <class T>
 constexpr T steering_authority_full() {
   return T(0.0625);
@@ -103,7 +106,7 @@ struct Allocation {
   Mask<T> speed_limited;     ///< tau_speed was clipped
   Mask<T> steering_limited;  ///< d_r was clipped
   Mask<T> force_limited;     ///< an F' was clipped
-  /// Steering was requested, but tau_speed is too small to steer with.
+  /// The mode steers, but tau_speed is below steering_authority_min(), so d_r is 0.
   Mask<T> steering_powerless;
 };
 

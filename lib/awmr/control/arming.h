@@ -1,7 +1,9 @@
-/// Arming: motors turn only between an arm command and the first reason to stop. Freestanding C++14.
+/// Arming: motors can turn only between the command ARM and the first reason to stop. Freestanding
+/// C++14.
 ///
-/// The state after a reset is disarmed. ARM is refused while a sensor has a fault. Everything that
-/// ends a drive disarms and latches: STOP, a command time-out, any fault, the end of a route.
+/// The state after a reset is disarmed. ARM is refused while there is any fault other than the
+/// command time-out. STOP, a command time-out, any fault and the end of a route disarm the vehicle;
+/// it then stays disarmed until the next ARM, even if the reason ends.
 #pragma once
 
 #include <stdint.h>
@@ -22,8 +24,8 @@ enum class DisarmReason : uint8_t {
 
 struct Arming {
   DisarmReason reason = DisarmReason::kReset;
-  uint8_t fault = kFaultNone;  ///< SafetyFault bits that disarmed it
-  uint8_t cause = 0;           ///< SensorFault that disarmed it; 0: none
+  uint8_t fault = kFaultNone;  ///< SafetyFault bits that disarmed the vehicle
+  uint8_t cause = 0;           ///< SensorFault that disarmed the vehicle; 0: none
 
   bool is_armed() const { return reason == DisarmReason::kNone; }
 
@@ -38,6 +40,7 @@ struct Arming {
     cause = 0;
     return true;
   }
+  /// Disarms the vehicle. If it is already disarmed, only kStop replaces the stored reason.
   void disarm(DisarmReason why) {
     if (is_armed() || why == DisarmReason::kStop) reason = why;
   }

@@ -49,7 +49,8 @@ AWMR_INLINE uint8_t check_input(Autopilot<G, P>& a, const AutopilotInput& in) {
   return static_cast<uint8_t>(fault);
 }
 
-/// Guidance, obstacle avoidance and heading shaping. True when the route is finished.
+/// Updates the reference by guidance, obstacle avoidance and heading shaping. True when the route
+/// is finished.
 template <class G, class P>
 AWMR_INLINE bool update_reference(Autopilot<G, P>& a, const AutopilotInput& in,
                                   const Position<float>& position_m, Reference<float>& ref) {
@@ -60,7 +61,8 @@ AWMR_INLINE bool update_reference(Autopilot<G, P>& a, const AutopilotInput& in,
   return target.arrived;
 }
 
-/// Predicts the signed speed at this step by the model, for a speed sensor without a sign.
+/// Predicts the signed speed at this step by the identified model, for a speed sensor without a
+/// sign. No-op in the first step.
 template <class G, class P>
 AWMR_CALLED void predict_direction(Autopilot<G, P>& a, uint32_t now_ms) {
   if (!a.has_stepped) return;
@@ -70,7 +72,7 @@ AWMR_CALLED void predict_direction(Autopilot<G, P>& a, uint32_t now_ms) {
   predict_speed(a.direction, a.controller.surge, a.mass_inverse, a.limits.speed_max_mps, dt_s);
 }
 
-/// Corrects the predicted speed by a new reading.
+/// Corrects the predicted speed by the reading of the speed sensor, if the reading is new.
 template <class G, class P>
 AWMR_CALLED void read_speed(Autopilot<G, P>& a, const AutopilotInput& in) {
   const bool is_new = !a.direction.has_fix || in.times.speed_ms != a.direction_ms;
@@ -78,8 +80,9 @@ AWMR_CALLED void read_speed(Autopilot<G, P>& a, const AutopilotInput& in) {
   correct_speed(a.direction, {in.measured.u_mps, in.position_m, in.measured.psi_rad, is_new});
 }
 
-/// True if the heading reference and the outputs of both laws are finite. The command alone does
-/// not show a NaN reference: in steering mode the wheels are straight while the vehicle brakes.
+/// True if the heading reference and the outputs of both laws are finite. A check of the command
+/// alone would miss a heading reference of NaN: in steering mode, the wheels of a braking vehicle
+/// are straight whatever the reference is.
 inline bool is_finite(const AutopilotOutput& out) {
   const uint16_t infinity = static_cast<uint16_t>(float_math::kInfinityBits >> 16U);
   return float_math::leading_bits(out.psi_ref_rad) < infinity &&
@@ -87,8 +90,8 @@ inline bool is_finite(const AutopilotOutput& out) {
          float_math::leading_bits(out.tau_speed) < infinity;
 }
 
-/// Returns the tau_speed that acts until the next step: the output of the speed law, limited to the
-/// range of the four motors.
+/// Returns the tau_speed that acts until the next step: the requested one, limited to the range of
+/// the four motors.
 inline float acting_force(const AllocationConstants<float>& c, float tau_speed) {
   return math::clamp(tau_speed, c.tau_speed_min, c.tau_speed_max);
 }

@@ -15,7 +15,7 @@
 
 namespace awmr {
 
-/// Subtracts the estimated disturbance from the command.
+/// Disturbance observer, whose estimate is subtracted from the requested force and moment.
 struct Observer {
   Observers<float> observers;
   float sample_time_s;
@@ -34,7 +34,7 @@ struct MotorCurve {
 template <class Filter = PositionFilter<float>>
 struct Positioner {
   PositionEstimate<float, Filter> estimate{};
-  uint32_t fix_ms = 0;  ///< time of the last fix
+  uint32_t fix_ms = 0;  ///< AutopilotInput::fix_ms of the last fix
 };
 
 /// List of parts for a firmware without optional parts. A firmware with some parts defines its own
@@ -52,7 +52,7 @@ struct NoParts {
   static constexpr bool kIsDirected = true;  ///< AutopilotInput::speed_unsigned is supported
 };
 
-/// List of all parts, for either split of the combined mode.
+/// List of all parts, for a firmware with the given split of the combined mode.
 template <CombinedSplit split = CombinedSplit::kRedistribute>
 struct AllParts {
   typedef LineFollower<float> Line;
@@ -77,7 +77,7 @@ inline void enable(Observer& part, const Observers<float>& observers, float samp
 inline void disable(Observer& part) { part.is_on = false; }
 inline void reset(Observer& part) { part.is_started = false; }
 
-/// True if the part is compiled in.
+/// True if the position estimate is compiled in.
 template <class Filter>
 AWMR_INLINE bool estimates_position(const Disabled<Positioner<Filter>>&) {
   return false;
@@ -92,8 +92,10 @@ AWMR_INLINE void reset(Positioner<Filter>& part) {
   part.estimate.restart();
 }
 
-/// Returns the present position. Call it only if the input has no fault except the command
-/// time-out. The sign of `speed_mps` is the direction of travel.
+/// Returns the present position: the estimate, or position_m of the input if the part is not
+/// compiled in or position_m is not a fix. Call it only if the input has no fault except the
+/// command time-out. A measured speed without a sign gets the sign of `speed_mps`, the predicted
+/// speed.
 template <class Filter>
 AWMR_INLINE const Position<float>& position_now(const Disabled<Positioner<Filter>>&,
                                                 const AutopilotInput& in, const float&) {
@@ -114,13 +116,13 @@ AWMR_CALLED Position<float> position_now(Positioner<Filter>& part, const Autopil
   return part.estimate.step({in.position_m, age_s, is_new}, motion);
 }
 
-/// Replaces the forces by the motor commands that make them despite the dead zone.
+/// Replaces the forces by the motor commands that make these forces despite the dead zone.
 AWMR_INLINE void make_up_dead_zone(const Disabled<MotorCurve>&, SideForces<float>&) {}
 inline void make_up_dead_zone(const MotorCurve& part, SideForces<float>& force) {
   force = with_dead_zone(force, part.dead_zone);
 }
 
-/// Allocation limits at the speed u, m/s.
+/// Allocation limits at the speed u, m/s: reduced by the back-EMF if MotorCurve is compiled in.
 AWMR_INLINE const AllocationConstants<float>& limits_at(const Disabled<MotorCurve>&,
                                                         const AllocationConstants<float>& c,
                                                         const float& /*u_mps*/) {
@@ -132,7 +134,7 @@ inline AllocationConstants<float> limits_at(const MotorCurve& part,
   return at_speed(c, part.back_emf_s_per_m, u_mps);
 }
 
-/// Replaces the forces by the motor drives that make them despite the back-EMF.
+/// Replaces the forces by the motor drives that make these forces despite the back-EMF.
 AWMR_INLINE void make_up_back_emf(const Disabled<MotorCurve>&, const AllocationConstants<float>&,
                                   const Measurement<float>&, SideForces<float>&) {}
 inline void make_up_back_emf(const MotorCurve& part, const AllocationConstants<float>& c,
@@ -140,7 +142,8 @@ inline void make_up_back_emf(const MotorCurve& part, const AllocationConstants<f
   force = motor_drives(force, c, part.back_emf_s_per_m, m.u_mps, m.r_radps);
 }
 
-/// Allocates the laws' outputs, with the observer's compensation if it is compiled in and on.
+/// Allocates the outputs of the control laws, minus the estimated disturbance if the observer is
+/// compiled in and on.
 template <class G>
 AWMR_INLINE void allocate_observed(Disabled<Observer>&, const PreparedController<float, G>& c,
                                    const Measurement<float>& m,

@@ -28,11 +28,13 @@ struct AutopilotInput {
 /// Output of one step.
 struct AutopilotOutput {
   Allocation<float> command;  ///< for the motors and the servo
-  float tau_speed;            ///< requested by the speed law, dimensionless; 0 on a fault
-  float tau_turn_m;           ///< requested by the heading law, m; 0 on a fault
-  float psi_ref_rad;          ///< heading reference
-  bool arrived;               ///< the route is finished
-  uint8_t fault;              ///< SafetyFault bits; not 0: `command` is the safe command
+  /// Output of the speed law minus the estimated disturbance, dimensionless, before any limit; 0 on
+  /// a fault.
+  float tau_speed;
+  float tau_turn_m;   ///< the same of the heading law: yaw moment over F_max, m; 0 on a fault
+  float psi_ref_rad;  ///< heading reference of the law, rad; 0 on a fault
+  bool arrived;       ///< the route is finished
+  uint8_t fault;      ///< SafetyFault bits; not 0: `command` is the safe command
 };
 
 }  // namespace awmr

@@ -35,7 +35,8 @@ inline void set_motors(const RestBlock* rest, MotorCurve& part) {
   part.back_emf_s_per_m = rest != 0 ? flash_float(&rest->back_emf_s_per_m) : 0.0F;
 }
 
-/// Enables the observer that was tuned with the gains, if it is compiled in.
+/// Enables the observer with the parameters `tuned`. No-op if the observer is not compiled in or
+/// `tuned` is null.
 inline void set_observer(const ObserverBlock*, Disabled<Observer>&) {}
 inline void set_observer(const ObserverBlock* tuned, Observer& part) {
   if (tuned == 0) return;
@@ -46,10 +47,10 @@ inline void set_observer(const ObserverBlock* tuned, Observer& part) {
          read.sample_time_s);
 }
 
-/// Reads the parameters and compares their check sum with `crc`, the one in the emitted header. If
-/// the two differ, returns false, and every step then gives the safe command. `rest` has the
-/// parameters of RestingTable and MotorCurve, `observer` those of Observer. On an AVR, the block,
-/// the lines, `rest` and `observer` are in flash.
+/// Reads the parameters and compares their check sum with `crc`, the check sum in the emitted
+/// header. If the two differ, returns false, and every step then gives the safe command. `rest` has
+/// the parameters of RestingTable and MotorCurve, `observer` those of Observer; null: none. On an
+/// AVR, all pointers are addresses in flash.
 template <class G, class P>
 bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
                      const ResistanceLine* surge_lines, size_t surge_count,

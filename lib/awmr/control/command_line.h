@@ -11,8 +11,9 @@
 /// - A line is executed only if it is a complete command; incomplete lines are refused.
 /// - Exception: STOP acts at its last letter, anywhere in a line, even in one that is too long or
 ///   damaged.
-/// - A frame is new if its sequence number is 1 to 127 above that of the last new frame, modulo 256.
-///   A repeated frame is refused, so that a stuck transmitter cannot prevent the command time-out.
+/// - A frame is new if its sequence number is 1 to 127 above that of the last new frame, modulo
+///   256. Other frames are refused, so that a stuck transmitter, which repeats a frame, cannot
+///   prevent the command time-out.
 /// - After the first frame, text other than STOP is refused until the next reset, because noise on
 ///   a radio link can look like a short text but not like a frame.
 #pragma once
@@ -30,7 +31,7 @@ enum class CommandWord : uint8_t {
   kKeep,     ///< KEEP, or K: continue; resets the command time-out
   kGo,       ///< G: start the route or the run
   kNext,     ///< N: skip this run
-  kYes,      ///< Y: yes
+  kYes,      ///< Y: the answer yes
   kHeading,  ///< H: heading, deg
   kSpeed,    ///< S: speed, m/s
   kMode,     ///< M: YawMode, 0, 1 or 2
@@ -57,7 +58,8 @@ class CommandReader {
   bool is_framed = false;  ///< the last line was a frame
   uint8_t sequence = 0;    ///< sequence number of the last new frame
 
-  /// Result for the line that this character completes; kNone within a line.
+  /// Processes a character. Returns the result for the line that this character completes, and
+  /// kTaken at the last letter of STOP; kNone within a line and for an empty line.
   CommandVerdict take(char c) {
     if (is_stop_at(c)) {
       // Skip the rest of this line.
@@ -143,7 +145,8 @@ class CommandReader {
     const uint8_t ahead = static_cast<uint8_t>(number - sequence);
     if (has_sequence_ && (ahead == 0 || ahead > 127)) return CommandVerdict::kRepeated;
     const CommandVerdict verdict = read_text(text + 1);
-    // The sequence number is consumed for every command, so that a repetition is refused.
+    // The sequence number also counts as used if the command is unknown: a repetition of the frame
+    // is then refused.
     sequence = static_cast<uint8_t>(number);
     has_sequence_ = true;
     return verdict;
@@ -202,7 +205,8 @@ class CommandReader {
     return CommandWord::kNone;
   }
 
-  /// Reads [+-]d*[.d*] up to the end, with at most eight digits.
+  /// Reads [+-]d*[.d*] up to the end of the text, with one to eight digits. False: the text has
+  /// another form.
   static bool read_number(const char* text, float& number) {
     const bool is_negative = *text == '-';
     if (*text == '-' || *text == '+') ++text;

@@ -12,7 +12,7 @@
 
 namespace awmr {
 
-/// Outputs of the laws, and the resulting commands.
+/// Requested force and moment, and the commands that the allocation makes of them.
 template <class T>
 struct Command {
   T tau_speed;               ///< dimensionless, forward positive: requested, before any limit
@@ -31,7 +31,8 @@ struct AllocationRequest {
   Allocation<T>& command;
 };
 
-/// Momentum, resistance and coupling force by the controller's model, for the observers.
+/// Momentum, resistance and coupling force m' r v at the measured motion, by the controller's
+/// model, for the observers.
 template <class T, class G>
 ObservedMotion<T> observed_motion(const PreparedController<T, G>& c, const Measurement<T>& m) {
   const ControlConstants<T>& k = c.constants;
@@ -40,7 +41,8 @@ ObservedMotion<T> observed_motion(const PreparedController<T, G>& c, const Measu
           k.mass_norm * m.r_radps * m.v_mps};
 }
 
-/// Generalised forces that allocated wheel forces and steering angle make.
+/// Generalised forces (41) that the allocated wheel forces and steering angle make. `c` has the
+/// geometry of the vehicle.
 template <class T>
 GeneralisedForces<T> allocated_forces(const SteeringGeometry& geometry,
                                       const AllocationConstants<T>& c, const Allocation<T>& a) {
@@ -49,8 +51,8 @@ GeneralisedForces<T> allocated_forces(const SteeringGeometry& geometry,
              : front_wheel_forces(c.front_axle_m, c.half_track_m, a.force, a.steering_rad);
 }
 
-/// Allocates the request minus the estimated disturbance, and passes the limited command to the
-/// observers. `observers` null: no observers.
+/// Subtracts the estimated disturbance from the request, allocates it, and passes the limited
+/// command to the observers. `observers` null: no observers, and `state` is not used.
 template <class T, class G>
 AWMR_INLINE void allocate_compensated(const Observers<T>* observers,
                                       const PreparedController<T, G>& c, const Measurement<T>& m,
@@ -73,7 +75,8 @@ AWMR_INLINE void allocate_compensated(const Observers<T>* observers,
   }
 }
 
-/// Both laws and the allocation for one sample, without observers.
+/// Computes both laws and the allocation for one sample, without observers and without
+/// compensation of the motors' dead zone.
 template <class T, class G>
 Command<T> control_step(const Controller<T, G>& c, YawMode mode, const Measurement<T>& m,
                         const Reference<T>& ref) {

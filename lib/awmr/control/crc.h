@@ -18,7 +18,8 @@ inline uint32_t crc32_with(uint32_t crc, uint8_t byte) {
   return crc;
 }
 
-/// CRC-16 of CCITT with start 0xFFFF: "123456789" gives 0x29B1. For command frames and log rows.
+/// CRC-16 of CCITT with the start 0xFFFF (no reflection, no final inversion), for command frames
+/// and log rows: "123456789" gives 0x29B1.
 constexpr uint16_t kCrc16Start = 0xFFFFU;
 
 inline uint16_t crc16_with(uint16_t crc, uint8_t byte) {

@@ -36,9 +36,10 @@ constexpr float kSettled_s = 1.0F;
 /// Direction of travel between two steps. All zero: at rest, direction unknown.
 template <class T>
 struct DirectedSpeed {
-  T predicted_mps;    ///< u predicted by the model, signed; 0: direction unknown
+  T predicted_mps;    ///< u predicted by the model, signed; |u| <= kDirected_mps: direction unknown
   T tau_speed;        ///< command applied since the last step, dimensionless
-  T along_m;          ///< displacement along the heading since the last braking, m
+  T along_m;          ///< displacement along the heading, m, since the last braking, standstill or
+                      ///< verification of the direction
   T settled_s;        ///< time since the last braking, s, counted up to kSettled_s
   Position<T> fix_m;  ///< position of the last reading, valid if has_fix
   bool has_fix;       ///< at least one reading since the start
@@ -83,7 +84,9 @@ void predict_speed(DirectedSpeed<T>& d, const G& surge, const T& mass_inverse,
   }
 }
 
-/// Corrects the prediction with a new reading.
+/// Corrects the predicted speed with a reading; no effect if the reading is not new. If the
+/// displacement verifies the direction, the predicted speed becomes the measured one with this
+/// direction.
 template <class T>
 void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
   if (!reading.is_new) return;
@@ -102,8 +105,8 @@ void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
     return;
   }
   T size = detail::magnitude(d.predicted_mps);
-  // Driving: the average with the sensor. Coasting or braking: only a smaller reading is used,
-  // because a larger one can belong to the other direction.
+  // While a force drives the vehicle: average of prediction and reading. While it coasts or brakes:
+  // only a smaller reading is used, because a larger one can belong to the other direction.
   if (d.predicted_mps * d.tau_speed > T(0.0)) {
     size = T(0.5) * (size + speed);
   } else if (size > speed) {

@@ -1,5 +1,5 @@
-/// Disturbance observer for surge and yaw. The estimated disturbance, which the control laws omit,
-/// is subtracted from their outputs. Freestanding C++14.
+/// Disturbance observer for surge and yaw. The control laws omit the unknown disturbance; its
+/// estimate is subtracted from their outputs. Freestanding C++14.
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -35,8 +35,8 @@ ObserverState<T> start_observer(const DisturbanceObserver<T>& observer, const T&
   return {-observer.bandwidth_radps * momentum};
 }
 
-/// d_hat, in the unit of tau. At the limit, z is set to the value that gives the limit, so that
-/// d_hat decreases immediately when d does.
+/// The estimated disturbance d_hat, in the unit of tau. At the limit, the state z is set to the
+/// value that gives the limit, so that d_hat decreases immediately when d does.
 template <class T>
 T estimate(const DisturbanceObserver<T>& observer, const T& momentum, ObserverState<T>& state) {
   const T share = observer.bandwidth_radps * momentum;
@@ -45,15 +45,15 @@ T estimate(const DisturbanceObserver<T>& observer, const T& momentum, ObserverSt
   return d;
 }
 
-/// Advances the state by one sample. `known` is tau - g(w) with the limited tau. With the requested
-/// tau, a saturated actuator would look like a disturbance and d_hat would wind up.
+/// Advances the state by one sample. `known` is tau - g(w). With the requested tau instead of the
+/// limited one, a saturated actuator would look like a disturbance and d_hat would wind up.
 template <class T>
 void advance(const DisturbanceObserver<T>& observer, const T& d_hat, const T& known,
              const T& sample_time_s, ObserverState<T>& state) {
   state.z -= sample_time_s * observer.bandwidth_radps * (known + d_hat);
 }
 
-/// The observers of both axes.
+/// The observers of surge and yaw.
 template <class T>
 struct Observers {
   DisturbanceObserver<T> yaw;    ///< limit in m
@@ -70,7 +70,7 @@ struct ObserversState {
   ObserverState<T> surge;
 };
 
-/// A generalised force and moment, over F_max.
+/// Surge force and yaw moment, over F_max.
 template <class T>
 struct AxisForces {
   T surge;  ///< dimensionless, forward positive
@@ -85,13 +85,14 @@ struct ObservedMotion {
   T coupling;                ///< m' r v
 };
 
+/// The states for which both d_hat are 0.
 template <class T>
 ObserversState<T> start_observers(const Observers<T>& observers, const AxisForces<T>& momentum) {
   return {start_observer(observers.yaw, momentum.yaw_m),
           start_observer(observers.surge, momentum.surge)};
 }
 
-/// d_hat of both axes.
+/// The estimated disturbances d_hat in surge and yaw.
 template <class T>
 AWMR_CALLED AxisForces<T> estimate(const Observers<T>& observers, const ObservedMotion<T>& motion,
                                    ObserversState<T>& state) {

@@ -7,13 +7,14 @@
 
 namespace awmr {
 
-/// Resistance that a law adds to its command, at the speed w:
+/// Resistance that a control law adds to its command, at the speed w (u in the speed law, r in the
+/// heading law):
 ///   g(w)                                        for |w| >= rest_speed
 ///   g(rest_speed) sat((w + intent)/rest_speed)  below
 /// The second line is for resistances that jump at rest (feed_forward() in resistance.h). Below
 /// rest_speed the sign of w is noise, so the force has the direction in which the vehicle is to
-/// move. `intent` is the speed error, or S in the heading law. Noise of w cancels in w + intent: in
-/// the heading law the sum is psi_d_dot + lambda e.
+/// move. `intent` is the speed error e_u, or the sliding variable S in the heading law. Noise of w
+/// cancels in w + intent: in the heading law, for example, the sum is psi_d_dot + lambda e.
 template <class T>
 T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
   using math::abs;

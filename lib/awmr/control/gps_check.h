@@ -22,9 +22,10 @@ class GpsCheck {
  public:
   constexpr explicit GpsCheck(const Limits& limits = Limits()) : limits_(limits) {}
 
+  /// Starts the time-out of the first sentence.
   void begin(uint32_t now_ms) { sentence_ms_ = now_ms; }
 
-  /// Processes a sentence without a usable fix.
+  /// Processes a sentence without a usable fix; sentences other than RMC are ignored.
   void take_unusable(GpsSentence kind, uint32_t now_ms) {
     if (kind == GpsSentence::kOther) return;
     sentence_ms_ = now_ms;
@@ -67,7 +68,7 @@ class GpsCheck {
       motion_.restart();
       has_fix_ = false;
     }
-    // Disarmed and at rest: clear a fault for the next arming.
+    // Disarmed and at rest: clear a fault of the motion check, so that the vehicle can be armed.
     if (!at.is_armed && fix.speed_mps < kStandstill_mps) motion_.restart();
     elsewhere_ = 0;
     if (has_fix_) motion_.take(motion, at);
@@ -84,6 +85,7 @@ class GpsCheck {
     }
   }
 
+  /// Reason why the GPS is not used; kSensorGood: it is used.
   SensorFault fault(uint32_t now_ms) const {
     if (detail::elapsed_ms(now_ms, sentence_ms_) > limits_.timeout_ms) return kGpsSilent;
     if (!has_fix_ || detail::elapsed_ms(now_ms, fix_.time_ms) > limits_.timeout_ms) {
@@ -102,8 +104,8 @@ class GpsCheck {
   static constexpr int32_t kGpsLag_ms = 500;
   /// Displacement between two fixes that counts as noise, m.
   static constexpr float kNoise_m = 3.0F;
-  /// Number of consecutive fixes at another place, or with an earlier time, before they are
-  /// accepted.
+  /// Number of consecutive fixes out of reach, of which the last is accepted while disarmed. Also
+  /// the number of fixes after UTC ran back, of which the last is accepted.
   static constexpr uint8_t kRelocations = 10;
 
   Limits limits_;
@@ -138,7 +140,8 @@ class GpsCheck {
             1e-3F * static_cast<float>(detail::elapsed_ms(to.time_ms, fix_.time_ms)), to.speed_mps};
   }
 
-  /// True if the displacement is at most
+  /// True if the vehicle can have moved from the last accepted fix to this one: the displacement is
+  /// at most
   ///   kNoise_m + (1.5 u + 1 m/s) t,   u: the larger speed of both fixes, t: the time between them
   bool is_reachable(const Place& to, const GpsMotion& motion) const {
     float speed_mps = to.speed_mps > fix_.speed_mps ? to.speed_mps : fix_.speed_mps;

@@ -5,12 +5,13 @@
 ///   1. Convert the numbers of the sentence.
 ///   2. Accept or reject the fix.
 ///   3. Publish position and speed, for the autopilot in this step.
-///   4. Compare the displacement since the last fix with the command.
-///   5. Compare the displacement with the speed.
-///   6. Compare the displacement with the heading.
-///   7. Compare the heading with the commanded one.
-/// If the next sentence ends earlier, a fix in step 1 or 2 is dropped, and the work of steps 3 to 7
-/// is done at once. With a long sample time (spreads_work false), one step does all of the work.
+///   4. Compare the displacement since the last fix with the commanded direction of travel.
+///   5. Compare this displacement with the measured speed.
+///   6. Compare this displacement with the heading.
+///   7. Compare the heading with the commanded heading.
+/// If the next fix arrives before step 2 is done, the current one is dropped. If it arrives later,
+/// the remaining work on the current one is done at once. With a long sample time (spreads_work
+/// false), one step does all of the work.
 #pragma once
 
 #include "awmr/control/gps_check.h"
@@ -59,8 +60,8 @@ class GpsReceiver {
   RmcReader reader_;
   GpsCheck<Limits> check_;
   RmcNumbers numbers_ = {};           // numbers of the current sentence
-  GpsPlace believed_ = {0.0F, 0.0F};  // its position, valid from Work::kAccept on
-  GpsFix fix_ = {};                   // its fix, valid from Work::kAccept on
+  GpsPlace believed_ = {0.0F, 0.0F};  // position of this sentence, valid from Work::kAccept on
+  GpsFix fix_ = {};                   // fix of this sentence, valid from Work::kAccept on
   uint32_t sentence_ms_ = 0;
   Work due_ = Work::kNone;
   bool has_fix_ = false;

@@ -13,14 +13,14 @@ struct GpsFix {
   uint32_t utc_ms;  ///< time of day, ms since midnight UTC
   int32_t lat_e7;   ///< 1e-7 deg, north positive
   int32_t lon_e7;   ///< 1e-7 deg, east positive
-  float speed_mps;  ///< over ground, >= 0, without a sign
+  float speed_mps;  ///< speed over ground, >= 0, without a sign
 };
 
 enum class GpsSentence : uint8_t {
   kOther,    ///< complete, but not RMC
   kDamaged,  ///< check sum missing or wrong, a field empty or malformed
-  kNoFix,    ///< complete, but the receiver has no fix or only estimates it
-  kFix
+  kNoFix,    ///< complete, but the receiver has no fix, or a fix that is not measured
+  kFix       ///< complete, with a usable fix
 };
 
 /// A GPS speed below this, m/s, can be the noise of a receiver at rest.
@@ -31,9 +31,9 @@ constexpr uint32_t kDay_ms = 1000 * kDay_s;
 /// Units of GpsFix::lat_e7 in a degree.
 constexpr uint32_t kDegree_e7 = 10000000;
 
-/// A number of a sentence. `whole`: the digits before the decimal point. `part`: those behind it,
-/// in units of the last place that is kept. Hours or degrees, minutes and seconds are combined with
-/// base 60: the digits 1234 of 12 deg 34 min become 12 * 60 + 34.
+/// A number of a sentence. `whole`: the digits before the decimal point. `part`: the digits after
+/// it, in units of the last decimal place that is kept. Hours or degrees, minutes and seconds are
+/// combined with base 60: the digits 1234 of 12 deg 34 min become 12 * 60 + 34.
 struct RmcNumber {
   uint32_t whole;
   uint32_t part;
@@ -74,7 +74,7 @@ inline int32_t degrees_e7(const RmcNumber& minutes, bool is_negative) {
 
 }  // namespace detail
 
-/// Converts a sentence for which RmcReader::kind() is kFix.
+/// Converts the numbers of a sentence for which RmcReader::kind() is kFix to a fix.
 inline GpsFix to_fix(const RmcNumbers& numbers) {
   return {numbers.utc.whole * 1000U + numbers.utc.part,
           detail::degrees_e7(numbers.lat, numbers.is_south),
@@ -95,7 +95,7 @@ class RmcReader {
     } else if (!is_open_ || ++length_ > kLengthMax) {
       is_open_ = false;
     } else if (number_ != 0 && digit <= 9) {
-      // Digits are the most frequent characters and need none of the tests below.
+      // Digits in a number field are the most frequent characters and need none of the tests below.
       add_to_sum(c);
       take_digit(digit);
     } else if (c == '\n' || c == '\r') {
@@ -152,7 +152,8 @@ class RmcReader {
   uint8_t size_ = 0;         // characters of this field
   uint8_t digits_left_ = 0;  // digits still expected before the point
   uint8_t places_left_ = 0;  // digits still kept behind the point
-  uint8_t sixties_ = 0;      // bit 0: next digit begins a group below 60; bit 1: the one after
+  uint8_t sixties_ = 0;      // bit 0: the next digit is the first of two that are below 60, such as
+                             // minutes; bit 1: the same for the digit after it; and so on
   uint8_t length_ = 0;
   uint8_t sum_ = 0;
   SumPlace sum_place_ = kSummed;
@@ -261,8 +262,8 @@ class RmcReader {
     }
     append(digit, is_sixties);
   }
-  /// value = 10 value + digit, or 6 value + digit: by shifts, because a product takes an AVR 50
-  /// cycles.
+  /// value = 10 value + digit, or 6 value + digit if `is_sixties`. By shifts, because a product
+  /// takes an AVR 50 cycles.
   void append(uint8_t digit, bool is_sixties) {
     const uint32_t twice = value_ << 1U;
     uint32_t rest = twice << 1U;

@@ -9,12 +9,13 @@ namespace awmr {
 /// Time without a change of the raw word after which a sensor counts as frozen, ms: 50 readings at
 /// 100 Hz. In a working sensor, noise changes the word by 5 counts RMS (gyroscope) or 4 (compass).
 constexpr uint32_t kFrozen_ms = 500;
-/// Longest time without a new field of the compass, ms.
+/// Longest time without a new magnetic field reading of the compass, ms.
 constexpr uint32_t kCompassSilent_ms = 500;
 
 /// Detects a raw word that does not change for kFrozen_ms.
 class FrozenCheck {
  public:
+  /// Processes the raw reading `words` of the time `now_ms`.
   AWMR_CALLED_MEMBER void take(uint32_t words, uint32_t now_ms) {
     if (!has_words_ || words != words_) {
       words_ = words;
@@ -39,8 +40,8 @@ class FrozenCheck {
 /// for a vehicle at rest.
 class GyroCalibration {
  public:
-  /// Processes the word of one sample. `heading_rad` is the compass heading, valid if
-  /// `has_heading`.
+  /// Processes the gyroscope's raw reading `word` of one sample; one count is `rate_per_word`
+  /// rad/s. `heading_rad` is the compass heading, valid if `has_heading`.
   void take(int16_t word, float rate_per_word, bool has_heading, float heading_rad) {
     if (is_done_) return;
     if (count_ == 0) start(word);
@@ -67,7 +68,7 @@ class GyroCalibration {
   /// Largest difference of two readings at rest: six times the peak-to-peak noise of an MPU9250
   /// with its 41 Hz filter.
   static constexpr float kSpreadMax_radps = 0.05F;
-  /// Largest zero-rate offset, 5.2 deg/s; the data sheet specifies 5 deg/s.
+  /// Largest accepted zero-rate offset, 5.2 deg/s; the data sheet specifies at most 5 deg/s.
   static constexpr float kBiasMax_radps = 0.09F;
   /// Maximum change of the compass heading from first to last reading, rad: 3.4 deg, of which 1.4
   /// deg can be noise.
@@ -102,7 +103,7 @@ class GyroCalibration {
 /// e = wrap(compass - heading) is T times the difference of the two sensors' yaw rates.
 class StepCheck {
  public:
-  /// Processes one innovation, `dt_s` after the last.
+  /// Processes one innovation e, `dt_s` seconds after the last.
   void take(float innovation_rad, float dt_s) {
     slow_rad_ += dt_s * kSlow_per_s * (innovation_rad - slow_rad_);
     const float slow_rad = detail::size_of(slow_rad_);
@@ -186,14 +187,15 @@ class HeadingCheck {
     gyro_ms_ = now_ms;
     field_ms_ = now_ms;
   }
-  /// Processes a word of the gyroscope.
+  /// Processes a raw reading of the gyroscope.
   void take_gyro(int16_t word, uint32_t now_ms) {
     gyro_ms_ = now_ms;
     gyro_.take(static_cast<uint16_t>(word), now_ms);
   }
-  /// Result of reading the range register back: true if it still holds the range that was set.
+  /// Processes the value read back from the gyroscope's range register. `is_right`: the register
+  /// still holds the range that was set at the start.
   void take_range(bool is_right) { is_range_wrong_ = !is_right; }
-  /// Processes a new field of the compass, as three raw words.
+  /// Processes a new magnetic field reading of the compass, as three raw words.
   void take_field(int16_t x, int16_t y, int16_t z, uint32_t now_ms) {
     field_ms_ = now_ms;
     // The three words of 16 bits are hashed to one of 32 bits. Simultaneous changes of two words
@@ -204,6 +206,7 @@ class HeadingCheck {
         (low | high << 16U) ^ static_cast<uint32_t>(static_cast<uint16_t>(z)) * 0x9E3779B1UL,
         now_ms);
   }
+  /// The first fault in the order of the tests below; kSensorGood: none.
   SensorFault fault(uint32_t now_ms) const {
     if (detail::elapsed_ms(now_ms, gyro_ms_) > kGyroSilent_ms) return kGyroSilent;
     if (is_range_wrong_) return kGyroRange;

@@ -13,11 +13,11 @@ namespace awmr {
 /// Weights of the quadratic cost, each given as the largest acceptable value (Bryson's rule).
 template <class T>
 struct LqiWeights {
-  T heading_rad;     ///< e_max, rad, > 0: of the heading error e
-  T yaw_rate_radps;  ///< r_max, rad/s, > 0: of the rate e_dot of e
-  T integral_rad_s;  ///< z_max, rad s, > 0: of the integral z of e
-  /// tau_max, m, > 0: of the requested yaw moment beyond the resistance and the reference's
-  /// acceleration.
+  T heading_rad;     ///< e_max, rad, > 0: largest heading error e
+  T yaw_rate_radps;  ///< r_max, rad/s, > 0: largest rate e_dot of e
+  T integral_rad_s;  ///< z_max, rad s, > 0: largest integral z of e
+  /// tau_max, m, > 0: largest yaw moment over F_max in addition to those for the yaw resistance and
+  /// for the acceleration of the reference.
   T tau_turn_m;
 };
 
@@ -35,7 +35,7 @@ struct LqiGains {
 /// is linear at every yaw rate:
 ///   z_dot = e,  e_ddot = -w
 /// The optimal w = a1 e + a2 e_dot + a0 z usually requires the stabilising solution of the
-/// algebraic Riccati equation. For this chain of integrators it follows by spectral factorisation
+/// algebraic Riccati equation. For this chain of integrators, w follows by spectral factorisation
 /// (Kalman, When is a linear control system optimal?, 1964): p(s) = s^3 + a2 s^2 + a1 s + a0 is the
 /// stable factor of
 ///   p(s) p(-s) = -s^6 + w_max^2 (s^4/r_max^2 - s^2/e_max^2 + 1/z_max^2)
@@ -107,7 +107,7 @@ T lqi_law(const G& yaw, const T& inertia_norm, const LqiGains<T>& gains, const M
          inertia_norm * (ref.psi_accel_radps2 + w);
 }
 
-/// Two moments whose relative difference is below this count as equal, because of rounding.
+/// Largest relative difference of two moments that counts as rounding: the moments are then equal.
 template <class T>
 constexpr T same_moment_share() {
   return T(1e-6);

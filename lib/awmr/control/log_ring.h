@@ -11,18 +11,18 @@
 
 namespace awmr {
 
-/// Rows per block of a card.
+/// Rows of 64 bytes per card block of 512 bytes.
 constexpr uint8_t kLogBlockRows = 8;
 
 /// A ring of kBlocks blocks of 512 bytes. At one row per sample time, no row is lost while the card
-/// blocks for up to (kBlocks - 1) * 8 sample times: 0.56 s with 8 blocks and 10 ms.
+/// is busy for up to (kBlocks - 1) * 8 sample times: 0.56 s with 8 blocks and 10 ms.
 template <uint8_t kBlocks>
 class LogRing {
   static_assert(kBlocks >= 2 && kBlocks <= 16 && (kBlocks & (kBlocks - 1)) == 0,
-                "2, 4, 8 or 16 blocks: counters of a byte run through all rows");
+                "kBlocks must be 2, 4, 8 or 16: one-byte counters number the rows, modulo 256");
 
  public:
-  /// Returns the row to fill in, or 0 if the ring is full. Then the row is lost, and its sequence
+  /// Returns the row to fill in. If the ring is full, returns 0: this row is lost, and its sequence
   /// number is missing in the log.
   LogRow* begin_row() {
     const uint32_t sequence = sequence_++;

@@ -2,7 +2,7 @@
 /// trials/awl.h reads it. Freestanding C++11.
 ///
 ///     file = headers and rows in any order, the first header before the first row
-///     header = kLogHeaderBytes: kLogMagic, JSON padded with spaces, CRC-32 of all before it
+///     header = kLogHeaderBytes: kLogMagic, JSON padded with spaces, CRC-32 of the bytes before it
 ///     row = sync, CRC-16 of all bytes after it, sequence, the columns as the header lists them
 ///
 /// All numbers are little-endian.
@@ -31,7 +31,7 @@ constexpr size_t kLogRowCovered = 4;
 struct LogRow {
   uint8_t sync[2];
   uint16_t crc;       ///< written by seal(), outside of the control step
-  uint32_t sequence;  ///< number of this row since the start; lost rows are counted
+  uint32_t sequence;  ///< number of this row since the start, from 0; lost rows are counted too
   uint32_t step;      ///< time since the start, in sample times
   float force_left;   ///< command of each left wheel, over F_max
   float force_right;  ///< command of each right wheel, over F_max
@@ -45,12 +45,14 @@ struct LogRow {
   float u_ref_mps;
   float tau_speed;
   float tau_turn_m;
-  uint8_t mode;    ///< a YawMode
-  uint8_t fault;   ///< SafetyFault bits
-  uint8_t limits;  ///< 1, 2, 4: tau_speed, d_r, a force was limited; 8: too little force to steer;
-                   ///< upper four bits: SensorFault (sensor_fault.h) modulo 16
-  uint8_t
-      reset_cause;  ///< bits 0 to 4: from the board, the same in every row; bit 7: SensorFault >= 16
+  uint8_t mode;   ///< a YawMode
+  uint8_t fault;  ///< SafetyFault bits
+  /// Sum of 1: tau_speed was limited; 2: d_r was limited; 4: a wheel force was limited; 8: too
+  /// little force to steer. Upper four bits: SensorFault (sensor_fault.h) modulo 16.
+  uint8_t limits;
+  /// Bits 0 to 4: cause of the last reset, from the board, the same in every row; bit 7: the
+  /// SensorFault is >= 16.
+  uint8_t reset_cause;
 };
 static_assert(sizeof(LogRow) == 64, "eight rows fill a block of 512 bytes");
 

@@ -13,11 +13,12 @@ struct GpsContext {
   float psi_rad;      ///< heading
   float psi_ref_rad;  ///< commanded heading
   int8_t direction;   ///< sign of the commanded speed: 1, 0 or -1
-  /// False: a position out of reach is accepted after ten fixes (2 s at 5 Hz). True: never.
+  /// False: of ten consecutive fixes that the vehicle cannot have reached (2 s at 5 Hz), the tenth
+  /// is accepted. True: none is.
   bool is_armed;
 };
 
-/// Motion from one fix to the next.
+/// Displacement in the world frame and time from one fix to the next.
 struct GpsMotion {
   float dx_m, dy_m, time_s;
   float speed_mps;  ///< measured speed at the second fix, without a sign
@@ -35,8 +36,8 @@ class MotionCheck {
 
   /// Does the next comparison for the last motion. The first call compares the displacement with
   /// the command, the second with the speed, the third with the heading. The fourth compares the
-  /// heading with the commanded one. False: all are done. Limits: GpsLimits, or its names as
-  /// constants.
+  /// heading with the commanded one. Returns false once all four are done. `Limits`: GpsLimits, or
+  /// a type with the same names as constants.
   template <class Limits>
   bool check(const Limits& limits) {
     switch (due_) {
@@ -67,6 +68,7 @@ class MotionCheck {
     return due_ != Due::kNothing;
   }
 
+  /// The first fault detected since restart(); kSensorGood: none.
   SensorFault fault() const { return fault_; }
 
   /// Clears the fault and all sums, for the next arming.
@@ -83,9 +85,11 @@ class MotionCheck {
   /// Next comparison of the last motion.
   enum class Due : uint8_t { kNothing, kDirection, kSpeed, kTrack, kCourse };
 
-  /// Maximum time between two fixes whose motion is evaluated, s.
+  /// Maximum time between two fixes whose motion is evaluated, s. The first fix after a longer gap
+  /// calls restart(), which also clears the fault.
   static constexpr float kGap_s = 4.0F;
-  /// Length of the windows in which displacement and speed are compared, m and s.
+  /// A window in which displacement and measured speed are compared ends after this distance
+  /// travelled, m, or after this time, s.
   static constexpr float kWindow_m = 12.0F;
   static constexpr float kWindow_s = 90.0F;
   /// Displacement along the heading that is permitted in addition to 1.25 times the distance
@@ -94,11 +98,12 @@ class MotionCheck {
   ///   1.5 sqrt(2 (1 - exp(-t/60 s))) m RMS
   /// which is 1.9 m in a window of kWindow_s.
   static constexpr float kFurther_m = 6.0F;
-  /// Displacement that is required in a window, as a share of the distance travelled. A healthy
-  /// vehicle reaches 0.39 even with a compass error of 30 deg and three times the RMS drift above.
+  /// Displacement that is required in a window, as a fraction of the distance travelled (integral
+  /// of the measured speed). A healthy vehicle reaches 0.39 even with a compass error of 30 deg and
+  /// three times the RMS drift above.
   static constexpr float kNotFurther = 0.25F;
-  /// At u_ref = 0, longest window whose displacement is compared, s. In a longer one, the noise of
-  /// the unsigned speed alone would add up to kWindow_m.
+  /// At u_ref = 0, longest window in which displacement and measured speed are compared, s. In a
+  /// longer one, the noise of the unsigned speed alone can add up to kWindow_m.
   static constexpr float kMoving_s = kWindow_m / kStandstill_mps;
   /// Maximum integral of the measured speed while the position does not change, m. While a motion
   /// is commanded, a speed of at most kStandstill_mps counts as kStill_mps, m/s. So a receiver that
@@ -116,12 +121,14 @@ class MotionCheck {
   /// at least 3.5 times the RMS drift of the fixes (kFurther_m), also at low speed.
   static constexpr float kTrack_m = 10.0F;
   static constexpr float kTrack_mps = 0.1F;
-  /// Maximum |left|/|ahead|: tan 30 deg. It exceeds the sideslip of a vehicle plus the change of
-  /// heading in 0.5 s of latency in a turn of kStraight_rad per fix.
+  /// Maximum |left|/|ahead| of the displacement: tan 30 deg. This angle exceeds the sideslip of a
+  /// vehicle plus the change of heading in 0.5 s of latency in a turn of kStraight_rad per fix.
   static constexpr float kOffTrack = 0.577F;
-  /// Largest change of the heading between two fixes whose displacement is compared, rad.
+  /// Largest change of the heading between two fixes whose displacement is compared with the
+  /// heading, rad.
   static constexpr float kStraight_rad = 0.1F;
-  /// A change of the commanded heading between two fixes by more than this, rad, is a new command.
+  /// A change of the commanded heading between two fixes by more than this, rad, is a new command:
+  /// the integral of the heading error (GpsLimits::off_course_mrad) then restarts at 0.
   static constexpr float kNewCourse_rad = 0.35F;
   /// After a change of the commanded direction, the vehicle may brake for this time, s, while its
   /// speed increases by at most kFaster_mps.
@@ -130,22 +137,22 @@ class MotionCheck {
 
   GpsMotion motion_ = {0.0F, 0.0F, 0.0F, 0.0F};  // valid if a comparison is due
   GpsContext context_ = {0.0F, 0.0F, 0, false};
-  float window_s_ = 0.0F;         // time since the window began
-  float window_m_ = 0.0F;         // displacement along the heading in the window
-  float window_left_m_ = 0.0F;    // displacement to the left in the window's straight motions
-  float travelled_m_ = 0.0F;      // integral of the speed in the window
-  float same_m_ = 0.0F;           // integral of the speed while the position did not change
-  float against_m_ = 0.0F;        // displacement against the commanded direction
-  float ahead_m_ = 0.0F;          // displacement of the last motion along the heading
-  float track_s_ = 0.0F;          // time of the straight motions since the last track comparison
-  float track_ahead_m_ = 0.0F;    // displacement of these motions along the heading
-  float track_left_m_ = 0.0F;     // displacement of these motions to the left of the heading
-  float track_psi_rad_ = 0.0F;    // heading at the previous fix
-  float off_course_mrad_ = 0.0F;  // integral of the heading difference over the distance
-  float course_rad_ = 0.0F;       // commanded heading at the previous fix
-  float braking_s_ = 0.0F;        // time left for braking
-  float braked_from_mps_ = 0.0F;  // speed when the commanded direction changed
-  int8_t direction_ = 0;
+  float window_s_ = 0.0F;            // time since the window began
+  float window_m_ = 0.0F;            // displacement along the heading in the window
+  float window_left_m_ = 0.0F;       // displacement to the left in the window's straight motions
+  float travelled_m_ = 0.0F;         // integral of the speed in the window
+  float same_m_ = 0.0F;              // integral of the speed while the position did not change
+  float against_m_ = 0.0F;           // displacement against the commanded direction
+  float ahead_m_ = 0.0F;             // displacement of the last motion along the heading
+  float track_s_ = 0.0F;             // time of the straight motions since the last track comparison
+  float track_ahead_m_ = 0.0F;       // displacement of these motions along the heading
+  float track_left_m_ = 0.0F;        // displacement of these motions to the left of the heading
+  float track_psi_rad_ = 0.0F;       // heading at the previous fix
+  float off_course_mrad_ = 0.0F;     // integral of the heading error beyond e0 over the distance
+  float course_rad_ = 0.0F;          // commanded heading at the previous fix
+  float braking_s_ = 0.0F;           // time left for braking
+  float braked_from_mps_ = 0.0F;     // speed when the commanded direction changed
+  int8_t direction_ = 0;             // GpsContext::direction of the last motion
   uint8_t against_fixes_ = 0;        // consecutive fixes beyond kAgainst_m
   SensorFault fault_ = kSensorGood;  // the first detected fault
   bool is_straight_ = false;         // the last motion was straight; valid from Due::kTrack on
@@ -187,7 +194,8 @@ class MotionCheck {
     if (same_m_ > kSame_m) note(kGpsInconsistent);
   }
 
-  /// Restarts the sums when the commanded direction changes. A moving vehicle gets time to brake.
+  /// Restarts the sums of displacements when the commanded direction changes. A moving vehicle then
+  /// gets kBraking_s to brake.
   void follow_command() {
     const bool is_moving = motion_.speed_mps > kStandstill_mps;
     if (context_.direction != direction_) {
@@ -202,7 +210,8 @@ class MotionCheck {
     if (!is_moving || motion_.speed_mps > braked_from_mps_ + kFaster_mps) braking_s_ = 0.0F;
   }
 
-  /// Checks the displacement against the commanded direction.
+  /// Compares the displacement with the commanded direction: detects a vehicle that moves the
+  /// opposite way.
   AWMR_CALLED_MEMBER void compare_with_direction() {
     follow_command();
     ahead_m_ = displacement_ahead_m(motion_.dx_m, motion_.dy_m, context_.psi_rad);

@@ -8,7 +8,7 @@ namespace awmr {
 template <class Part>
 struct Disabled {};
 
-/// `Part`, or Disabled<Part>.
+/// `Part` if kIsIn is true, else Disabled<Part>.
 template <bool kIsIn, class Part>
 struct Optional {
   typedef Part type;

@@ -35,9 +35,9 @@ struct ParameterBlock {
 /// vanish at rest. All members have 32 bits.
 struct RestBlock {
   float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
-  float surge_rest_speed;  ///< RestingTable::rest_speed of g1, m/s
+  float surge_rest_speed;  ///< RestingTable::rest_speed of g1, m/s; 0: no jump at rest
   float surge_at_rest;     ///< RestingTable::at_rest of g1
-  float yaw_rest_speed;    ///< RestingTable::rest_speed of g3, rad/s
+  float yaw_rest_speed;    ///< RestingTable::rest_speed of g3, rad/s; 0: no jump at rest
   float yaw_at_rest;       ///< RestingTable::at_rest of g3, m
   float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
 };
@@ -71,8 +71,8 @@ inline uint32_t crc32_of_parameters(const ParameterBlock* block, const Resistanc
   return ~(observer != 0 ? crc32_of_flash(crc, observer, sizeof *observer) : crc);
 }
 
-/// Sets the resistance in the form that is compiled in: a table, or the power law with alpha and
-/// beta.
+/// Sets a resistance from the parameters in flash, in the form that is compiled in: as a table, or
+/// as the power law with alpha and beta.
 inline void set_resistance(const TableShape* shape, const float* /*alpha_beta*/,
                            const ResistanceLine* lines, ResistanceTable& table) {
   TableShape read;
@@ -94,7 +94,7 @@ inline void set_resistance(const TableShape* shape, const float* alpha_beta,
   set_resistance(shape, alpha_beta, lines, law.table);
 }
 
-/// Sets the resistance at rest, if it is compiled in.
+/// Sets rest_speed and at_rest from the parameters in flash, if RestingTable is compiled in.
 template <class G>
 void set_rest(const float* /*rest_speed*/, const float* /*at_rest*/, G&) {}
 inline void set_rest(const float* rest_speed, const float* at_rest, RestingTable& law) {

@@ -1,8 +1,8 @@
 /// Estimate of the vehicle's position from GPS fixes, which have noise and latency, and from the
 /// measured motion. Freestanding C++14.
 ///
-/// Between fixes, the position p follows the dead-reckoned displacement D. c is the correction that
-/// has been applied so far:
+/// Between fixes, the position p follows the dead-reckoned displacement D (heading psi, surge speed
+/// u, sway speed v, sample time T_s). c is the correction that has been applied so far:
 ///   p  = D + c
 ///   D += T_s (u cos psi - v sin psi, u sin psi + v cos psi)
 /// A fix z that was taken `age_s` ago is compared with D at that time, from a ring buffer of past
@@ -14,9 +14,9 @@
 /// The first fix sets P = R, so that the first fixes are averaged. c follows o linearly within
 /// kSpread_s, so that the direction to a near waypoint does not jump with each fix.
 ///
-/// A fix is rejected if |nu| > kInnovationMax sqrt(P + R). After kRejections in a row, the estimate
-/// is assumed wrong and reset to the last fix; `resets` counts this. Before, gps_check.h has
-/// rejected each fix that the vehicle cannot have reached.
+/// A fix is rejected if |nu| > kInnovationMax sqrt(P + R). After kRejections rejected fixes in a
+/// row, the estimate is assumed wrong and reset to the last fix; `resets` counts these resets. In
+/// the firmware, gps_check.h has already refused each fix that the vehicle cannot have reached.
 #pragma once
 
 #include <stdint.h>
@@ -29,7 +29,7 @@
 
 namespace awmr {
 
-/// A position from a receiver.
+/// A fix: a position that a GPS receiver has measured.
 template <class T>
 struct PositionFix {
   Position<T> position_m;
@@ -37,7 +37,7 @@ struct PositionFix {
   bool is_new;  ///< no step has processed the fix yet
 };
 
-/// Estimate of the position. Filter: PositionFilter, or a type with the same names as constants.
+/// Estimates the position. `Filter`: PositionFilter, or a type with the same names as constants.
 template <class T, class Filter = PositionFilter<T>>
 class PositionEstimate {
  public:
@@ -48,8 +48,9 @@ class PositionEstimate {
   /// Restarts the estimate with the fix of the next step.
   void restart() { is_started_ = false; }
 
-  /// Returns the present position. Call step() once per step, with the last fix and the measured
-  /// motion. A fix that arrives while the previous one is being processed is not used.
+  /// Returns the present position; in the first step and after restart(), that of the fix. Call
+  /// step() once per step, with the last fix and the measured motion. A fix that arrives while the
+  /// previous one is being processed is not used.
   Position<T> step(const PositionFix<T>& fix, const Measurement<T>& m) {
     if (!is_started_) {
       start(fix.position_m);
@@ -67,8 +68,8 @@ class PositionEstimate {
 
  private:
   /// If the work is spread over several steps, the processing of a fix starts kWait steps after its
-  /// arrival, because GpsReceiver uses these steps for its checks. The processing takes kWorkSteps
-  /// steps.
+  /// arrival, because GpsReceiver uses the steps before for its checks. The processing takes
+  /// kWorkSteps steps.
   static constexpr uint8_t kWorkSteps = 4;
   static constexpr uint8_t kWait = 5;
 
@@ -83,7 +84,7 @@ class PositionEstimate {
   Position<T> ring_m_[kTravelled] = {};  // D every `stride` steps
   T age_s_ = T(0.0);        // age of z; after locate(): fraction of the way from newer_ to older
   T variance_m2_ = T(0.0);  // P: variance of o
-  uint16_t steps_ = 0;      // steps since the last fix
+  uint16_t steps_ = 0;      // steps since the last processed fix
   uint8_t since_ = 0;       // steps since the newest element of the ring
   uint8_t newest_ = 0;      // index of the newest element
   uint8_t newer_ = 0;       // index of the first element newer than z

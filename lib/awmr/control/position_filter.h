@@ -8,7 +8,7 @@ namespace awmr {
 /// q, m^2/s: rate at which the variance of the dead-reckoned position grows because of heading and
 /// speed errors.
 constexpr double kDrift_m2ps = 0.05;
-/// Time over which a correction is spread, s.
+/// Time over which a correction by a fix is spread, so that the position does not jump, s.
 constexpr double kSpread_s = 0.08;
 /// Smallest standard deviation of a fix, m, for a receiver without noise.
 constexpr double kFixNoiseMin_m = 0.01;
@@ -29,7 +29,7 @@ struct PositionFilter {
   T drift_m2;            ///< q T_s, growth of P in a step
   T stride_inverse;      ///< 1/stride
   T spread_inverse;      ///< 1/spread_steps
-  uint8_t stride;        ///< steps between two positions of the ring
+  uint8_t stride;        ///< steps between two stored positions of the ring buffer
   uint8_t spread_steps;  ///< steps over which a correction is spread
   bool spreads_work;     ///< the work on a fix is spread over several steps, as in GpsLimits
 };

@@ -3,8 +3,9 @@
 /// A cell contains the speeds with the same float exponent and leading m mantissa bits: 2^m cells
 /// per octave, evenly spaced in the octave. So the relative error is similar at all speeds, and the
 /// index is a shift of the float's bits, without a logarithm. Within a cell, the table gives the
-/// chord between the ends of the curve, stored as a line: one multiplication and one addition.
-/// Below the first cell it gives the chord to the origin. The table is odd: g(-w) = -g(w).
+/// straight line (chord) through the curve's points at both ends of the cell: one multiplication
+/// and one addition. Below the first cell, it gives the line from the origin to the start of this
+/// cell. The table is odd: g(-w) = -g(w).
 #pragma once
 
 #include <stdint.h>
@@ -14,8 +15,8 @@
 
 namespace awmr {
 
-/// g(w) = offset + slope w for the speeds w >= 0 of a cell. The struct has no padding, so that a
-/// check sum can cover it.
+/// The resistance g(w) = offset + slope w at the speeds w >= 0 of a cell. The struct has no
+/// padding, so that a check sum can cover it.
 struct ResistanceLine {
   float slope;   ///< in the unit of g over that of w
   float offset;  ///< in the unit of g
@@ -23,14 +24,14 @@ struct ResistanceLine {
 
 /// A view of a table: the lines are not owned.
 struct ResistanceTable {
-  /// In flash on an AVR. The first line is the chord to the origin, below all cells; then one line
-  /// per cell, ascending.
+  /// In flash on an AVR. The first line is for the speeds below all cells, with offset 0; then
+  /// comes one line per cell, in ascending order of speed.
   const ResistanceLine* lines;
   uint16_t count;         ///< number of lines, >= 2
   uint16_t first;         ///< cell_of() of the speeds in the first cell, lines[1]
   uint8_t mantissa_bits;  ///< m, in [0, 7]
 
-  /// The exponent and the leading mantissa bits of a speed, as one number.
+  /// Number of the cell of a speed: exponent and leading mantissa bits of the float, without sign.
   static uint16_t cell_of(float speed, uint8_t mantissa_bits) {
     return static_cast<uint16_t>(float_math::leading_bits(speed) >> (7U - mantissa_bits));
   }
@@ -47,8 +48,8 @@ struct ResistanceTable {
   }
 };
 
-/// A resistance that jumps at rest: at speeds from `rest_speed` on it is a table, at lower speeds
-/// the chord from the origin to g(rest_speed).
+/// A resistance that jumps at rest, such as Coulomb friction. At speeds of at least `rest_speed` it
+/// is a table, at lower speeds the straight line from the origin to g(rest_speed).
 struct RestingTable {
   ResistanceTable table;
   float rest_speed;  ///< m/s or rad/s; 0: the resistance does not jump
@@ -57,7 +58,7 @@ struct RestingTable {
   float operator()(const float& speed) const {
     return is_resting(speed) ? at_rest / rest_speed * speed : table(speed);
   }
-  /// False for NaN.
+  /// True if |speed| < rest_speed; false for NaN.
   bool is_resting(float speed) const {
     return float_math::magnitude_bits(speed) < bits_of(rest_speed);
   }

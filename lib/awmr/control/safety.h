@@ -14,7 +14,7 @@ namespace awmr {
 struct InputTimes {
   uint32_t now_ms;      ///< the time of this step
   uint32_t heading_ms;  ///< when heading and yaw rate were measured
-  uint32_t speed_ms;    ///< when speed and position were measured
+  uint32_t speed_ms;    ///< when speed and, if used, position were measured
   uint32_t command_ms;  ///< time of the last reference
 };
 
@@ -47,7 +47,7 @@ AWMR_SHARED inline uint8_t check_magnitude_at_edge(float value, float largest) {
   if (magnitude >= float_math::kInfinityBits) return kFaultNotFinite;
   return magnitude > bits_of(largest) ? kFaultRange : kFaultNone;
 }
-/// As check_magnitude_at_edge(). Usually the leading 16 bits decide, which is faster.
+/// Same result as check_magnitude_at_edge(). Usually the leading 16 bits decide, which is faster.
 inline uint8_t check_magnitude(float value, float largest) {
   if (float_math::leading_bits(value) < float_math::leading_bits(largest)) return kFaultNone;
   return check_magnitude_at_edge(value, largest);
@@ -61,8 +61,8 @@ inline bool is_older(uint32_t now_ms, uint32_t then_ms, uint32_t limit_ms) {
 
 }  // namespace detail
 
-/// Largest yaw rate (rad/s) and acceleration (rad/s^2, m/s^2) of a reference. The value is far
-/// above that of any vehicle and only prevents overflow of products.
+/// Largest yaw rate (rad/s), yaw acceleration (rad/s^2) and acceleration (m/s^2) of a reference.
+/// The value is far above that of any vehicle and only prevents overflow of products.
 constexpr float kReferenceMax = 1e6F;
 
 /// Faults of a measurement: a value that is not finite or out of range.
@@ -108,7 +108,8 @@ inline bool is_between(float value, float lo, float hi) {
 }
 }  // namespace detail
 
-/// Final check before the motors: true if every command is within its limits; false for NaN.
+/// Final check of a command before it is given to motors and servo: true if both wheel forces and
+/// the steering angle are within their limits; false for NaN.
 inline bool is_within_limits(const AllocationConstants<float>& c, const Allocation<float>& a) {
   return detail::is_between(a.force.left, c.force_min, c.force_max) &&
          detail::is_between(a.force.right, c.force_min, c.force_max) &&

@@ -9,7 +9,8 @@
 ///   kGpsJump                    a fix is within reach again; or the vehicle is disarmed and ten
 ///                               fixes in a row were out of reach: the tenth is accepted
 ///   kGpsInconsistent, kWrongWay, kOffHeading, kOffCourse
-///                               the vehicle is disarmed and at rest
+///                               the vehicle is disarmed and at rest; or a fix arrives after a gap
+///                               of more than 4 s
 #pragma once
 
 #include <stdint.h>
@@ -31,7 +32,7 @@ enum SensorFault : uint8_t {
   kGpsSilent = 8,          ///< no complete sentence within GpsLimits::timeout_ms
   kGpsNoFix = 9,           ///< the receiver reports no fix, or fields are empty or damaged
   kGpsRepeated = 10,       ///< sentences arrive, but their UTC does not change
-  kGpsOld = 11,            ///< fixes arrive kGpsLag_ms late, or their UTC time runs backward
+  kGpsOld = 11,            ///< fixes arrive over kGpsLag_ms later than at best, or UTC ran backward
   kGpsJump = 12,           ///< a displacement that the vehicle cannot achieve
   kGpsInconsistent = 13,   ///< speed and displacement contradict each other
   kWrongWay = 14,          ///< the vehicle moves against the commanded direction
@@ -46,6 +47,7 @@ namespace detail {
 /// Milliseconds from `then_ms` to `now_ms`, also across the clock's wrap.
 inline uint32_t elapsed_ms(uint32_t now_ms, uint32_t then_ms) { return now_ms - then_ms; }
 
+/// Magnitude |value|.
 inline float size_of(float value) { return float_of(float_math::magnitude_bits(value)); }
 
 }  // namespace detail

@@ -1,4 +1,5 @@
-/// The speed law: thrust from the speed error, with the resistance fed forward. Freestanding C++14.
+/// The speed law: computes the thrust from the speed error, with the resistance fed forward.
+/// Freestanding C++14.
 #pragma once
 
 #include "awmr/control/controller.h"
@@ -9,7 +10,7 @@
 namespace awmr {
 
 /// Fastest speed whose resistance the speed law feeds forward, m/s: max(0, u_d + eps_s) if the
-/// vehicle drives forward, else min(0, u_d - eps_s). Rarely called.
+/// vehicle drives forward, else min(0, u_d - eps_s). Called only if the vehicle is faster.
 template <class T>
 AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& epsilon_mps) {
   using math::select;
@@ -23,8 +24,8 @@ AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& eps
 ///   w = u                     else
 /// Do not feed forward g1(u) at every speed: a vehicle that rolls down a slope faster than u_d
 /// would get tau_speed = g1(u) - m' mu_s, which accelerates it further where g1(u) > m' mu_s.
-/// `wanted`: the correction before saturation. `limit`: its largest magnitude. `epsilon()` returns
-/// eps_s.
+/// `wanted`: the correction m' mu_s e_u/eps_s before saturation. `limit`: its largest magnitude,
+/// m' mu_s. `epsilon()` returns eps_s.
 template <class T, class Epsilon>
 AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T& error_mps,
                                 const T& wanted, const T& limit, const Epsilon& epsilon) {
@@ -42,8 +43,8 @@ AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T
 /// The speed law, dimensionless:
 ///   tau_speed = g1(w) + m' (u_d_dot - r v) + m' mu_s sat(e_u/eps_s),   e_u = u_d - u
 ///                                                                    [paper (97)-(102), corrected]
-/// Corrected: (100)-(102) are printed without u_d_dot, which (99) has; the disturbance drops out as
-/// in the heading law. The paper has g1(u) at every speed; w is fed_forward_speed().
+/// Corrected: (100)-(102) are printed without u_d_dot, which (99) has; the unknown disturbance is
+/// omitted as in the heading law. The paper has g1(u) at every speed; w is fed_forward_speed().
 template <class T, class G>
 AWMR_INLINE T speed_law(const PreparedController<T, G>& c, const Measurement<T>& m,
                         const Reference<T>& ref) {

@@ -28,7 +28,7 @@ struct SteeringGeometry {
   bool is_rear_driven;  ///< false: only the front wheels are driven
   AllocationForm form;  ///< kPaper: for small angles
 
-  /// n: straight ahead, with the force F' at each driven wheel, tau_speed = n F'.
+  /// Number n of driven wheels: straight ahead, with the force F' at each, tau_speed = n F'.
   constexpr double driven_wheels() const { return is_rear_driven ? 4.0 : 2.0; }
 
   template <class T>

@@ -30,14 +30,14 @@ inline float wrap_angle(float angle_rad) {
   return float_math::wrapped(angle_rad);
 }
 
-/// wrap_angle() as a called function, for guidance, where the cost of a call does not matter.
+/// wrap_angle() that is not inlined, for guidance, where the time of a call does not matter.
 template <class T>
 AWMR_CALLED T called_wrap_angle(const T& angle_rad) {
   return wrap_angle(angle_rad);
 }
 
-/// An angle that is integrated over many steps. A float is wrapped, because full turns would use up
-/// its resolution.
+/// Prepares an angle that is integrated over many steps for the next one. A float is wrapped to
+/// (-pi, pi], because full turns would use up its resolution; other types are returned unchanged.
 template <class T>
 T without_turns(const T& angle_rad) {
   return angle_rad;

@@ -5,23 +5,24 @@
 
 namespace awmr {
 
+/// Modes of yaw control, by the actuators that make the yaw moment.
 enum class YawMode {
   kDifferential,  ///< by the difference of right and left forces, wheels straight
   kSteering,      ///< by the steered front wheels, right and left forces equal
   kCombined,      ///< half of the moment by each method
 };
 
-/// Action of the combined mode when one of its two paths, steering or wheel forces, saturates.
+/// Reaction of the combined mode when steering or wheel forces reach their limit (saturate).
 enum class CombinedSplit {
   kFixedHalf,     ///< as in the paper: half of tau_turn each way, regardless of limits
-  kRedistribute,  ///< the part that the saturated path cannot make goes to the other path
+  kRedistribute,  ///< the wheel forces make the moment that the steering cannot, and the reverse
 };
 
-/// Split of a yaw moment between its two paths, steering and wheel forces.
+/// Split of the yaw moment between steering and wheel forces.
 template <class T>
 struct YawSplit {
-  T steering_share;       ///< s: 0 differential, 1/2 combined, 1 steering
-  Mask<T> redistributes;  ///< the moment that one path cannot make goes to the other
+  T steering_share;  ///< s, fraction that steering makes: 0 differential, 1/2 combined, 1 steering
+  Mask<T> redistributes;  ///< combined mode with CombinedSplit::kRedistribute
 };
 
 /// Returns the split of a mode.

@@ -1,5 +1,5 @@
-/// Line guidance with a law that is selected at run time, for the simulator. A firmware has one law
-/// compiled in.
+/// Line following with a guidance law that is selected at run time, for the simulator. A firmware
+/// has one law compiled in.
 #pragma once
 
 #include <variant>
@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// LineFollower with any law.
+/// LineFollower (guidance/parts.h) with any of the guidance laws in LineLaws.
 template <class T>
 struct AnyLineFollower {
   struct Route {

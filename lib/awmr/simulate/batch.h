@@ -1,8 +1,9 @@
-/// Simulates many runs of a scenario at once, one run per lane of the processor's vector registers,
-/// in the closed loop of simulate() (closed_loop.h).
+/// Simulates any number of runs of a scenario, up to sixteen at once: one run per lane (element) of
+/// the processor's vector registers, in the closed loop of simulate() (closed_loop.h).
 ///
 /// The results of a run do not depend on the other runs or on its lane. They equal those of
-/// simulate() except for rounding, because powers and angles are computed by other polynomials.
+/// simulate() except for rounding, because powers and angles are computed by polynomials of this
+/// project instead of the C library.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +24,8 @@ struct DrawnNoise {
   std::vector<double> heading, yaw_rate, speed;  ///< empty: the sensor has no noise
 };
 
-/// Draws the numbers that the sensors of a run with this seed and sample would draw: up to 24 bytes
-/// per time sample.
+/// Draws the numbers that the sensors of a run with this seed and `sample` (number of the draw)
+/// would draw. They take up to 24 bytes per sample time of the run.
 DrawnNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std::uint64_t seed,
                              std::uint64_t sample);
 
@@ -40,7 +41,7 @@ struct BatchRun {
   const DrawnNoise* noise = nullptr;
 };
 
-/// Instruction set that simulates the batches, and how it rounds.
+/// Instruction set with which batches are simulated, and how it rounds.
 struct BatchArithmetic {
   /// "avx512", "avx2", "neon"; "scalar": by simulate(), one run at a time.
   std::string_view instructions;
@@ -49,7 +50,7 @@ struct BatchArithmetic {
   std::string_view rounding;
 };
 
-/// Number of runs in a full block.
+/// Largest number of runs that are simulated at once (a block).
 inline constexpr std::size_t kBatchRuns = 16;
 
 /// The widest instruction set of this processor, or, for tests, the one in the environment variable
@@ -58,8 +59,9 @@ Result<BatchArithmetic> batch_arithmetic();
 /// `rounding` of batch_arithmetic(); empty on an error.
 std::string batch_rounding();
 
-/// The metrics of each run, in order. Errors (input) of a run: as failure_of(). Precondition: all
-/// controllers have the same driven wheels, split and form of the allocation.
+/// Simulates the runs and returns the metrics of each, in order. Errors (input) of a run: as
+/// failure_of(). Precondition: the controllers of all runs have the same driven wheels, combined
+/// split and form of the allocation.
 std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
                                             const Scenario& scenario, double sample_time_s,
                                             const BatchArithmetic& arithmetic);

@@ -34,8 +34,8 @@ inline constexpr LoopSteps<double> kOneRunSteps = {
 struct LoopOptions {
   double sample_time_s = 0.01;
   std::size_t samples = 0;           ///< index of the last sample; the first has the index 0
-  std::optional<int> substeps = {};  ///< RK4 steps per sample; absent: substeps_for() each vehicle
-  bool keeps_rows = false;           ///< the runs of take_run() have rows
+  std::optional<int> substeps = {};  ///< RK4 steps per sample; absent: by substeps_for()
+  bool keeps_rows = false;           ///< rows are stored; take_run() returns them
   bool has_metrics = false;          ///< metrics() may be called
 };
 
@@ -43,15 +43,16 @@ struct LoopOptions {
 template <class Row>
 class ClosedLoop {
  public:
-  /// Precondition: 1 to kRunsOf<Row> runs; scenario and steps outlive the loop.
+  /// `steps`: the functions that compute a sample for this type of row. Precondition: 1 to
+  /// kRunsOf<Row> runs; scenario and steps outlive the loop.
   ClosedLoop(std::span<const BatchRun> runs, const Scenario& scenario, const LoopSteps<Row>& steps,
              const LoopOptions& options);
 
-  /// Simulates all runs to their ends.
+  /// Simulates all runs to their ends. Call it once.
   void drive();
 
-  /// Result of a run, with its rows if they are kept. RunEnd::kFailed: a number was not finite, or
-  /// no step was short enough.
+  /// Result of a run after drive(), with its rows if they are kept; the rows are moved out.
+  /// RunEnd::kFailed: a number was not finite, or no integration step was short enough.
   Run take_run(std::size_t run);
   /// Metrics of a run; empty if the run failed.
   std::optional<Metrics> metrics(std::size_t run) const;
@@ -65,7 +66,7 @@ class ClosedLoop {
     Sensed sensed = {};
     std::optional<ScenarioGuidance> guidance = {};  ///< set after the first measurement
     PathRow path = {};                              ///< guidance columns of the present sample
-    /// Reason why the current sample ends the run; kDuration: it does not.
+    /// Reason, other than the duration, why the current sample ends the run; kDuration: none.
     RunEnd ending = RunEnd::kDuration;
     std::vector<RunRow> rows = {};
     std::optional<Ending> end = {};  ///< absent: the run continues, or it failed
@@ -143,7 +144,8 @@ void ClosedLoop<Row>::set_up_vehicle(const BatchRun& run, std::size_t index) {
 }
 
 /// True if the guidance must be computed run by run. False in open loop. Also false for heading
-/// steps without avoidance, shaping and rows: their reference is the same for all runs.
+/// steps if there is no avoidance or shaping and no rows are kept: all runs then have the same
+/// reference.
 template <class Row>
 bool ClosedLoop<Row>::has_own_guidance() const {
   if (runs_->control.is_open_loop) return false;
@@ -160,7 +162,7 @@ void ClosedLoop<Row>::for_active(const Body& body) {
   }
 }
 
-/// Computes the measurements for the controllers.
+/// Computes the measurements of sample k, at t_s, for the controllers.
 template <class Row>
 void ClosedLoop<Row>::sense(std::size_t k, double t_s) {
   const State<Row>& state = runs_->vehicles.state;
@@ -176,7 +178,7 @@ void ClosedLoop<Row>::sense(std::size_t k, double t_s) {
   });
 }
 
-/// Computes the references of the control laws.
+/// Computes the references of the control laws in sample k, at t_s.
 template <class Row>
 void ClosedLoop<Row>::guide(std::size_t k, double t_s) {
   if (has_own_guidance()) {
@@ -253,8 +255,8 @@ RunRow ClosedLoop<Row>::row_of(std::size_t run, double t_s) const {
                                                         run_of<double>(v.plant.rear_driven, run))};
 }
 
-/// Appends a row to each active run. A row that is not finite ends the run; it is kept only as the
-/// first row, k = 0.
+/// Appends the row of sample k to each active run. A row with a number that is not finite ends the
+/// run; such a row is kept only if it is the first, k = 0.
 template <class Row>
 void ClosedLoop<Row>::keep_rows(std::size_t k, double t_s) {
   if (!options_.keeps_rows) return;

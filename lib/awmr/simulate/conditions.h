@@ -1,4 +1,5 @@
-/// Conditions for tuning that are not in the model: sensor noise, latency and motor lag.
+/// Conditions of the closed loop for tuning that are not in the model: sensor noise, latency and
+/// motor lag.
 #pragma once
 
 #include "awmr/model/vehicle.h"
@@ -7,8 +8,9 @@
 namespace awmr {
 
 /// Noise and latency of the sensors, and lag of the motors. vehicle.json can give these values
-/// (`noise`, `noise_correlation_s`, `latency_s`, `motor`). The defaults are those of a compass, a
-/// MEMS gyroscope and a coarse encoder with 20 ms of latency, and of small brushed motors.
+/// (`noise`, `noise_correlation_s`, `latency_s`, `motor`). Noise: standard deviation. The defaults
+/// are typical of a compass, a MEMS gyroscope and a coarse encoder with 20 ms of latency each, and
+/// of small brushed motors.
 struct LoopConditions {
   double heading_noise_deg = 1.0;
   double yaw_rate_noise_degps = 0.5;
@@ -25,7 +27,8 @@ struct LoopConditions {
 /// The conditions that vehicle.json gives, with the defaults above for missing ones.
 LoopConditions conditions_of(const Vehicle& vehicle);
 
-/// The scenario with these conditions. Sensors or actuators that the scenario has are kept.
+/// The scenario with sensors and actuators by these conditions. If the scenario already has
+/// sensors, all of them are kept; likewise actuators.
 Scenario under(const LoopConditions& conditions, Scenario scenario);
 
 }  // namespace awmr

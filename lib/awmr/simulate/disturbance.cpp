@@ -7,7 +7,8 @@
 namespace awmr {
 namespace {
 
-/// Number of the first stream (RunSeed::random) of each axis, with room for 200 terms per axis.
+/// Number of the first random stream (RunSeed::random) of each axis, with room for 200 terms in
+/// surge and in sway.
 constexpr std::uint64_t kSurgeUse = 100;
 constexpr std::uint64_t kSwayUse = 300;
 constexpr std::uint64_t kYawUse = 500;

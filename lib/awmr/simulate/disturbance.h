@@ -13,16 +13,17 @@ namespace awmr {
 /// disturbance term) has its own stream.
 struct RunSeed {
   std::uint64_t seed = 0;
-  std::uint64_t sample = 0;
-  /// The stream of the use with the number `use` < 1024. Its number has bit 62 set and so differs
-  /// from the streams of compare/, which are small numbers or have bit 63 set.
+  std::uint64_t sample = 0;  ///< number of the draw
+  /// The random stream for the use number `use` < 1024. The number of the stream has bit 62 set.
+  /// So it differs from those of compare/, which are small numbers or have bit 63 set.
   Random random(std::uint64_t use) const {
     return {seed, (std::uint64_t{1} << 62U) | (sample << 10U) | use};
   }
 };
 
-/// The seed of a run from the scenario's seed, the seed of the simulation and the number of the
-/// draw. The constant is 2^64 over the golden ratio, so that adjacent seeds give distant results.
+/// The seed of a run from the scenario's seed, the seed of the simulation and the number `sample`
+/// of the draw. The constant is 2^64 over the golden ratio, so that adjacent seeds give distant
+/// results.
 inline RunSeed run_seed(std::uint64_t scenario_seed, std::uint64_t seed, std::uint64_t sample) {
   return {scenario_seed + seed * 0x9E3779B97F4A7C15U, sample};
 }
@@ -34,7 +35,8 @@ class DisturbanceSource {
   /// the following numbers.
   DisturbanceSource(const std::vector<DisturbanceTerm>& terms, double sample_time_s,
                     const RunSeed& seed, std::uint64_t first_use);
-  /// The value over the sample that begins at `t_s`; call it once per sample, in order.
+  /// The sum over the sample that begins at `t_s`, in the unit of the terms. Call it once per
+  /// sample, in order.
   double next(double t_s);
 
  private:
@@ -48,7 +50,7 @@ class DisturbanceSource {
   std::vector<Running> terms_;
 };
 
-/// The disturbance of a run along all axes.
+/// The disturbance of a run in surge, sway and yaw.
 class RunDisturbance {
  public:
   RunDisturbance(const Disturbance& disturbance, double sample_time_s, const RunSeed& seed);

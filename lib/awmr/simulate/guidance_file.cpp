@@ -149,7 +149,7 @@ LissajousPath read_lissajous(JsonObject& json) {
   if (const auto gain = json.optional_number("position_gain_per_s", kRate)) {
     if (!path.closed_loop) {
       json.fault(ErrorCode::kConflict, "position_gain_per_s",
-                 "has no effect if closed_loop is false; remove it");
+                 "has no effect if closed_loop is false; remove it, or set closed_loop to true");
     }
     path.position_gain_per_s = *gain;
   }

@@ -1,6 +1,6 @@
-/// Steps that compute controllers and metrics of runs that are simulated together, on rows
-/// (row_view.h). With vehicle_steps.h, this is the arithmetic of the closed loop, for a single run
-/// and for several runs in a vector register. Private to this folder.
+/// Steps of a sample that compute controllers and metrics of runs that are simulated together, on
+/// rows (row_view.h). With vehicle_steps.h, these steps are the arithmetic of the closed loop, for
+/// a single run and for several runs in vector registers. Private to this folder.
 #pragma once
 
 #include "awmr/simulate/meter.h"
@@ -28,17 +28,17 @@ struct LoopRuns {
   Measurement<Row> measured;
   Reference<Row> reference;
   Row tau_speed, tau_turn_m;
-  // Further inputs of the metrics.
+  // Further inputs of the metrics, as in MetricsRow.
   Row goal_rad, cross_track_m, off_target_m, clearance_m;
 };
 
 /// The steps of a sample for one type of row. They are called in this order: control,
-/// vehicle.dissipate, measure, vehicle.actuate, vehicle.move. The motion and the metrics of a run
-/// that is not active do not change.
+/// vehicle.dissipate, measure, vehicle.actuate, vehicle.move. The motion and the metrics of an
+/// inactive run (Vehicles::active) do not change.
 template <class Row>
 struct LoopSteps {
   const char* name;
-  /// Computes the commands from `measured` and `reference`.
+  /// Computes the commands of motors and steering from `measured` and `reference`.
   void (*control)(LoopRuns<Row>& runs);
   /// Adds the sample to the sums of the metrics.
   void (*measure)(LoopRuns<Row>& runs);

@@ -1,6 +1,6 @@
 /// Accumulates the metrics of a run while it is simulated: each row is processed once, so no row is
-/// stored. Templates on the scalar: a double, or a batch with one run per lane. Private to this
-/// folder.
+/// stored. Templates on the scalar: a double for a single run, or lanes::Lanes with one run per
+/// lane. Private to this folder.
 #pragma once
 
 #include "awmr/control/controller.h"
@@ -25,10 +25,10 @@ struct MetricsVehicle {
   T rear_driven;       ///< 1: all wheels are driven; 0: only the front wheels
 };
 
-/// Properties of the scenario that the metrics need; the same for all lanes.
+/// Properties of the scenario that the metrics need; the same for all runs.
 struct MetricsTask {
   bool has_headings = false;  ///< the guidance has heading steps
-  double speed_mps = 0.0;     ///< commanded speed, from which a speed drop is measured
+  double speed_mps = 0.0;     ///< commanded speed u_d, from which a speed drop is measured
   /// Timed path: largest allowed distance from the path's point in the second half of the run, m.
   double tolerance_m = 0.0;
   /// true: tyre work is the work of the lateral tyre forces; false: the work against g3 and scrub.
@@ -39,25 +39,25 @@ struct MetricsTask {
 template <class T>
 struct MetricsRow {
   State<T> state;
-  SideForces<T> force;     ///< commanded forces, over F_max
-  WheelForces<T> acting;   ///< applied over the sample that ends here: RunRow::acting
+  SideForces<T> force;     ///< motor commands, over F_max: RunRow::force
+  WheelForces<T> acting;   ///< applied over the sample that ends at this row: RunRow::acting
   T steering_command_rad;  ///< d_ro: commanded steering angle
   T yaw_resistance_m;      ///< g3(r) of the controller's model
-  T goal_rad;              ///< the heading commanded by the guidance
-  T cross_track_m;         ///< distance from the current leg, line or path
-  T off_target_m;          ///< distance from the target point
+  T goal_rad;              ///< the heading commanded by the guidance, before avoidance and shaping
+  T cross_track_m;         ///< distance from the current leg, line or path, left positive
+  T off_target_m;          ///< distance from the target point (PathRow::target_m)
   T clearance_m;           ///< distance to the nearest obstacle; 0 without obstacles
   T speed_ref_mps;         ///< u_d, reference of the speed law
   T tyre_power_mps;        ///< RunRow::tyre_power_mps
 };
 
-/// Time of a row; the same for all lanes.
+/// Time of a row; the same for all runs.
 struct MetricsTime {
   double t_s = 0.0;
   double since_last_s = 0.0;  ///< time since the previous row; 0 in the first row
   bool is_first = false;
-  bool starts_step = false;  ///< the commanded heading differs from that of the previous row
-  bool is_in_second_half = false;
+  bool starts_step = false;        ///< the commanded heading differs from that of the previous row
+  bool is_in_second_half = false;  ///< only for a timed path: in the second half of the run
 };
 
 /// Sums over the rows so far. All members are of type T; flags are 0 or 1.
@@ -75,7 +75,7 @@ struct MetricsAccumulator {
   T saturation_s = T(0.0);
   T steering_travel_deg = T(0.0);
   T cross_track_m2 = T(0.0);
-  T strayed = T(0.0);  ///< flag: beyond the tolerance in the second half
+  T strayed = T(0.0);  ///< flag: beyond tolerance_m from the path's point in the second half
   T clearance_min_m = T(0.0);
   T speed_reached = T(0.0);  ///< flag: the commanded speed was reached
   T speed_least_mps = T(0.0);
@@ -105,18 +105,19 @@ struct MetricsAccumulator {
 
 namespace meter {
 
-constexpr double kReachedShare = 0.001;   ///< band of a reached speed, over the commanded speed
+/// The commanded speed counts as reached once the speed is at most this fraction below it.
+constexpr double kReachedShare = 0.001;
 constexpr double kSettledShare = 0.02;    ///< half width of the settling band, over the step's size
-constexpr double kSettledLeastDeg = 0.5;  ///< smallest half width of the settling band
-constexpr double kMovingMps = 0.05;       ///< speed below which the sideslip angle is not evaluated
+constexpr double kSettledLeastDeg = 0.5;  ///< smallest half width of the settling band, deg
+constexpr double kMovingMps = 0.05;  ///< speed up to which the sideslip angle is not evaluated, m/s
 
 using math::larger;
 
-/// Power and relative copper loss of the motors.
+/// Power and copper loss of the four motors over one sample.
 template <class T>
 struct MotorWork {
-  T power_mps;  ///< power of the four wheels over F_max: sum of max(0, F' w)
-  T copper;     ///< half the sum of the squared wheel forces F'^2
+  T power_mps;  ///< sum over the wheels of max(0, F' w), w: wheel speed; power over F_max
+  T copper;     ///< half the sum over the wheels of F'^2
 };
 
 template <class T>
@@ -146,6 +147,7 @@ MotorWork<T> motor_work(const WheelForces<T>& f, const WheelSpeeds<T>& w,
   return work;
 }
 
+/// True if a motor command is at a limit of F', or the steering command at +-d_max.
 template <class T>
 Mask<T> at_a_limit(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle) {
   using math::abs;
@@ -165,7 +167,8 @@ T share_of_stop(const T& steering_rad, const T& steering_max_rad) {
   return select(steers, T(steering_rad / select(steers, steering_max_rad, T(1.0))), T(0.0));
 }
 
-/// Ends the current heading step: adds its settling time to the results.
+/// Ends the current heading step: adds its settling time to the results, or notes that the heading
+/// did not settle.
 template <class T>
 void close_step(MetricsAccumulator<T>& m) {
   using math::select;
@@ -252,8 +255,8 @@ void measure_motion(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, 
       (abs(row.force.left - m.left) + abs(row.force.right - m.right)) / vehicle.force_max;
 }
 
-/// Updates energy, tyre work, time in saturation and steering travel by the sample that ends here.
-/// Forces are constant over a sample.
+/// Updates energy, tyre work, time in saturation, steering travel and steering rate by the sample
+/// that ends at this row. Forces are constant over a sample; speeds are those at its start.
 template <class T>
 void measure_work(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, bool is_on_tyres,
                   double dt_s, MetricsAccumulator<T>& m) {

@@ -1,5 +1,5 @@
-/// Constants and times that the metrics accumulator (meter.h) needs, and the metrics computed from
-/// its sums. Private to this folder.
+/// Prepares the constants and times that the metrics accumulator (meter.h) needs, and computes the
+/// metrics from its sums. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -31,9 +31,11 @@ class MeterClock {
   double goal_before_rad_ = 0.0;
 };
 
-/// Constants of the accumulator for a vehicle and a scenario, and the metrics from the final sums.
+/// Data of the vehicle that the accumulator needs.
 MetricsVehicle<double> metered_vehicle(const AllocationLimits<double>& limits);
+/// Properties of the scenario that the accumulator needs.
 MetricsTask metrics_task(const Scenario& scenario);
+/// The metrics of a run from the sums over all of its rows. Precondition: at least one row.
 Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending, const Scenario& scenario);
 
 /// True if every sum is finite.

@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// The heading that the guidance commands, before avoidance and shaping.
+/// The heading that the guidance commands, before obstacle avoidance and the shaping filter.
 double goal_rad(const RunRow& row, const Scenario& scenario) {
   return scenario.shaping || scenario.avoidance ? row.path.psi_goal_rad : row.psi_ref_rad;
 }

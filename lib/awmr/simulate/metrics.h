@@ -16,16 +16,18 @@ struct Metrics {
   /// of the run.
   bool completed = true;
   /// Settling time, s, the longest of all heading steps: from the step until the heading error |e|
-  /// stays within 2 % of the step's size (at least 0.5 deg).
+  /// stays within 2 % of the step's size (at least 0.5 deg). Absent if a step did not settle.
   std::optional<double> settling_time_s;
-  /// Largest travel beyond a commanded heading in the direction of its step, deg, >= 0.
+  /// Overshoot: largest angle by which the heading exceeds a commanded heading in the direction of
+  /// its step, deg, >= 0.
   std::optional<double> overshoot_deg;
   std::optional<double> heading_iae_degs;    ///< integral of the heading error |e|, deg s
-  std::optional<double> heading_itae_degs2;  ///< integral of t |e|, t from each step (for tuning)
+  std::optional<double> heading_itae_degs2;  ///< integral of t |e|, t since the step (for tuning)
   std::optional<double> cross_track_rms_m;   ///< RMS distance from the current leg, line or path
   double path_length_m = 0.0;                ///< length of the driven path
   /// Commanded speed minus the smallest speed after the commanded one was first reached within
-  /// 0.1 %, m/s, >= 0.
+  /// 0.1 %, m/s, >= 0. Absent if the commanded speed was never reached or is not constant
+  /// (slow-down, avoidance, timed path).
   std::optional<double> speed_drop_mps;
   double speed_itae_m_s = 0.0;  ///< integral of t |u_d - u| (for tuning)
   /// Largest sideslip |atan2(v, |u|)|, deg, while driving forward or backward above 0.05 m/s.
@@ -33,10 +35,13 @@ struct Metrics {
   double yaw_rate_max_degps = 0.0;  ///< largest |r|, deg/s
   /// Total variation of the commanded d_r/d_max, F'L/F'max and F'R/F'max, summed, per second.
   double control_variation = 0.0;
-  double control_effort = 0.0;            ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run
-  std::optional<double> clearance_min_m;  ///< smallest distance from the vehicle's circle to an
-                                          ///< obstacle
-  std::optional<double> finish_time_s;    ///< time at which the end of the path was reached
+  double control_effort = 0.0;  ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run
+  /// Smallest distance from the vehicle's circle to an obstacle, m; < 0 if they overlapped. Absent
+  /// without obstacles.
+  std::optional<double> clearance_min_m;
+  /// Time, s, at which the last waypoint or the end of the line was reached; absent if it was not
+  /// reached or a waypoint was missed.
+  std::optional<double> finish_time_s;
 
   /// Positive mechanical work of the applied wheel forces (RunRow::acting), over F_max, m; braking
   /// recovers no energy:
@@ -45,8 +50,8 @@ struct Metrics {
   /// Copper loss of the motors, relative to the loss of one motor at F_max, s: integral of sum_i
   /// F'_i^2.
   double energy_electric = 0.0;
-  double saturation_s = 0.0;             ///< time with a command at a limit of F' or of d_r
-  double steering_travel_deg = 0.0;      ///< total variation of the angle d_r
+  double saturation_s = 0.0;             ///< time, s, with a command at a limit of F' or of d_r
+  double steering_travel_deg = 0.0;      ///< total variation of the actual steering angle d_r
   double steering_rate_rms_degps = 0.0;  ///< RMS rate of the commanded angle (for tuning)
   /// Work that wears the tyres, over F_max, m. 3-DOF model: the work against yaw resistance and
   /// scrub, integral of g3(r) r plus RunRow::tyre_power_mps. On tyres (Scenario::tyres): work of
@@ -62,7 +67,8 @@ struct Metrics {
 std::optional<double> electric_work_j(const Metrics& metrics, const Vehicle& vehicle,
                                       double mass_norm);
 
-/// The metrics of a run from its rows, of which there is at least one.
+/// Computes the metrics of a run from its rows, of which there is at least one. `controller`: that
+/// of the run. electric_work_j is left absent.
 Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<double>& controller);
 
 }  // namespace awmr

@@ -1,6 +1,6 @@
 /// Forces on the vehicle over one sample, from motor lag, battery, disturbances and slopes.
-/// Templates on the scalar: a double, or a batch with one run per lane (vehicle_steps.h). Private
-/// to this folder.
+/// Templates on the scalar: a double for a single run, or lanes::Lanes with one run per lane.
+/// Private to this folder.
 #pragma once
 
 #include "awmr/model/resolved_steps.h"
@@ -15,20 +15,20 @@ struct ExternalForces {
   BodyLoadOf<T> load;               ///< forces and moment of the disturbances
   bool is_loaded = false;           ///< false: neither disturbances nor slope
   bool is_sloped = false;           ///< there is a slope
-  double slope_accel_mps2 = 0.0;    ///< g sin(slope)
-  double slope_downhill_rad = 0.0;  ///< heading of the steepest descent
+  double slope_accel_mps2 = 0.0;    ///< downhill acceleration g sin(angle of the slope)
+  double slope_downhill_rad = 0.0;  ///< heading of the steepest descent, in the world frame
 };
 
-/// First-order lag of the motors over a sample, from the force F at its start to a constant command
-/// c:
+/// First-order lag (time constant tau) of the motor forces over a sample of the length T_s, from
+/// the force F at its start towards a constant command c:
 ///   F(t) = c + (F - c) exp(-t/tau),   mean = c + (F - c) (1 - exp(-T_s/tau)) tau/T_s
 struct MotorLag {
   double left_over = 0.0;   ///< exp(-T_s/tau); 0: no lag
   double mean_share = 0.0;  ///< (1 - exp(-T_s/tau)) tau/T_s; 0: no lag
 };
 
-/// Returns the mean force over the sample. `motors`: F on entry, the force at the end of the sample
-/// on return.
+/// Returns the mean force over the sample. `motors`: on entry, the force at the start of the
+/// sample; on return, that at its end (unchanged without lag).
 template <class T>
 SideForces<T> through_motors(const MotorLag& lag, const SideForces<T>& command,
                              SideForces<T>& motors) {
@@ -47,9 +47,9 @@ WheelForces<T> at_all_wheels(const SideForces<T>& force, const T& rear_driven) {
   return {force.left, force.right, rear_driven * force.left, rear_driven * force.right};
 }
 
-/// The motor commands `arriving` after the lag. With back-EMF, a motor with the command 0 is
-/// switched off at once: with the rest of the lag as its drive, it would brake (motor_force() in
-/// dynamics.h).
+/// The motor commands `arriving`, which the lag has delayed, with 0 for each motor that is switched
+/// off. With back-EMF, a motor with the command 0 is switched off at once: if its lagging force
+/// were its drive, it would brake (motor_force() in dynamics.h).
 template <class T>
 SideForces<T> switched_off(const T& back_emf_s_per_m, const SideForces<T>& command,
                            const SideForces<T>& arriving) {
@@ -85,7 +85,7 @@ SideForces<T> under_sag(double sag, const T& motors_a_side, const T& back_emf_s_
   return {force.left * voltage, force.right * voltage};
 }
 
-/// Adds the external forces to the rates of the state.
+/// Adds the accelerations by the external forces to the time derivatives `d` of the state `at`.
 template <class T>
 State<T> with_push(State<T> d, const Plant<T>& plant, const ExternalForces<T>& push,
                    const State<T>& at) {
@@ -103,14 +103,14 @@ State<T> with_push(State<T> d, const Plant<T>& plant, const ExternalForces<T>& p
   return d;
 }
 
-/// Rates of the state of the 3-DOF plant, including external forces.
+/// Time derivatives of the state of the 3-DOF plant, including external forces.
 template <class T, class Forces>
 State<T> pushed_rates(const Plant<T>& plant, const ExternalForces<T>& push, const State<T>& at,
                       const Forces& force, const T& steering_command_rad) {
   return with_push(state_rates(plant, at, force, steering_command_rad), plant, push, at);
 }
 
-/// Rates of the state of a vehicle on tyres, including external forces.
+/// Time derivatives of the state of a vehicle on tyres, including external forces.
 template <class T, class Forces>
 State<T> pushed_rates(const FourWheels<T>& vehicle, const ExternalForces<T>& push,
                       const State<T>& at, const Forces& force, const T& steering_command_rad) {

@@ -1,4 +1,4 @@
-/// Functions that set up a closed loop, and that evaluate its rows. Private to this folder.
+/// Functions that set up the closed loop of a run or evaluate its rows. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace awmr {
 
-/// Speed below which a vehicle that was commanded to stop counts as stopped.
+/// Speed |u|, m/s, below which a vehicle that was commanded to stop counts as stopped.
 inline constexpr double kStopped_mps = 1e-3;
 
 /// The controller with the allocation form and the split that the scenario requests.
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller);
 
-/// Properties common to the controllers of the runs of a scenario; `controller` is any of them.
-/// is_observed depends on the single runs and is left false.
+/// Properties common to the controllers of the runs of a scenario; `controller` is that of any run.
+/// is_observed, which depends on the gains of each run, is left false.
 ControllerSetup controller_setup(const Scenario& scenario, const Controller<double>& controller,
                                  double sample_time_s);
 
@@ -24,16 +24,17 @@ ControllerSetup controller_setup(const Scenario& scenario, const Controller<doub
 RunController<double> run_controller(const Scenario& scenario, const Controller<double>& controller,
                                      YawMode mode);
 
-/// Largest command of a wheel over F_max: F'max plus the dead zone.
+/// Largest motor command over F_max: F'max plus the dead zone.
 double largest_force(const Controller<double>& controller);
 
-/// Distance from the vehicle's circle to the nearest obstacle, m; < 0 if they overlap.
+/// Distance from the vehicle's circle (radius Avoidance::vehicle_radius_m, 0 without avoidance) to
+/// the nearest obstacle, m; < 0 if they overlap.
 double clearance_m(const Scenario& scenario, const State<double>& state);
 
 /// True if every number of the row is finite.
 bool is_finite(const RunRow& row);
 
-/// Index of the last sample within the duration, allowing for rounding.
+/// Index, from 0, of the last sample within the duration, allowing for rounding.
 std::size_t samples_in(double duration_s, double sample_time_s);
 
 }  // namespace awmr

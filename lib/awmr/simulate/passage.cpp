@@ -7,7 +7,7 @@
 namespace awmr {
 namespace {
 
-/// Radius of a shrunk disc over its distance from the point that it must exclude.
+/// Radius of a shrunk disc, over the distance of its centre from the point that it must exclude.
 constexpr double kShrunk = 1.0 - 1e-9;
 
 /// Twice the signed area of the triangle a, b, c; >= 0 if c is left of the line from a to b or on
@@ -24,9 +24,9 @@ bool cross(const Position<double>& a, const Position<double>& b, const Position<
   return left(turn(a, b, c)) != left(turn(a, b, d)) && left(turn(c, d, a)) != left(turn(c, d, b));
 }
 
-/// Groups of overlapping discs (union-find with parities). An edge joins two discs; it is odd if it
-/// crosses the segment between the two points. The parity of a disc says whether the path to the
-/// root of its group has an odd number of odd edges.
+/// Groups of overlapping discs (union-find with parities). An edge joins the centres of two discs;
+/// it is odd if it crosses the segment from `from` to `to`. The parity of a disc says whether the
+/// path to the root of its group has an odd number of odd edges.
 class ParitySets {
  public:
   explicit ParitySets(std::size_t count) : parent_(count), odd_(count, false) {

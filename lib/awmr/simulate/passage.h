@@ -1,4 +1,4 @@
-/// Checks whether a passage between obstacles exists, before the vehicle drives to a target.
+/// Checks whether a passage between obstacles to a target exists, before the vehicle drives there.
 #pragma once
 
 #include <vector>

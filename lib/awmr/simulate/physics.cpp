@@ -11,12 +11,14 @@
 namespace awmr {
 namespace {
 
-/// RK4 steps per smallest time constant of the smooth part of the plant. For a mode with the time
-/// constant T, the error of a step h is (h/T)^5/120 of the excursion, 1e-6 for h = T/6, and decays
-/// with T. tests/peers compares positions after a minute with an independent integrator: 1e-5 m.
+/// RK4 steps per smallest time constant of the smooth part of the plant. For an eigenmode with the
+/// time constant T, the error of a step h is (h/T)^5/120 of the excursion, 1e-6 for h = T/6, and
+/// decays with T. tests/peers compares positions after a minute with an independent integrator: the
+/// difference is 1e-5 m.
 constexpr double kStepsPerTimeConstant = 6.0;
 
-/// Largest speed (m/s, rad/s) up to which a chord may replace a resistance.
+/// Largest speed (m/s, rad/s) up to which a chord, a straight line through the origin, may replace
+/// a resistance.
 constexpr double kChordSpeed = 1e-3;
 
 double step_for_chord(const Resistance<double>& law, double inertia) {
@@ -25,8 +27,8 @@ double step_for_chord(const Resistance<double>& law, double inertia) {
 }
 
 /// Limits the command of a motor so that the magnitude of its force is at most `most`. With
-/// back-EMF and the rolling speed w, F' = e - k_e w (motor_force()), so the drive e = F' + k_e w is
-/// limited.
+/// back-EMF and the rolling speed w = `wheel_mps`, F' = e - k_e w (motor_force()). So the drive e
+/// is limited to the e = F' + k_e w that makes this force.
 double slipping(const Plant<double>& plant, double command, double wheel_mps, double most) {
   const double k = plant.back_emf_s_per_m;
   const double drive = beyond_dead_zone(command, plant.wheel_dead_zone);
@@ -46,8 +48,8 @@ double steps_of_sample(const Plant<double>& plant, bool on_tyres, double sample_
 /// The step h is limited by each time constant T that does not depend on speed, of sway (m'/a_s),
 /// servo and back-EMF:
 ///   h <= T/6
-/// It is also limited so that a chord replaces g1 or g3 only below kChordSpeed (rest_speed() solved
-/// for h):
+/// The step is also limited so that a chord replaces the resistance g (g1 or g3) only below
+/// kChordSpeed (rest_speed() solved for h):
 ///   h <= inertia kChordSpeed / g(kChordSpeed)
 StepLimit step_limit(const Plant<double>& plant, bool on_tyres) {
   StepLimit limit{plant.steering_time_constant_s / kStepsPerTimeConstant,

@@ -1,5 +1,5 @@
 /// Simulates the motion of vehicles in the environment of a scenario, sample by sample: for the
-/// closed loop, and for an external controller (Physics), such as one on a chip.
+/// closed loop (closed_loop.h), and for an external controller such as one on a chip (Physics).
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -21,11 +21,13 @@ inline constexpr VehicleSteps<double> kOneVehicleSteps = {
 /// A single vehicle for an external controller.
 class Physics {
  public:
-  /// `force_max` is F'max of the vehicle's motors, for the battery.
+  /// `force_max` is the largest motor command over F_max, including the dead zone (the upper end of
+  /// Vehicle::wheel_force), which a falling battery voltage reduces.
   Physics(const Plant<double>& plant, double force_max, const Scenario& scenario,
           const SimulateOptions& options);
 
   const State<double>& state() const { return vehicle_.state; }
+  /// False once step() has failed.
   bool resolved() const { return vehicle_.active > 0.0; }
   /// Simulates the sample that begins at `t_s` with constant commands. Call it for every sample, in
   /// order. If no step is short enough for the motion, or the state is not finite, the state is
@@ -38,11 +40,12 @@ class Physics {
   RunDisturbance disturbance_;
 };
 
-/// True if the two wheels of a side can have different forces.
+/// True if front and rear wheel of a side can have different forces: the scenario has motor faults
+/// or slippery discs.
 bool forces_differ_by_wheel(const Scenario& scenario);
 
-/// Applied wheel forces, after motor faults and ground limits. Assumes that both axles have the
-/// same distance from the centre of gravity.
+/// Applied wheel forces at `t_s`: the motor commands `force` after motor faults and the limits of
+/// slippery discs. Assumes that both axles have the same distance from the centre of gravity.
 WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>& plant,
                                   const State<double>& state, double t_s,
                                   const SideForces<double>& force);
@@ -50,36 +53,38 @@ WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>&
 /// The lag of the scenario's motors over a sample; no lag without actuators.
 MotorLag motor_lag(const std::optional<Actuators>& actuators, double sample_time_s);
 
-/// Ratio of the largest force at `t_s` to F'max.
+/// Largest motor command at `t_s`, over its value with a full battery, in [0, 1]; without the sag.
 double battery_share(const Battery& battery, double t_s);
 
-/// Rounds the steering command to the nearest step of the servo, and the forces to the nearest
-/// count of the PWM. `force_max` is the force command that `pwm_counts` counts make.
+/// Rounds the steering command to the nearest step of the servo, and the motor commands `force` to
+/// the nearest count of the PWM. `force_max` is the motor command at `pwm_counts` counts.
 void quantise(const Actuators& actuators, double force_max, SideForces<double>& force,
               double& steering_command_rad);
 
-/// The plant with the chords through rest (rest.h) that integration steps of step_s seconds need.
-/// On tyres, g1 acts at the wheels, and its chord is chosen for them (resolved_at_rest_on_tyres()).
+/// The plant with its resistances near rest replaced by straight lines through the origin (chords,
+/// rest.h), which integration steps of step_s seconds need. On tyres, g1 acts at the wheels, and
+/// its chord is chosen for them (resolved_at_rest_on_tyres()).
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario, double step_s);
 
 /// Longest RK4 step that resolves the time constants which do not depend on speed, and the
-/// parameter that limits the step.
+/// parameter of the model that limits the step.
 struct StepLimit {
   double step_s = 0.0;
   ParameterId parameter{};
 };
-/// Computes the limit for a plant; with `on_tyres`, without g2 and g3, which the tyres replace.
+/// Computes the limit for a plant; with `on_tyres`, without sway resistance g2 and yaw resistance
+/// g3, which the tyres replace.
 StepLimit step_limit(const Plant<double>& plant, bool on_tyres);
 
-/// Number of RK4 steps of a run over the whole duration of the scenario.
+/// Number of RK4 steps of a run over the whole duration of the scenario, if no step is halved.
 double steps_of_run(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
 /// Properties common to the vehicles of a scenario. set_up_vehicle() adds back-EMF, scrub and
 /// front-wheel drive if any vehicle has them.
 VehicleSetup vehicle_setup(const Scenario& scenario, double sample_time_s);
 
-/// Sets the vehicle of a run to its initial state. `force_max` is F'max of its motors, for the
-/// battery.
+/// Sets up the vehicle of the run with the index `run`, in the scenario's initial state.
+/// `force_max`: largest motor command over F_max, including the dead zone.
 template <class Row>
 void set_up_vehicle(const Plant<double>& plant, double force_max, const Scenario& scenario,
                     double sample_time_s, int substeps, std::size_t run, Vehicles<Row>& v) {
@@ -109,7 +114,7 @@ bool any_active(const Vehicles<Row>& v) {
 }
 
 /// Integrates the active vehicles over the sample that begins at `t_s`, with constant commands and
-/// load.
+/// constant disturbances (v.load).
 template <class Row>
 void step_vehicles(const Scenario& scenario, double t_s, const VehicleSteps<Row>& steps,
                    Vehicles<Row>& v) {

@@ -17,6 +17,7 @@
 namespace awmr {
 namespace {
 
+/// Largest number of draws until one is admissible.
 constexpr int kMostTries = 1000;
 
 /// Random stream of the scrub, separate from that of the other parameters.
@@ -26,21 +27,21 @@ constexpr std::uint64_t kScrubStream = std::uint64_t{1} << 61U;
 /// covariance singular, so rounding can make an eigenvalue negative.
 constexpr double kSingularTolerance = 1e-9;
 
-/// False for a negative exponent or optional term: a resistance neither falls with speed nor drives
-/// the vehicle.
+/// False for a negative exponent or optional term of a resistance (Coulomb, quadratic, dead zone):
+/// a resistance neither falls with speed nor drives the vehicle.
 bool is_admissible(ParameterId id, double value) {
   const bool is_exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
   return !(is_exponent || info(id).term) || value >= 0.0;
 }
 
-/// Smallest relative position of a draw in its stratum, because the normal quantile of probability
-/// 0 is infinite.
+/// Smallest relative position of a draw in its stratum, in [0, 1): at position 0 of the first
+/// stratum, the normal quantile would be infinite.
 constexpr double kInsideStratum = 1e-6;
 
 /// The z with P(Z <= z) = p, Z standard normal, 0 < p < 1.
 double normal_quantile(double p) { return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * p); }
 
-/// The quantity whose quantiles are y, at the normal score x: linear interpolation between the five
+/// Value at the normal score x of a quantity with the quantiles y: linear interpolation between the
 /// quantiles, and linear extrapolation beyond them.
 double interpolate(const Quantiles& y, double x) {
   std::size_t right = 1;
@@ -64,7 +65,8 @@ std::vector<double> stratified_normals(int count, Random& random) {
   return normals;
 }
 
-/// Raises m' to the value that the grip limit requires, and I'z by the same factor: I'z = m' Iz/m.
+/// Raises m' to at least Model::mass_norm_by_grip, the smallest m' that the tyres' grip permits,
+/// and I'z by the same factor, because I'z = m' Iz/m.
 void take_mass_by_grip(Model& model) {
   double& mass = *model[ParameterId::kMassNorm].value;
   const double factor = std::max(1.0, *model.mass_norm_by_grip / mass);
@@ -88,7 +90,8 @@ Status check_shape(const Covariance& covariance, const std::string& place) {
   return {};
 }
 
-/// Covariance of the coordinates: Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q)
+/// Covariance of the coordinates z (model/transform.h) of the parameters p, from the covariance C
+/// of the parameters: Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q)
 Eigen::MatrixXd coordinate_covariance(const Model& model) {
   const std::vector<ParameterId>& ids = model.covariance.parameters;
   Eigen::MatrixXd covariance(rows_of(ids), rows_of(ids));
@@ -123,7 +126,8 @@ Result<PlantSampler> PlantSampler::make(const Model& model) {
   const std::optional<Eigen::MatrixXd> factor = factor_of(coordinate_covariance(model));
   if (!factor) {
     return input_error(ErrorCode::kContradiction, place + "/matrix",
-                       "is not positive semi-definite; identify again");
+                       "is not positive semi-definite, so no samples can be drawn; identify the "
+                       "model again");
   }
   PlantSampler sampler;
   sampler.model_ = model;
@@ -147,7 +151,7 @@ Result<Plant<double>> PlantSampler::draw(std::uint64_t seed, int sample) const {
 }
 
 Result<std::vector<Plant<double>>> PlantSampler::draw_evenly(std::uint64_t seed, int count) const {
-  Random random(seed, 0);  // draw() has the streams from 1
+  Random random(seed, 0);  // draw() uses the streams from 1 on
   Random of_scrub(seed, kScrubStream);
   const std::vector<double> scrubs = stratified_normals(count, of_scrub);
   std::vector<std::vector<double>> by_direction;

@@ -15,8 +15,8 @@ namespace awmr {
 inline constexpr double kGripShare = 0.25;
 
 /// Draws the parameters in the model's covariance C; the others keep their values. The coordinate z
-/// of a parameter p (model/transform.h) is normally distributed about its estimate. By the delta
-/// method, with dp/dz = p for a logarithmic and 1 for a linear coordinate,
+/// of a parameter p (p or ln p, model/transform.h) is normally distributed about its estimate. By
+/// the delta method, with dp/dz = p for a logarithmic and 1 for a linear coordinate,
 ///   Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q).
 ///
 /// For an estimate with quantiles, the same normal numbers are transformed (a Gaussian copula): z
@@ -41,26 +41,29 @@ class PlantSampler {
   static Result<PlantSampler> make(const Model& model);
 
   /// The plant with the number `sample` (>= 1). It depends only on seed and sample. Errors (input):
-  /// no draw without a negative exponent or term was found.
+  /// none of 1000 draws is without a negative exponent or term.
   Result<Plant<double>> draw(std::uint64_t seed, int sample) const;
   /// The plant of draw() as a model; the intervals are those of the identified model.
   Result<Model> draw_model(std::uint64_t seed, int sample) const;
 
   /// Latin hypercube of `count` draws, which are evenly distributed even if they are few. Each
-  /// direction of the covariance has one draw in each of `count` strata of equal probability; the
-  /// seed determines the order and the position within a stratum. A draw with a negative exponent
-  /// or term is replaced by draw() with its number, from 1.
+  /// standard normal of a draw has one value in each of `count` strata of equal probability; the
+  /// seed determines their order and the position within a stratum. The i-th draw, if it has a
+  /// negative exponent or term, is replaced by draw(seed, i), i from 1.
   Result<std::vector<Plant<double>>> draw_evenly(std::uint64_t seed, int count) const;
 
   /// The plant for given standard normals n, one for each parameter of the covariance, by
-  /// z = centre + L n or, with quantiles, by their interpolation. Empty if an exponent or a term is
-  /// negative there. m' is not raised to mass_norm_by_grip.
+  /// z = centre + L n, L L^T = Cov(z), or, with quantiles, by their interpolation. Empty if an
+  /// exponent or a term is negative there, or the values are not a valid plant. m' is not raised to
+  /// mass_norm_by_grip, and the scrub moment is that of the model.
   std::optional<Plant<double>> plant_at(std::span<const double> normals) const;
-  /// Degrees of freedom k of the draws. |n| <= r holds with the probability that a chi-squared
-  /// variable with k degrees of freedom is below r^2. Derived parameters (m' from a1, b1) do not
-  /// count.
+  /// Degrees of freedom k of the draws: the number of independent directions of the normals n on
+  /// which the parameters depend. The part of n in these directions is at most r long with the
+  /// probability that a chi-squared variable with k degrees of freedom is below r^2. Derived
+  /// parameters (m' from a1, b1) do not count.
   int rank() const;
-  /// Orthonormal directions in the space of the normals n on which these parameters depend.
+  /// Orthonormal directions in the space of the normals n on which the parameters `ids` depend.
+  /// Parameters that are not in the covariance are ignored.
   std::vector<std::vector<double>> directions_of(std::span<const ParameterId> ids) const;
 
  private:
@@ -72,7 +75,8 @@ class PlantSampler {
   /// The model for the normals of a draw or of plant_at(); empty if an exponent or a term is
   /// negative there.
   std::optional<Model> model_at(std::span<const double> normals) const;
-  /// The model with its scrub changed by `normal` standard errors; unchanged without scrub.
+  /// The model with its scrub moment at the estimate plus `normal` standard errors; unchanged
+  /// without scrub.
   Model with_scrub(Model drawn, double normal) const;
 
   Model model_;

@@ -16,8 +16,8 @@ inline double fix_noise_m(const Gps& gps) {
   return std::sqrt(gps.x.noise * gps.x.noise + gps.x.quantum * gps.x.quantum / 12.0);
 }
 
-/// Gives the firmware's position estimate if the scenario has a GPS and does not disable the
-/// estimate; else the measured position.
+/// Returns the firmware's position estimate if the scenario has a GPS and does not disable the
+/// estimate; else the measured position: the last fix of a GPS, or the true position without GPS.
 class Positioning {
  public:
   Positioning(const Scenario& scenario, double sample_time_s) {
@@ -26,7 +26,7 @@ class Positioning {
     estimate_.emplace(position_filter<double>(fix_noise_m(gps), gps.latency_s, sample_time_s));
   }
 
-  /// The position at `t_s`. Call it once per sample, in order.
+  /// The position at the time `t_s`. Call it once per sample, in order.
   Position<double> step(double t_s, const Sensed& sensed) {
     if (!estimate_) return sensed.position_m;
     return estimate_->step({sensed.position_m, t_s - sensed.fix_taken_s, sensed.is_fix_new},

@@ -2,9 +2,10 @@
 /// State<Row>, is a row: one number of every run. The row of a single run is a double; the row of
 /// sixteen runs is lanes::Row. Private to this folder.
 ///
-/// A step of the loop (vehicle_steps.h, loop_steps.h) is a template on a view of the rows. The view
-/// has a scalar type T (View::Number), a double or a batch of doubles. For example, `view(rows)`
-/// loads State<Row> as State<T>, and `view.store()` writes it back.
+/// A step of the loop (vehicle_steps.h, loop_steps.h) is a template on a view, which selects one or
+/// several runs of the rows. The view has a scalar type T (View::Number): a double, or lanes::Lanes
+/// with one double per run. For example, `view(rows)` loads State<Row> as State<T>, and
+/// `view.store()` writes it back.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +17,7 @@
 
 namespace awmr {
 
-/// View of a single run: the numbers themselves.
+/// View of the row of a single run (Row = double): the numbers themselves.
 struct OneRun {
   using Number = double;
   template <class Numbers>
@@ -27,7 +28,7 @@ struct OneRun {
   void store(const Numbers& from, Numbers& to) const {
     to = from;
   }
-  /// Stores the lanes whose mask is true.
+  /// Stores the numbers if the mask is true.
   template <class Numbers>
   void store(bool mask, const Numbers& from, Numbers& to) const {
     if (mask) to = from;

@@ -1,6 +1,6 @@
-/// The simulated controller of a run, for a given reference: control laws (or LQI, constant thrust,
-/// open loop), disturbance observer, allocation and motor commands. Templates for a single run and
-/// for a batch of runs. Private to this folder.
+/// The simulated controller of a run: computes the commands of a sample from measurements and
+/// reference by control laws (or LQI, constant thrust, open loop), disturbance observer and
+/// allocation. Templates for a single run and for a batch of runs. Private to this folder.
 #pragma once
 
 #include "awmr/control/control_step.h"
@@ -28,7 +28,7 @@ struct RunController {
   T steering_share;         ///< YawSplit::steering_share of the mode
   T dead_zone;              ///< F'0 of the motors, over F_max
   T back_emf_s_per_m;       ///< k_e of the motors, s/m
-  T tau_speed, tau_turn_m;  ///< the constant values that replace a law
+  T tau_speed, tau_turn_m;  ///< constants that replace the laws (is_open_loop, holds_tau_speed)
   LqiGains<T> lqi;
   DisturbanceObserver<T> yaw_observer, surge_observer;  ///< bandwidth 0: none
 };
@@ -54,7 +54,7 @@ Observers<T> observers_of(const ControllerSetup& setup, const RunController<T>& 
   return {c.yaw_observer, c.surge_observer, setup.anti_windup};
 }
 
-/// yaw_split() of the run's mode, which follows from the steering's share.
+/// yaw_split() of the run's yaw mode, which follows from steering_share: 0, 1/2 or 1.
 template <class T>
 YawSplit<T> yaw_split_of(const ControllerSetup& setup, const RunController<T>& c) {
   const Mask<T> may = Mask<T>(setup.split == CombinedSplit::kRedistribute);

@@ -56,8 +56,8 @@ Status check_run_side(const std::filesystem::path& side) {
   const auto json = read_json_file(side);
   if (json && json->is_object() && json->value("schema", Json()) == kRunSchema) return {};
   return input_error(ErrorCode::kWouldOverwrite, side.string(),
-                     "this file exists and is not the side file of a run; simulate would overwrite "
-                     "it. Choose another output, or move this file");
+                     "this file exists and was not written by simulate, which would overwrite it; "
+                     "give another output, or move this file");
 }
 
 std::string run_schema() {

@@ -13,7 +13,7 @@
 
 namespace awmr {
 
-/// The name of the CSV with `.json` appended.
+/// The path of the side file: that of the CSV with `.json` appended.
 std::filesystem::path run_side_path(const std::filesystem::path& csv);
 
 /// Content of the side file: `provenance`, the SHA-256 of the text `csv`, the keys of the JSON

@@ -24,7 +24,7 @@ Status check_time(const CsvTable& table) {
   if (back == t.end()) return {};
   return input_error(ErrorCode::kWrongOrder,
                      table.place(static_cast<std::size_t>(back - t.begin()), "t_s"),
-                     "the time decreases; simulate the run again");
+                     "the time is smaller than in the row before; simulate the run again");
 }
 
 }  // namespace

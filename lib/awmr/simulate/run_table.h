@@ -10,7 +10,8 @@
 
 namespace awmr {
 
-/// Reads the columns of run.csv that every run has. Errors: as read_csv; decreasing time.
+/// Reads time, state, commands and references from run.csv: columns that every run has. Errors: as
+/// read_csv; decreasing time.
 Result<CsvTable> read_run(const std::filesystem::path& path);
 
 /// Checks a text of run.csv after writing by reading it back (core/file.h). Errors: as read_run.

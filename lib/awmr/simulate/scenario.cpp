@@ -89,7 +89,7 @@ std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario) {
   if (!scenario.patches.empty()) {
     conflicts.push_back({"slippery",
                          "a patch limits only the longitudinal forces of wheels, but tyres also "
-                         "have lateral forces; remove slippery or tyres"});
+                         "make lateral forces; remove slippery or tyres"});
   }
   for (const CornerParameter& corner : scenario.corner) {
     switch (corner.id) {
@@ -100,7 +100,8 @@ std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario) {
       case ParameterId::kYawQuadratic:
         conflicts.push_back(
             {"corner", std::string(info(corner.id).name) +
-                           " has no effect on tyres, which replace it; remove it, or tyres"});
+                           " has no effect on tyres, whose forces replace this resistance; remove "
+                           "it from corner, or remove tyres"});
         break;
       default:
         break;

@@ -1,4 +1,4 @@
-/// A scenario: the task of the vehicle and its environment. scenario_file.h reads it.
+/// A scenario: the task of the vehicle and its environment. scenario_file.h reads scenarios.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct HeadingStep {
   double psi_rad = 0.0;  ///< rad, counter-clockwise from the world's x axis
 };
 
-/// A sequence of commanded headings; the first is commanded at t = 0.
+/// A sequence of commanded headings; each holds until the next. The first is commanded at t = 0.
 struct HeadingSteps {
   std::vector<HeadingStep> steps;  ///< strictly increasing in time, not empty
   /// Constant tau_speed in place of a speed, dimensionless, forward positive, as in the paper's
@@ -50,8 +50,8 @@ struct WaypointPath {
   std::vector<Position<double>> points_m;  ///< not empty
   double acceptance_m = 0.0;               ///< a point is reached within this distance, > 0
   bool skip_passed = false;                ///< see Waypoints::skip_passed
-  /// m: within this distance of the last point, the speed is reduced in proportion to the distance,
-  /// but not below a tenth. Absent: the speed is not reduced.
+  /// m, > 0: within this distance of the last point, the reference speed is reduced in proportion
+  /// to the distance, but not below a tenth of speed_mps. Absent: the speed is not reduced.
   std::optional<double> slow_down_m;
 };
 
@@ -73,8 +73,8 @@ struct LinePath {
   std::optional<double> slow_down_m;  ///< as in WaypointPath, along the last segment
 };
 
-/// A path as a function of time. With the scenario's speed_mps 0, the commanded speed is that of
-/// the path; else it is speed_mps (only without position feedback).
+/// A timed path: a point that moves along a curve. If the scenario's speed_mps is 0, the commanded
+/// speed is that of the path; else it is speed_mps (only without position feedback).
 struct LissajousPath {
   Lissajous<double> path{};
   bool closed_loop = false;          ///< with position feedback
@@ -98,7 +98,7 @@ enum class PositionMethod {
 inline constexpr NameTable<PositionMethod, 2> kPositionMethodNames{
     {{"filter", PositionMethod::kFilter}, {"none", PositionMethod::kNone}}};
 
-/// One run to simulate. Absent optional fields are off.
+/// One run to simulate. What an absent optional field describes is off, if nothing else is noted.
 struct Scenario {
   std::string name;
   double duration_s = 0.0;  ///< s, > 0
@@ -113,15 +113,16 @@ struct Scenario {
   std::vector<SlipperyPatch> patches = {};
   std::optional<Battery> battery = {};  ///< absent: constant voltage
   std::optional<Sensors> sensors = {};  ///< absent: the controller measures the true state
-  PositionMethod estimator = PositionMethod::kFilter;  ///< for scenarios with a GPS
-  std::optional<Actuators> actuators = {};  ///< absent: any force and angle can be commanded
+  PositionMethod estimator = PositionMethod::kFilter;  ///< used only if there is a GPS
+  std::optional<Actuators> actuators = {};  ///< absent: exact commands, motors without lag
   ControlOptions control = {};
   std::vector<CornerParameter> corner = {};  ///< changes the plant, but not the controller
   /// Absent: the 3-DOF plant of the model; else four wheels on these tyres (model/tyres.h).
   std::optional<Tyres<double>> tyres = {};
   std::uint64_t seed = 0;  ///< seed of all random numbers in the scenario
 
-  /// The constant thrust that replaces a commanded speed; absent with a speed or in open loop.
+  /// The constant tau_speed that replaces a commanded speed (HeadingSteps::tau_speed). Absent if a
+  /// speed is commanded, and in open loop.
   std::optional<double> held_tau_speed() const;
   /// True if anything in the scenario is random.
   bool random() const;
@@ -145,11 +146,13 @@ struct HeadingStepsOptions {
 Scenario heading_steps(const std::vector<double>& headings_deg,
                        const HeadingStepsOptions& options = {});
 
-/// A key of the scenario that is invalid together with `tyres`.
+/// A key of the scenario file that is invalid together with the key `tyres`.
 struct TyreConflict {
   std::string key;
   std::string message;  ///< the reason and the remedy
 };
+/// The conflicts that the scenario has, or would have, with tyres; whether it has tyres is not
+/// tested.
 std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario);
 
 /// Errors (input): the scenario has tyres and one of tyre_conflicts().
@@ -166,8 +169,8 @@ std::string plant_text(const Scenario& scenario);
 /// The model with each parameter of Scenario::corner set to the end of its 95 % interval.
 /// Errors (input): a parameter of the corner has no interval.
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
-/// The plant of model_at_corner() for this motion. Errors (input): as model_at_corner,
-/// check_scenario, Model::plant and check_work (in simulate.h).
+/// The plant of model_at_corner(), with the parameters that `motion` needs. Errors (input): as
+/// model_at_corner, check_scenario, Model::plant and check_work (in simulate.h).
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
                                 Motion motion = Motion::kPlanar);
 

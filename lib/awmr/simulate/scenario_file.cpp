@@ -21,8 +21,8 @@ State<double> read_initial(JsonObject json) {
   return state;
 }
 
-/// Reads speed_mps, which is u_d. With constant thrust, there is no commanded speed, and the key is
-/// an error.
+/// Reads speed_mps, the commanded speed u_d. With constant thrust (`holds_thrust`), no speed is
+/// commanded: the key is then an error, and 0 is returned without it.
 double read_speed(JsonObject& json, bool holds_thrust) {
   if (!json.has("speed_mps")) {
     if (!holds_thrust) json.fault(ErrorCode::kMissing, "speed_mps", "this key is missing; add it");
@@ -45,7 +45,7 @@ void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
   }
   for (const char* key : {"avoidance", "shaping", "sensors", "control"}) {
     if (open && json.has(key)) {
-      json.fault(ErrorCode::kConflict, key, "has no effect in open loop; remove it");
+      json.fault(ErrorCode::kConflict, key, "has no effect in open loop; remove this key");
     }
   }
   if (json.has("estimator") && !(scenario.sensors && scenario.sensors->gps)) {

@@ -8,8 +8,8 @@
 namespace awmr {
 namespace {
 
-/// Distance of p from the line through a and b, m, left positive; if a and b coincide, distance of
-/// p from a.
+/// Distance of p from the line through a and b, m, positive to the left of the direction from a to
+/// b; if a and b coincide, distance of p from a.
 double from_line_m(const Position<double>& a, const Position<double>& b,
                    const Position<double>& p) {
   const double length_m = distance_m(a, b);
@@ -92,8 +92,9 @@ GuidanceOutput ScenarioGuidance::step(double t_s, const Sensed& sensed) {
   return output;
 }
 
-/// True if obstacles leave a way from `from` to the target `to` of the leg. The check is made once
-/// per leg, from the vehicle's position at the start of the leg. Always true without avoidance.
+/// True if obstacles leave a way from `from` to `to`, the target of the leg with the index `leg`.
+/// The check is made once per leg, from the vehicle's position at the start of the leg. Always true
+/// without avoidance.
 bool ScenarioGuidance::way_is_free(const Position<double>& from, const Position<double>& to,
                                    int leg) {
   if (!scenario_->avoidance) return true;

@@ -14,7 +14,7 @@
 
 namespace awmr {
 
-/// The commanded heading at `t_s`.
+/// The commanded heading at `t_s`, rad, not wrapped: that of the last step that has begun.
 double heading_at(const HeadingSteps& guidance, double t_s);
 
 /// Output of the guidance at one sample.
@@ -22,7 +22,7 @@ struct GuidanceOutput {
   Reference<double> reference{};
   PathRow path;
   bool finished = false;    ///< the end of the route is reached
-  bool no_passage = false;  ///< obstacles block every way to the target
+  bool no_passage = false;  ///< obstacles block every way to the target; the reference speed is 0
 };
 
 /// PathFollower that also stores the point of the path at the last step.
@@ -41,7 +41,8 @@ class ScenarioGuidance {
   ScenarioGuidance(const ScenarioGuidance&) = delete;
   ScenarioGuidance(ScenarioGuidance&&) = default;
 
-  /// Computes the references. Call it once per sample, in order; not in open loop.
+  /// Computes the references at the time `t_s`. Call it once per sample, in order, and not in open
+  /// loop.
   GuidanceOutput step(double t_s, const Sensed& sensed);
   /// Number of waypoints that have been missed so far, including those covered by an obstacle.
   int missed() const { return laws_.progress.missed; }

@@ -33,8 +33,8 @@ Guidance read_guidance(JsonObject json);
 std::vector<Obstacle<double>> read_obstacles(JsonObject& scenario);
 Avoidance<double> read_avoidance(JsonObject json);
 HeadingShaping<double> read_shaping(JsonObject json);
-/// Reads disturbance, faults, slippery, battery, sensors, actuators, control, corner, tyres, if
-/// present.
+/// Reads disturbance, faults, slippery, battery, sensors, estimator, actuators, control, corner and
+/// tyres, if present.
 void read_world(JsonObject& json, Scenario& scenario);
 
 }  // namespace awmr

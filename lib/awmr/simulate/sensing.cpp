@@ -8,7 +8,8 @@
 namespace awmr {
 namespace {
 
-/// Random streams of the sensors (RunSeed::random), separate from those of the disturbances.
+/// Numbers of the sensors' random streams (RunSeed::random), separate from those of the
+/// disturbances.
 enum Use : std::uint64_t { kHeading = 1, kYawRate, kSpeed, kGps };
 
 /// Tolerance for the rounding of times that are multiples of the sample time, in samples and in
@@ -18,7 +19,8 @@ constexpr double kTimeRounding_s = 1e-9;
 
 bool is_noisy(const Channel& channel) { return channel.noise > 0.0 || channel.noise < 0.0; }
 
-/// The reading of a channel. `next_normal` is called only if the channel has noise.
+/// The reading of a sensor for the true value `truth`: with bias, noise and quantisation.
+/// `next_normal` is called only if the channel has noise.
 template <class Normal>
 double read(const Channel& channel, double truth, const Normal& next_normal) {
   double value = truth + channel.bias;
@@ -104,7 +106,8 @@ Sensed Sensing::at(std::size_t k, const State<double>& truth) {
 }
 
 /// Sets the measured position to the last fix that has arrived. Before the first fix, this is the
-/// true initial position, as if it was taken one period before the start.
+/// true initial position, as if a fix had been taken one GPS period before the start. A fix that is
+/// lost in a drop-out also takes its random numbers.
 void Sensing::receive_fixes(std::size_t k, const State<double>& truth, Sensed& sensed) {
   const Gps& gps = *sensors_->gps;
   true_m_.push_back({truth.x_m, truth.y_m});

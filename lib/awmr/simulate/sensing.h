@@ -14,12 +14,12 @@
 
 namespace awmr {
 
-/// Measurements of one sample.
+/// Measurements of one sample, with all sensor errors.
 struct Sensed {
   Measurement<double> motion;
-  Position<double> position_m;  ///< with a GPS, the last fix; else the true position
-  double fix_taken_s = 0.0;     ///< time at which the last fix was taken
-  bool is_fix_new = false;      ///< the last fix arrived after the previous sample
+  Position<double> position_m;  ///< the last fix that has arrived; without GPS, the true position
+  double fix_taken_s = 0.0;     ///< time at which this fix was taken; before the first fix, < 0
+  bool is_fix_new = false;      ///< this fix arrived after the previous sample
 };
 
 /// The sensors of one run, with their noise and latency.
@@ -29,7 +29,7 @@ class Sensing {
   /// sensors.
   Sensing(const std::optional<Sensors>& sensors, double sample_time_s, const RunSeed& seed,
           const DrawnNoise* noise = nullptr);
-  /// Measures the k-th sample. Call it once per sample, in order from 0.
+  /// Measures the state `truth` of the k-th sample. Call it once per sample, in order from k = 0.
   Sensed at(std::size_t k, const State<double>& truth);
 
  private:
@@ -52,8 +52,8 @@ class Sensing {
     Random random;
     const std::vector<double>* normals;  ///< w_k by sample; null: drawn from `random`
   };
-  /// The true value of the quantity at the time of the k-th sample minus the latency, interpolated
-  /// linearly between samples. Before the first sample, it is the value of the first sample.
+  /// The true value of the quantity at the time of the k-th sample minus the latency of the sensor,
+  /// interpolated linearly between samples. Before the first sample, the value of the first sample.
   double truth_at(std::size_t k, const Sensor& sensor, double Measurement<double>::*quantity) const;
 
   std::optional<Sensors> sensors_;

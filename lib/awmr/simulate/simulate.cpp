@@ -154,8 +154,8 @@ Status check_work(const Plant<double>& plant, const std::string& model_file,
   if (!(rows <= kMostRows)) {
     return input_error(
         ErrorCode::kTooLarge, fmt::format("scenario '{}':/duration_s", scenario.name),
-        fmt::format("{:g} s at a sample time of {:g} s are {:.3g} rows; a run has at most {:g}, so "
-                    "give at most {:g} s",
+        fmt::format("{:g} s at a sample time of {:g} s give {:.3g} rows, but a run has at most "
+                    "{:g}; give a duration_s of at most {:g}",
                     scenario.duration_s, sample_time_s, rows, kMostRows,
                     (kMostRows - 1.0) * sample_time_s));
   }
@@ -166,9 +166,9 @@ Status check_work(const Plant<double>& plant, const std::string& model_file,
     return input_error(
         ErrorCode::kTooLarge, model_file + ":" + std::string(parameter.pointer),
         fmt::format(
-            "the time constant of this parameter requires RK4 steps of {:.3g} s, {:.3g} steps "
-            "in {:g} s (scenario '{}'); the limit is {:g}. Check {} and the mass or inertia, "
-            "or give a shorter duration_s",
+            "the time constant of this parameter requires RK4 steps of {:.3g} s, so {:.3g} steps "
+            "for the {:g} s of scenario '{}'; a run has at most {:g} steps. Check {} and the mass "
+            "or inertia, or give a shorter duration_s",
             limit.step_s, steps, scenario.duration_s, scenario.name, kMostSteps, parameter.name));
   }
   return {};
@@ -180,9 +180,9 @@ Status failure_of(const Run& run, const Scenario& scenario) {
   return input_error(
       ErrorCode::kDiverges, fmt::format("scenario '{}'", scenario.name),
       fmt::format("the simulation cannot continue after {:g} s, at u {:.4g} m/s, v {:.4g} m/s, r "
-                  "{:.4g} deg/s: no integration step resolves the resistance there, or a number is "
-                  "not finite; check the initial speeds, the disturbances, {}and the exponents in "
-                  "the model",
+                  "{:.4g} deg/s: no integration step is short enough for the resistance at these "
+                  "speeds, or a number is not finite; check the initial speeds, the disturbances, "
+                  "{}and the exponents in the model",
                   last.t_s, last.state.u_mps, last.state.v_mps, degrees(last.state.r_radps),
                   scenario.tyres ? "the tyres' cornering stiffness and rest speed, " : ""));
 }

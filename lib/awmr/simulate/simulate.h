@@ -17,12 +17,12 @@
 
 namespace awmr {
 
-/// Guidance columns of a row, in addition to the vehicle's state; unused in open loop.
+/// Guidance columns of a row of run.csv, in addition to the vehicle's state; unused in open loop.
 struct PathRow {
   double psi_goal_rad = 0.0;    ///< heading of the guidance, before avoidance and shaping
   double cross_track_m = 0.0;   ///< distance from the current leg, line or path, left positive
   Position<double> target_m{};  ///< target point: waypoint, end of the segment, point of the path
-  int leg = 0;                  ///< index of the waypoint or segment
+  int leg = 0;                  ///< index of the waypoint or segment, from 0
 };
 
 /// One row of a run: the state at the time t, and the command computed at t, which is constant
@@ -30,21 +30,22 @@ struct PathRow {
 struct RunRow {
   double t_s = 0.0;
   State<double> state{};
-  SideForces<double> force{};         ///< commanded forces, over F_max
+  SideForces<double> force{};         ///< command of each motor of a side, over F_max
   double steering_command_rad = 0.0;  ///< d_ro: commanded steering angle, rad, left positive
-  double tau_speed = 0.0;             ///< thrust requested by the speed law, before any limit
-  double tau_turn_m = 0.0;            ///< yaw moment requested by the heading law, before any limit
+  double tau_speed = 0.0;             ///< output of the speed law minus the estimated disturbance,
+                                      ///< before any limit, dimensionless
+  double tau_turn_m = 0.0;            ///< the same of the heading law: yaw moment, m
   double psi_ref_rad = 0.0;           ///< psi_d: heading reference of the law; 0 in open loop
   double u_ref_mps = 0.0;             ///< u_d: speed reference of the law; 0 in open loop
   PathRow path = {};
   Measurement<double> measured = {};          ///< measurements of the controller
   Position<double> measured_position_m = {};  ///< position that the guidance uses
   BodyLoad disturbance = {};                  ///< external forces, without those of a slope
-  /// Distance from the vehicle's circle to the nearest obstacle; < 0 if they overlap; 0 without
-  /// obstacles.
+  /// Distance from the vehicle's circle (a point without avoidance) to the nearest obstacle, m; < 0
+  /// if they overlap; 0 without obstacles.
   double clearance_m = 0.0;
-  /// Power dissipated by the lateral tyre forces, over F_max, m/s. In the 3-DOF model: by scrub
-  /// only, without g3.
+  /// Power dissipated by the lateral tyre forces, over F_max, m/s. In the 3-DOF model: by tyre
+  /// scrub only, without the yaw resistance g3.
   double tyre_power_mps = 0.0;
   /// Mean wheel forces over the sample that ends at this row, over F_max, after motor lag, battery,
   /// faults and slippery ground; dead zone and back-EMF are not subtracted. 0 in the first row.
@@ -63,7 +64,7 @@ enum class RunEnd {
 
 /// One simulated run.
 struct Run {
-  std::vector<RunRow> rows;  ///< at 0, T_s, 2 T_s, ... including the end
+  std::vector<RunRow> rows;  ///< at the times 0, T_s, 2 T_s, ... including the end of the run
   int substeps = 0;          ///< RK4 steps per sample
   RunEnd end = RunEnd::kDuration;
   int missed_waypoints = 0;  ///< including those covered by an obstacle
@@ -87,19 +88,19 @@ inline constexpr double kMostRows = 2e6;
 inline constexpr double kMostSteps = 1e8;
 inline constexpr int kMostSubsteps = 100'000'000;
 
-/// Number of RK4 steps per sample that resolve the time constants of the plant which do not depend
-/// on speed (step_limit() in physics.h), at most kMostSubsteps.
+/// Number of RK4 steps per sample, in [1, kMostSubsteps], that resolve the time constants of the
+/// plant which do not depend on speed (step_limit() in physics.h).
 int substeps_for(const Plant<double>& plant, double sample_time_s);
-/// substeps_for() in a scenario, whose tyres, if any, replace the resistances in sway and yaw.
+/// substeps_for() in a scenario: its tyres, if any, replace the plant's sway and yaw resistance.
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
-/// A controller that feeds this plant's resistances forward, with these gains and the limits of the
-/// vehicle.
+/// A controller with the parameters of this plant, whose resistances it feeds forward, with these
+/// gains and the limits of the vehicle.
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
                                    const Gains<double>& gains,
                                    CombinedSplit split = CombinedSplit::kRedistribute);
 
-/// A controller with the values of the model. A scenario's corner does not change them. If the
+/// A controller with the estimates of the model; a scenario's corner does not change them. If the
 /// model only has parameters for straight motion, so has the controller. Errors (input): as
 /// Model::plant and check_observer_rate.
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
@@ -111,22 +112,23 @@ Result<Controller<double>> controller_for(const Model& model, const Gains<double
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                      YawMode mode);
 
-/// Checks the length of a run. Errors (input): the run would have more than kMostRows rows (the
-/// message names duration_s), or more than kMostSteps RK4 steps (the message names the parameter
-/// whose time constant requires them).
+/// Checks the length of a run before it is simulated. Errors (input): the run would have more than
+/// kMostRows rows (the message names duration_s), or more than kMostSteps RK4 steps (the message
+/// names the parameter whose time constant requires them). `model_file`: name for the message.
 Status check_work(const Plant<double>& plant, const std::string& model_file,
                   const Scenario& scenario, double sample_time_s);
 
-/// Errors (input): the run ended as kFailed; the message has the time and the speeds.
+/// Errors (input): the run ended as kFailed; the message has the time and the speeds of the last
+/// row.
 Status failure_of(const Run& run, const Scenario& scenario);
 
 /// Simulates the given plant and controller. The result has at least one row. Its end is
-/// RunEnd::kFailed if the run could not continue. The scenario's corner is not applied: see
-/// plant_for.
+/// RunEnd::kFailed if the run could not continue, or is too long for check_work(). The scenario's
+/// corner is not applied; plant_for() gives the plant at the corner.
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,
              const Scenario& scenario, YawMode mode, const SimulateOptions& options);
 
-/// Content of run.csv: the fixed columns, then those that apply to the scenario.
+/// Content of run.csv: the columns of every run, then those that this scenario adds.
 std::string run_csv(const Run& run, const Scenario& scenario);
 /// The values of a row with the names of their columns in run.csv.
 std::vector<std::pair<std::string_view, double>> named_values(const RunRow& row,

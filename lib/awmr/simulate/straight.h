@@ -1,4 +1,4 @@
-/// Checks that a run with a model for straight motion does not turn.
+/// Checks that a run does not turn, for models that only have parameters for straight motion.
 #pragma once
 
 #include "awmr/core/result.h"
@@ -6,8 +6,8 @@
 
 namespace awmr {
 
-/// Errors (input): the run turns, but the model only has parameters for straight motion. The message
-/// has the time and the missing parameters.
+/// Errors (input): the run turns, or moves sideways. The message has the time and the parameters
+/// that the model lacks. Precondition: the model only has parameters for straight motion.
 Status check_straight(const Run& run, const Scenario& scenario, const Model& model);
 
 }  // namespace awmr

@@ -42,7 +42,8 @@ void note_blocked_waypoints(const Scenario& scenario, std::vector<Finding>& find
                                         path->points_m[i].y_m - obstacle.centre_m.y_m);
       if (apart_m > obstacle.radius_m) continue;
       findings.push_back({"", 0, Severity::kWarning, "blocked-waypoint",
-                          fmt::format("{}: waypoint {} lies within an obstacle; move one of them",
+                          fmt::format("{}: waypoint {} (counted from 1) lies within an obstacle; "
+                                      "move the waypoint or the obstacle",
                                       scenario.name, i + 1)});
     }
   }
@@ -61,8 +62,8 @@ void note_speed(const Scenario& scenario, const Model& model, std::vector<Findin
                                   scenario.name, scenario.speed_mps, needed, std::max(most, 0.0))});
 }
 
-/// Magnitude of the yaw rate, deg/s, after 10 s of open loop with half of the largest thrust and
-/// the moment tau_turn_m; on `tyres` if given.
+/// Magnitude of the yaw rate, deg/s, after 10 s in open loop with half of the largest thrust and
+/// the yaw moment tau_turn_m: of the 3-DOF model, or of the vehicle on `tyres` if given.
 double turned_degps(const Model& model, double tau_turn_m,
                     const std::optional<Tyres<double>>& tyres) {
   Scenario turn;
@@ -94,9 +95,9 @@ std::optional<Finding> missing_intervals(const Model& model) {
   }
   return Finding{
       model.file, 0, Severity::kWarning, "no-interval",
-      fmt::format("{} of the model {} no 95 % interval{}: the error is unknown, and sampled plants "
-                  "do not vary it. Follow the findings of identify and identify again before "
-                  "driving with these values",
+      fmt::format("{} of the model {} no 95 % interval{}: the error of such a value is unknown, "
+                  "and plants drawn from the model do not vary it. Follow the findings of identify "
+                  "and identify again before driving with this model",
                   fmt::join(missing, ", "), missing.size() == 1 ? "has" : "have",
                   causes.empty() ? "" : fmt::format(" (identify: {})", fmt::join(causes, ", ")))};
 }
@@ -192,8 +193,8 @@ std::optional<Finding> extrapolation_finding(const std::string& file, double mea
                   "extrapolated. {}",
                   where, fastest_degps, fastest_degps / measured_degps, measured_degps,
                   is_rate_limited
-                      ? "Heading commands are limited to this rate, but the vehicle overshoots or "
-                        "slides. Record faster turning trials, or give a "
+                      ? "Heading commands are limited to the measured rate, but the vehicle "
+                        "overshoots or slides. Record faster turning trials, or give a "
                         "lower --heading-rate-limit"
                       : "Record faster turning trials, or limit the rate of heading commands "
                         "(shaping in the scenario, or --heading-rate-limit measured)")};
@@ -220,9 +221,10 @@ std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,
     return Finding{
         file, 0, Severity::kWarning, "unsigned-speed-runs-away",
         fmt::format(
-            "m' mu_s sat(u/eps_s) = {:.3g} is above g1(u) = {:.3g} at {:.3g} m/s: with a "
-            "speed sensor without a sign (GPS), the vehicle can drive backward by itself. Set "
-            "speed_unsigned in the sketch, as the examples do",
+            "the correction of the speed law, m' mu_s sat(u/eps_s) = {:.3g}, exceeds the "
+            "resistance g1(u) = {:.3g} at {:.3g} m/s: with a speed sensor without a sign (GPS), "
+            "the vehicle can drive backward by itself. Set speed_unsigned in the sketch, as the "
+            "examples do",
             plant.mass_norm * gains.speed.mu * std::min(u_mps / gains.speed.epsilon, 1.0),
             plant.surge(u_mps), u_mps)};
   }

@@ -1,6 +1,6 @@
-/// Warnings about a simulation (turns faster than the measured ones, requests that the vehicle
-/// cannot meet, parameters without an interval), and the limit of heading rates that avoids the
-/// first.
+/// Warnings about a simulation: turns faster than the measured ones, requests that the vehicle
+/// cannot meet, parameters without an interval. Also the limit of the rate of heading commands,
+/// which keeps turns within the measured range.
 #pragma once
 
 #include <algorithm>
@@ -17,12 +17,12 @@
 namespace awmr {
 
 /// Warning `tyres-differ`: with the yaw moment that makes the model turn at the highest measured
-/// yaw rate, the vehicle on the scenario's tyres turns more than 1.5 times as fast or as slowly.
-/// None without tyres or without a measured yaw rate.
+/// yaw rate, the vehicle on the scenario's tyres turns more than 1.5 times as fast as the model, or
+/// less than 1/1.5 times as fast. Absent without tyres or without a measured yaw rate.
 std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model);
 
-/// Warning `no-interval`: some fitted parameters have no interval, so sampled plants do not vary
-/// them.
+/// Warning `no-interval`: some fitted parameters have neither standard error nor 95 % interval, so
+/// plants drawn from the model do not vary them. Absent if there are none.
 std::optional<Finding> missing_intervals(const Model& model);
 
 /// Warnings about requests that cannot be met: a heading step after the end of the scenario
@@ -32,7 +32,8 @@ std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model
 
 /// Warning `unsigned-speed-runs-away`: with a speed sensor without a sign, such as a GPS, the speed
 /// law would accelerate a vehicle that rolls backward. This is so if m' mu_s sat(u/eps_s) > g1(u)
-/// at a speed that the vehicle can reach. `file`: the file of the gains.
+/// at a speed that the vehicle can reach. `force_max`: upper end of Vehicle::wheel_force. `file`:
+/// name of the file of the gains. Absent if there is no such speed.
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,
                                               const Gains<double>& gains, double force_max,
                                               const std::string& file);
@@ -52,20 +53,21 @@ inline constexpr const char* kNoRate = "none";
 /// Key of the heading rate limit among the options that an output file records.
 inline constexpr const char* kRateName = "heading_rate_limit";
 
-/// The message for an invalid choice; empty for a valid one.
+/// The message for an invalid choice; empty if the choice is valid.
 std::string fault_of_rate(const HeadingRateChoice& choice);
 
-/// The choice that a comparison uses. Default: "measured" if the model has a highest measured yaw
-/// rate, because the yaw resistance is extrapolated in faster turns; else "none".
+/// The choice that a comparison uses: `said`, the value of the option, if it is not empty. Default:
+/// "measured" if the model has a highest measured yaw rate, because the yaw resistance is
+/// extrapolated in faster turns; else "none".
 HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& said, const Model& model);
 
-/// Applies the limit to every scenario. Errors (input): as fault_of_rate(); "measured" without a
-/// highest measured yaw rate.
+/// Applies the limit to every scenario; no effect if the choice is empty or "none". Errors (input):
+/// as fault_of_rate(); "measured" if the model has no highest measured yaw rate.
 Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
                           std::span<Scenario> scenarios);
 
-/// Warning `not-led` if the option is not given and the model has no highest measured yaw rate, so
-/// that the heading rate is not limited.
+/// Warning `not-led` (heading rate not limited) if the option is not given (`said` is empty) and
+/// the model has no highest measured yaw rate.
 std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& said, const Model& model);
 
 /// Warning `beyond-trials` if a turn of `fastest_degps`, >= 0, is more than kLittleFurther times as

@@ -1,5 +1,6 @@
-/// Steps that compute the vehicles of runs that are simulated together, on rows (row_view.h): from
-/// the commands through motors and battery to the motion. Private to this folder.
+/// Steps of a sample that compute the vehicles of runs that are simulated together, on rows
+/// (row_view.h): from the commands through motors and battery to the motion. Private to this
+/// folder.
 #pragma once
 
 #include "awmr/simulate/motion.h"
@@ -7,12 +8,12 @@
 
 namespace awmr {
 
-/// Properties common to all vehicles.
+/// Properties common to all vehicles that are simulated together.
 struct VehicleSetup {
   MotorLag lag;
   bool has_battery = false;
   double battery_sag = 0.0;  ///< Battery::sag
-  bool is_by_wheel = false;  ///< the wheels of a side can have different forces
+  bool is_by_wheel = false;  ///< front and rear wheel of a side can have different forces
   bool is_on_tyres = false;
   Tyres<double> tyres;            ///< valid if is_on_tyres
   bool has_back_emf = false;      ///< any vehicle has back-EMF
@@ -25,23 +26,23 @@ struct VehicleSetup {
 template <class Row>
 struct Vehicles {
   VehicleSetup setup;
-  double battery_share = 1.0;  ///< largest force over F'max, for the current sample
+  double battery_share = 1.0;  ///< battery_share() at the current sample
 
   Row active;  ///< 1; 0 if the run has ended or failed, or for an unused lane
 
   // Constant over a run.
-  Plant<Row> plant;  ///< with the chords through rest (resolved_at_rest())
+  Plant<Row> plant;  ///< result of resolved_at_rest(): resistances near rest are straight lines
   Row step_s;        ///< h: integration step, s
-  Row substeps;
-  Row force_most;  ///< largest F' of a wheel, with the dead zone
+  Row substeps;      ///< RK4 steps per sample
+  Row force_most;    ///< largest motor command over F_max, including the dead zone
 
   // State of a run.
   State<Row> state;
-  SideForces<Row> motors;  ///< F of MotorLag
-  Row halves;              ///< Resolution::halves
+  SideForces<Row> motors;  ///< lagging motor forces F at the start of the sample (MotorLag)
+  Row halves;              ///< number of RK4 steps that were halved so far (Resolution::halves)
 
-  // Values of the current sample: the commands, the applied forces by side or by wheel, and the
-  // load of the disturbances.
+  // Values of the current sample: the commands, the applied forces by side (`arriving`) or by wheel
+  // (`wheels`), and the forces and moment of the disturbances (`load`).
   SideForces<Row> force;
   Row steering_command_rad;
   SideForces<Row> arriving;
@@ -50,10 +51,11 @@ struct Vehicles {
   Row tyre_power_mps;  ///< RunRow::tyre_power_mps
 };
 
-/// Steps of a sample for one type of row. The motion of a run that is not active does not change.
+/// Steps of a sample for one type of row. The motion of an inactive run (Vehicles::active is 0)
+/// does not change.
 template <class Row>
 struct VehicleSteps {
-  /// Computes `tyre_power_mps` from the commands.
+  /// Computes `tyre_power_mps` from state and motor commands, if the vehicle has tyres or scrub.
   void (*dissipate)(Vehicles<Row>& v);
   /// Computes the motor forces `arriving` from the commands, through motors and battery.
   void (*actuate)(Vehicles<Row>& v);
@@ -77,7 +79,7 @@ decltype(auto) body_of(const View& view, const Vehicles<Row>& v) {
   }
 }
 
-/// The wheel forces that RunRow::acting reports.
+/// The applied wheel forces that RunRow::acting reports.
 template <class View, class Row>
 WheelForces<typename View::Number> acting_forces(const View& view, const Vehicles<Row>& v) {
   if (v.setup.is_by_wheel) return view(v.wheels);
@@ -127,7 +129,7 @@ AWMR_WHOLE void actuate(const View& view, Vehicles<Row>& v) {
 }
 
 /// Integrates the active vehicles over a sample. `rates(body, state, steering command)` returns the
-/// rates of the state with constant forces.
+/// time derivatives of the state with constant forces.
 template <bool kIsOnTyres, class View, class Row, class Rates>
 AWMR_WHOLE void move_by(const View& view, Vehicles<Row>& v, const Rates& rates) {
   using math::select;
@@ -167,8 +169,9 @@ void move_alone(const View& view, Vehicles<Row>& v,
           __attribute__((always_inline)) { return side_driven_rates(plant, at, force, command); });
 }
 
-/// Integrates the vehicles. The rates of the state contain only the terms that at least one vehicle
-/// of the block needs, because a branch inside the rates would stall the processor in every step.
+/// Integrates the vehicles. The functions that compute the state's derivatives contain only the
+/// terms that at least one vehicle needs, because a branch inside them would stall the processor in
+/// every step.
 template <class View, class Row>
 void move(const View& view, Vehicles<Row>& v) {
   using T = typename View::Number;

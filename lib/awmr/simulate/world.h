@@ -1,5 +1,6 @@
-/// Parts of a scenario that act on the vehicle or its controller: disturbances, wheel faults,
-/// sensors, actuators. All are off unless the scenario sets them. Random numbers come from seeds.
+/// Parts of a scenario that act on the vehicle or its controller: disturbances, motor faults,
+/// slippery ground, battery, sensors, actuators and options of the controller. All are off unless
+/// the scenario sets them. Random numbers come from seeds.
 #pragma once
 
 #include <cmath>
@@ -27,7 +28,7 @@ using BodyLoad = BodyLoadOf<double>;
 /// Time window [from_s, to_s).
 struct Window {
   double from_s = 0.0;  ///< start, >= 0
-  /// End, > from_s; infinity: to the end of the run.
+  /// End, > from_s, not included; infinity: to the end of the run.
   double to_s = std::numeric_limits<double>::infinity();
   bool holds(double t_s) const { return t_s >= from_s && t_s < to_s; }
 };
@@ -42,7 +43,7 @@ struct DisturbanceTerm {
   Window window;                    ///< a step is a constant with from_s > 0
   double frequency_hz = 0.0;        ///< kSine: frequency, > 0
   std::optional<double> phase_rad;  ///< kSine: phase at t = 0; absent: drawn from the seed
-  double bandwidth_hz = 0.0;        ///< kNoise, > 0: corner of the first-order low pass
+  double bandwidth_hz = 0.0;        ///< kNoise: corner frequency of the first-order low pass, > 0
 };
 
 /// Uniform slope of the ground.
@@ -70,20 +71,21 @@ struct WheelFault {
   double share = 0.0;  ///< fraction of the requested force, [0, 1]; 0: the motors are dead
 };
 
-/// Slippery disc on the ground: the force of a wheel on the disc is at most `force_max`.
+/// Slippery disc on the ground: the magnitude of the longitudinal force of a wheel on the disc is
+/// at most `force_max`.
 struct SlipperyPatch {
   Position<double> centre_m{};
   double radius_m = 0.0;   ///< > 0
   double force_max = 0.0;  ///< largest force of a wheel on the disc, over F_max, >= 0
 };
 
-/// Battery discharge: the largest force of a motor decreases linearly from F'max at `from_s` to
-/// `share_end` of it at `to_s`, and is then constant. In addition, the voltage sags under the
-/// motors' current. The controller measures neither.
+/// Battery discharge: the largest command that takes effect at a motor decreases linearly from
+/// `from_s` to `to_s`, to `share_end` of the largest command, and is then constant. In addition,
+/// the voltage sags under the motors' current. The controller measures neither.
 struct Battery {
   double from_s = 0.0;     ///< start of the decrease, >= 0
   double to_s = 1.0;       ///< end of the decrease, > from_s
-  double share_end = 1.0;  ///< largest force at the end, over F'max, [0, 1]
+  double share_end = 1.0;  ///< largest command at the end, over that at the start, [0, 1]
   /// Ratio of the battery's internal resistance to that of one motor's winding, >= 0: approximately
   /// the relative voltage drop with one stalled motor. 0: no sag.
   double sag = 0.0;
@@ -94,14 +96,14 @@ struct Channel {
   double noise = 0.0;      ///< >= 0: standard deviation
   double bias = 0.0;       ///< added to each reading; constant over a run
   double quantum = 0.0;    ///< >= 0: step of the reading; 0: none
-  double latency_s = 0.0;  ///< >= 0: latency of a reading
+  double latency_s = 0.0;  ///< >= 0: time from the measured state to the reading
   /// tau, s, >= 0: correlation time of the noise. Two readings t seconds apart have errors with the
   /// correlation exp(-t/tau); 0: independent errors.
   double correlation_s = 0.0;
 };
 
-/// Correlation exp(-t/tau) of two errors of a sensor that are t = `apart_s` > 0 apart; 0 if tau is
-/// 0.
+/// Correlation exp(-t/tau) of two noise values of a sensor that are t = `apart_s` > 0 apart, with
+/// tau = `correlation_s`; 0 if tau is 0.
 inline double noise_correlation(double correlation_s, double apart_s) {
   return correlation_s > 0.0 ? std::exp(-apart_s / correlation_s) : 0.0;
 }
@@ -117,18 +119,18 @@ struct Gps {
 /// Sensors of the controller. A quantity without a sensor has its true value. Exception: if
 /// `sway_measured` is false, the measured sway speed is 0, as on most real vehicles.
 struct Sensors {
-  Channel heading;   ///< rad
-  Channel yaw_rate;  ///< rad/s
-  Channel speed;     ///< m/s, surge
-  bool sway_measured = true;
-  bool speed_signed = true;  ///< false: the measured speed is |u|, as with a GPS
-  std::optional<Gps> gps;    ///< absent: the true position
+  Channel heading;            ///< rad
+  Channel yaw_rate;           ///< rad/s
+  Channel speed;              ///< m/s, surge
+  bool sway_measured = true;  ///< false: the measured sway speed is 0
+  bool speed_signed = true;   ///< false: the measured speed is |u|, as with a GPS
+  std::optional<Gps> gps;     ///< absent: the true position
 };
 
 /// Resolution and lag of the actuators between the commands and the wheels.
 struct Actuators {
   double steering_quantum_rad = 0.0;  ///< one step of the servo's pulse; 0: any angle
-  int pwm_counts = 0;                 ///< counts for the force F'max; 0: any force
+  int pwm_counts = 0;                 ///< PWM counts at the largest motor command; 0: not rounded
   /// Time constant of the first-order lag of the wheel forces, s, >= 0.
   double motor_time_constant_s = 0.0;
 };
@@ -141,10 +143,10 @@ struct CornerParameter {
 
 /// Options of the simulated controller.
 struct ControlOptions {
-  CombinedSplit split = CombinedSplit::kRedistribute;  ///< action of the combined mode at limits
+  CombinedSplit split = CombinedSplit::kRedistribute;  ///< combined mode at actuator limits
   struct Observer {
     double bandwidth_radps = 0.0;  ///< L of DisturbanceObserver, > 0
-    double yaw_max_m = 0.0;        ///< largest estimated disturbance: moment over F_max, m, > 0
+    double yaw_max_m = 0.0;  ///< largest estimated disturbance in yaw: moment over F_max, m, > 0
     double surge_max = 0.0;  ///< largest estimated disturbance in surge: force over F_max, > 0
     /// true: the observer uses the command after the limits. false: it uses the command before
     /// them, so that a saturated actuator looks like a disturbance and the estimate winds up.

@@ -161,8 +161,9 @@ Sensors read_sensors(JsonObject json) {
   return sensors;
 }
 
-/// Reads the actuators. The pulse of the servo changes by `us_per_deg` and has the resolution
-/// `step_us`, 0.5 for an ATmega's timer at 2 MHz.
+/// Reads the actuators. The width of the servo's pulse changes by `us_per_deg` microseconds per
+/// degree of steering and has the resolution `step_us`, microseconds: 0.5 for an ATmega's timer at
+/// 2 MHz.
 Actuators read_actuators(JsonObject json) {
   Actuators actuators;
   if (auto servo = json.optional_object("servo")) {
@@ -191,7 +192,7 @@ constexpr NumberRule kLqiYawRate_degps{.min = 1e-3, .max = 1e5};
 constexpr NumberRule kLqiIntegral_deg_s{.min = 1e-3, .max = 1e6};
 constexpr NumberRule kLqiMoment_m{.min = 1e-6, .max = 1e3};
 
-/// The weights of the LQI; empty for sliding mode.
+/// Reads the heading law: the weights of the LQI, or empty for the sliding mode.
 std::optional<LqiWeights<double>> read_heading_law(JsonObject json) {
   std::optional<LqiWeights<double>> lqi;
   if (json.choice("type", kHeadingLaws) == HeadingLaw::kLqi) {

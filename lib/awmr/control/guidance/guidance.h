@@ -1,6 +1,7 @@
-/// Guidance of one step: computes the reference heading and speed from waypoints, a line or a path,
-/// turns the heading away from obstacles, and smooths it. Each function of an optional part has an
-/// overload for Disabled<Part> that does nothing. Freestanding C++14.
+/// Guidance of one step: computes the reference heading and speed from waypoints, a line or a timed
+/// path, turns the heading away from obstacles, and smooths it. Each function of an optional part
+/// has an overload for Disabled<Part>, a part that is not compiled in, which does nothing.
+/// Freestanding C++14.
 #pragma once
 
 #include "awmr/control/flash.h"
@@ -14,7 +15,7 @@ struct GuidanceLaws : P::Line, P::Path, P::Arrival, P::Avoidance, P::Shaping {
   Waypoints<T> waypoints;        ///< count 0: no waypoints
   T acceptance_m2;               ///< the square of waypoints.acceptance_m
   WaypointProgress<T> progress;  ///< valid once is_leg_started
-  bool is_leg_started;           ///< the first step towards the waypoints was made
+  bool is_leg_started;           ///< at least one step towards the waypoints was made
 };
 
 /// Target of the guidance in one step.
@@ -24,7 +25,7 @@ struct GuidanceTarget {
   bool arrived;                 ///< the route is finished
 };
 
-/// Disables all parts.
+/// Disables waypoints and all optional parts.
 template <class T, class P>
 void disable_guidance(GuidanceLaws<T, P>& g) {
   g.waypoints.count = 0;
@@ -51,8 +52,8 @@ AWMR_INLINE void hold_heading(const T& psi_rad, Reference<T>& ref) {
   ref.psi_accel_radps2 = T(0.0);
 }
 
-/// Reduces the reference speed near the end of the last leg. `to_go_m()` returns the remaining
-/// distance, m.
+/// Reduces the reference speed within SlowDown::distance_m of the end of the route. `is_last`: the
+/// vehicle is on the last leg. `to_go_m()` returns the remaining distance, m.
 template <class T, class ToGo>
 AWMR_INLINE void slow_down(const Disabled<SlowDown<T>>&, bool, const ToGo&, Reference<T>&) {}
 template <class T, class ToGo>
@@ -100,7 +101,7 @@ AWMR_INLINE bool guide_by_waypoints(GuidanceLaws<T, P>& g, const VehiclePose<T, 
   return true;
 }
 
-/// Calls guide() of line.h with the line and the progress of the line follower.
+/// Calls guide() of line.h with the line and the progress that the line follower stores.
 template <class T, class Law>
 AWMR_INLINE PolylineGuidance<T> guide_line(LineFollower<T, Law>& part,
                                            const Position<T>& position_m,
@@ -138,7 +139,8 @@ AWMR_INLINE PathPoint<T> path_point(const PathFollower<T, Time>& part, const T& 
   return part.path.at(t_s);
 }
 
-/// Writes heading and speed of the path into the reference; a requested speed above 0 is kept.
+/// Writes heading, heading rate and speed of the path into the reference. A reference speed that is
+/// already above 0 is kept. No-op while the part is not on.
 template <class Part, class T, class Time>
 AWMR_INLINE void guide_by_path(Disabled<Part>&, const VehiclePose<T, Time>&, Reference<T>&) {}
 template <class Path, class T, class Time>
@@ -174,7 +176,8 @@ AWMR_INLINE GuidanceTarget<T> guide_by_route(GuidanceLaws<T, P>& g, const Vehicl
   return target;
 }
 
-/// Distance that avoid() gets if there is no target, m: larger than the distance to any obstacle.
+/// Distance to the target that avoid() gets if there is no target, m: larger than the distance to
+/// any obstacle, so that every obstacle counts.
 template <class T>
 constexpr T no_target_m() {
   return T(1e30);
@@ -200,7 +203,8 @@ AWMR_CALLED void steer_around_obstacles(Avoider<T>& part, const VehiclePose<T, T
   ref.psi_rate_radps = T(0.0);
 }
 
-/// Smooths the reference heading (heading_shaping.h). The filter starts at the vehicle's heading.
+/// Smooths the reference heading by the filter of heading_shaping.h and adds its rate and
+/// acceleration. The filter starts at the vehicle's heading.
 template <class Part, class T, class Time>
 AWMR_INLINE void shape_heading(Disabled<Part>&, const VehiclePose<T, Time>&, Reference<T>&) {}
 template <class T, class Time>

@@ -13,7 +13,7 @@ namespace awmr {
 /// Without the limits, the filter is psi_d_ddot + 2 w psi_d_dot + w^2 psi_d = w^2 psi_in.
 template <class T>
 struct HeadingShaping {
-  /// w, rad/s, > 0: bandwidth. Larger: the reference follows faster. w T_s <= 0.5, with the sample
+  /// w, rad/s, > 0: bandwidth. Larger: psi_d follows psi_in faster. w T_s <= 0.5, with the sample
   /// time T_s, prevents overshoot of the discrete filter.
   T omega_radps;
   /// r_max, rad/s, > 0: for example the largest yaw rate of the turning trials.
@@ -25,7 +25,7 @@ struct HeadingShaping {
 /// Output and state of the filter.
 template <class T>
 struct ShapedHeading {
-  T psi_rad;           ///< psi_d, rad, see without_turns()
+  T psi_rad;           ///< psi_d, rad; without_turns() wraps it if T is float
   T psi_rate_radps;    ///< psi_d_dot, rad/s
   T psi_accel_radps2;  ///< psi_d_ddot, rad/s^2, over the step that ends here
 };

@@ -1,8 +1,8 @@
 /// Integral line of sight (ILOS), a guidance law that follows a line. Freestanding C++14.
 ///
-/// With a side slope, an unmeasured sideslip or a steady heading error, a vehicle that aims at the
-/// line drives parallel to it. ILOS shifts the aim to the other side of the line until the vehicle
-/// is on the line.
+/// With a side slope, an unmeasured sideslip or a steady heading error, a vehicle that aims at a
+/// point of the line ends up parallel to the line, at a constant offset. ILOS integrates the offset
+/// and shifts the aim to the other side of the line until the vehicle is on the line.
 #pragma once
 
 #include "awmr/control/guidance/line.h"
@@ -12,11 +12,11 @@ namespace awmr {
 /// Parameters of integral line-of-sight guidance.
 template <class T>
 struct IntegralLos {
-  /// Delta, m, > 0: lookahead distance along the line. Larger: smoother, and slower to reach the
-  /// line.
+  /// Delta, m, > 0: distance along the line from the vehicle to the point at which it aims. Larger:
+  /// smoother, and slower to reach the line.
   T lookahead_m;
-  /// sigma, m/s, > 0: speed at which the aim is shifted. The literature requires less than the
-  /// vehicle's speed. Larger: disturbances are compensated sooner, and the line is overshot more.
+  /// sigma, m/s, > 0: gain of the integral. The literature requires less than the vehicle's speed.
+  /// Larger: disturbances are compensated sooner, and the line is overshot more.
   T integral_gain_mps;
   bool sideslip_compensation;
 

@@ -1,4 +1,5 @@
-/// Guidance along a line or polyline, by any of the laws of line_laws.h. Freestanding C++14.
+/// Guidance along a line or polyline, by one of the guidance laws of line_laws.h. Freestanding
+/// C++14.
 #pragma once
 
 #include "awmr/control/guidance/position.h"
@@ -58,7 +59,7 @@ AWMR_INLINE AlongSegment<T> along_segment(const Position<T>& a, const Position<T
   return s;
 }
 
-/// Motion of the vehicle that the laws use.
+/// Motion of the vehicle that the guidance laws use.
 template <class T>
 struct LineMotion {
   T sideslip_rad;   ///< beta, rad
@@ -66,8 +67,8 @@ struct LineMotion {
   T sample_time_s;  ///< time between two guidance steps, > 0
 };
 
-/// Range of a law's parameter in scenario files. The law stores the file's value times `unit`,
-/// which is pi/180 for an angle in deg and otherwise 1.
+/// Range of a parameter of a guidance law in scenario files, in the unit of the file. The law
+/// stores the file's value times `unit`, which is pi/180 for an angle in deg and otherwise 1.
 struct LawParameter {
   double min;
   double max;
@@ -75,8 +76,8 @@ struct LawParameter {
   double unit;
 };
 
-/// Range of lookahead distances in scenario files, m. With a shorter one, the vehicle would turn
-/// for every rounding error.
+/// Range of lookahead distances in scenario files, m. With a shorter distance, the vehicle would
+/// turn for every rounding error.
 constexpr LawParameter lookahead_range() { return {1e-3, 1e6, false, 1.0}; }
 
 /// Corners joined by line segments, driven from the first to the last. Two corners are one line.
@@ -85,7 +86,7 @@ constexpr LawParameter lookahead_range() { return {1e-3, 1e6, false, 1.0}; }
 ///   sideslip_compensation     true, as in the paper: beta is subtracted, so that the course over
 ///                             ground is controlled and a vehicle that slips stays on the line;
 ///                             false: for vehicles that cannot measure v
-///   kUsesCorner               whether the law uses corner_m below
+///   kUsesCorner               whether the law uses Polyline::corner_m
 ///   name()                    its name in files
 ///   parameters(law, field)    calls field(key, parameter, LawParameter) for each parameter
 /// and the function approach_rad(law, segment, motion, memory), whose result guide() subtracts from
@@ -104,7 +105,7 @@ struct Polyline {
 /// Progress along the corners.
 template <class T>
 struct PolylineProgress {
-  int segment;  ///< from points_m[segment] to points_m[segment + 1]
+  int segment;  ///< the current segment: from points_m[segment] to points_m[segment + 1]
   T psi_rad;    ///< psi_d of the last step, rad, held when no segment is left
   T memory;     ///< state of the law, such as an integral; 0 at the start of each segment
 };
@@ -124,15 +125,15 @@ struct PolylineGuidance {
   bool finished;    ///< past the end of the last segment: psi_d holds its last value
 };
 
-/// True if the current segment is done and the next one is to be followed: the rest of the segment
-/// is at most `corner_m`.
+/// True if the current segment is done and the next one is to be followed: the distance along the
+/// segment to its end is at most `corner_m`.
 template <class T, class Law>
 AWMR_INLINE bool is_passed(const Law&, const AlongSegment<T>& s, const T& corner_m) {
   return !(s.length_m - s.along_m > corner_m);
 }
 
-/// Distance from the line for PolylineGuidance, m, left positive. `segment`: index of the current
-/// segment.
+/// Distance from the line that PolylineGuidance reports, m, left positive. Default for laws without
+/// their own overload: the distance from the current segment's line.
 template <class T, class Law>
 AWMR_INLINE T distance_off_m(const Polyline<T, Law>&, int /*segment*/,
                              const Position<T>& /*position_m*/, const AlongSegment<T>& s) {
@@ -141,8 +142,8 @@ AWMR_INLINE T distance_off_m(const Polyline<T, Law>&, int /*segment*/,
 
 /// The heading along the current segment, rad, in (-pi, pi]:
 ///   psi_d = psi_AB - beta - approach_rad()
-/// Segments of zero length (coinciding corners) are skipped. If no segment has a length, guidance
-/// is finished and the heading is held.
+/// Segments of zero length (coinciding corners) are skipped. Past the last segment, or if no
+/// segment has a length, guidance is finished and the last psi_d is held.
 template <class T, class Law>
 AWMR_CALLED PolylineGuidance<T> guide(const Polyline<T, Law>& line, const Position<T>& position_m,
                                       const LineMotion<T>& motion, PolylineProgress<T>& progress) {

@@ -12,7 +12,8 @@
 
 namespace awmr {
 
-/// `List` with every law as an argument; the first law is the default.
+/// The class template `List` with all laws as its arguments, such as std::variant. The first law is
+/// the default.
 template <template <class...> class List, class T>
 using LineLaws = List<LineOfSight<T>, PurePursuit<T>, IntegralLos<T>, Stanley<T>>;
 
@@ -25,7 +26,7 @@ struct LawAt<0, First, Rest...> {
 };
 }  // namespace detail
 
-/// Selects a law by its place k, counted from 0: LineLaws<LineLawAt<k>::Of, T>::Law.
+/// Selects a law by its place k in LineLaws, counted from 0: LineLaws<LineLawAt<k>::Of, T>::Law.
 template <int kPlace>
 struct LineLawAt {
   template <class... Laws>

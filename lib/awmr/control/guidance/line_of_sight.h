@@ -8,8 +8,8 @@ namespace awmr {
 /// Parameters of the line-of-sight law.
 template <class T>
 struct LineOfSight {
-  /// Delta, rad, in (0, pi/2]: angle of approach outside the lane. Larger: the line is reached on a
-  /// shorter way and more abruptly.
+  /// Delta, rad, in (0, pi/2]: approach angle outside the lane of half width R. Larger: the line is
+  /// reached on a shorter way and more abruptly.
   T delta_rad;
   /// R, m, > 0: half width of the lane in which the approach angle is proportional to the distance.
   /// Larger: smoother, and slower to reach the line.

@@ -1,8 +1,8 @@
-/// Obstacle avoidance: turns a guidance heading out of the sectors that circular obstacles block.
-/// Freestanding C++14.
+/// Obstacle avoidance: turns the heading commanded by the guidance out of the sectors that circular
+/// obstacles block. Freestanding C++14.
 ///
 /// The paper names MMD, D_obs and sigma, but its figure of the algorithm is lost.     [paper 5.2.2]
-/// This is the project's own definition. For obstacle i with centre c_i, seen from position p:
+/// The rule here is the project's own. For obstacle i with centre c_i, seen from the vehicle at p:
 ///
 ///   MMD(u)  = mmd_base + mmd_per_speed |u|            minimum manoeuvring distance
 ///   R_i     = radius_i + vehicle_radius + clearance   grown radius
@@ -19,16 +19,17 @@
 /// guidance heading is free again.
 ///
 /// Why this clears one obstacle: a vehicle with the turning radius rho that heads for the centre of
-/// a circle can turn past it if D^2 >= (R + rho)^2 - rho^2. For any R, this holds while
-/// D_obs >= rho. So an MMD of rho plus the distance travelled while the turn begins is sufficient.
-/// With several obstacles, or a start that is too close, this can fail: then the speed is reduced.
+/// a grown circle can turn past the circle if D^2 >= (R + rho)^2 - rho^2. For any R, this holds
+/// while D_obs >= rho. So an MMD of rho plus the distance travelled while the turn begins is
+/// sufficient. With several obstacles, or a start that is too close, this can fail. Therefore, the
+/// speed is also reduced.
 /// The permitted fraction of u_d is the distance along the heading to a circle grown by
 /// vehicle_radius + clearance/2, divided by `brake_m`. So the vehicle stops before that circle.
 ///
 /// Edge cases:
-///   inside R_i                the sector is more than a half-plane, so psi_d leads out; a vehicle
+///   vehicle inside R_i        the sector is more than a half-plane, so psi_d leads out; a vehicle
 ///                             that heads further in is stopped
-///   on the very centre        the bearing is taken to be the vehicle's heading
+///   vehicle exactly on c_i    the bearing of c_i is taken to be the vehicle's heading
 ///   every direction blocked   `blocked` is set, u_d becomes 0, psi_d is the guidance heading
 ///   an obstacle on a waypoint see covers()
 #pragma once
@@ -73,7 +74,7 @@ struct Avoidance {
 template <class T>
 struct Sector {
   T bearing_rad;  ///< bearing of the obstacle's centre, in the world frame
-  T half_rad;     ///< alpha_i: half angle of the sector
+  T half_rad;     ///< alpha_i, rad: half angle of the sector
   bool counts;    ///< false: the obstacle is too far, or beyond the target
 };
 
@@ -94,8 +95,8 @@ struct Avoided {
   bool blocked;   ///< every direction is blocked
 };
 
-/// True if the obstacle's grown circle contains the whole acceptance circle of a target: no path
-/// that keeps the clearance reaches it.
+/// True if the obstacle's grown circle contains the whole acceptance circle (radius acceptance_m)
+/// of a target: no path that keeps the clearance reaches this target.
 template <class T>
 bool covers(const Avoidance<T>& avoidance, const Obstacle<T>& obstacle, const Position<T>& target_m,
             const T& acceptance_m) {
@@ -113,8 +114,7 @@ bool is_covered(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles, int
   return false;
 }
 
-/// guide() of waypoints.h, which also skips waypoints that an obstacle covers: they count as
-/// missed.
+/// Calls guide() of waypoints.h, and skips waypoints that an obstacle covers: they count as missed.
 template <class T>
 AWMR_CALLED WaypointGuidance<T> guide_past_covered(const Avoidance<T>& avoidance,
                                                    const Obstacle<T>* obstacles, int count,
@@ -147,7 +147,7 @@ AWMR_CALLED Sight<T> sight(const Position<T>& from, const Position<T>& point,
 }
 
 /// A heading inside a sector but within this angle of its edge, rad, counts as outside. The angle
-/// is larger than the rounding of a float.
+/// is larger than the rounding error of a heading in float.
 template <class T>
 constexpr T sector_tolerance_rad() {
   return T(1e-4);
@@ -191,8 +191,8 @@ struct Surroundings {
     for (int i = 0; i < count; ++i) sectors[i] = sector(i);
   }
 
-  /// Angle by which `heading_rad` must turn to leave all sectors, rad, >= 0; to the left for sign =
-  /// 1, to the right for sign = -1. 2 pi or more: every direction is blocked.
+  /// Angle by which `heading_rad` must turn to leave all blocked sectors, rad, >= 0: to the left
+  /// for sign = 1, to the right for sign = -1. 2 pi or more: every direction is blocked.
   AWMR_CALLED T turn_out(const T& heading_rad, const T& sign) const {
     const T full = T(2.0) * pi<T>();
     T turned = T(0.0);
@@ -212,7 +212,7 @@ struct Surroundings {
     return turned;
   }
 
-  /// Permitted fraction of the speed along the current heading.
+  /// Permitted fraction of the reference speed u_d along the vehicle's heading, in [0, 1].
   T speed_share() const {
     using math::abs;
     using math::cos;
@@ -223,7 +223,7 @@ struct Surroundings {
       const T grown_m =
           obstacles[i].radius_m + avoidance.vehicle_radius_m + avoidance.clearance_m / T(2.0);
       const Sight<T> centre = sight(position_m, obstacles[i].centre_m, psi_rad);
-      // The distance along any heading is at least the straight distance to the circle.
+      // Farther than brake_m: no heading can reach the circle within brake_m.
       if (centre.distance_m - grown_m > avoidance.brake_m) continue;
       const T off = centre.bearing_rad - psi_rad;
       const T along_m = centre.distance_m * cos(off);

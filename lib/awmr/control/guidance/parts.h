@@ -1,4 +1,5 @@
-/// Optional parts of the guidance: parameters and state of each. Freestanding C++14.
+/// Optional parts of the guidance (optional_part.h): parameters and state of each. Freestanding
+/// C++14.
 #pragma once
 
 #include <stdint.h>
@@ -35,7 +36,7 @@ struct LineFollower {
   Route line;                    ///< count 0: no line
   T sample_time_s;               ///< time between two guidance steps, > 0
   PolylineProgress<T> progress;  ///< valid once is_started
-  bool is_started;               ///< the first step along the line was made
+  bool is_started;               ///< at least one step along the line was made
 };
 
 /// Follows a Lissajous figure as a function of time.
@@ -46,7 +47,7 @@ struct PathFollower {
   T held_rad;    ///< psi_d of the last step, valid once is_started
   Time start;    ///< the path's t = 0, valid once is_started
   bool is_on;
-  bool is_started;  ///< the first step along the path was made
+  bool is_started;  ///< at least one step along the path was made
 };
 
 /// Reduces the speed before the last waypoint, or before the end of the line.
@@ -65,7 +66,7 @@ struct Avoider {
   AvoidanceState state;
 };
 
-/// Shapes the heading reference.
+/// Smooths the heading reference.
 template <class T>
 struct Shaper {
   HeadingShaping<T> filter;

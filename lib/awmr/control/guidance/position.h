@@ -6,7 +6,7 @@
 
 namespace awmr {
 
-/// A point of the world frame, in which psi counts counter-clockwise from the x axis.
+/// A point of the world frame. Headings psi are measured counter-clockwise from its x axis.
 template <class T>
 struct Position {
   T x_m;  ///< x, m
@@ -28,13 +28,14 @@ AWMR_CALLED T distance_m(const Position<T>& a, const Position<T>& b) {
   return sqrt(squared_distance_m2(a, b));
 }
 
-/// Distance of two points, m, at or below which they coincide: there is no direction between them.
+/// Two points coincide, and have no direction between them, if x and y each differ by at most this,
+/// m.
 template <class T>
 constexpr T coincident_m() {
   return T(1e-20);
 }
 
-/// Vector from one point to another, along the world's axes.
+/// Vector from `from` to `point`, m, along the world's axes.
 template <class T>
 Position<T> seen_from(const Position<T>& from, const Position<T>& point) {
   return {point.x_m - from.x_m, point.y_m - from.y_m};
@@ -48,7 +49,8 @@ AWMR_INLINE bool is_reached(const Position<T>& away_m, const T& radius_m, const 
   return !math::is_above(T(away_m.x_m * away_m.x_m + away_m.y_m * away_m.y_m), radius_m2);
 }
 
-/// The direction of the vector `away_m`, in (-pi, pi]; `otherwise_rad` if the vector is 0.
+/// The direction of the vector `away_m`, rad, in (-pi, pi]; `otherwise_rad` if neither component
+/// exceeds coincident_m().
 template <class T>
 AWMR_INLINE T direction_rad(const Position<T>& away_m, const T& otherwise_rad) {
   const T here = coincident_m<T>();

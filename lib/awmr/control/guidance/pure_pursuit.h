@@ -61,7 +61,7 @@ T distance_off_m(const Polyline<T, PurePursuit<T>>& line, int segment,
 }
 
 /// The approach angle atan2(e, s_g - s), rad, which guide() in line.h subtracts. psi_d then points
-/// to the goal, s_g along the segment from A to B:
+/// to the goal, which is s_g from A along the segment from A to B:
 ///   psi_d = psi_AB - beta - atan2(e, s_g - s)
 /// (Coulter, Implementation of the pure pursuit path tracking algorithm, 1992. His law commands an
 /// arc to the goal; here the heading law turns the vehicle to the heading of the goal.)

@@ -1,7 +1,7 @@
 /// Stanley, a guidance law that follows a line. Freestanding C++14.
 ///
-/// The approach angle grows with the distance from the line divided by the speed, so that the
-/// distance falls at nearly the same rate (1/s) at every speed.
+/// The approach angle depends on the distance from the line divided by the speed. So the distance
+/// falls with nearly the same time constant at every speed well above `softening_mps`.
 #pragma once
 
 #include "awmr/control/guidance/line.h"
@@ -30,9 +30,9 @@ struct Stanley {
 /// The approach angle atan(k e/(k_s + u)), rad, which guide() in line.h subtracts:
 ///   psi_d = psi_AB - beta - atan(k e/(k_s + u))
 /// (Hoffmann, Tomlin, Montemerlo, Thrun, Autonomous automobile trajectory tracking for off-road
-/// driving, 2007. They use the offset of the front axle and command the steering angle; here e is
-/// that of the centre of gravity, and psi_d is commanded.) A vehicle that rolls backward counts as
-/// at rest.
+/// driving, 2007. They use the distance of the front axle from the line and command the steering
+/// angle; here e is the distance of the centre of gravity, m, left positive, and psi_d is
+/// commanded.) A vehicle that rolls backward counts as at rest.
 template <class T>
 T approach_rad(const Stanley<T>& law, const AlongSegment<T>& s, const LineMotion<T>& motion,
                T& /*memory*/) {

@@ -57,7 +57,8 @@ constexpr T path_speed_min_mps() {
 ///   psi_d     = atan2(y_d_dot, x_d_dot)                                              [paper (116)]
 ///   psi_d_dot = (x_d_dot y_d_ddot - y_d_dot x_d_ddot)/|p_d_dot|^2
 ///   u_d       = |p_d_dot|
-/// `held_rad` is the psi_d of the last step, used if the path is at rest.
+/// `held_rad` is the psi_d of the last step, used while |p_d_dot| <= path_speed_min_mps(); u_d is
+/// then 0.
 template <class T>
 AWMR_CALLED PathGuidance<T> open_path(const PathPoint<T>& path, const T& held_rad) {
   using math::atan2;
@@ -74,8 +75,9 @@ AWMR_CALLED PathGuidance<T> open_path(const PathPoint<T>& path, const T& held_ra
 /// w = p_d_dot + k e_p:
 ///   psi_d = atan2(w_y, w_x) - beta
 ///   u_d   = max(0, |p_d_dot| + k e_p . t)
-/// At the path's point, the speed is that of the path; behind the point, the vehicle catches up.
-/// `sideslip` is beta, rad; `held_rad` as in open_path().
+/// A vehicle at p_d gets the speed of the path; a vehicle behind p_d gets a higher one and catches
+/// up. `sideslip` is beta, rad. `held_rad` is the psi_d of the last step, used with u_d = 0 while
+/// |w| <= path_speed_min_mps().
 template <class T>
 AWMR_CALLED PathGuidance<T> closed_path(const PathPoint<T>& path, const T& gain_per_s,
                                         const Position<T>& position_m, const T& sideslip,

@@ -24,7 +24,7 @@ struct Waypoints {
 template <class T>
 struct WaypointProgress {
   int next;                 ///< index of the current waypoint; `count` when all are done
-  int missed;               ///< waypoints passed by, see Waypoints::skip_passed
+  int missed;               ///< number of missed waypoints, see Waypoints::skip_passed
   Position<T> leg_start_m;  ///< start of the current leg
   T psi_rad;                ///< the last line of sight, rad, held when no waypoint is left
 };
@@ -87,15 +87,15 @@ AWMR_CALLED WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Posit
   return guide(waypoints, acceptance_m2, position_m, progress);
 }
 
-/// Fraction of the reference speed that remains at the last waypoint: above 0, so that the vehicle
-/// reaches the waypoint.
+/// Fraction of the reference speed that remains at the end of the route: above 0, so that the
+/// vehicle reaches the end.
 template <class T>
 constexpr T arrival_share_min() {
   return T(0.1);
 }
 
-/// Fraction of the reference speed at the distance `to_go_m` before the last waypoint. Within
-/// `slow_down_m` > 0 it decreases linearly from 1 to arrival_share_min().
+/// Fraction of the reference speed at the distance `to_go_m` before the end of the route:
+/// to_go_m/slow_down_m, clamped to [arrival_share_min(), 1]. `slow_down_m` > 0.
 template <class T>
 T arrival_share(const T& slow_down_m, const T& to_go_m) {
   return math::clamp(T(to_go_m / slow_down_m), arrival_share_min<T>(), T(1.0));

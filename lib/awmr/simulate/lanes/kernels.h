@@ -25,7 +25,8 @@ extern const awmr::lanes::Kernel awmr_lanes_neon;
 namespace awmr {
 namespace lanes {
 
-/// The available kernels, the widest first. Empty: runs are simulated one at a time.
+/// The kernels that are built and that this processor can run, the widest first. Empty: runs are
+/// simulated one at a time by simulate().
 std::vector<const Kernel*> supported_kernels();
 
 }  // namespace lanes

@@ -1,6 +1,7 @@
-/// pow, sin, cos, atan, atan2 and the wrap of an angle for lanes. The polynomials are Chebyshev fits
-/// on the reduced interval, with an error below 1e-17 of the result. For an argument outside the
-/// range of a function, the result is NaN. tests/simulate/lane_math_test.cpp measures the errors.
+/// pow, sin, cos, atan, atan2, hypot and the wrap of an angle for `Lanes` (lanes.h). The
+/// polynomials are Chebyshev fits on the reduced interval, with an error below 1e-17 of the result.
+/// For an argument outside the range of a function, the result is NaN.
+/// tests/simulate/lane_math_test.cpp measures the errors.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +55,7 @@ AWMR_LANE_INLINE Lanes polynomial(const double (&c)[N], const Lanes& x) {
 /// x + 1.5 2^52 has the integer nearest to x in its last bits, for |x| < 2^51.
 constexpr double kRounder = 0x1.8p52;
 
-/// x = m 2^k, m in [sqrt(1/2), sqrt 2), for x in the normal range.
+/// x = m 2^k with m in [sqrt(1/2), sqrt 2), for positive normal numbers x (not subnormal).
 struct Split {
   Lanes m, k;
 };
@@ -74,7 +75,7 @@ AWMR_LANE_INLINE Split split(const Lanes& x) {
   return result;
 }
 
-/// log2(x) for x in the normal range. With s = (m - 1)/(m + 1),
+/// log2(x) for positive normal numbers x = m 2^k (see Split). With s = (m - 1)/(m + 1),
 ///   log2(x) = k + 2/ln 2 (s + s^3/3 + s^5/5 + ...)
 AWMR_LANE_INLINE Lanes log2_of_normal(const Lanes& x) {
   constexpr double kSeries[] = {0x1.5555555555558p-2, 0x1.99999999952e2p-3, 0x1.2492492df148dp-3,
@@ -104,7 +105,8 @@ AWMR_LANE_INLINE Lanes exp2_of_normal(const Lanes& y) {
       p, rounded);
 }
 
-/// x^y for x in the normal range; results below 2^-1000 are 2^-1000, results above 2^1000 are NaN.
+/// x^y for x >= 2^-1022, the smallest normal number, else NaN. Results below 2^-1000 are returned
+/// as 2^-1000, results of 2^1000 or more as NaN.
 AWMR_LANE_INLINE Lanes pow(const Lanes& x, const Lanes& y) {
   const Lanes power = y * log2_of_normal(x);
   const Lanes at_least = select(power < Lanes(-1000.0), Lanes(-1000.0), power);
@@ -115,8 +117,9 @@ struct SinCos {
   Lanes sin, cos;
 };
 
-/// Largest |angle|, rad, for sin and cos. The reduction to |r| <= pi/4 subtracts pi/2 in three parts.
-/// The first two have 33 bits, so that their products with a quadrant up to 2^20 are exact.
+/// Bound of |angle|, rad, for sin and cos. The reduction to |r| <= pi/4 subtracts a multiple (the
+/// quadrant) of pi/2, which is a sum of three parts. The first two parts have 33 bits, so that
+/// their products with a quadrant up to 2^20 are exact.
 constexpr double kLargestAngle = 0x1p20;
 
 AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
@@ -133,9 +136,9 @@ AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
   const Lanes z = r * r;
   const Lanes s = fma(r * z, polynomial(kSin, z), r);
   const Lanes c = fma(z * z, polynomial(kCos, z), fma(z, Lanes(-0.5), Lanes(1.0)));
-  // Odd quadrants swap sine and cosine: the last bit of the quadrant is shifted so that it makes the
-  // number 2. The second bit of the quadrant is the sign of the sine, and that of quadrant + 1 the
-  // sign of the cosine: it is shifted to the sign bit.
+  // Odd quadrants swap sine and cosine. To test this, the last bit of the quadrant is shifted to
+  // where it makes the number 2.0. The second bit of the quadrant is the sign of the sine, that of
+  // quadrant + 1 the sign of the cosine. To set the sign, this bit is shifted to the sign bit.
   const LaneMask swapped = by_register<LaneMask>(
       [](const Register& whole) {
         const Bits odd = (to_bits(whole) & Bits(std::uint64_t{1})) << 62;
@@ -162,7 +165,8 @@ AWMR_LANE_INLINE Lanes cos(const Lanes& x) {
   return only_where(abs(x) < Lanes(kLargestAngle), sin_cos_in_range(x).cos);
 }
 
-/// The angle of (x, y), x >= 0, in [-pi/2, pi/2]: with t = tan(pi/8), a = |y|,
+/// The direction of the vector (x, y), x >= 0, in [-pi/2, pi/2]. With t = tan(pi/8) and a = |y|,
+/// the magnitude of the angle is
 ///   a <= t x           atan(a/x)
 ///   t x < a <= x/t     pi/4 + atan((a - x)/(a + x))
 ///   a > x/t            pi/2 - atan(x/a)
@@ -188,7 +192,7 @@ AWMR_LANE_INLINE Lanes angle_ahead(const Lanes& y, const Lanes& x) {
 
 AWMR_LANE_INLINE Lanes atan(const Lanes& x) { return angle_ahead(x, Lanes(1.0)); }
 
-/// The angle of (x, y) in (-pi, pi]; 0 for (0, 0).
+/// The direction of the vector (x, y), rad, in (-pi, pi]; 0 for (0, 0).
 AWMR_LANE_INLINE Lanes atan2(const Lanes& y, const Lanes& x) {
   const Lanes ahead = angle_ahead(y, abs(x));
   const Lanes half_turn = select(y < Lanes(0.0), Lanes(-pi<double>()), Lanes(pi<double>()));
@@ -197,7 +201,7 @@ AWMR_LANE_INLINE Lanes atan2(const Lanes& y, const Lanes& x) {
 
 AWMR_LANE_INLINE Lanes hypot(const Lanes& x, const Lanes& y) { return sqrt(x * x + y * y); }
 
-/// wrap_angle() of control/wrap_angle.h; it removes all turns at once instead of in loops.
+/// wrap_angle() of control/wrap_angle.h for lanes: it removes all turns at once, not in loops.
 AWMR_LANE_INLINE Lanes wrap_angle(const Lanes& angle_rad) {
   constexpr double kTurn = 0x1.921fb54442d18p+2;
   constexpr double kTurnRest = 0x1.1a62633145c07p-52;

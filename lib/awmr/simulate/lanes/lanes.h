@@ -1,10 +1,11 @@
-/// A batch of doubles, one lane per run: the scalar type with which the templates of model/ and
-/// control/ simulate several vehicles at once. For kernel files only (kernel.inc).
+/// `Lanes`: the doubles of one operation, one lane (element of a vector register) per run. It is
+/// the scalar type with which the templates of model/ and control/ simulate several vehicles at
+/// once. For kernel files only (kernel.inc).
 ///
 /// A kernel file defines AWMR_LANES, the name of its instruction set, before it includes this file.
-/// The name is part of every type here, and so of every template instantiated with such a type.
-/// Without it, the linker would merge functions of the same name, and could select one that needs a
-/// newer processor.
+/// The name is a namespace around every type here, and so part of the name of every template
+/// instantiated with such a type. Without it, the linker would merge functions of the same name
+/// from several kernels, and could select one that needs a newer processor.
 #pragma once
 
 #include <xsimd/xsimd.hpp>
@@ -23,11 +24,11 @@ namespace AWMR_LANES {
 using Register = xsimd::batch<double, xsimd::AWMR_LANES_ARCH>;
 using RegisterMask = xsimd::batch_bool<double, xsimd::AWMR_LANES_ARCH>;
 
-/// Registers per batch. With two, the processor computes in one register while it waits for the
-/// result in the other; this needs a processor with 32 registers.
+/// Vector registers per `Lanes`. With two, the processor computes in one register while it waits
+/// for the result in the other; this needs a processor with 32 vector registers.
 constexpr int kRegisters = AWMR_LANES_REGISTERS;
 
-/// One bool per lane.
+/// One bool per lane: the result of comparing two `Lanes`.
 struct LaneMask {
   RegisterMask part[kRegisters];
   LaneMask() = default;

@@ -1,13 +1,14 @@
-/// One number of each of the sixteen runs that are simulated together. Plain data, because the
-/// kernels are compiled for other instruction sets and must not share code with the rest of the
+/// `Row`: one number of each of the sixteen runs that are simulated together. Plain data, because
+/// the kernels are compiled for other instruction sets and must not share code with the rest of the
 /// program.
 #pragma once
 
 namespace awmr {
 namespace lanes {
 
-/// Number of runs in a block, the same for every instruction set. A kernel processes a block in one,
-/// two or four parts, depending on its lanes per batch.
+/// Number of runs in a block (the runs that are simulated together), the same for every instruction
+/// set. A kernel processes Lanes::kCount of them at a time: sixteen with AVX-512, four with AVX2
+/// and NEON.
 constexpr int kLanes = 16;
 
 struct alignas(64) Row {
