@@ -204,8 +204,9 @@ Result<Outcome> execute(const EmitCommand& command) {
   std::ranges::move(unstable_gains(gains, sample_time_s, command),
                     std::back_inserter(outcome.findings));
   if (const auto plant = model.plant(Motion::kStraight)) {
-    if (auto finding = unsigned_speed_finding(*plant, gains, model.vehicle.wheel_force.hi,
-                                              command.gains.string())) {
+    const double tau_speed_max = model.vehicle.driven_wheels() * model.vehicle.wheel_force.hi;
+    if (auto finding =
+            unsigned_speed_finding(*plant, gains, tau_speed_max, command.gains.string())) {
       outcome.findings.push_back(std::move(*finding));
     }
   }

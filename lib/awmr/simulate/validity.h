@@ -32,10 +32,11 @@ std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model
 
 /// Warning `unsigned-speed-runs-away`: with a speed sensor without a sign, such as a GPS, the speed
 /// law would accelerate a vehicle that rolls backward. This is so if m' mu_s sat(u/eps_s) > g1(u)
-/// at a speed that the vehicle can reach. `force_max`: upper end of Vehicle::wheel_force. `file`:
-/// name of the file of the gains. Absent if there is no such speed.
+/// at a speed that the vehicle can reach. `tau_speed_max`: number of driven wheels times the
+/// upper end of Vehicle::wheel_force. `file`: name of the file of the gains. Absent if there is no
+/// such speed.
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,
-                                              const Gains<double>& gains, double force_max,
+                                              const Gains<double>& gains, double tau_speed_max,
                                               const std::string& file);
 
 /// Limits the rate of heading commands to `limit_degps`, > 0, by a filter with the bandwidth

@@ -143,7 +143,8 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
   for (const ModeCertificate& one : tuning.certificate->modes) note_certificate(one, findings);
   note_observer(options, findings);
   if (const auto plant = model.plant()) {
-    auto finding = unsigned_speed_finding(*plant, tuning.gains, model.vehicle.wheel_force.hi, "");
+    const double tau_speed_max = model.vehicle.driven_wheels() * model.vehicle.wheel_force.hi;
+    auto finding = unsigned_speed_finding(*plant, tuning.gains, tau_speed_max, "");
     if (finding) findings.push_back(*std::move(finding));
   }
   note_scenarios(model, options, tuning, findings);
