@@ -35,7 +35,8 @@ inline std::vector<std::pair<std::string, std::string>> options_of(const Allocat
   return {{"allocation", std::string(name_in(kAllocationFormNames, *choice))}};
 }
 
-/// Applies the choice to the model's vehicle and to every scenario.
+/// Sets the chosen form in the model's vehicle, and removes the scenarios' own forms, so that it
+/// applies everywhere. Does nothing without a choice.
 inline void choose(const AllocationChoice& choice, Model& model, std::span<Scenario> scenarios) {
   if (!choice) return;
   model.vehicle.allocation = *choice;

@@ -28,7 +28,7 @@ namespace {
 struct Check {
   std::vector<Finding> missing;      ///< values and trials not provided yet
   std::vector<Finding> implausible;  ///< contradictory or impossible values
-  std::vector<Finding> notes;        ///< notes of the trial readers
+  std::vector<Finding> notes;        ///< findings of the trial readers
   std::vector<Fault> faults;         ///< unreadable files
 };
 
@@ -53,8 +53,8 @@ std::optional<T> read_filled(const fs::path& path, Result<T> (*read)(const fs::p
   const auto document = read_json_file(path);
   for (const Fault& fault : result.error().faults) {
     if (document && is_null_at(*document, path.string(), fault.place)) {
-      check.missing.push_back(
-          {fault.place, 0, Severity::kError, "missing-value", "to be filled in: it is null"});
+      check.missing.push_back({fault.place, 0, Severity::kError, "missing-value",
+                               "to be filled in: it is null; the project's README describes it"});
     } else {
       check.faults.push_back(fault);
     }
@@ -136,7 +136,8 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
            info(ParameterId::kSwayAlpha).meaning, assumed_sway_factor())});
 }
 
-/// Adds the column mapping guessed from the column names of a file that could not be read.
+/// If a fault is in the file `path`, adds a fault with column mappings guessed from its column
+/// names.
 void add_mapping_hint(const fs::path& path, TrialKind kind, const TrialOptions& options,
                       std::vector<Fault>& faults) {
   const std::string place = path.string() + ":";

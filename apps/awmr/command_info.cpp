@@ -33,7 +33,7 @@ OptionInfo info_of(const CLI::Option& option) {
   info.meaning = option.get_description();
   info.required = option.get_required();
   if (option.get_items_expected_max() == 0) return info;
-  // "INT:in [0, 1000]", "TEXT:{a,b}", "FILE"
+  // CLI11's type names, with range or choices: "INT:in [0, 1000]", "TEXT:{a,b}", "FILE".
   const std::string type = option.get_type_name();
   const std::size_t colon = type.find(':');
   info.value = type.substr(0, colon);

@@ -17,7 +17,8 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-/// `--NAME` of each option. One-letter names are excluded because they resemble every other.
+/// `--NAME` of each option, to find the closest one. One-letter names are left out, because they
+/// are close to every short word.
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {

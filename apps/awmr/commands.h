@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 struct InitCommand {
   fs::path directory;
-  /// write the paper's vehicle and synthetic logs instead of an empty project
+  /// true: write the paper's vehicle, tables, scenarios and synthetic logs, not an empty project
   bool example = false;
   Drive drive = Drive::kFourWheel;
 };
@@ -53,7 +53,7 @@ struct IdentifyCommand {
   IdentifyOptions identify;
   TrialOptions trials;
   fs::path output;
-  InputNames names = {};  ///< names of the inputs in the output file; set by `run`, also below
+  InputNames names = {};  ///< names of the inputs in the output file; only `run` sets them
 };
 Result<Outcome> execute(const IdentifyCommand& command);
 void add_identify(CLI::App& app, Session& session);
@@ -78,19 +78,19 @@ struct RecoverCommand {
   RecoverOptions recover;
   ShardChoice shard = {};
   bool resume = false;                  ///< skip a shard that is already finished
-  std::optional<fs::path> output = {};  ///< recover.json; with a shard, its directory
+  std::optional<fs::path> output = {};  ///< recover.json; with a shard, the shard's directory
 };
 Result<Outcome> execute(const RecoverCommand& command);
 void add_recover(CLI::App& app, Session& session);
 
 struct SuggestCommand {
   fs::path model;
-  std::string parameter;
+  std::string parameter;  ///< parameter or metric to improve; empty: all parameters
   std::optional<fs::path> gains;
   std::optional<fs::path> scenario;
   YawMode mode = YawMode::kCombined;
-  int repeats = 3;
-  int most = 8;
+  int repeats = 3;  ///< runs of each suggested trial
+  int most = 8;     ///< largest number of trials in the printed list
   std::optional<fs::path> output;
 };
 Result<Outcome> execute(const SuggestCommand& command);
@@ -105,8 +105,8 @@ struct TuneCommand {
   bool observer = false;                  ///< also tune a disturbance observer
   std::optional<fs::path> baseline = {};  ///< replaces `baseline` of tune.json
   std::optional<YawMode> mode = {};       ///< replaces `mode` of tune.json
-  std::optional<int> draws = {};
-  std::optional<int> sensitivity = {};
+  std::optional<int> draws = {};          ///< replaces `draws` of tune.json
+  std::optional<int> sensitivity = {};    ///< replaces `sensitivity` of tune.json
   HeadingRateChoice heading_rate_limit = {};
   ShardChoice shard = {};  ///< shard of the validation draws; `output` is then a directory
   bool resume = false;
@@ -122,12 +122,12 @@ struct ValidateCommand {
   fs::path output;
   AllocationChoice allocation = {};
   std::vector<fs::path> logs = {};
-  TrialOptions trials = {};    ///< column mappings of the logs
+  TrialOptions trials = {};    ///< column mappings and used time spans of the logs
   bool other_columns = false;  ///< true: mappings may name files that this command does not read
-  double horizon_s = 10.0;
-  double log_tolerance = 0.3;
-  bool tyres = false;   ///< also fit the tyres of the four-wheel plant to the logs
-  bool claims = false;  ///< print all fourteen claims, each with tolerance and reason
+  double horizon_s = 10.0;     ///< length of the windows over which logs are predicted
+  double log_tolerance = 0.3;  ///< largest accepted NRMSE of a channel over a window
+  bool tyres = false;          ///< also fit the tyres of the four-wheel plant to the logs
+  bool claims = false;  ///< print the paper's fourteen claims, each with its criterion and reason
   std::optional<fs::path> claims_table = {};  ///< Markdown file for the claims
   std::optional<fs::path> scenario = {};      ///< set: the logs are drives of this scenario
   AcceptanceOptions acceptance = {};
@@ -159,7 +159,7 @@ struct CompareCommand {
   HeadingRateChoice heading_rate_limit = {};
   PlantChoice plant = {.checks_other = true};
   bool resume = false;     ///< continue the comparison in the output directory
-  ShardChoice shard = {};  ///< as in `compare`
+  ShardChoice shard = {};  ///< set if `--shard` was given; then equal to `compare.shard`
   InputNames names = {};
 };
 Result<Outcome> execute(const CompareCommand& command);
@@ -239,7 +239,7 @@ struct ExplainCommand {
 Result<Outcome> execute(const ExplainCommand& command);
 void add_explain(CLI::App& app, Session& session);
 
-/// Heading in the help above `schema`, `completion` and `man`.
+/// Heading of the commands `schema`, `completion` and `man` in `awmr --help`.
 inline constexpr const char* kServiceGroup = "For the shell and other programs";
 
 void add_schema(CLI::App& app, Session& session);

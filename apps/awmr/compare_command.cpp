@@ -28,11 +28,11 @@
 namespace awmr::cli {
 namespace {
 
-/// Set by Ctrl-C. Runs in progress finish, no new run starts.
+/// Set by Ctrl-C (SIGINT). Runs in progress finish, no new run starts.
 std::atomic<bool> stop_requested = false;
 
-/// Handles SIGINT during its lifetime. The first one requests a stop; a second one acts as without
-/// this object.
+/// Handles SIGINT during its lifetime. The first signal requests a stop; a second one ends the
+/// program at once, as without this object.
 class StopOnInterrupt {
  public:
   StopOnInterrupt() {
@@ -148,7 +148,7 @@ void end_interrupted(const CompareCommand& command, const Comparison& comparison
   std::raise(SIGINT);
 }
 
-/// Option values that are still text; they are parsed when the command runs.
+/// Option values that read_texts() parses when the command runs.
 struct Texts {
   std::optional<std::string> shard;
   std::vector<std::string> weights;
@@ -175,7 +175,7 @@ void add_samples(CLI::App& command, CompareOptions& options) {
       ->check(within(0, 1000000));
   command.add_option("--seed", options.seed, "Seed of the draws (default 1)")
       ->check(within<std::uint64_t>(0, kAnySeed));
-  command.add_option("--threads", options.threads, "0 (default): one per core")
+  command.add_option("--threads", options.threads, "Number of threads; 0 (default): one per core")
       ->check(within(0, 1024));
 }
 
@@ -201,7 +201,8 @@ std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
       *measured_yaw_rate_degps(model), kNoRate);
 }
 
-/// Findings of the inputs, then of the comparison; a part (--shard) reports them, too.
+/// Returns the findings of the inputs, then those of the comparison; a part (--shard) has them,
+/// too.
 Result<std::vector<Finding>> findings_of(const CompareCommand& command,
                                          const ComparedInputs& inputs,
                                          const Comparison& comparison) {

@@ -28,9 +28,9 @@ std::string summary_of(const CompassCalibration& c) {
          line_of("gain cross", c.gain_cross, "") + line_of("gain left", c.gain_left, "") +
          line_of("field", c.field, "strength in the plane") +
          fmt::format(
-             "  turned {:.0f} deg, largest gap {:.1f} deg of the circle\n"
-             "  heading error of the fit {:.2f} deg (95 %); residuals {:.2f} % of the field, "
-             "{:.2f} deg\n",
+             "  turned {:.0f} deg; largest angle without a measurement {:.1f} deg\n"
+             "  heading error of the fit {:.2f} deg (95 %); residuals {:.2f} % of the "
+             "field (standard deviation), {:.2f} deg\n",
              c.turned_deg, c.largest_gap_deg, c.heading_error_deg, 100.0 * c.residual,
              degrees(c.residual));
 }

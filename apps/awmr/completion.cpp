@@ -21,7 +21,7 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-/// Shortens the description to fit next to an option in a list.
+/// Shortens a description for a list: the text before the first colon, semicolon or bracket.
 std::string brief(const std::string& meaning) {
   const std::size_t end = meaning.find_first_of(":;(");
   std::string text = meaning.substr(0, end);

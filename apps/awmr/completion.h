@@ -1,4 +1,4 @@
-/// Shell completion of commands, options, choices and files.
+/// Scripts for shell completion of commands, options, choices and files.
 #pragma once
 
 #include <string>

@@ -33,7 +33,7 @@ bool print(std::FILE* stream, const std::string& text) {
          std::fflush(stream) == 0;
 }
 
-/// Output options of a command.
+/// Output options of a command: `--quiet`, `--verbose`, `--json`.
 struct Manner {
   bool quiet = false;
   bool verbose = false;
@@ -47,8 +47,8 @@ int to_stdout(const std::string& text, int exit_code) {
   return 2;
 }
 
-/// Makes the titles of the summary bold. Titles are lines at the left margin that are one word, or
-/// that precede indented lines.
+/// Makes the titles of the summary bold. A title is a line without indent that is one word, or that
+/// precedes an indented line.
 std::string styled(const std::string& summary, const Style& style) {
   std::istringstream lines(printable_lines(summary));
   std::string text;
@@ -205,7 +205,8 @@ std::string si_table_text(const Model& model) {
   for (const SiQuantity& quantity : si_quantities(model)) {
     text += table_row(quantity.name, quantity.estimate, quantity.unit);
   }
-  return text.empty() ? text : "  in SI units, with F_max = m/m' of a wheel:\n" + text;
+  return text.empty() ? text
+                      : "  in SI units, with F_max = m/m' (largest force of a wheel):\n" + text;
 }
 
 }  // namespace awmr::cli

@@ -32,7 +32,7 @@ struct Outcome {
   std::vector<std::filesystem::path> written = {};  ///< files written by the command
 };
 
-/// State of the program while one command runs.
+/// Result of the executed command for main().
 struct Session {
   int exit_code = 0;
 };
@@ -49,8 +49,8 @@ CLI::Option* add_output(CLI::App& command, std::filesystem::path& path, const st
 CLI::Option* add_output_directory(CLI::App& command, std::filesystem::path& path,
                                   const std::string& meaning);
 
-/// Copies the findings that stderr shows into the outcome's document. Call once all findings are
-/// known and before writing the document.
+/// Copies the outcome's findings into its JSON document. Call it once all findings are known and
+/// before writing the document.
 void put_findings_into_document(Outcome& outcome);
 
 /// Adds the findings to the outcome's JSON document. With a path, also writes the document and adds
@@ -58,7 +58,8 @@ void put_findings_into_document(Outcome& outcome);
 Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome,
                       const ReadBack& read_back = {});
 
-/// check_output() for files of these names in a directory that may not exist yet. Creates nothing.
+/// Applies check_output() to each of `names` in a directory that may not exist yet. Creates
+/// nothing.
 Status check_outputs(const std::filesystem::path& directory, const std::vector<std::string>& names,
                      std::span<const std::filesystem::path> inputs);
 

@@ -57,7 +57,9 @@ std::vector<fs::path> paths_of(const EmitCommand& command, const std::vector<Emi
 
 std::string table_line(const char* name, const EmittedTable& table) {
   return fmt::format(
-      "  {} table: {} entries up to {:g}, largest error {:.1e} below {:g}, relative {:.1e} above\n",
+      "  {} resistance table: {} entries up to a speed of {:g}; largest error {:.1e} where the "
+      "resistance is below {:g},\n"
+      "    relative {:.1e} above\n",
       name, table.lines.size(), table.top_speed, table.worst_error, table.split,
       table.worst_relative_error);
 }
@@ -70,7 +72,8 @@ Json table_json(const EmittedTable& table) {
           {"worst_relative_error", table.worst_relative_error}};
 }
 
-/// Adds a warning if no resistance table meets the default error, and none was requested.
+/// Adds a warning if the error of a resistance table is above the default bound, unless a bound was
+/// requested.
 void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& command,
                 Outcome& outcome) {
   if (command.emit.table_error || table.worst_share() <= kTableError) return;
@@ -81,7 +84,8 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
                    name, 100.0 * table.worst_share(), 100.0 * kTableError)});
 }
 
-/// Returns a warning for each closed loop that is unstable at this sample time, whatever the vehicle.
+/// Returns a warning for each loop (heading, speed) that is unstable at this sample time with any
+/// vehicle.
 std::vector<Finding> unstable_gains(const Gains<double>& gains, double sample_time_s,
                                     const EmitCommand& command) {
   constexpr double kMost = 2.0;  // stability limit of a sampled integrator
@@ -99,8 +103,8 @@ std::vector<Finding> unstable_gains(const Gains<double>& gains, double sample_ti
   return findings;
 }
 
-/// Warns if motors that differ by 16 % turn the vehicle off its heading by more than the sketches
-/// allow (fault 17).
+/// Warns if motors that differ by 16 % cause a steady heading error of more than half of
+/// kMostOnCourse_rad, beyond which the sketches report a failure (fault 17).
 void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& command,
                       Outcome& outcome) {
   if (2.0 * parameters.steady_error_rad <= kMostOnCourse_rad) return;
@@ -108,8 +112,8 @@ void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& 
       {command.gains.string(), 0, Severity::kWarning, "weak-heading",
        fmt::format(
            "lambda mu/epsilon holds the heading so weakly that motors of 16 % unequal force turn "
-           "the vehicle by {:.0f} deg: the sketches take that for a failure (fault 17) and "
-           "disarm. Use faster gains, or tune with --observer",
+           "the vehicle by {:.0f} deg; the sketches take more than 45 deg for a failure (fault 17) "
+           "and disarm. Use faster gains, or tune with --observer",
            degrees(parameters.steady_error_rad))});
 }
 
@@ -173,7 +177,9 @@ void add_line_law(CLI::App& command, EmitOptions& options) {
   };
   command
       .add_option_function<std::string>(
-          "--line-law", set, "Include the part 'line', with this law [" + laws.front() + "]")
+          "--line-law", set,
+          "Compile in the part 'line' (following lines) with this guidance law [" + laws.front() +
+              "]")
       ->check(one_of(laws));
 }
 
@@ -228,7 +234,8 @@ void add_emit(CLI::App& app, Session& session) {
                   [command] { return execute(*command); });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--gains", command->gains, "gains.json from tune")->required();
-  sub->add_flag("--header-only", command->header_only, "awmr_params.h alone, without the library");
+  sub->add_flag("--header-only", command->header_only,
+                "Write only awmr_params.h, without the library");
   sub->add_flag("--as-is", command->as_is, "Accept contradictory vehicle sizes");
   add_emit_options(*sub, command->emit);
   add_line_law(*sub, command->emit);

@@ -46,7 +46,7 @@ void add_emit_options(CLI::App& command, EmitOptions& options) {
         ->capture_default_str();
   };
   timeout("--heading-timeout-ms", options.heading_timeout_ms,
-          "Largest age of a heading, ms; an older one is a fault");
+          "Largest age of heading and yaw rate, ms; older ones are a fault");
   timeout("--speed-timeout-ms", options.speed_timeout_ms,
           "Largest age of speed and position, ms; older ones are a fault");
   timeout("--command-timeout-ms", options.command_timeout_ms,

@@ -44,7 +44,7 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// The parts of a list "a, b".
+/// Splits a list "a, b" at its commas.
 std::vector<std::string> parts_of(const std::string& list) {
   std::vector<std::string> parts;
   std::istringstream words(list);

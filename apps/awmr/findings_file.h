@@ -7,7 +7,7 @@
 
 namespace awmr {
 
-/// Returns a list with this one file.
+/// Returns a list with FINDINGS.md as its only file.
 const std::vector<EmbeddedFile>& findings_file();
 
 }  // namespace awmr

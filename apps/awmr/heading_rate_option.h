@@ -12,7 +12,8 @@
 
 namespace awmr::cli {
 
-/// `by_default`: text that describes the behaviour without the option.
+/// Adds the option. `by_default`: text for the help that describes the behaviour without the
+/// option.
 inline void add_heading_rate_limit(CLI::App& command, HeadingRateChoice& choice,
                                    const char* by_default) {
   command

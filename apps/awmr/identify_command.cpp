@@ -59,14 +59,14 @@ std::string names_of(const EstimatorReport& report) {
   return report.family.empty() ? name : name + " " + report.family;
 }
 
-/// Describes the scrub moment of differential turns, which adds to yaw resistance. Empty if the
-/// trials do not determine it.
+/// Describes the tyre scrub: the yaw moment that differential turns need in addition to the yaw
+/// resistance. Empty if the trials do not determine it.
 std::string scrub_text(const Model& model) {
   if (!model.yaw_scrub) return {};
   const YawScrub& scrub = *model.yaw_scrub;
   return fmt::format(
-      "scrub: {} differential turns needed {:.3g} m ({:.3g} to {:.3g}) in addition to the yaw "
-      "resistance;\n"
+      "scrub: {} differential turns needed {:.3g} m ({:.3g} to {:.3g}) of moment in addition to "
+      "the yaw resistance;\n"
       "compare --break-even shows its effect on the choice of mode\n",
       scrub.rows, scrub.moment_m, scrub.ci95_m.lo, scrub.ci95_m.hi);
 }
@@ -99,7 +99,7 @@ Result<Outcome> execute(const IdentifyCommand& command) {
                        "no trials: give at least one of --surge, --coastdown, --turning, --log");
   }
   if (command.steady_from_logs && command.logs.empty()) {
-    return input_error(ErrorCode::kMissing, "--steady-from-log", "needs a log (--log)");
+    return input_error(ErrorCode::kMissing, "--steady-from-log", "needs a log: give --log FILE");
   }
   AWMR_RETURN_IF_ERROR(check_output(command.output, inputs_of(command)));
   AWMR_ASSIGN_OR_RETURN(Vehicle vehicle, read_vehicle(command.vehicle));

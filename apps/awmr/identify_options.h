@@ -17,7 +17,7 @@ namespace awmr::cli {
 Status add_family(std::string_view text, IdentifyOptions& options);
 
 /// Adds a parameter to fit: its name, `all`, `input_delay_s` or `bias.CHANNEL`
-/// (`bias.yaw_rate_radps`, ...).
+/// (`bias.yaw_rate_radps`, ...). Errors (input): an unknown name; the message lists the known ones.
 Status add_requested(std::string_view name, IdentifyOptions& options);
 
 /// Largest absolute value of a time in a log (column t_s), s.
@@ -29,10 +29,10 @@ Status add_excluded(std::string_view text, TrialOptions& trials);
 
 /// Checks the part of the logs to use. Errors (input): `--until` is not after `--from`.
 Status check_used(const TrialOptions& trials);
-/// Both, for the options of the command line. Errors: as of check_used() and add_excluded().
+/// Calls check_used(), and add_excluded() for each text of `excluded`. Errors: as these.
 Status use_parts(const std::vector<std::string>& excluded, TrialOptions& trials);
 
-/// Returns the options as text for the model's provenance.
+/// Returns the options as pairs of name and value for the model's provenance.
 std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options);
 
 /// Appends the parts of the logs that are used, unless the whole logs are used.

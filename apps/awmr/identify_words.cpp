@@ -44,8 +44,8 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
                  "trajectory (default with --log)")
       ->check(one_of(names_in(kMethodNames)));
   sub.add_option("--noise", words.noise,
-                 "Quantity with the error in the nonlinear fit: force, speed or time (default: the "
-                 "measured one)")
+                 "Quantity with the measurement error in the nonlinear fit: force, speed or time "
+                 "(default: the measured one)")
       ->check(one_of(names_in(kErrorModelNames)));
   sub.add_option(
          "--family", words.families,
@@ -67,10 +67,11 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
   sub.add_flag("--steady-from-log", command.steady_from_logs,
                "Use steady stretches of the logs as surge and turning runs");
   sub.add_option("--starts", command.identify.starts,
-                 "Random starts of a fit of logs without tables (default 6)")
+                 "Number of random initial guesses of a log fit without tables (default 6)")
       ->check(within(0, 1000));
   sub.add_option("--bootstrap", command.identify.bootstrap,
-                 "Number of block bootstrap resamples for the shape of the intervals of a log fit")
+                 "Number of block bootstrap resamples for the shape of the intervals of a log fit "
+                 "(default 0)")
       ->check(within(0, 1000000));
   sub.add_option("--time-limit", command.identify.time_limit_s,
                  "Time limit for log fits, s (default: none). Fits that have not converged are "
@@ -104,8 +105,10 @@ void add_end_options(CLI::App& sub, TrialOptions& trials, std::vector<std::strin
 void add_reading_options(CLI::App& sub, IdentifyWords& words) {
   sub.add_flag("--as-is", words.command.trials.as_is,
                "Accept trials with contradictory units, signs or sides, and keep gross outliers");
-  sub.add_option("--prefer", words.prefer,
-                 "Which of two disagreeing values to use: printed (default) or timed")
+  sub.add_option(
+         "--prefer", words.prefer,
+         "If a row's speed or yaw rate disagrees with the one computed from its time: use the "
+         "printed (default) or the timed value")
       ->check(one_of(names_in(kPreferenceNames)));
   sub.add_option("--column", words.columns.columns, kColumnHelp);
   add_file(sub, "--columns-file", words.columns.file, kColumnsFileHelp);

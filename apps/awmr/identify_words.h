@@ -9,7 +9,7 @@
 
 namespace awmr::cli {
 
-/// The command, and those of its options that are still text.
+/// The command, and the values of its options that command_of() still has to parse.
 struct IdentifyWords {
   IdentifyCommand command;
   ColumnWords columns;
@@ -26,17 +26,17 @@ struct IdentifyWords {
 /// parameter or family.
 Result<IdentifyCommand> command_of(const IdentifyWords& words);
 
-/// Adds `--vehicle` and the tables.
+/// Adds `--vehicle`, `--surge`, `--coastdown` and `--turning`.
 void add_table_files(CLI::App& sub, IdentifyCommand& command);
-/// Adds the options for the fitted parameters and models.
+/// Adds the options for the estimator and the fitted parameters: `--method` to `--fit`.
 void add_fit_options(CLI::App& sub, IdentifyWords& words);
-/// Adds the options for fitting logs.
+/// Adds the options of log fits: `--steady-from-log` to `--threads`.
 void add_log_options(CLI::App& sub, IdentifyCommand& command);
 /// Adds `--from`, `--until` and `--exclude`.
 void add_part_options(CLI::App& sub, TrialOptions& trials, std::vector<std::string>& excluded);
 /// Adds `--until` and `--exclude`.
 void add_end_options(CLI::App& sub, TrialOptions& trials, std::vector<std::string>& excluded);
-/// Adds the options for reading files.
+/// Adds the options for reading files: `--as-is`, `--prefer`, `--column`, `--columns-file`.
 void add_reading_options(CLI::App& sub, IdentifyWords& words);
 
 }  // namespace awmr::cli

@@ -111,7 +111,7 @@ std::string summary_of(const InitCommand& command, const std::vector<OutputFile>
   for (const OutputFile& file : files) text += fmt::format("  {}\n", file.path.string());
   return text +
          fmt::format(
-             "next: fill in each null of vehicle.json ({} describes how to measure it), print\n"
+             "next: fill in the nulls of vehicle.json ({} describes how to measure them), print\n"
              "field_sheet.html, record the trials; `awmr check {}` lists what is missing\n",
              (command.directory / "README.md").string(), command.directory.string());
 }

@@ -15,16 +15,16 @@
 
 namespace awmr::cli {
 
-/// Help text of `--column`.
 inline constexpr const char* kColumnHelp =
     "[FILE:]NAME=EXPRESSION: computes the column NAME from another column (speed_mps=V), scaled "
     "(V*0.2778), from several ((left + right)/2*0.1; names with other characters in backticks) "
     "or from a constant (steering_deg=0); may be repeated";
 
-/// For the path of an input file, the name that it has in output files.
+/// Names of input files in output files, by the path of the input file.
 using InputNames = std::map<std::filesystem::path, std::string>;
 
-/// The paths relative to the project file, as written in it.
+/// Returns for each path its name relative to the project file's directory, as the project file has
+/// it.
 InputNames names_in_project(const std::vector<std::filesystem::path>& paths,
                             const std::filesystem::path& project);
 
@@ -46,7 +46,7 @@ std::string columns_schema();
 /// column_mappings().
 Status check_columns_text(std::string_view text, const std::string& file);
 
-/// Sources of column mappings.
+/// Sources of column mappings on the command line.
 struct ColumnWords {
   std::vector<std::string> columns = {};           ///< values of `--column`
   std::optional<std::filesystem::path> file = {};  ///< `--columns-file`

@@ -30,11 +30,12 @@ std::string result_text(const JsonResult& result);
 /// `{"schema", "version", "exit_code", "errors": [{"code", "place", "message"}]}` with all faults.
 std::string error_text(const Error& error);
 
-// JSON Schemas of both objects.
+// JSON Schemas of the objects of result_text() and error_text().
 std::string result_schema();
 std::string error_schema();
 
-/// Combines JSON documents into one object: each under its name, empty ones omitted.
+/// Combines pairs of name and JSON text into one object: each text under its name, empty ones
+/// omitted.
 std::string joined(const std::vector<std::pair<std::string, std::string>>& documents);
 
 /// True if `--json` is among the arguments, even if other arguments are invalid.

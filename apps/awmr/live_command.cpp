@@ -49,7 +49,8 @@ std::vector<fs::path> inputs_of(const LiveCommand& command) {
   return paths;
 }
 
-/// Returns the file of the recording: the requested one, or a new one next to the model.
+/// Returns the file of the recording: the requested one, or a new one next to the model. Errors
+/// (input): the new one exists; the requested one is not a regular file or is the model's.
 Result<fs::path> record_of(const LiveCommand& command) {
   fs::path record =
       command.record.value_or(fs::path(command.identify.output).replace_extension("csv"));
@@ -65,8 +66,9 @@ Result<fs::path> record_of(const LiveCommand& command) {
             " is not a regular file, so the recording could not be read back; name another");
   }
   if (record.lexically_normal() == command.identify.output.lexically_normal()) {
-    return input_error(ErrorCode::kConflict, "--record",
-                       "it is the model's file; give another name");
+    return input_error(
+        ErrorCode::kConflict, "--record",
+        "it is the model's file, which the recording would replace; give another name");
   }
   return record;
 }
@@ -95,7 +97,8 @@ struct Followed {
   LiveEnd end = LiveEnd::kStream;
 };
 
-/// Records and reports until an end condition is met.
+/// Records the source, and fits and shows the recording at intervals, until an end condition is
+/// met.
 Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream source,
                 Recording recording, LiveScreen& screen) {
   const Interruption interruption;
@@ -143,7 +146,7 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
   return followed;
 }
 
-/// Writes the final recording and the model that `identify` makes of it.
+/// Writes the final recording, and the model that `identify` fits to it.
 Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
   const fs::path& record = command.identify.logs.front();
   AWMR_RETURN_IF_ERROR(write_file(record, followed.recording.text()));
@@ -163,7 +166,7 @@ Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
   if (command.until_enough && !has_enough(last)) {
     outcome.refused = true;
     outcome.findings.push_back({"", 0, Severity::kError, "not-enough",
-                                fmt::format("{} before every half interval was within {:g} %: {}",
+                                fmt::format("{} before every half width was within {:g} %: {}",
                                             name_in(kLiveEndWords, followed.end),
                                             100.0 * command.enough, widths_text(last))});
   }
@@ -226,7 +229,7 @@ Result<Outcome> execute(const LiveCommand& requested) {
         fmt::format("{} before any data arrived; check that the recorder writes to this source",
                     name_in(kLiveEndWords, followed.end)));
   }
-  screen.say(fmt::format("{}: {} rows are in {}; fitting all of it",
+  screen.say(fmt::format("{}: {} rows are in {}; fitting the whole recording",
                          name_in(kLiveEndWords, followed.end), followed.recording.rows(),
                          record.string()));
   return finished(command, followed);

@@ -13,7 +13,8 @@ namespace awmr::cli {
 /// Describes the manoeuvre that would improve the model most; empty if there is no recommendation.
 std::string next_manoeuvre(const Model& model);
 
-/// True if the interval of every requested parameter has at most the half width LiveUpdate::enough.
+/// True if there is a model without faults, and the half width of every requested parameter's
+/// interval is at most LiveUpdate::enough.
 bool has_enough(const LiveUpdate& update);
 
 /// Checks and fits the rows recorded so far as `identify` does, but within LiveCommand::budget_s.

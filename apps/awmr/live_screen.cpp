@@ -25,7 +25,8 @@ std::string half_width_text(const Precision& precision) {
                                                   : fmt::format("+-{:.2g} %", 100.0 * half);
 }
 
-/// Bar for the half width of an interval on a logarithmic scale: full at 100 %, empty at `enough`.
+/// Bar for the half width of an interval, on a logarithmic scale: full at 1 (100 %) or more, empty
+/// at `enough` or less.
 std::string bar_of(const Precision& precision, double enough) {
   constexpr int kWidth = 10;
   const double half = std::clamp(precision.half_width.value_or(1.0), 1e-9, 1.0);
@@ -81,7 +82,7 @@ std::string widths_text(const LiveUpdate& update) {
 std::string verdict_text(const LiveUpdate& update) {
   if (!update.model) return "drive: nothing is known yet";
   if (is_enough(precision_of(*update.model, update.requested), update.enough)) {
-    return fmt::format("enough: every half interval is within {:g} %", 100.0 * update.enough);
+    return fmt::format("enough: every half width is within {:g} %", 100.0 * update.enough);
   }
   const char* const delay_note =
       update.out_of_time
@@ -126,7 +127,7 @@ void LiveScreen::draw(const LiveUpdate& update) {
   drawn_ = lines.size();
 }
 
-/// Prints a line per update. Faults are repeated only when they change.
+/// Prints a line per update, above it the faults if they have changed since the last update.
 void LiveScreen::print_lines(const LiveUpdate& update) {
   std::string faults;
   for (const Fault& fault : shown_faults(update.faults)) faults += text_of(fault) + "\n";

@@ -16,21 +16,22 @@ namespace awmr::cli {
 struct LiveUpdate {
   double span_s = 0.0;  ///< duration of the recording by its time column
   std::size_t rows = 0;
-  std::size_t set_aside = 0;
+  std::size_t set_aside = 0;        ///< damaged lines
   std::vector<Fault> faults = {};   ///< reasons why the log cannot be used yet
   std::optional<Model> model = {};  ///< result of the last completed fit
   bool out_of_time = false;         ///< true: the fit was too slow; `model` is the previous one
   std::string next = {};            ///< the manoeuvre that would improve the model most
   double enough = 0.1;              ///< sufficient half width of the intervals
-  std::vector<ParameterId> requested = {};
+  std::vector<ParameterId> requested = {};  ///< parameters whose intervals count; empty: all
 };
 
-/// Half widths of the intervals: "surge.alpha +-0.12 %, yaw.beta +-0.012", or "-" if unknown.
-/// Exponents are absolute, other parameters relative to their value.
+/// Half widths of the 95 % intervals as text: "surge.alpha +-0.12 %, yaw.beta +-0.012", or "-" if
+/// unknown. Those of exponents are absolute, others are relative to the value.
 std::string widths_text(const LiveUpdate& update);
-/// "enough: ..." or the next manoeuvre.
+/// Text that every interval is narrow enough ("enough: ..."), or else the next manoeuvre to drive.
 std::string verdict_text(const LiveUpdate& update);
 
+/// Shows the updates on stderr.
 class LiveScreen {
  public:
   /// `title`: first line of the screen, which names the file of the recording.

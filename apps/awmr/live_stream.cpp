@@ -18,9 +18,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Polling interval for a stop request and for growth of a file.
+/// Interval at which the reader checks for a stop request and for growth of the file.
 constexpr int kPause_ms = 50;
-/// Read-ahead limit, in bytes. Beyond it the writer of a pipe waits.
+/// Largest number of bytes received but not yet taken. Beyond it reading pauses, and the writer of
+/// a pipe waits.
 constexpr std::size_t kMaxAhead = std::size_t{1} << 24U;
 
 bool is_regular(int file) {

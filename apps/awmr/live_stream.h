@@ -25,7 +25,6 @@ struct StreamSource {
   std::optional<std::filesystem::path> log = {};
 };
 
-/// An opened source.
 struct OpenStream {
   Descriptor file;
   bool may_grow = false;  ///< another program may append to the file

@@ -17,8 +17,9 @@ std::string summary_of(const AwlLog& log, const LogCommand& command) {
   return fmt::format("{}: {} rows in {} run(s), from {:.6g} s to {:.6g} s\n",
                      command.output.string(), log.rows(), log.runs, log.columns[0].front(),
                      log.columns[0].back()) +
-         fmt::format("  {} rows missing, {} bytes damaged\n  firmware of the parameters {}\n",
-                     log.lost, log.damaged_bytes, log.parameters_sha256);
+         fmt::format(
+             "  {} rows missing, {} bytes damaged\n  SHA-256 of the firmware's parameters {}\n",
+             log.lost, log.damaged_bytes, log.parameters_sha256);
 }
 
 std::string document_of(const AwlLog& log) {
@@ -33,8 +34,8 @@ std::string document_of(const AwlLog& log) {
 
 /// Comment above the table that names its source.
 std::string origin_of(const AwlLog& log, const InputFile& input) {
-  return fmt::format("# awmr {} log: {} SHA-256 {}, firmware of the parameters {}\n", version(),
-                     input.name, input.sha256, log.parameters_sha256);
+  return fmt::format("# awmr {} log: {} SHA-256 {}, firmware with parameters of SHA-256 {}\n",
+                     version(), input.name, input.sha256, log.parameters_sha256);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ Outcome text_outcome(std::string text) {
   return Outcome{.summary = std::move(text), .document = std::move(document)};
 }
 
-/// Writes all pages to a directory, or one page to stdout.
+/// Writes the manual pages of all commands to a directory.
 Result<Outcome> write_pages(const std::vector<CommandInfo>& commands, const fs::path& directory) {
   Outcome outcome;
   std::vector<OutputFile> files;

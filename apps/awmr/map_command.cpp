@@ -20,7 +20,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Alternative sets of columns; each set is sufficient for a trial.
+/// Alternative sets of columns for one quantity of a trial; each set is sufficient.
 using Ways = std::vector<std::vector<const char*>>;
 std::vector<Ways> needs_of(TrialKind kind) {
   const Ways speed{{"speed_mps"}, {"distance_m", "elapsed_s"}};
@@ -91,18 +91,19 @@ std::string text_of(const MapCommand& command, const std::vector<ColumnGuess>& g
 }
 
 std::string summary_of(const MapCommand& command, const std::vector<ColumnGuess>& guesses) {
-  std::string text = fmt::format("{}: guesses, to be confirmed\n", command.file.string());
+  std::string text = fmt::format("{}: guessed columns, to be confirmed\n", command.file.string());
   for (const ColumnGuess& guess : guesses) {
     text += fmt::format("  {:<6} {:<17} {}  ({})\n", name_in(kConfidenceNames, guess.confidence),
                         guess.column, guess.expression, guess.why);
   }
   const std::vector<std::string> open = open_columns(likely_columns(guesses), command.trial);
   for (const std::string& name : open) {
-    text += fmt::format("  open   {:<17} no column is a good match; give --column {}=EXPRESSION\n",
-                        name, name);
+    text += fmt::format(
+        "  open   {:<17} no column is a good match; to identify, give --column {}=EXPRESSION\n",
+        name, name);
   }
   if (command.output) {
-    text += fmt::format("wrote {}: read it, correct it, give it back as --columns-file\n",
+    text += fmt::format("wrote {}: correct it, then give it to identify as --columns-file\n",
                         command.output->string());
   }
   return text;

@@ -52,8 +52,8 @@ Result<Outcome> become_awmr_pil(std::vector<std::string> arguments) {
   }
   return input_error(
       ErrorCode::kNotInstalled, "awmr-pil",
-      fmt::format("cannot be started ({}); it runs the firmware on an emulated chip, and "
-                  "a demo build does not have it. Build it: scripts/setup test && "
+      fmt::format("cannot be started ({}). This program runs the firmware on an emulated chip, "
+                  "and a demo build does not have it. Build it: scripts/setup test && "
                   "scripts/build release, then use build/release/bin/awmr",
                   std::strerror(reason)));
 }

@@ -19,7 +19,7 @@ void add_bounds(CLI::App& command, PilOptions& options) {
   command
       .add_option("--cycles-max", options.cycles_max,
                   "Maximum clock cycles of a step [12000 by table, 24000 by powf; with optional "
-                  "parts or a GPS, 75 % of the sample time]")
+                  "parts or a position estimate, 75 % of the sample time]")
       ->check(within(1U, kAnyCount));
   command.add_option("--flash-max", options.flash_max, "Maximum bytes of flash")
       ->check(within(1U, kAnyCount))
@@ -70,14 +70,13 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
       ->check(one_of(names_in(kOptimizeNames)));
   add_bounds(command, options);
   command
-      .add_option(
-          "--hostile-steps", options.hostile_steps,
-          "Steps with hostile inputs after the scenario, which search for the longest step; "
-          "0: none")
+      .add_option("--hostile-steps", options.hostile_steps,
+                  "Steps with hostile (extreme or invalid) inputs after the scenario, to find the "
+                  "longest step; 0: none")
       ->check(within(0U, 10000000U))
       ->capture_default_str();
   add_choice(command, "--inject", options.injection, kInjectionNames,
-             "Fault to inject, most of them from the middle of the run on")
+             "Fault to inject; most faults begin in the middle of the run")
       ->default_str("none");
   command
       .add_option("--line-noise", options.line_noise,

@@ -31,7 +31,7 @@ enum class Injection {
   kNaN,             ///< measured yaw rate is NaN
   kInfinite,        ///< measured speed is infinite
   kRange,           ///< measured speed beyond the largest that the vehicle can have
-  kMode,            ///< undefined mode
+  kMode,            ///< a mode that is none of the three
   kHeadingStale,    ///< the time of the last heading is 10 s old
   kSpeedStale,      ///< the time of the last speed is 10 s old
   kCommandTimeout,  ///< the time of the last command is 10 s old
@@ -121,19 +121,19 @@ struct PilOptions {
   std::optional<std::filesystem::path> port;  ///< serial port of a real board, with kUart
   unsigned baud = 500000;
   EmitOptions emit;
-  /// absent: size for a mission with a timed path, obstacles, or two optional parts or more; else
-  /// speed
+  /// Absent: size for a timed path, obstacles, or two or more optional parts (the position estimate
+  /// counts as one); else speed.
   std::optional<Optimize> optimize;
-  /// Bound on the cycles of a step. Absent: 12,000 by table, 24,000 by powf; with optional parts 75
-  /// % of the sample time.
+  /// Bound on the cycles of a step. Absent: 12,000 by table, 24,000 by powf; with optional parts or
+  /// the position estimate, 75 % of the sample time.
   std::optional<unsigned> cycles_max;
   unsigned flash_max = 20480;  ///< bound on the flash, bytes
   unsigned ram_max = 1024;     ///< bound on the RAM without the stack, bytes
   /// bound on the difference from the host's float run; absent: 0 by table, 1e-6 by powf
   std::optional<double> difference_max;
-  /// Bound on the heading difference from the host's double run, at the same or a neighbouring
-  /// sample, deg. Absent: 0.05, or 2 if obstacles are avoided or sensors simulated. One of the runs
-  /// can then change its path one sensor sample earlier.
+  /// Bound on the difference of the heading from the host's run in double, at the same or a
+  /// neighbouring sample, deg. Absent: 0.05, or 2 if obstacles are avoided or sensors simulated,
+  /// because one of the runs can then change its path one sensor sample earlier.
   std::optional<double> heading_max_deg;
   Injection injection = Injection::kNone;
   unsigned hostile_steps = 6000;  ///< steps with hostile inputs after the scenario; 0: none

@@ -25,7 +25,7 @@ struct PlantChoice {
   std::optional<PlantKind> kind = {};  ///< plant of every scenario; empty: each scenario's own
   /// validation.json whose tyres override the scenarios' and the defaults.
   std::optional<std::filesystem::path> tyres_file = {};
-  bool checks_other = false;  ///< true (`compare`): without `kind`, the other plant runs as well
+  bool checks_other = false;  ///< true (`compare`): without `kind`, the other plant runs, too
   bool runs_other() const { return checks_other && !kind; }
 };
 

@@ -17,7 +17,8 @@ fs::path resolved(const fs::path& project, const std::string& name) {
   return (project.parent_path() / name).lexically_normal();
 }
 
-/// Reads file names relative to the project file. `faults` are those of the whole file.
+/// Reads file names, and resolves them relative to the project file. `faults`: those found so far
+/// in the whole project file.
 class FileNames {
  public:
   FileNames(const fs::path& project, const std::vector<Fault>& faults)
@@ -39,7 +40,8 @@ class FileNames {
     for (const std::string& name : json.strings(key)) {
       if (name.empty()) json.fault(ErrorCode::kBadName, key, "has an empty name: give files");
       if (name.find('\0') != std::string::npos) {
-        json.fault(ErrorCode::kBadName, key, "has a name with a NUL: remove it");
+        json.fault(ErrorCode::kBadName, key,
+                   "has a name with a NUL character: remove the character");
       }
       paths.push_back(resolved(project_, name));
     }
@@ -121,7 +123,7 @@ void read_identify(JsonObject json, Project& project) {
   json.reject_unknown_keys();
 }
 
-/// Reads a rate in deg/s or a keyword.
+/// Reads `heading_rate_limit`: a rate in deg/s, "measured" or "none".
 void read_heading_rate(JsonObject& json, Project& project) {
   const auto rate = json.optional_number_or_string(
       "heading_rate_limit", {.min = kLeadRates_degps.lo, .max = kLeadRates_degps.hi});
@@ -135,7 +137,7 @@ void read_heading_rate(JsonObject& json, Project& project) {
 void read_compare(JsonObject json, const FileNames& files, Project& project) {
   project.scenarios = files.all_at(json, "scenarios");
   if (json.has("scenarios") && project.scenarios.empty()) {
-    json.fault(ErrorCode::kMissing, "scenarios", "none given; name at least one");
+    json.fault(ErrorCode::kMissing, "scenarios", "no scenario is given; name at least one file");
   }
   project.compare.samples =
       static_cast<int>(json.optional_integer("samples", 0, 1000000).value_or(0));

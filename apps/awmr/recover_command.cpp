@@ -65,7 +65,7 @@ Status check_output_of(const RecoverCommand& command) {
                        : check_output(*command.output, inputs);
 }
 
-/// The command, and those of its options that are still text.
+/// The command, and the values of its options that command_of() still has to parse.
 struct RecoverWords {
   RecoverCommand command;
   std::string plan = "tables";

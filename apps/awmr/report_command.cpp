@@ -14,8 +14,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Writes all figures or none. A note lists those without data. An existing plot.py is kept,
-/// because the user may have edited it.
+/// Writes the data of all figures, or nothing. Adds a note for each figure without data. An
+/// existing plot.py is kept, because the user may have edited it.
 Status write_figures(FigureSet figures, const fs::path& directory, Outcome& outcome) {
   AWMR_RETURN_IF_ERROR(make_directory(directory));
   const fs::path plot = directory / kPlotName;
@@ -62,10 +62,10 @@ void add_report(CLI::App& app, Session& session) {
       app, session, "report", "Make report.html from a results directory, and figures for print",
       "awmr report out --figures figures", [command] { return execute(*command); });
   add_directory(*sub, "DIR", command->directory, "Directory that `awmr run` filled")->required();
-  add_directory(*sub, "--figures", command->figures,
-                "Also write all figures there: one CSV per figure, and plot.py, which draws "
-                "them as SVG and "
-                "PDF by matplotlib");
+  add_directory(
+      *sub, "--figures", command->figures,
+      "Also write all figures to this directory: one CSV per figure, and plot.py, which draws "
+      "them as SVG and PDF by matplotlib");
 }
 
 }  // namespace awmr::cli

@@ -21,7 +21,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Combined outcome of the steps, and the document of each under the name of its file.
+/// Combined outcome of the steps, and the JSON document of each under the name of its file
+/// ("model").
 struct Steps {
   Outcome total;
   std::vector<std::pair<std::string, std::string>> documents;
@@ -31,7 +32,7 @@ void add_written(Outcome& total, const std::vector<fs::path>& written) {
   total.written.insert(total.written.end(), written.begin(), written.end());
 }
 
-/// Adds a step's outcome to the total under its title.
+/// Adds the outcome of a step to the total, with its brief text under the title.
 void add_step(Steps& steps, const char* title, Outcome step) {
   Outcome& total = steps.total;
   steps.documents.emplace_back(step.written.front().stem().string(), std::move(step.document));
@@ -217,7 +218,9 @@ Result<Outcome> execute(const RunCommand& command) {
   add_step(steps, "identify", std::move(identified));
   AWMR_ASSIGN_OR_RETURN(const bool has_gaps, lacks_parameters(total, model));
   if (has_gaps) {
-    total.summary += "stopped: the next steps need parameters that could not be identified\n";
+    total.summary +=
+        "stopped: the next steps need parameters that could not be identified; the errors name "
+        "the trials to record\n";
     total.document = joined(steps.documents);
     put_findings_into_document(total);
     return total;
@@ -241,9 +244,8 @@ void add_run(CLI::App& app, Session& session) {
   add_file(*sub, "PROJECT", command->project, "project.json")->required();
   add_output_directory(*sub, command->output, "Directory for all results");
   sub->add_flag("--figures", command->figures,
-                "Also write the main figures to figures/ in it: one CSV per figure, and plot.py, "
-                "which draws them as "
-                "SVG and PDF by matplotlib");
+                "Also write the main figures to DIR/figures: one CSV per figure, and plot.py, "
+                "which draws them as SVG and PDF by matplotlib");
 }
 
 }  // namespace awmr::cli

@@ -26,7 +26,7 @@ namespace {
 constexpr const char* kTuned = "tuned";
 constexpr const char* kPaper = "paper";
 
-/// Gains of a run, by the name that its file carries.
+/// Gains of a run, with their name in the run's file name: "tuned" or "paper".
 struct NamedSet {
   const char* name;
   Gains<double> gains;
@@ -40,7 +40,7 @@ std::string scenario_name(const fs::path& scenario) {
   return fmt::format("scenario_{}.json", scenario.stem().string());
 }
 
-/// Simulates one run and writes it with its side file. Returns the paths of both.
+/// Simulates one run and writes it to `csv`, with its side file. Returns the paths of both.
 Result<std::vector<fs::path>> write_run(const Model& model, const NamedSet& gains,
                                         const Scenario& scenario, YawMode mode,
                                         const std::vector<fs::path>& inputs,

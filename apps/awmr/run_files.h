@@ -24,9 +24,9 @@ std::vector<std::string> run_outputs(const Project& project);
 /// file is in the manifest.
 Status check_own_results(const std::filesystem::path& directory);
 
-/// Writes every scenario, and its runs in every mode with the tuned gains and with the paper's
-/// gains. Reads model.json and gains.json from the directory. Returns the paths of the written
-/// files.
+/// Simulates every scenario of the project in every mode, with the tuned gains and with the paper's
+/// gains. Writes the scenarios, the runs and their side files into the directory, from which it
+/// reads model.json and gains.json. Returns the paths of the written files.
 Result<std::vector<std::filesystem::path>> write_runs(const Project& project,
                                                       const InputNames& names,
                                                       const std::filesystem::path& directory);

@@ -11,7 +11,7 @@ struct Schema {
   std::string (*text)();  ///< JSON Schema, draft 2020-12
 };
 
-/// All schemas, in the order in which the files are created.
+/// All schemas, in the order in which a user creates the files.
 const std::vector<Schema>& schemas();
 
 /// Schema of pil.json, which awmr-pil writes.

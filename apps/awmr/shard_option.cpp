@@ -18,8 +18,9 @@ Result<ShardChoice> shard_of(const std::optional<std::string>& text) {
     const auto [rest, second] = std::from_chars(slash + 1, end, shard.count);
     if (second == std::errc{} && rest == end) return shard;
   }
-  return input_error(ErrorCode::kWrongType, "--shard",
-                     fmt::format("'{}' is not a part: give I/N, such as 1/4", *text));
+  return input_error(
+      ErrorCode::kWrongType, "--shard",
+      fmt::format("'{}' is not of the form I/N (part I of N): give for example 1/4", *text));
 }
 
 Result<Outcome> finished_part(const Shard& shard, const std::filesystem::path& directory) {

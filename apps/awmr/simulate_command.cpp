@@ -26,7 +26,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Describes how the run ended; empty if its guidance has no end.
+/// Describes whether the run reached the end of its path; empty if its guidance has no end.
 std::string end_of(const Run& run, const Scenario& scenario) {
   if (run.end == RunEnd::kNoPassage) {
     return "  no passage: obstacles block the way to the guidance target; stopped\n";
@@ -40,11 +40,12 @@ std::string end_of(const Run& run, const Scenario& scenario) {
                      run.missed_waypoints);
 }
 
-/// Text of the number of resets of the position estimate; empty if there were none.
+/// Describes how often the position estimate was reset to a GPS fix; empty if never.
 std::string resets_of(const Run& run) {
   if (run.position_resets == 0) return "";
-  return fmt::format("  the position estimate was reset {} time(s), after rejected fixes\n",
-                     run.position_resets);
+  return fmt::format(
+      "  the position estimate was reset {} time(s) to a GPS fix, after several rejected fixes\n",
+      run.position_resets);
 }
 
 std::string summary_of(const Run& run, const Scenario& scenario, const SimulateCommand& command) {
@@ -116,7 +117,8 @@ Result<Provenance> provenance_of(const SimulateCommand& command, const Scenario&
   return Provenance{"simulate", std::move(options), std::move(inputs)};
 }
 
-/// True if a side file is written with the run: not for a pipe or a device.
+/// True if a side file (.csv.json) is written with the run, that is, unless the output is a pipe or
+/// a device.
 bool has_side_file(const fs::path& output) {
   std::error_code ignored;
   const fs::file_status status = fs::status(output, ignored);

@@ -20,7 +20,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Metric of one closed loop with a fixed controller, evaluated while the plant varies.
+/// Metric of a simulated closed loop. Its change with the plant's parameters is computed with the
+/// controller fixed.
 struct LoopMetric {
   const char* name;
   std::optional<double> Metrics::*value;
@@ -34,7 +35,7 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
   if (!command.gains && !command.scenario) return {};
   if (!command.gains || !command.scenario) {
     return input_error(ErrorCode::kMissing, "--gains",
-                       "--gains and --scenario go together: they define the closed loop of the "
+                       "give --gains and --scenario together: they define the closed loop of the "
                        "metric");
   }
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
@@ -49,9 +50,10 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
   for (const LoopMetric& metric : kLoopMetrics) {
     if (!(of_own.*metric.value)) {
       if (command.parameter != metric.name) continue;
-      return input_error(ErrorCode::kUnknownName, "--parameter",
-                         fmt::format("the run of {} in {} has no {}; choose another parameter",
-                                     scenario.name, name_of(command.mode), metric.name));
+      return input_error(
+          ErrorCode::kUnknownName, "--parameter",
+          fmt::format("the run of {} in mode {} has no value of {}; choose another parameter",
+                      scenario.name, name_of(command.mode), metric.name));
     }
     options.metrics.push_back(
         {metric.name, [=, sample_time_s = model.vehicle.sample_time_s,
@@ -120,7 +122,8 @@ void add_suggest(CLI::App& app, Session& session) {
   add_choice(*sub, "--mode", command.mode, kYawModeNames,
              "Yaw-control mode of the scenario "
              "(default combined)");
-  sub->add_option("--repeats", command.repeats, "Runs of each trial (default 3)")
+  sub->add_option("--repeats", command.repeats,
+                  "Number of runs of each suggested trial (default 3)")
       ->check(within(1, 1000));
   sub->add_option("--most", command.most,
                   "Number of trials on the sheet (default 8; the file has "

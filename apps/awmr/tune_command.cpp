@@ -27,8 +27,8 @@ Result<Tuning> tune_with_progress(const Model& model, TuneOptions options) {
   return tune(model, options);
 }
 
-/// Reads the configuration file and applies the options of the command line. Sets `--allocation` in
-/// `model`.
+/// Reads tune.json (`--config`) and applies the other options of the command line to it. Applies
+/// `--allocation` to `model`, too.
 Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
   TuneConfig config;
   if (command.config) {
@@ -45,9 +45,10 @@ Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
   if (command.nominal) options.nominal = true;
   if (command.mode) options.mode = command.mode;
   if (command.draws && options.nominal) {
-    return input_error(ErrorCode::kConflict, "--draws",
-                       "the configuration sets nominal, which uses no draws; remove --draws or "
-                       "nominal");
+    return input_error(
+        ErrorCode::kConflict, "--draws",
+        "the configuration (--config) sets nominal, which uses no draws; remove --draws or "
+        "nominal");
   }
   if (command.draws) options.draws = *command.draws;
   if (command.sensitivity) options.sensitivity = *command.sensitivity;

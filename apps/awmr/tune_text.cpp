@@ -45,7 +45,8 @@ std::string sensitivity_text(const RobustTuning& robust) {
   return text;
 }
 
-/// Describes the active constraints and the range of gains that are equally good.
+/// Describes the constraints that are at their limits, and the ranges of gains that are equally
+/// good.
 std::string active_text(const Tuning& tuning) {
   std::string held;
   for (const ActiveConstraint& one : tuning.active) {

@@ -22,7 +22,7 @@ std::string goals_text(const std::vector<EvaluatedGoal>& all);
 /// All tables of a tuning.
 std::string tuning_summary(const Tuning& tuning, const TuneOptions& options);
 
-/// Scores, constraints, and why the search ended, for `--verbose`.
+/// Objective by scenario and mode, constraints, and why the search ended, for `--verbose`.
 std::string tuning_details(const Tuning& tuning);
 
 }  // namespace awmr::cli

@@ -35,7 +35,7 @@ Result<Validation> validate_with_progress(const Model& model,
   return validate(model, gains, options);
 }
 
-/// Summarises the verdict and the claims by outcome.
+/// Text of the verdict, and of the paper's claims that are reproduced and not reproduced.
 std::string brief_of(const Validation& validation) {
   std::vector<std::string> reproduced;
   std::vector<std::string> others;
@@ -47,7 +47,7 @@ std::string brief_of(const Validation& validation) {
                      others.empty() ? "none" : fmt::format("{}", fmt::join(others, " ")));
 }
 
-/// Returns the result of `validate_one` for each log.
+/// Reads the logs of the command and returns the result of `evaluate` for each run in them.
 template <class Evaluate>
 auto evaluate_logs(const ValidateCommand& command, const Vehicle& vehicle, const Evaluate& evaluate,
                    std::vector<Finding>& findings)
@@ -176,7 +176,8 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& colum
                      std::vector<std::string>& excluded) {
   add_file(sub, "--log", command.logs,
            "CSV of a driving log, preferably not used in the fit; may be repeated");
-  sub.add_option("--horizon", command.horizon_s, "Prediction horizon for logs, s (default 10)")
+  sub.add_option("--horizon", command.horizon_s,
+                 "Length of the windows over which logs are predicted, s (default 10)")
       ->check(within(0.01, 1e6));
   sub.add_option("--log-tolerance", command.log_tolerance,
                  "Largest accepted normalised RMS prediction error (NRMSE) of a channel over a "
@@ -208,7 +209,7 @@ void add_drive_options(CLI::App& sub, ValidateCommand& command) {
       ->check(within<std::uint64_t>(0, kAnySeed))
       ->needs(scenario);
   sub.add_option("--from", command.acceptance.from_s,
-                 "Use each log from this time on, s; with --scenario the time at which the "
+                 "Use each log from this time on, s; with --scenario: the time at which the "
                  "scenario begins (default: first row with a non-zero command)")
       ->check(within(-kMostTime_s, kMostTime_s));
 }

@@ -180,7 +180,7 @@ TEST_F(Live, EndsIfEnoughOrReportsThatItIsNot) {
       shell("{ head -n 900 " + kDrive + kOnAndOn + " | " + live("--log -" + fit));
   ASSERT_EQ(enough.exit_code, 0) << enough.err;
   EXPECT_THAT(enough.out, AllOf(HasSubstr("enough was recorded: "),
-                                HasSubstr("enough: every half interval is within 5 %")));
+                                HasSubstr("enough: every half width is within 5 %")));
   EXPECT_EQ(read_all(path("live.json")), identified(kPowerLaw + " --fit surge.alpha"));
   fs::remove(path("live.csv"));
   const ProcessResult too_few =

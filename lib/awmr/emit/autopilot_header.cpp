@@ -14,22 +14,24 @@ namespace {
 
 constexpr std::string_view kIntro =
     R"(/* awmr_autopilot_params.h, made by awmr {}: tables of the resistances, limits of the safety
-   checks, and the check sum over all parameters. Values of the model and the gains are in
-   awmr_params.h. The check sum detects an edit of either file at start-up. */
+   checks, values for the sketches, and a check sum. Values of the model and the gains are in
+   awmr_params.h. The check sum covers the tables, the safety limits and the controller's parameters of
+   both files: awmr_init() reports if one of them was edited. */
 #ifndef AWMR_AUTOPILOT_PARAMS_H
 #define AWMR_AUTOPILOT_PARAMS_H
 
 /* 1: the firmware computes the resistances by interpolated tables in flash; 0: by powf */
 #define AWMR_RESISTANCE_TABLE {}
 
-/* tan(d_max/2) of AWMR_STEERING_MAX_RAD */
+/* tan(d_max/2) with d_max = AWMR_STEERING_MAX_RAD */
 #define AWMR_STEERING_MAX_TAN_HALF {}
 
-/* Largest |u| and |v|, m/s, and |r|, rad/s, that are accepted as measurements */
+/* Largest measured speeds |u| (forward) and |v| (to the left), m/s, and yaw rates |r|, rad/s, that are
+   not a fault */
 #define AWMR_SPEED_MAX_MPS {}
 #define AWMR_YAW_RATE_MAX_RADPS {}
 /* ms: largest age of heading and yaw rate, of speed and position, and of the last command; longest
-   time between two steps */
+   time between two steps. More is a fault */
 #define AWMR_HEADING_TIMEOUT_MS {}UL
 #define AWMR_SPEED_TIMEOUT_MS {}UL
 #define AWMR_COMMAND_TIMEOUT_MS {}UL
@@ -40,17 +42,18 @@ constexpr std::string_view kIntro =
    different forces cause with these gains, at least 15 and at most 45 deg */
 #define AWMR_ON_COURSE_RAD {}
 /* Limit of the integral of (heading error - AWMR_ON_COURSE_RAD) over the distance driven, m rad; beyond
-   it the sketches report fault 17. 10, plus that of the widest turn by 180 deg, at most 90 */
+   it the sketches report fault 17. The limit is 10 plus the integral of the widest turn by 180 deg that
+   vehicle and gains allow, at most 90 */
 #define AWMR_OFF_COURSE_MRAD {}
 /* AWMR_SAMPLE_TIME_S as text, for the header of logs */
 #define AWMR_SAMPLE_TIME_TEXT "{}"
-/* CRC-32 of the parameter block and the tables' lines, as they lie in flash */
+/* CRC-32 of the controller's parameters and of the tables, as stored in flash */
 #define AWMR_PARAMETERS_CRC32 0x{:08X}UL
 )";
 
 constexpr std::string_view kTable = R"(
-/* {} resistance: {} straight lines (slope, offset): the chord to the origin, then {} per octave from {:g} to {:g} {}.
-   Worst error, measured in float32 at 64 places of each cell: {:.2e} {} where the resistance is below
+/* {} resistance: {} straight lines (slope, offset): one from the origin, then {} per doubling of the speed, from {:g} to {:g} {}.
+   Largest error, measured in float32 at 64 places of each cell: {:.2e} {} where the resistance is below
    {:g} (bound {:.2e}), {:.2e} relative to the resistance above (bound {:.2e}). */
 #define {}_COUNT {}
 #define {}_FIRST {}
@@ -60,20 +63,20 @@ constexpr std::string_view kTable = R"(
 
 constexpr std::string_view kParts = R"(
 /* 1: this optional part is compiled in; awmr.h describes each */
-{}/* Law for lines: {} (its index in src/awmr/control/guidance/line_laws.h) */
+{}/* Guidance law for lines: {}, by its index in src/awmr/control/guidance/line_laws.h */
 #define AWMR_LINE_LAW {}
-/* Combined mode: 1: steering and wheel forces each make half of the yaw moment, also at a limit; 0: one
-   takes over what the other cannot make */
+/* Combined mode: 1: steering and wheel forces each make half of the yaw moment, and what one cannot make
+   at its limit is lost; 0: the other one makes it */
 #define AWMR_FIXED_HALF {}
 )";
 
 constexpr std::string_view kPosition = R"(
 /* Position estimate from the fixes of a GPS (src/awmr/control/position_estimate.h). Variance of a fix
-   along one axis, m^2, from noise/position_m in vehicle.json, else 1.5 m; time between a fix and its
-   sentence, ms, from latency_s/position, else 200 */
+   along one axis, m^2: the square of noise/position_m in vehicle.json, else of 1.5 m. Time between a fix
+   and its sentence, ms: from latency_s/position, else 200 */
 #define AWMR_FIX_VARIANCE_M2 {}
 #define AWMR_FIX_LATENCY_MS {}UL
-/* Growth of the variance of the position per step, m^2 */
+/* Growth of the variance of the estimated position per step, m^2 */
 #define AWMR_DRIFT_M2 {}
 #define AWMR_SAMPLE_RATE_HZ {}
 /* Steps between two stored positions of the travelled path; steps over which a correction is spread */
@@ -81,7 +84,7 @@ constexpr std::string_view kPosition = R"(
 #define AWMR_TRAVELLED_STRIDE_INVERSE {}
 #define AWMR_CORRECTION_STEPS {}
 #define AWMR_CORRECTION_STEPS_INVERSE {}
-/* 1: the work on a fix is spread over several steps */
+/* 1: the work on a fix is spread over several steps, because the sample time is short */
 #define AWMR_SPREADS_FIXES {}
 )";
 
@@ -94,7 +97,7 @@ std::string position_text(const AutopilotParameters& parameters) {
                      literal(filter.spread_inverse), filter.spreads_work ? 1 : 0);
 }
 
-/// Macro of a part: AWMR_WITH_SLOW_DOWN for slow_down.
+/// Name of the macro of an optional part: AWMR_WITH_SLOW_DOWN for slow_down.
 std::string macro_of(std::string_view part) {
   std::string macro = "AWMR_WITH_";
   std::transform(part.begin(), part.end(), std::back_inserter(macro),
@@ -114,7 +117,8 @@ std::string parts_text(const AutopilotParameters& parameters) {
 constexpr std::string_view kRest = R"(
 /* The firmware compensates friction at rest, a dead zone and the back-EMF of the motors. Below
    AWMR_SURGE_REST_SPEED (m/s) and AWMR_YAW_REST_SPEED (rad/s) a resistance is the straight line from
-   the origin to its value there. Allocated forces are those at rest, without the dead zone. */
+   the origin to its value at that speed (..._AT_REST). The allocation requests wheel forces between
+   AWMR_ALLOCATED_FORCE_MIN and _MAX: the force limits, reduced by the dead zone. */
 #define AWMR_FRICTION_AT_REST 1
 #define AWMR_DEAD_ZONE {}
 #define AWMR_SURGE_REST_SPEED {}

@@ -27,7 +27,7 @@ TableShape shape_of(const EmittedTable& table) {
   return {static_cast<std::uint32_t>(table.lines.size()), table.first, table.mantissa_bits};
 }
 
-/// The value as a float on the chip; -0 becomes 0.
+/// Returns the value rounded to float32, as on the chip; -0 becomes 0.
 float single(double value) { return static_cast<float>(value) + 0.0F; }
 
 /// Range of F' that the allocation can request: the force limits, reduced by the dead zone of the
@@ -62,8 +62,8 @@ std::optional<RestBlock> rest_of(const Plant<double>& plant, const Gains<double>
                    single(plant.back_emf_s_per_m)};
 }
 
-/// Returns the controller in float. Values derived from it are also computed in float, because the
-/// firmware's compiler evaluates the expressions of awmr.cpp in float.
+/// Returns the controller in float. Values derived from it are also computed in float, as by the
+/// firmware's compiler in awmr.cpp: the check sum compares their bits.
 Controller<float> float_controller(const Plant<double>& plant, const Model& model,
                                    const Gains<double>& gains) {
   Controller<float> controller{};
@@ -83,7 +83,8 @@ Controller<float> float_controller(const Plant<double>& plant, const Model& mode
   return controller;
 }
 
-/// All parameters except the tables and their top speeds.
+/// Returns the block without the shapes of the tables and the largest speeds, which depend on the
+/// tables.
 ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Gains<double>& gains,
                         const EmitOptions& options) {
   const auto estimate = [&](ParameterId id) { return single(*model[id].value); };
@@ -125,7 +126,8 @@ std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle&
   return steady_rate(plant.yaw, moment_m);
 }
 
-/// Yaw moment of left and right motors that differ by 16 %, m: 0.08 d tau_speed.
+/// Yaw moment, m, if equal commands give forces left and right that differ by 16 % of their mean:
+/// 0.08 d tau_speed.
 double unequal_moment_m(const Plant<double>& plant, double speed_mps) {
   return 0.08 * plant.half_track_m * plant.surge.at(speed_mps);
 }
@@ -184,7 +186,7 @@ double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
 Status check_allocation(const Model& model) {
   if (model.vehicle.allocation == AllocationForm::kExact) return {};
   return input_error(ErrorCode::kUnsupported, file_name(model) + ":/vehicle/allocation",
-                     "the firmware allocates exactly, not for small angles: give \"exact\", or "
+                     "the firmware does not support the small-angle allocation: give \"exact\", or "
                      "emit the header alone (" +
                          option_text("header-only") + ")");
 }
@@ -192,23 +194,24 @@ Status check_allocation(const Model& model) {
 Status check_drive(const Plant<double>& plant, const Model& model) {
   if (plant.rear_driven > 0.0) return {};
   return input_error(ErrorCode::kUnsupported, file_name(model) + ":/vehicle/drive",
-                     "the firmware allocates to four driven wheels, not to the front ones alone: "
+                     "the firmware supports only four driven wheels, not a front-wheel drive: "
                      "emit the header alone (" +
                          option_text("header-only") + ")");
 }
 
-/// powf supports only the power law.
+/// Errors (input): powf is selected, but the resistance is not a power law.
 Status check_family(const Plant<double>& plant, ResistanceForm form) {
   if (form == ResistanceForm::kPowf && !is_power_law(plant)) {
     return input_error(ErrorCode::kUnsupported, option_text("resistance"),
-                       "powf supports only the power law; this model's family needs the table");
+                       "powf supports only the power law; this model's resistance family needs the "
+                       "table: leave this option out");
   }
   return {};
 }
 
-/// A resistance law with the data that its table needs.
+/// A resistance law and the data from which its table is made.
 struct ChipLaw {
-  std::string name;   ///< for messages
+  std::string name;   ///< "surge" or "yaw", for messages
   ResistanceLaw law;  ///< g1, dimensionless, or g3, m
   double full_scale;  ///< the largest possible force or moment, in the unit of g
   double top;         ///< top speed of the table (table_top()), m/s or rad/s
@@ -227,7 +230,8 @@ ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_sc
 /// include.
 float largest_below(double top) { return std::nextafter(static_cast<float>(top), 0.0F); }
 
-/// Adds both tables to the parameters. Errors (refused): no table is within the bound.
+/// Adds the tables of g1 and g3 to the parameters. Errors (refused): no table of at most 1024 lines
+/// is within the bound.
 Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, std::optional<double> table_error,
                   AutopilotParameters& parameters) {
   const auto table = [&](const ChipLaw& chip) {

@@ -33,13 +33,13 @@ double steady_or_never(const Resistance<double>& law, double force) {
   return steady_rate(law, force).value_or(kNever);
 }
 
-/// g'(w), by a central difference.
+/// Returns the slope dg/dw of a resistance at the rate w > 0, by a central difference.
 double slope(const Resistance<double>& law, double w) {
   const double h = 1e-5 * w;
   return (law.at(w + h) - law.at(w - h)) / (2.0 * h);
 }
 
-/// Collects an autopilot's parameters.
+/// Collects the values of an autopilot's parameters, and the parameters without a value.
 struct Autopilot {
   const ExportSource& source;
   AutopilotValues found = {};
@@ -54,10 +54,11 @@ struct Autopilot {
            std::optional<Interval> usual = {}) {
     const double value = f(source.model.plant_as_known());
     if (!(value > 0.0) || !std::isfinite(value)) {
-      return leave_out(name, "the thrust does not overcome the friction there");
+      return leave_out(name,
+                       "by the model, the motors do not overcome friction at its operating point");
     }
     if (usual && !usual->contains(value)) {
-      derivation += fmt::format(", outside of the usual [{:g}, {:g}]", usual->lo, usual->hi);
+      derivation += fmt::format(", outside of the documented [{:g}, {:g}]", usual->lo, usual->hi);
     }
     ExportedValue one{.name = name,
                       .value = value,
@@ -77,7 +78,7 @@ struct Autopilot {
   }
 };
 
-constexpr const char* kNoGains = "it follows from the gains, which were not given";
+constexpr const char* kNoGains = "it follows from the gains, which were not given (option --gains)";
 constexpr const char* kNoMass = "the model lacks mass_norm";
 constexpr const char* kNoInertia = "the model lacks inertia_norm";
 constexpr const char* kNoYaw = "the model lacks the yaw law";
@@ -86,7 +87,8 @@ bool knows_yaw(const Autopilot& pilot) {
   return pilot.knows(ParameterId::kYawAlpha) && pilot.knows(ParameterId::kYawBeta);
 }
 
-/// The steady speed for a throttle: g1(u) = 4 F', minus the dead zone.
+/// Returns the steady speed u for a throttle: g1(u) = 4 (F' minus the dead zone). NaN if the force
+/// does not overcome friction.
 double speed_at(const Plant<double>& plant, double throttle) {
   return steady_or_never(plant.surge, 4.0 * beyond_dead_zone(throttle, plant.wheel_dead_zone));
 }
@@ -118,11 +120,11 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
       usual);
 }
 
-/// Lists a tuned disturbance observer among the parameters that are left out.
+/// If the gains were tuned with a disturbance observer, lists it among the parameters left out.
 void leave_out_observer(Autopilot& pilot) {
   if (!pilot.source.gains || !pilot.source.gains->observer.is_on()) return;
   pilot.leave_out("the disturbance observer",
-                  "this autopilot has integrators in its place; the gains were tuned with it");
+                  "the gains were tuned with it; this autopilot has integrators instead");
 }
 
 Status check_surge(const Model& model) {
@@ -231,12 +233,14 @@ void add_skid(Autopilot& pilot, const OfPlant& rate) {
 void add_steered(Autopilot& pilot) {
   pilot.add("RA_MAX_STR_ANG", "rad", "d_max",
             [](const Plant<double>& plant) { return plant.steering_max_rad; });
-  pilot.add("RA_STR_RATE_LIM", "deg/s", "the steering's fastest turn",
+  pilot.add("RA_STR_RATE_LIM", "deg/s", "largest rate of the steering angle",
             [](const Plant<double>& plant) { return degrees(plant.steering_max_rate_radps); });
   pilot.leave_out("RA_WHEEL_BASE", "the model has only the front axle; measure the wheelbase");
   for (const char* name : {"RO_YAW_RATE_CORR", "RO_YAW_RATE_P", "RO_YAW_RATE_I"}) {
-    pilot.leave_out(name,
-                    "it corrects an angle that PX4 takes from the wheelbase; tune it in Acro");
+    pilot.leave_out(
+        name,
+        "it corrects the steering angle that PX4 computes from the wheelbase; tune it in "
+        "Acro mode");
   }
 }
 
@@ -288,8 +292,8 @@ Result<AutopilotValues> px4_values(const ExportSource& source) {
     return largest_yaw_rate(plant, vehicle, measured_degps);
   };
   pilot.add("RO_YAW_RATE_LIM", "deg/s",
-            "r with g3(r) = the largest moment of the wheels, at most what yaw resistance was "
-            "measured up to",
+            "r with g3(r) = the largest yaw moment, but at most the highest yaw rate at which "
+            "resistance was measured",
             [rate](const Plant<double>& plant) { return degrees(rate(plant)); });
   if (pilot.vehicle().has_steering()) {
     add_steered(pilot);

@@ -6,8 +6,8 @@
 
 namespace awmr {
 
-/// Returns the text as one line of printable ASCII, with '?' for other characters. The result does
-/// not end or start a C comment, and does not continue a line comment of any language.
+/// Returns the text as one line of printable ASCII, with '?' for each other character. The line
+/// contains no start or end of a C comment, and no line break that would end a line comment.
 std::string comment_safe(std::string_view text);
 
 }  // namespace awmr

@@ -13,10 +13,10 @@ namespace awmr {
 namespace {
 
 constexpr std::string_view kCompassIntro =
-    R"(/* awmr_compass.h, made by awmr {} from {}, SHA-256 {}: what
-   the compass of one vehicle is corrected by. Put it into src/ of the emitted library.
+    R"(/* awmr_compass.h, made by awmr {} from {}, SHA-256 {}:
+   calibration of the compass of one vehicle. Put this file into src/ of the emitted library.
      c = S (field - centre),  heading = atan2(-c_left, c_ahead) - declination
-   The field is an ellipse within {:.2f} %; the fit leaves {:.2f} deg of the heading open (95 %).
+   Deviation of the field from the fitted ellipse: {:.2f} %. Heading error of the fit: {:.2f} deg (95 %).
    95 % intervals in brackets. */
 #ifndef AWMR_COMPASS_H
 #define AWMR_COMPASS_H

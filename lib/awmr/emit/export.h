@@ -15,8 +15,8 @@
 namespace awmr {
 
 enum class ExportFormat {
-  kRos2,       ///< parameter file for any node, YAML
-  kMatlab,     ///< script that fills a struct
+  kRos2,       ///< ROS 2 parameter file (YAML) for nodes of any name
+  kMatlab,     ///< script that fills the struct `awmr`
   kPython,     ///< module of constants
   kCsv,        ///< name,value,unit,std_error,ci95_lo,ci95_hi,source
   kArduPilot,  ///< Rover's .param: NAME,VALUE
@@ -34,13 +34,13 @@ inline constexpr NameTable<ExportFormat, 6> kExportFormatNames{
 struct ExportSource {
   const Model& model;
   std::optional<Gains<double>> gains = {};
-  std::span<const InputFile> inputs = {};  ///< model and gains, named in the file's header
+  std::span<const InputFile> inputs = {};  ///< files of model and gains, named with their hashes
 };
 
-/// Text of the file in ASCII: every value with its unit, 95 % interval and origin. Unknown
-/// quantities are omitted; files for autopilots list them in comments, each with the reason. Errors
-/// (input), only for autopilots: the model lacks the surge law or has back-EMF; not all four wheels
-/// are driven.
+/// Returns the text of the file in ASCII: every value with its unit, 95 % interval and origin.
+/// Unknown quantities are omitted; files for autopilots list them in comments, each with the
+/// reason. Errors (input), only for autopilots: the model lacks the surge law or has back-EMF; not
+/// all four wheels are driven.
 Result<std::string> export_text(const ExportSource& source, ExportFormat format);
 
 }  // namespace awmr

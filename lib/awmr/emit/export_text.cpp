@@ -20,7 +20,8 @@ std::string number(double value) {
   return text.insert(std::min(text.find('e'), text.size()), ".0");
 }
 
-/// Returns the head of the file: one comment line for its content and one for each input.
+/// Returns the first comment lines of the file: one for its content and one for each input with its
+/// hash. `mark` begins a comment.
 std::string head(const ExportSource& source, std::string_view mark, std::string_view what) {
   std::string text = fmt::format("{} {} of \"{}\", by awmr {} export.\n", mark, what,
                                  comment_safe(source.model.vehicle.name), version());
@@ -30,7 +31,7 @@ std::string head(const ExportSource& source, std::string_view mark, std::string_
   return text;
 }
 
-/// "a1: ..., (s/m)^b1; fitted, log-linear; std error ..., 95 % [...]"
+/// Comment of a value: "a1: MEANING, in UNIT; fitted, log-linear; std error ..., 95 % [...]"
 std::string comment(const ExportedValue& value) {
   const std::string uncertainty = uncertainty_text(value);
   return comment_safe(fmt::format("{}, in {}; {}{}{}", value.meaning, value.unit, value.origin,
@@ -38,7 +39,8 @@ std::string comment(const ExportedValue& value) {
 }
 
 constexpr std::string_view kForces =
-    "Forces and moments are over F_max, the largest force of one motor; si_ ones are not.";
+    "Forces and moments are divided by F_max, the largest force of one motor, except those named "
+    "si_...";
 
 std::string ros2_text(const ExportSource& source) {
   std::string text = head(source, "#", "Parameters for any node") +
@@ -102,8 +104,8 @@ std::string csv_text(const ExportSource& source) {
   return text;
 }
 
-/// Returns each value in the format of `row`, with its derivation as a comment above; then a
-/// comment for each parameter that cannot be derived.
+/// Appends to `text` each value in the format of `row`, below a comment with its equation; then a
+/// comment with the reason for each parameter that the model does not determine.
 template <class Row>
 std::string autopilot_text(std::string text, const AutopilotValues& found, const Row& row) {
   for (const ExportedValue& value : found.values) {
@@ -114,8 +116,8 @@ std::string autopilot_text(std::string text, const AutopilotValues& found, const
 }
 
 constexpr std::string_view kFirstDrive =
-    "# By the model, for a first drive at low speed: wheels lifted, then slowly, hand on the "
-    "switch.\n"
+    "# Computed from the model, as initial values: drive first with the wheels lifted, then "
+    "slowly, with a hand on the switch.\n"
     "# Intervals are from the model's covariance, to first order.\n";
 
 Result<std::string> ardupilot_text(const ExportSource& source) {

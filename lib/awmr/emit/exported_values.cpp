@@ -39,7 +39,7 @@ void export_parameters(const Model& model, std::vector<ExportedValue>& values) {
                               estimate));
   }
   for (const SiQuantity& quantity : si_quantities(model)) {
-    // m itself is listed with the vehicle.
+    // The mass m, which is given, is listed by export_vehicle().
     if (quantity.estimate.source == Source::kGiven) continue;
     values.push_back(exported("si" + identifier(quantity.pointer), quantity.unit,
                               fmt::format("{} in SI units", quantity.name), quantity.estimate));
@@ -55,7 +55,7 @@ void export_vehicle(const Vehicle& vehicle, std::vector<ExportedValue>& values) 
                       .meaning = meaning,
                       .origin = "given, vehicle"});
   };
-  add("mass_kg", vehicle.mass_kg, "kg", "m: mass as it drives, with batteries");
+  add("mass_kg", vehicle.mass_kg, "kg", "m: mass of the vehicle as it drives, with batteries");
   add("length_m", vehicle.length_m, "m", "length of the body");
   add("width_m", vehicle.width_m, "m", "overall width");
   if (vehicle.has_steering()) {
@@ -70,7 +70,7 @@ void export_vehicle(const Vehicle& vehicle, std::vector<ExportedValue>& values) 
     add("steering_max_rate_degps", vehicle.steering_max_rate_degps, "deg/s",
         "largest rate of the steering angle");
   }
-  add("sample_time_s", vehicle.sample_time_s, "s", "T_s: between two steps of the controller");
+  add("sample_time_s", vehicle.sample_time_s, "s", "T_s: time between two steps of the controller");
 }
 
 void export_gains(const Gains<double>& gains, std::vector<ExportedValue>& values) {
@@ -94,9 +94,9 @@ void export_gains(const Gains<double>& gains, std::vector<ExportedValue>& values
   add("observer_bandwidth_radps", gains.observer.bandwidth_radps, "rad/s",
       "L: bandwidth of the disturbance observer");
   add("observer_yaw_max_m", gains.observer.yaw_max_m, "m",
-      "largest moment that the observer compensates");
+      "largest moment over F_max that the observer compensates");
   add("observer_surge_max", gains.observer.surge_max, "1",
-      "largest force that the observer compensates");
+      "largest force over F_max that the observer compensates");
 }
 
 }  // namespace

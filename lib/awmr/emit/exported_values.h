@@ -11,24 +11,24 @@
 
 namespace awmr {
 
-/// One number for another program.
+/// One number of an exported file.
 struct ExportedValue {
   std::string name;  ///< an identifier in every language: "surge_alpha"
   double value = 0.0;
   std::string unit;
   std::string meaning;
-  std::string origin;  ///< "fitted, log-linear"
+  std::string origin;  ///< source and method: "fitted, log-linear"
   std::optional<double> std_error = {};
   std::optional<Interval> ci95 = {};
 };
 
-/// Returns the identified quantities (also in SI units), the vehicle and the gains; unknown values
-/// are left out.
+/// Returns the identified quantities (forces over F_max, and in SI units), the dimensions and
+/// limits of the vehicle, and the gains. Unknown values are left out.
 std::vector<ExportedValue> exported_values(const ExportSource& source);
 
-/// Values for an autopilot's parameter file, and the parameters that cannot be derived.
+/// Values for an autopilot's parameter file, and the parameters that the model does not determine.
 struct AutopilotValues {
-  std::vector<ExportedValue> values;  ///< ExportedValue::meaning has the derivation
+  std::vector<ExportedValue> values;  ///< ExportedValue::meaning is the equation of the value
   std::vector<std::string> left_out;  ///< "NAME: reason"
 };
 /// Derives the parameters of ArduPilot Rover and of PX4's rovers. Errors (input): the model lacks
@@ -36,7 +36,8 @@ struct AutopilotValues {
 Result<AutopilotValues> ardupilot_values(const ExportSource& source);
 Result<AutopilotValues> px4_values(const ExportSource& source);
 
-/// "std error 0.018, 95 % [1.275, 1.357]"; empty if neither is known.
+/// Standard error and interval as text: "std error 0.018, 95 % [1.275, 1.357]". An unknown one is
+/// left out.
 std::string uncertainty_text(const ExportedValue& value);
 
 }  // namespace awmr

@@ -6,7 +6,8 @@
 namespace awmr {
 namespace {
 
-/// Metadata of the Arduino library specification.
+/// Text of library.properties, which the Arduino IDE requires. Fields: version, SHA-256 of the
+/// parameters.
 constexpr std::string_view kProperties = R"(name=awmr
 version={}
 author=awmr

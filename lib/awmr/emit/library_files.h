@@ -8,8 +8,8 @@
 
 namespace awmr {
 
-/// Returns the files: the control sources, then those of assets/, each sorted by path; then
-/// LICENSE.
+/// Returns the control sources (src/awmr/), sorted by path; then the files of assets/, sorted by
+/// path; then LICENSE.
 const std::vector<EmbeddedFile>& embedded_files();
 
 }  // namespace awmr

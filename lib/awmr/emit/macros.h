@@ -11,16 +11,15 @@ namespace awmr {
 /// Permitted range of a macro's value: > 0, >= 0, or any.
 enum class MacroRange { kPositive, kNotNegative, kAnySign };
 
-/// One macro of awmr_params.h.
 struct Macro {
   std::string name;     ///< "AWMR_SURGE_ALPHA"
   double value = 0.0;   ///< in the unit that `comment` names, before rounding to float32
   std::string comment;  ///< symbol, unit, meaning, origin
-  std::string place;    ///< `FILE:/json/pointer` of the value
+  std::string place;    ///< `FILE:/json/pointer` of the value, for error messages
   MacroRange range = MacroRange::kPositive;
 };
 
-/// Name of the model's file without its directory, as the emitted files and errors have it.
+/// Name of the model's file without its directory, for comments of emitted files and for errors.
 std::string file_name(const Model& model);
 
 /// The macros in the order of the header. Precondition: the model has all their values.

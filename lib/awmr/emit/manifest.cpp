@@ -14,10 +14,10 @@ namespace awmr {
 namespace {
 
 constexpr std::string_view kEmitSchema = "awmr.emit/1";
-/// Beginnings of the headers that emit writes, by which a file without manifest is recognised.
+/// Beginnings of the headers that emit writes. They identify such a file without a manifest.
 constexpr std::string_view kMarks[] = {"/* awmr_params.h: ", "/* awmr_autopilot_params.h, "};
 
-/// Hashes by path.
+/// SHA-256 of each file by its path relative to the emitted directory.
 using Hashes = std::map<std::string, std::string>;
 
 Hashes read_manifest(JsonObject& json) {
@@ -57,7 +57,8 @@ Result<Hashes> hashes_in(const std::filesystem::path& directory) {
   return hashes;
 }
 
-/// Reason why a file must not be replaced; empty if it may be replaced.
+/// Returns why `file` must not replace the existing file with the content `bytes`; empty if it may.
+/// `written`: hashes of the manifest.
 std::string fault_of(const EmittedFile& file, const std::string& bytes, const Hashes& written) {
   if (bytes == file.bytes) return {};
   const auto known = written.find(file.path);

@@ -17,22 +17,22 @@ namespace awmr {
 
 inline constexpr const char* kManifest = "awmr_emit.json";
 
-/// Text of the manifest: origin, `figures`, the findings, and every file with its SHA-256. It also
-/// keeps the files of the existing manifest in `directory` that are not written this time.
-/// `figures`: empty, or the text of a JSON object whose keys are added.
+/// Returns the text of the manifest: origin, `figures`, the findings, and every file with its
+/// SHA-256. Entries of the existing manifest in `directory` for other files are kept. `figures`:
+/// empty, or the text of a JSON object whose keys are added to the manifest.
 std::string manifest_text(const std::filesystem::path& directory,
                           const std::vector<EmittedFile>& files, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);
 
 /// Checks that the files may be written to `directory`. An existing file may be replaced if it has
-/// the same content or the hash in the manifest. A file that the manifest does not list may be
-/// replaced if it begins like a header that emit wrote. Errors (input): an invalid manifest; each
-/// existing file that may not be replaced, or is not a regular file.
+/// the new content, or if its hash is that in the manifest. A file that the manifest does not list
+/// may be replaced if it begins like a header that emit wrote. Errors (input): an invalid manifest;
+/// each existing file that may not be replaced, or is not a regular file.
 Status check_replaceable(const std::filesystem::path& directory,
                          const std::vector<EmittedFile>& files);
 
-/// The files of firmware_library() with empty contents where they depend on the model.
-/// check_replaceable() can check these before a model exists.
+/// Returns the files of firmware_library(), empty where the content depends on the model. With
+/// them, check_replaceable() can check a directory before a model exists.
 std::vector<EmittedFile> library_outline();
 
 /// The JSON Schema of the manifest.

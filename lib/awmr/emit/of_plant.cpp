@@ -16,7 +16,7 @@ ParameterValues<double> values_of(const Model& model) {
   return values;
 }
 
-/// df/dp of one parameter, by a central difference.
+/// Returns df/dp for one parameter, by a central difference; 0 for a parameter of value 0.
 double sensitivity(const Model& model, ParameterId id, const OfPlant& f) {
   const auto at = [&](double factor) {
     ParameterValues<double> values = values_of(model);

@@ -8,14 +8,14 @@
 
 namespace awmr {
 
-/// Computes a number from the plant; NaN if there is none, such as a speed that is never reached.
+/// Computes a number from the plant. NaN: the plant has no such number (a speed never reached).
 using OfPlant = std::function<double(const Plant<double>&)>;
 
-/// Standard error of f, to first order in the fitted parameters p. C is their covariance, g =
-/// df/dp:
+/// Returns the standard error of f, to first order in the fitted parameters p. C is their
+/// covariance, g = df/dp:
 ///   Var f = g^T C g
 /// Given parameters count as exact. Absent if f depends on no fitted parameter, or on a parameter
-/// that is neither given nor in C.
+/// that is neither given nor in C, or if the result is not finite.
 std::optional<double> std_error_of(const Model& model, const OfPlant& f);
 
 }  // namespace awmr

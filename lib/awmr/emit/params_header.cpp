@@ -15,9 +15,10 @@ namespace awmr {
 namespace {
 
 constexpr std::string_view kCheckMacro = R"(
-/* Checked by the compiler, after an edit by hand too. In C a condition that does not hold makes a
-   bit-field of negative width, whose name says what is wrong. C calls a comparison of floats no
-   integer constant expression, but compilers fold it; __extension__ is for -Wpedantic. */
+/* The compiler checks these conditions, also after an edit by hand. In C, a condition that does not
+   hold makes a bit-field of negative width, and the compiler's error has the condition as its name.
+   ISO C does not permit a comparison of floats here, but compilers evaluate it; __extension__
+   prevents the warning of -Wpedantic. */
 #if defined(__cplusplus) && __cplusplus >= 201103L
 #define AWMR_PARAMS_CHECK(what, condition) static_assert(condition, #what)
 #elif defined(__GNUC__)
@@ -33,7 +34,8 @@ constexpr std::string_view kCheckMacro = R"(
 /// The constraint T2 < T1 of tune/ in a form for the compiler, without a division:
 ///   epsilon/(2 mu) < 1/lambda   is   epsilon lambda/2 < mu                      [paper (91), (95)]
 constexpr std::string_view kRelations =
-    R"(/* T2 = epsilon/(2 mu) < T1 = 1/lambda: the sliding surface is reached faster than it decays */
+    R"(/* T2 = epsilon/(2 mu) < T1 = 1/lambda: the sliding surface is reached faster than the
+   heading error decays on it */
 AWMR_PARAMS_CHECK(AWMR_T2_IS_BELOW_T1,
                   0.5f * AWMR_HEADING_EPSILON * AWMR_HEADING_LAMBDA < AWMR_HEADING_MU);
 AWMR_PARAMS_CHECK(AWMR_WHEEL_FORCE_MIN_IS_BELOW_MAX, AWMR_WHEEL_FORCE_MIN < AWMR_WHEEL_FORCE_MAX);
@@ -59,7 +61,8 @@ std::string checks_text(const std::vector<Macro>& macros, bool has_observer) {
   return text + "#undef AWMR_PARAMS_CHECK\n";
 }
 
-/// Returns the certificate as lines of the introduction: worst damping and delay margin by mode.
+/// Returns the robustness certificate of the gains as comment lines: the smallest damping ratio and
+/// delay margin of each mode. Empty without a certificate.
 std::string certificate_text(const std::optional<CertifiedGains>& certificate) {
   if (!certificate) return {};
   std::string text = fmt::format(
@@ -98,8 +101,8 @@ std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inp
                     params_sha256(inputs));
 }
 
-/// Checks the relations between values: F'min < F'max, d_max < 90 deg, T2 < T1. Compares the values
-/// as written, because rounding to float32 can make two of them equal.
+/// Checks F'min < F'max, d_max < 90 deg and T2 < T1. Compares the values as float32, as the header
+/// has them, because rounding to float32 can make two of them equal.
 Status check_relations(const Model& model, const Gains<double>& gains, const EmitInputs& inputs) {
   const Vehicle& vehicle = model.vehicle;
   std::vector<Fault> faults;
@@ -110,7 +113,7 @@ Status check_relations(const Model& model, const Gains<double>& gains, const Emi
   }
   if (!(static_cast<float>(radians(vehicle.steering_max_deg)) < 1.57079633F)) {
     faults.push_back({ErrorCode::kOutOfRange, file_name(model) + ":/vehicle/steering/max_deg",
-                      fmt::format("{:g} has to be below 90", vehicle.steering_max_deg)});
+                      fmt::format("{:g} deg has to be below 90 deg", vehicle.steering_max_deg)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
 

@@ -15,10 +15,11 @@ namespace {
 
 constexpr int kMaxMantissaBits = 7;
 constexpr int kLowestExponent = -20;  ///< the first entry is at 2^-20 = 1e-6 m/s or rad/s, or above
-constexpr int kMaxLines = 1024;       ///< 8 KiB of flash
+constexpr int kMaxLines = 1024;       ///< per table: 8 KiB of flash
 constexpr int kSamplesPerCell = 64;
 
-/// The straight line through the law at two speeds, with g(0) = 0.
+/// Returns the straight line through the law at the speeds `from` and `to`. At 0 it goes through
+/// the origin, also if the law has Coulomb friction.
 ResistanceLine chord(const ResistanceLaw& law, double from, double to) {
   const double start = from > 0.0 ? law(from) : 0.0;
   const double slope = (law(to) - start) / (to - from);
@@ -51,7 +52,8 @@ struct TableErrors {
   double relative = 0.0;
 };
 
-/// Compares the table with the law at `samples` points of [lo, hi), from `rest_speed` on.
+/// Compares the table with the law at `samples` speeds of [lo, hi), except those below
+/// `rest_speed`. Raises `errors` to the largest differences found.
 void measure(const ResistanceLaw& law, double lo, double hi, int samples, double rest_speed,
              const EmittedTable& table, TableErrors& errors) {
   const ResistanceTable view = table.view();
@@ -68,8 +70,8 @@ void measure(const ResistanceLaw& law, double lo, double hi, int samples, double
   }
 }
 
-/// Measures the errors below the first entry octave by octave, because the law can be steepest at
-/// rest.
+/// Returns the errors below the table's first cell. Samples each octave (factor of 2 in speed) with
+/// equal density, because the law can be steepest at rest.
 TableErrors measure_below(const ResistanceLaw& law, double rest_speed, const EmittedTable& table) {
   TableErrors errors;
   for (double hi = table.lowest_speed; hi > 1e-9; hi /= 2.0) {

@@ -18,15 +18,15 @@ using ResistanceLaw = std::function<double(double)>;
 
 /// Returns the top speed of a table: the smallest power of two, from 1 to 64 m/s or rad/s, at which
 /// g is at least 1.5 times the largest force or moment (`full_scale`), so that the vehicle cannot
-/// reach it. 64 if there is none.
+/// reach this speed. 64 if g is smaller up to there.
 double table_top(const ResistanceLaw& law, double full_scale);
 
-/// Returns the smallest table of `law` up to the speed `top` whose error, in the chip's arithmetic,
-/// is at most `error_share`. The error is relative to the law, or to a tenth of `full_scale` where
-/// the law is smaller than that. Without `error_share` the bound is kTableError; if no table meets
-/// it, the table with the smallest error is returned. Errors below `rest_speed` do not count,
-/// because the chip does not use the table there. `name`: "surge" or "yaw", for the message. Errors
-/// (refused): no table is within `error_share`.
+/// Returns the smallest table of `law` up to the speed `top` (m/s or rad/s) whose error, in the
+/// chip's float32 arithmetic, is at most `error_share`. The error is relative to the law, or to a
+/// tenth of `full_scale` where the law is smaller than that. Without `error_share` the bound is
+/// kTableError; if no table meets it, the table with the smallest error is returned. Errors below
+/// `rest_speed` do not count, because the chip uses a line through the origin there. `name`:
+/// "surge" or "yaw", for the message. Errors (refused): no table is within `error_share`.
 Result<EmittedTable> resistance_table(const std::string& name, const ResistanceLaw& law,
                                       double full_scale, double top,
                                       std::optional<double> error_share, double rest_speed);

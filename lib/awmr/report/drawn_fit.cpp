@@ -21,8 +21,8 @@ constexpr double kWithin99 = 2.576;
 /// Half width of a 95 % interval in standard errors, for a normal distribution.
 constexpr double kNormalQuantile95 = 1.96;
 
-/// Half width of the exponent's 95 % interval divided by its standard error. This is the quantile of
-/// Student's t in the fit. kNormalQuantile95 if the exponent has no interval.
+/// Returns half the width of the exponent's 95 % interval over its standard error: the quantile of
+/// Student's t that the fit used. kNormalQuantile95 if the exponent has no interval.
 double quantile_of_exponent(const Estimate& beta) {
   if (!beta.std_error || !(*beta.std_error > 0.0) || !beta.ci95) return kNormalQuantile95;
   return (beta.ci95->hi - beta.ci95->lo) / (2.0 * *beta.std_error);
@@ -65,8 +65,9 @@ void add_left_over(const Model& model, DrawnFit& fit) {
       kWithin99 * std::sqrt(squares / static_cast<double>(fit.left_over.size() - 2));
 }
 
-/// Pairs of initial speed and longest stop time of the coast-downs, by ascending speed. Each speed
-/// occurs once. If there are more than kMostCoastdowns, as many are kept, evenly chosen.
+/// Returns pairs of initial speed, m/s, and longest stop time, s, of the coast-downs, by ascending
+/// speed. Each speed occurs once. Of more than kMostCoastdowns pairs, that many are kept, at even
+/// ranks.
 std::vector<std::pair<double, double>> coasts_of(const Model& model) {
   std::vector<std::pair<double, double>> coasts;
   for (const TrialPoint& trial : model.record.trials) {

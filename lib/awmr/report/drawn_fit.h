@@ -11,7 +11,7 @@
 
 namespace awmr {
 
-/// One point of the resistance curve through steady runs.
+/// One point of the resistance curve that was fitted to steady runs.
 struct CurvePoint {
   double rate = 0.0;   ///< u in m/s or r in rad/s
   double value = 0.0;  ///< input for this steady rate: tau_speed, or tau_turn in m
@@ -35,14 +35,15 @@ struct DrawnFit {
   bool has_band = false;               ///< true: the curve has a confidence band
   /// Residuals; empty if fewer than three rows are predicted.
   std::vector<LeftOver> left_over = {};
-  double bound_percent = 0.0;  ///< +- this contains 99 % of residuals with a normal distribution
+  double bound_percent = 0.0;  ///< 99 % of normally distributed residuals are within +- this value
 };
 
-/// Returns the runs of `kind` (kSurge or kTurning) with their curve; empty if the model has no such
-/// run.
+/// Returns the runs of `kind` (kSurge or kTurning) with curve and residuals; empty if the model has
+/// no such run.
 std::optional<DrawnFit> drawn_fit(const Model& model, TrialKind kind);
 
-/// A modelled coast-down, m' du/dt = -g1(u), from its initial speed to 1.1 times the stop time.
+/// A modelled coast-down, m' du/dt = -g1(u), from its initial speed until 1.1 times the stop time
+/// (the longer of the measured and the predicted one).
 struct CoastdownCurve {
   double initial_speed_mps = 0.0;
   std::vector<double> t_s = {};
@@ -54,7 +55,7 @@ struct CoastdownCurve {
 /// or m'.
 std::vector<CoastdownCurve> coastdown_curves(const Model& model);
 
-/// Returns for each trial of the model: true if a warning or an error refers to its row.
+/// Returns a flag for each trial of the model: true if a warning or an error refers to its row.
 std::vector<bool> doubtful_trials(const Model& model);
 
 /// The fits and coast-downs as JSON for the page: {"surge", "turning", "coastdown"}. A kind of steady

@@ -16,8 +16,8 @@
 namespace awmr {
 namespace {
 
-/// Reads from the constraints which form of T2 < T1 was required. The margin follows from the limit
-/// of the strict form, which is margin/lambda.
+/// Reads which form of T2 < T1 was required: the strict one, T2 < margin/lambda, or the paper's.
+/// The margin follows from the limit of the strict one, which gains.json has in both cases.
 void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context) {
   for (JsonObject& constraint : gains.optional_objects("constraints")) {
     const bool strict = constraint.string("name") == "T2 < T1 (strict)";
@@ -29,14 +29,15 @@ void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context)
   }
 }
 
-/// Vehicles drawn for the tuning: their number, seed and unmodelled variation.
+/// Settings of the vehicles that were drawn for the tuning.
 struct Draws {
   int count = 0;
   std::uint64_t seed = 1;
   UnmodelledVariation open = {};
 };
 
-/// Reads the noise, latency and motor lag for which robust gains were tuned, and their draws.
+/// Reads noise, latency and motor lag for which robust gains were tuned into `context`. Returns the
+/// settings of the draws.
 Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   JsonObject latency = robust.object("latency");
   const double latest_s = std::max(latency.number("heading_s", kNonNegative),

@@ -10,16 +10,16 @@
 
 namespace awmr {
 
-/// Returns LiveSetup (live/setup.h) as a list of numbers; empty if the model has no turning motion.
-/// `gains`: content of gains.json. The page computes the constraints of tuning with the conditions
-/// in `/robust`, `/constraints`, `/limits` and `/examined` of that file. Precondition: the scenario
-/// commands headings. Errors (input): gains.json does not have the format of `awmr tune`; its
-/// latency is more than 20 samples. Also as vehicles_of() (tune/robust.h).
+/// Returns LiveSetup (live/setup.h) as a list of numbers; empty if the model cannot simulate turns.
+/// `gains`: content of gains.json. The page evaluates the constraints of `awmr tune` with the
+/// settings in `/robust`, `/constraints`, `/limits` and `/examined` of that file. Precondition: the
+/// scenario commands headings. Errors (input): gains.json does not have the format of `awmr tune`;
+/// its latency is more than 20 samples. Also as vehicles_of() (tune/robust.h).
 Result<std::vector<double>> live_numbers(const Model& model, const Json& gains,
                                          const Scenario& scenario);
 
-/// True if the interactive part can run the scenario: it commands headings and has no other effects
-/// (sensors, disturbances, ...).
+/// True if the interactive part can simulate the scenario (content of a scenario file): it commands
+/// headings and has no keys for other effects (sensors, disturbances, obstacles, ...).
 bool is_plain_heading(const Json& scenario);
 
 }  // namespace awmr

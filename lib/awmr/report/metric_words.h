@@ -14,8 +14,8 @@ struct MetricWords {
   std::string unit;   ///< "s"; empty if dimensionless
 };
 
-/// Returns the words for the name that a metric has in comparison.json. For an unknown metric the
-/// words are that name.
+/// Returns the words and the unit for the name that a metric has in comparison.json. For an unknown
+/// metric the words are that name and the unit is empty.
 MetricWords metric_words(std::string_view name);
 
 /// The words of all metrics as JSON for the page: {"settling_time_s": "settling time, s", ...}.

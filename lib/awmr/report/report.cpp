@@ -22,7 +22,7 @@ extern const std::string_view kPageHtml;
 extern const std::string_view kPlotPy;
 extern const std::string_view kPageCss;
 extern const std::string_view kPageJs;
-extern const std::string_view kLiveWasm;  ///< compressed, in base 64; empty: built without it
+extern const std::string_view kLiveWasm;  ///< gzip of the WebAssembly module, base64; can be empty
 
 namespace {
 
@@ -51,7 +51,7 @@ bool is_vehicle_of_paper(const Vehicle& vehicle) {
          near(vehicle.half_track_m, 0.36);
 }
 
-/// Rounds all numbers to eight digits, which is more than the page shows.
+/// Rounds all numbers to eight significant digits, which is more than the page shows.
 void round_numbers(Json& json) {
   if (json.is_number_float()) json = rounded_number(json.get<double>(), 8);
   if (!json.is_structured()) return;
@@ -70,8 +70,8 @@ void round_shown(Json& data) {
   }
 }
 
-/// Makes the page: replaces each `@name@` in page.html by the part of that name. An `@` inside a part
-/// has no effect.
+/// Makes the page: replaces each `@name@` in page.html by the part of that name (style, scripts,
+/// data). An `@` inside a part is kept.
 std::string assembled(const Json& data) {
   const std::string json = script_safe(data);
   const std::array<std::pair<std::string_view, std::string_view>, 5> parts{

@@ -15,24 +15,25 @@ namespace awmr {
 /// Returns the page for a directory of results. Reads model.json and, if present, gains.json,
 /// validation.json, comparison.json and .csv, pil.json, suggest.json, awmr_emit.json (also in
 /// `firmware`), the scenarios `scenario_<scenario>.json` and the runs
-/// `run_<scenario>_<mode>_<tuned|paper>.csv` with their side files. Errors (input): there is no
-/// model.json, or a file is invalid.
+/// `run_<scenario>_<mode>_<tuned|paper>.csv` with their side files (.csv.json). Errors (input):
+/// there is no model.json, or a file is invalid.
 Result<std::string> report_html(const std::filesystem::path& directory);
 
 /// The page, and warnings about the results that it omits.
 struct ReportPage {
   std::string html;
-  /// Results omitted because they do not belong to this directory's model, each with its reason.
+  /// A warning for each result that the page omits, because it was made from another model or other
+  /// gains, or because its inputs are unknown.
   std::vector<Finding> left_out;
 };
-/// Returns the page as report_html(), and the warnings.
+/// Returns the page of report_html() and the warnings. Errors: as report_html().
 Result<ReportPage> report_page(const std::filesystem::path& directory);
 
-/// Checks that the page may be written. Error (input): a file of this name exists, and awmr did not
-/// write it.
+/// Checks that the page may be written to `path`. Error (input): a file of this name exists and is
+/// not a page of awmr (by its title).
 Status check_report_page(const std::filesystem::path& path);
 
-/// Name of the program that draws the figures.
+/// File name of the Python program that draws the figures.
 inline constexpr const char* kPlotName = "plot.py";
 
 /// Print figures: their data as CSV files, figures.json, and plot.py, a Python program that draws them
@@ -40,10 +41,10 @@ inline constexpr const char* kPlotName = "plot.py";
 struct FigureSet {
   std::vector<OutputFile> files = {};     ///< the files, with paths relative to an output directory
   std::vector<std::string> names = {};    ///< names of the figures: CSV file names, no extension
-  std::vector<std::string> lacking = {};  ///< missing figures and the reasons, one sentence each
+  std::vector<std::string> lacking = {};  ///< figures without data: names and reason, one text each
 };
 
-/// Makes the figures that the results in the directory permit. The same files give the same bytes.
+/// Makes all figures for which the directory has results. The same results give the same bytes.
 /// Errors: as report_html(); a figure has a number that is not finite.
 Result<FigureSet> report_figures(const std::filesystem::path& directory);
 

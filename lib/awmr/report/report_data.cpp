@@ -30,8 +30,8 @@ struct Origin {
   std::string gains_sha256 = {};  ///< empty if there is no gains.json for this model
 };
 
-/// Finding if a result was made from another model or other gains than those in the directory. Empty if
-/// the result was made from these, or does not name its inputs.
+/// Returns a finding if a result was made from another model or other gains than those in the
+/// directory. Empty if it was made from these, or does not name its inputs.
 std::optional<Finding> foreign_result(const std::string& result, const Json& json,
                                       const Origin& origin) {
   const std::optional<bool> is_of_model = is_made_from(json, origin.model_sha256);
@@ -60,8 +60,9 @@ void add_findings_of(const Json& json, std::vector<Finding>& findings) {
   if (faults.empty()) findings.insert(findings.end(), more.begin(), more.end());
 }
 
-/// Finding if a run must be omitted: its side file is missing, has the hash of another run, or names
-/// another model or other gains. Otherwise empty, and the findings of the run are added to the list.
+/// Returns a finding if a run must be omitted: its side file is missing, has the hash of another
+/// run, or names another model or other gains. Otherwise empty, and the findings of the run are
+/// added to the list.
 Result<std::optional<Finding>> foreign_run(const std::filesystem::path& directory,
                                            const std::string& name, const Origin& origin,
                                            std::vector<Finding>& findings) {
@@ -120,7 +121,8 @@ Status read_results(const std::filesystem::path& directory, Origin& origin, Repo
   return {};
 }
 
-/// Reads the samples of comparison.csv, if they belong to the comparison that is shown.
+/// Reads the samples of comparison.csv. Adds a warning instead if comparison.json names another
+/// hash for this file.
 Status read_own_samples(const std::filesystem::path& directory, ReportData& data) {
   const std::filesystem::path path = directory / "comparison.csv";
   AWMR_ASSIGN_OR_RETURN(const bool is_there, regular_file_exists(path));

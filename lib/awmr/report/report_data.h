@@ -15,8 +15,8 @@ struct ReportData {
   /// The data of the page: the existing files under their names ("model", "gains", "validation",
   /// "comparison", "pil", "suggest"), "samples" of comparison.csv, "runs" and "scenarios"
   /// (run_data.h), "fits" (drawn_fit.h), "metric_words", "header" (true if awmr_params.h exists),
-  /// "yaw_rate_measured_degps", and "findings" of all files, those with the largest effect on the
-  /// numbers first.
+  /// "yaw_rate_measured_degps" (highest yaw rate with a measured resistance), and "findings" of all
+  /// files, those with the largest effect on the results first.
   Json json;
   /// A warning for each result that is not in `json`: it was made from another model or other gains
   /// than those in the directory (`result-of-another-model`), or the file that names its inputs is

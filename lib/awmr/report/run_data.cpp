@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostRows = 20000;
 constexpr std::size_t kMostRowsOfRun = 1500;
 constexpr std::size_t kFewestRowsOfRun = 100;
-/// Largest number of sample marks per mode and metric in a chart.
+/// Largest number of samples that a chart shows per mode and metric.
 constexpr std::size_t kMostSamples = 60;
 /// Speed below which there is no sideslip angle, as for Metrics::sideslip_max_deg.
 constexpr double kMovingMps = 0.05;

@@ -41,7 +41,7 @@ const markOfKind = {
     y2: {signal: "scale('y', max(datum[0], domain_y[0]))"}, fill: colour}}),
 };
 
-/// Vega mark of one series. It is visible unless the signal `hidden` contains the index of the series.
+/// Vega mark of one series. It is invisible if the signal `hidden` contains the index of the series.
 function markOf(series, index) {
   const at = {x: {scale: "x", field: "0"}, y: {scale: "y", field: "1"}};
   const {update, ...mark} = {aria: true, ...markOfKind[series.kind](series, at,
@@ -52,9 +52,9 @@ function markOf(series, index) {
 }
 const valuesOf = (s) => (s.kind === "shade" ? [[s.limit, 1e12], [-1e12, -s.limit]] : s.points);
 
-/// Entry of `hidden` for all circles together.
+/// Entry of the signal `hidden` that hides all circles of a chart.
 const circlesKey = "circles";
-/// The hidden elements of a chart.
+/// Value of the signal `hidden`: indices of the hidden series, and circlesKey if the circles are hidden.
 const hiddenOf = (chart) => [...chart.series.flatMap((s, i) => (s.hidden ? [i] : [])),
   ...(chart.circlesHidden ? [circlesKey] : [])];
 
@@ -76,8 +76,8 @@ const pointedRule = {type: "rule", interactive: false, aria: false, encode: {upd
   stroke: {value: "var(--dim)"}, strokeDash: {value: [2, 2]},
   opacity: {signal: "isNumber(pointed) && inrange(pointed, domain_x) ? 1 : 0"}}}};
 
-/// `chart`: {title, x, y, series: [{name, kind: "line" | "points" | "band" | "shade",
-/// points: [[x, y, ...]], colour, ...}], equal, circles}
+/// Vega specification of a chart: {title, x, y, series: [{name, kind: "line" | "points" | "band" | "shade",
+/// points: [[x, y, ...]], colour, ...}], equal, circles}. x, y: titles of the axes; equal: same scale on both.
 function specification(chart) {
   // With equal axes, x and y have the same scale, and the axis with space left gets a longer range.
   const domain = (axis, length) => (chart.equal
@@ -171,8 +171,8 @@ function framed(parent, chart) {
 }
 
 /// Adds a chart to `parent`. It is drawn when it is near the visible area, or before printing.
-/// Charts of one `group` share the x range, the cursor and the hidden series. With `legend` false,
-/// the group's own legend is used.
+/// Charts of one `group` share the x range, the cursor and the hidden series. `legend` false: the chart gets no
+/// legend, because the group has one.
 function plot(parent, options) {
   const series = options.series.filter((s) => s.kind === "shade" || s.points.length);
   if (!series.some((s) => s.kind !== "shade")) return undefined;

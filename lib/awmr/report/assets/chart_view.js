@@ -1,4 +1,4 @@
-// Draws charts when they become visible, and handles the pointer.
+// Draws charts when they come near the visible area, and handles zoom and tooltips.
 
 const onScreen = new IntersectionObserver((entries) => {
   for (const entry of entries) if (entry.isIntersecting) draw(entry.target.chart);
@@ -14,7 +14,7 @@ function register(chart) {
   onScreen.observe(chart.node);
 }
 
-/// Opens all sections and draws all charts. Returns the sections that were closed.
+/// Opens all sections and draws all charts. Returns the sections that were closed before.
 function drawAll() {
   const closed = [...document.querySelectorAll("details:not([open])")];
   for (const details of closed) details.open = true;
@@ -50,8 +50,8 @@ function draw(chart) {
   if (chart.series.length) listen(chart);
 }
 
-/// Sizes a chart for a width in pixels, including its margins. With equal axes, the height follows from
-/// the ranges of the axes, within limits.
+/// Sizes a chart. outer: width in pixels, with margins; most: largest height. With equal axes, the height
+/// follows from the ranges of the axes, within limits.
 function fit(chart, outer, most = Infinity) {
   if (!chart.view || outer < 50 || outer === chart.outer) return;
   chart.outer = outer;
@@ -64,7 +64,7 @@ function fit(chart, outer, most = Infinity) {
   chart.view.width(width).height(height).run();
 }
 
-/// Position of the pointer in a plot, in pixels from its corner and in the units of the axes.
+/// Position of the pointer in a plot: x, y in pixels from its upper left corner; `unit` in the units of the axes.
 function place(chart, event) {
   const box = chart.node.getBoundingClientRect();
   const [left, top] = chart.view.origin();
@@ -126,7 +126,8 @@ function whole(chart) {
   }
 }
 
-/// Shows the values of every line at the x of the pointer, or those of the point nearest to the pointer.
+/// Shows a tooltip with the values of all series at the x of the pointer. Charts by point or with equal axes
+/// show only the point nearest to the pointer.
 function point(chart, event) {
   const at = place(chart, event);
   const shown = chart.series.filter((s) => !s.hidden && s.kind !== "band" && s.kind !== "shade");

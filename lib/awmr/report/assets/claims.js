@@ -26,7 +26,7 @@ function multiple(parent, {what, values}) {
   });
 }
 
-/// Verdicts of a claim for the settings that the paper leaves open.
+/// Number of combinations of the settings that the paper does not give with which the claim is reproduced.
 function claimCases(parent, cases) {
   if (!cases || !cases.length) return;
   const kept = cases.filter((c) => c.verdict === "reproduced").length;

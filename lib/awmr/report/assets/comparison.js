@@ -1,8 +1,8 @@
 // Section that compares the yaw-control modes: distribution of each metric over the samples, differences,
 // ranking.
 
-/// Distribution of each metric by mode. Metrics that no run has are left out, except the settling time if
-/// headings are commanded: then no run settled.
+/// Charts of the distribution of each metric by mode. Metrics that no run has are left out, except the
+/// settling time in scenarios with heading steps, where it means that no run settled.
 function spreadCharts(parent, scenario, samples, count) {
   const byMode = Object.entries(scenario.modes);
   const names = distinct(byMode.flatMap(([, m]) => Object.keys(m.metrics)));
@@ -84,7 +84,7 @@ function breakEven(parent, entries) {
       : e.lead] : [])]));
 }
 
-/// Replaces metric names in a sentence by readable names without units.
+/// Replaces names like settling_time_s in a sentence by readable names without units.
 const inWords = (sentence) => sentence.replace(/\b[a-z]+(?:_[a-z]+)+\b/g, (name) =>
   metricWords(name).split(",")[0]);
 

@@ -23,7 +23,8 @@ function drawIn(parent, tag, attributes, text) {
 }
 
 const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
-/// Three significant digits; a dash for missing values.
+/// Text of a number with n significant digits, or more if it has more before the point. A dash for a missing
+/// value.
 function digits(x, n = 3) {
   if (!isNumber(x)) return "–";
   const size = Math.abs(x);
@@ -33,10 +34,10 @@ function digits(x, n = 3) {
 const interval = (pair) => (pair ? `${digits(pair[0])} to ${digits(pair[1])}` : "–");
 const percent = (x) => (isNumber(x) ? `${digits(100 * x, 2)} %` : "–");
 const plural = (n, word) => `${n} ${word}${n === 1 ? "" : "s"}`;
-/// Number of decimals with which two digits of a standard error are shown.
+/// Number of decimals that shows two significant digits of a standard error, at most 8.
 const decimalsOf = (error) => Math.max(0, Math.min(8, 1 - Math.floor(Math.log10(error))));
 
-/// Metrics that are absent if the run did not settle or did not arrive.
+/// Texts for metrics that a run lacks because it did not settle or did not reach the end of its route.
 const absentWords = {settling_time_s: "never settled", finish_time_s: "not finished"};
 /// Text of a metric's value, with at most three decimals.
 function metricValue(name, x) {

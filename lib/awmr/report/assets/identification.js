@@ -1,7 +1,7 @@
 // Section of the identification: trials with the fitted curve, its band and residuals; parameter values;
 // logs and drives.
 
-/// Rows of trials as points: measurements in ink, rows with a warning as hollow diamonds.
+/// Rows of trials are points in ink; rows with a warning are hollow diamonds.
 const measuredLook = {kind: "points", colour: "var(--ink)"};
 const warnedLook = {kind: "points", colour: "var(--warn)", fill: "var(--paper)", shape: "diamond",
   size: 90};
@@ -10,7 +10,7 @@ const modelLook = {kind: "line", colour: "var(--model)"};
 const axisWords = {surge: ["speed, m/s", "thrust τ_speed"],
   turning: ["yaw rate, rad/s", "yaw moment τ_turn, m"]};
 
-/// Text for each row of trials, with its findings, which the pointer shows.
+/// Returns a function that gives the tooltip of a row of trials: its place and its findings.
 function rowNote(model) {
   return (t) => [`${t.file}:${t.line}`, ...findingsOfRow(model, t).map((f) =>
     f.message)].join("\n");
@@ -63,7 +63,7 @@ function residualChart(parent, model, fit, kind) {
     {name: "residual", ...measuredLook, points}]});
 }
 
-/// The coast-down: m' du/dt = -g1(u) from each initial speed, and the measured stops.
+/// Chart of the coast-downs: the model m' du/dt = -g1(u) from each initial speed, and the measured stop times.
 function coastdownChart(parent, model, coasts) {
   if (!coasts.length) return;
   const rows = model.trials.filter((t) => t.kind === "coastdown");
@@ -77,7 +77,7 @@ function coastdownChart(parent, model, coasts) {
     series: [...curves, {name: "stop, measured", ...measuredLook, points: stops}]});
 }
 
-/// Table of parameter values, rounded to two digits of their standard error.
+/// Rows of a table of parameters. Values are rounded to the second digit of their standard error.
 function estimateRows(rows) {
   return rows.map(([name, e]) => {
     const round = (x) => (!isNumber(x) ? "–" : e.std_error > 0 ? x.toFixed(decimalsOf(e.std_error))
@@ -89,7 +89,7 @@ function estimateRows(rows) {
   });
 }
 const estimateHead = ["quantity", "#value", "#standard error", "95 % interval", "unit", "origin"];
-/// All quantities below `entry`, by path.
+/// All quantities (objects with `value`) below `entry`, with their paths: [["surge.alpha", {...}], ...].
 const leaves = (entry, path) => (entry && typeof entry === "object"
   ? ("value" in entry ? [[path, entry]]
   : Object.entries(entry).flatMap(([key, below]) => leaves(below, path ? `${path}.${key}` : key)))
@@ -125,7 +125,7 @@ function estimatorsTable(parent, estimates) {
     digits(r.aicc), digits(r.residual_std, 3), r.rows_used, r.stop_reason.split(". ")[0]]));
 }
 
-/// Table of the main values if one row of the trials is left out, for each row.
+/// Table of the change of the main values, in percent, if one row of the trials is left out, for each row.
 function influenceTable(parent, estimates) {
   const left = estimates.filter((e) => Array.isArray(e.leave_one_out) && e.leave_one_out.length);
   if (!left.length) return;
@@ -143,8 +143,8 @@ function influenceTable(parent, estimates) {
   }
 }
 
-/// Result of the validation in a sentence. Data that were fitted do not show how well another drive is
-/// predicted.
+/// Result of the validation in a sentence, with a note if it used only data of the fit, which do not show how
+/// well another drive is predicted.
 function validationWords(data) {
   const {validation} = data;
   if (!validation || !validation.verdict) return;
@@ -184,7 +184,8 @@ function identificationSection(data) {
   drivesPart(box, data.validation);
 }
 
-/// Tyres fitted to logs, and the errors of both plants on windows to which the tyres were not fitted.
+/// Tyres of the four-wheel plant fitted to logs, and the prediction errors of this plant and of the 3-DOF
+/// model on windows to which the tyres were not fitted.
 function tyresPart(parent, validation) {
   const {tyres} = validation || {};
   if (!tyres) return;

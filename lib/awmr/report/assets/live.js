@@ -1,5 +1,5 @@
-// Interactive part of the page: the simulator and the constraints of awmr, compiled to WebAssembly
-// (live/live.cpp), are run at every move of a slider.
+// Interactive part of the page: at every move of a slider, runs awmr's simulation and constraints, compiled to
+// WebAssembly (live/live.cpp).
 
 const liveColumns = ["t_s", "psi_rad", "psi_ref_rad", "u_mps", "force_left", "force_right",
   "steering_rad", "r_radps"];
@@ -18,12 +18,13 @@ const liveSliders = [
 ];
 
 /// Loads the WebAssembly module and passes the numbers of the setup. Returns a function that simulates the
-/// given slider settings and returns {rows, constraints, metrics, ended}.
+/// given slider settings and returns {columns, ended, constraints, metrics}; ended: false if it diverges.
 async function liveModule(packed, numbers) {
   const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
   const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   const wasm = await new Response(unpacked).arrayBuffer();
-  // The C library needs system functions that are never used: every call returns "not available".
+  // The C library imports system functions, which this program does not need: every call returns 52, the
+  // error code for "not available" (ENOSYS).
   const system = new Proxy({}, {get: () => () => 52});
   const {exports} = (await WebAssembly.instantiate(wasm,
     {wasi_snapshot_preview1: system})).instance;
@@ -80,7 +81,7 @@ function liveSlider(parent, slider, settings, changed) {
 
 const degreesOf = (list) => list.map((x) => x * 180 / Math.PI);
 const pairs = (x, y) => x.map((v, i) => [v, y[i]]);
-/// Reduces a long run to about one row per pixel, with the minimum and the maximum of each interval.
+/// Reduces a long run to about 2 `most` points, with the minimum and the maximum of each interval.
 function thinned(points, most = 500) {
   const stretch = Math.ceil(points.length / most);
   if (stretch < 3) return points;
@@ -92,8 +93,8 @@ function thinned(points, most = 500) {
   return kept;
 }
 
-/// Charts of the run with the slider values, in the hue of its mode, and of the run with the tuned gains
-/// under the same conditions, in grey.
+/// Adds charts of the run with the slider values, in the hue of its mode, and of the run with the tuned gains
+/// under the same conditions, in grey. Returns a function that updates them.
 function liveCharts(parent, start) {
   const group = [];
   const line = (name, colour, width) => ({name, kind: "line", colour, width});

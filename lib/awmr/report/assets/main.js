@@ -1,5 +1,5 @@
-// Builds the report from top to bottom. A part with invalid data shows an error; the other parts are
-// shown.
+// Builds the report from top to bottom. A section with invalid data shows an error in its place; the other
+// sections are not affected.
 const report = JSON.parse(document.getElementById("data").textContent);
 document.getElementById("report").textContent = "";
 document.title = `${report.model.vehicle.name}: awmr report`;
@@ -17,7 +17,7 @@ for (const [title, part] of [["Summary", summarySection], ["Findings", findingsS
   }
 }
 
-// Marks the section that is at the top of the window in the contents.
+// Marks the entry of the contents whose section is at the top of the window.
 const inView = new IntersectionObserver((entries) => {
   for (const {target, isIntersecting} of entries) target.isInView = isIntersecting;
   const sections = [...document.querySelectorAll("section")];

@@ -36,12 +36,12 @@ STYLES = {
     "reference": {"color": "#000000", "linewidth": 0.8, "dashes": (1, 2), "marker": "s", "fill": "#e1e1e1"},
     "minor": {"color": "#8c8c8c", "linewidth": 1.0, "marker": "o", "fill": "#ebebeb"},
 }
-ORDER = list(STYLES)  # from below
+ORDER = list(STYLES)  # drawing order: later ones are on top
 OBSTACLE = "#c8c8c8"
 
 
 def math_text(text):
-    """"u_{max}" with its index, "10^{3}" with its exponent; a dollar sign is one."""
+    """Matplotlib text: "u_{max}" with a subscript, "10^{3}" with an exponent; a dollar sign is printed."""
     return re.sub(r"([_^])\{([^}]*)\}", r"$\1{\\mathrm{\2}}$", text.replace("$", r"\$"))
 
 
@@ -50,7 +50,7 @@ def label_of(axis):
 
 
 def read_series(name):
-    """Columns by (panel, series): {"x": [...], ...}."""
+    """Columns of NAME.csv by (panel, series): {"x": [...], "y": [...], "low": [...], "high": [...]}."""
     found = {}
     with open(HERE / f"{name}.csv", encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
@@ -83,7 +83,7 @@ def draw(axes, series, data):
 
 
 def legend(panels):
-    """Above the plots, so that it covers no data; none for a single entry, which says no more than the axes."""
+    """Adds a legend above the plots, where it covers no data. A single entry gets none: the axes say as much."""
     entries = {}
     for axes in panels:
         for handle, name in zip(*axes.get_legend_handles_labels()):
@@ -127,7 +127,7 @@ def main():
     names = sys.argv[1:] or list(figures)
     for name in names:
         if name not in figures:
-            sys.exit(f"plot.py: there is no figure {name}; those of figures.json: {', '.join(figures)}")
+            sys.exit(f"plot.py: there is no figure {name}; figures.json has: {', '.join(figures)}")
     with plt.rc_context(RC):
         for name in names:
             plot(figures[name])

@@ -1,4 +1,5 @@
-// Sections of the firmware and of the provenance: inputs, options and versions of all results.
+// Section of the firmware (result of awmr pil), and section of the provenance: inputs, options and versions of
+// all results.
 
 function firmwareSection(data) {
   const {pil} = data;

@@ -52,8 +52,8 @@ function nextSteps(data) {
   return steps;
 }
 
-/// Chart of the heading in every mode, in the first scenario with heading steps, else in the first scenario.
-/// Without runs: the trials, or a log of the validation.
+/// Chart of the heading in every mode with the tuned gains, in the first scenario with heading steps, else in
+/// the first scenario. Without simulated runs: the trials, or a validated log.
 function responseChart(parent, data) {
   const height = 210;
   const type = (run) => (((data.scenarios[run.scenario] || {}).guidance || {}).type || "");

@@ -10,7 +10,7 @@ const symbols = new Map(Object.entries({
   epsilon_s: ["εₛ", "epsilon_s, m/s: boundary layer of the speed law"],
   T1: ["T1", "T1 = 1/λ: time constant of the heading error on the sliding surface"],
   T2: ["T2", "T2 = ε/(2 μ): time constant with which the sliding surface is reached; below T1"],
-  delta: ["δ", "delta: steering angle of the front wheels"],
+  delta: ["δ", "delta: steering angle of the front wheels, left positive"],
   psi: ["ψ", "psi: heading, counter-clockwise from the x axis"],
   zeta: ["ζ", "zeta: damping ratio"],
   tau_speed: ["τ_speed", "tau_speed: thrust of all wheels over F_max"],
@@ -26,10 +26,10 @@ const symbolParts = (text) => text.replaceAll("<=", "≤").replaceAll(">=", "≥
 const plainSymbols = (text) => symbolParts(text).map((part) =>
   (symbols.get(part) || [part])[0]).join("");
 
-/// Symbols that were already shown. Only the first occurrence of a symbol can be reached by keyboard.
+/// Symbols that the page has shown before. Only the first occurrence of a symbol can get the keyboard focus.
 const metSymbols = new Set();
 
-/// Adds text in which known symbols get their letter and their meaning.
+/// Appends text to a node. Names of known symbols become their letter, with the meaning as a tooltip.
 function write(node, text) {
   for (const part of symbolParts(text)) {
     const symbol = symbols.get(part);
@@ -43,7 +43,7 @@ function write(node, text) {
   }
 }
 
-/// Returns a node with text and its symbols.
+/// Returns a span with the text, as by write().
 function symbolic(text) {
   const node = document.createElement("span");
   write(node, text);

@@ -4,13 +4,13 @@
 const gainsWords = {robust: "tuned", nominal: "nominal", baseline: "baseline",
   paper: "the paper's"};
 
-/// Name of the baseline, whose objective is 1. In files without `source` it is the paper's gains.
+/// Name of the baseline, the gains whose objective is 1. In older files without `source` these are the paper's.
 function baselineWords(gains) {
   const {source = "paper"} = gains.baseline || {};
   return {paper: "the paper's gains", "pole-placement": "pole placement"}[source] || source;
 }
 
-/// Describes the unmodelled variation of the vehicles; empty if there is none.
+/// Describes the unmodelled variation (masses, wheel forces) of the drawn vehicles; empty if there is none.
 function openWords(open) {
   if (!open) return "";
   const masses = open.mass_factors ? [`m' and I'z times ${open.mass_factors.join(", ")}`] : [];
@@ -25,12 +25,13 @@ function constraintState({margin, required, limit}) {
   return [margin < 0.01 * Math.abs(limit) ? "at its limit" : "met", "good"];
 }
 
-/// Sense of a constraint. Results of the live part have none; it follows from value, limit and margin.
+/// Sense of a constraint, "at-most" or "at-least". Results of the interactive part do not have it; it follows
+/// from value, limit and margin.
 const senseOf = ({sense, value, limit, margin}) => sense ||
   (Math.abs(limit - value - margin) <= Math.abs(value - limit - margin) ? "at-most" : "at-least");
 
-/// Bar chart of a constraint, in percent of the width: a bar from 0 to the value, a line at the limit, the
-/// permitted side shaded.
+/// Bar chart of a constraint: a bar from 0 to the value, a line at the limit, the permitted side shaded. at(x)
+/// is the position of x in percent of the width.
 function constraintBar(constraint) {
   const {value, limit, margin} = constraint;
   const reach = 1.25 * Math.max(Math.abs(value), Math.abs(limit)) || 1;
@@ -73,7 +74,7 @@ function tradeOffChart(parent, gains) {
   if (!tradeOff) return;
   const at = (p) => [p.settling_time_s, p.control_variation];
   const words = {...gainsWords, tuned: "tuned", baseline: baselineWords(gains), lqi: "LQI"};
-  const series = [{name: "front of the search", kind: "line", points: tradeOff.front.map(at),
+  const series = [{name: "Pareto front of the search", kind: "line", points: tradeOff.front.map(at),
     colour: "var(--dim)", width: 1.2},
     ...Object.entries(tradeOff.gains).map(([name, point]) =>
       ({name: words[name] || name, kind: "points", size: 80,
@@ -165,7 +166,7 @@ function robustCharts(parent, robust) {
 }
 
 /// One row of a quantile chart. A run that does not settle counts with its duration, so the median is a
-/// settling time only if most runs settle.
+/// settling time only if at least half of the runs settle; else the row shows "never settled".
 function quantileRow(mode, name, set, figure) {
   const {median, q95} = set[figure], label = `${mode}, ${gainsWords[name]}`;
   const settled = `settled: ${percent(set.completed_share)}`;
@@ -177,7 +178,8 @@ function quantileRow(mode, name, set, figure) {
     note: `${label}\nmedian ${digits(median)}, 95 % ${digits(q95)}\n${settled}`};
 }
 
-/// Look of a row: the mode determines the hue, the set of gains the line and the mark.
+/// Range charts of the metrics on drawn vehicles: median to 95 % quantile. The mode determines the hue of a
+/// row, the set of gains its line and mark.
 function quantileCharts(parent, quantiles) {
   const grid = add(parent, "div", undefined, {class: "grid thirds"});
   for (const [figure, title] of robustFigures) {

@@ -16,8 +16,8 @@ std::optional<double> number_in(const Json& json, const char* key) {
   return json.at(key).get<double>();
 }
 
-/// Name of a scenario in file names: SCENARIO of scenario_SCENARIO.json, as for the figures of its
-/// runs. Without such a file, it is the name inside the scenario.
+/// Returns the name of a scenario for file names: SCENARIO of the scenario_SCENARIO.json whose
+/// `name` is `name`, as for the figures of its runs. Without such a file, `name` itself.
 std::string stem_of(const Json& data, const std::string& name) {
   for (const auto& [stem, scenario] : data.at("scenarios").items()) {
     if (scenario.value("name", "") == name) return stem;
@@ -99,7 +99,7 @@ void add_differences(const Json& scenario, const std::string& stem, FiguresOfRes
 }
 
 /// Figure of the distribution of a metric: one row per mode, with the samples, the median and the range
-/// from 5 to 95 %.
+/// from the 5 to the 95 % quantile; without samples, the value of the nominal run.
 Figure spread_figure(const std::string& stem, const std::string& metric, const Json& scenario,
                      const Json& samples) {
   const MetricWords words = metric_words(metric);
@@ -137,7 +137,7 @@ Figure spread_figure(const std::string& stem, const std::string& metric, const J
   return figure;
 }
 
-/// True if any mode has a value of the metric other than 0.
+/// True if a mode has a nominal value or a median of the metric other than 0.
 bool is_told(const Json& scenario, const std::string& metric) {
   const Json& modes = scenario.at("modes");
   return std::any_of(modes.begin(), modes.end(), [&](const Json& mode) {
@@ -167,7 +167,7 @@ void add_spreads(const Json& data, const Json& scenario, const std::string& stem
 void add_comparison_figures(const Json& data, FiguresOfResults& all) {
   if (!data.contains("comparison")) {
     all.lacking.push_back(
-        "differences and distributions of the modes: there is no comparison.json");
+        "differences and distributions of the modes: there is no comparison.json (awmr compare)");
     return;
   }
   // Distributions are drawn for metrics with a weight in the ranking, differences for all metrics.

@@ -8,7 +8,8 @@
 
 namespace awmr {
 
-/// Role of a series, which determines its style in plot.py. The legend has the order of this list.
+/// Role of a series, which determines its style in plot.py. Series with a later role are drawn over
+/// those with an earlier one.
 enum class Role {
   kMeasured,
   kDoubtful,  ///< measured rows with a warning
@@ -46,7 +47,7 @@ struct Axis {
   std::string quantity = {};
   std::string unit = {};               ///< empty if dimensionless
   bool zero = false;                   ///< true: the range includes 0 and has a line there
-  std::vector<std::string> rows = {};  ///< names of the rows 0, 1, 2, ... from the top; else empty
+  std::vector<std::string> rows = {};  ///< row names from the top, at y = 0, 1, ...; else empty
 };
 
 struct FigureCircle {

@@ -9,8 +9,9 @@
 
 namespace awmr {
 
-/// Text of the CSV file of a figure: one row per point with the columns panel, series (both from 0),
-/// name, x, y, low, high. Error (input) if a number is not finite; it names series and figure.
+/// Text of the CSV file of a figure: one row per point with the columns panel, series (indices from
+/// 0), name (of the series), x, y, low, high. Error (input): a number is not finite; the message
+/// names series and figure.
 Result<std::string> figure_csv(const Figure& figure);
 
 /// Text of figures.json: names, axes, panels, and series with their shapes and roles, without the

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMostNameBytes = 100;
 
-/// Makes equal names unique by a number: path_a, path_a_2.
+/// Makes equal names of figures unique by a number: path_a, path_a_2.
 void number_equal_names(std::vector<Figure>& figures) {
   std::set<std::string> taken;
   for (Figure& figure : figures) {
@@ -28,7 +28,7 @@ Status add_from_file(void (*add)(const Json&, FiguresOfResults&), const std::str
   } catch (const Json::exception& error) {
     return input_error(
         ErrorCode::kBrokenFile, file,
-        std::string("does not have awmr's format (") + error.what() + "); make it again");
+        std::string("does not have awmr's format (") + error.what() + "); create it again");
   }
   return {};
 }

@@ -9,17 +9,17 @@
 
 namespace awmr {
 
-/// The figures, and those that cannot be made.
+/// The figures, and texts about those that cannot be made.
 struct FiguresOfResults {
   std::vector<Figure> figures = {};       ///< names are unique
-  std::vector<std::string> lacking = {};  ///< missing figures and the reasons, one sentence each
+  std::vector<std::string> lacking = {};  ///< figures without data: names and reason, one text each
 };
 
 /// Makes the figures of identification, logs, tuning, runs and comparison, as far as there are data.
 /// Errors (input): validation.json, gains.json or comparison.json does not have awmr's format.
 Result<FiguresOfResults> figures_of(const ReportData& data);
 
-// Each of these functions adds the figures of one kind.
+// Each of these functions adds the figures of one kind to `all` or, without data, the reason.
 void add_identification_figures(const Model& model, FiguresOfResults& all);
 /// Throws Json::exception if validation.json does not have awmr's format.
 void add_log_figures(const Json& data, FiguresOfResults& all);

@@ -123,7 +123,7 @@ void add_identification_figures(const Model& model, FiguresOfResults& all) {
       all.figures.push_back(residual_figure(model, *fit, words));
     } else {
       all.lacking.push_back(
-          fmt::format("{}_residuals: fewer than three runs are predicted", words.name));
+          fmt::format("{}_residuals: fewer than three runs have a prediction", words.name));
     }
   }
   const std::vector<CoastdownCurve> curves = coastdown_curves(model);

@@ -37,8 +37,8 @@ Series channel_series(const Json& series, const char* key, Role role, double per
   return one;
 }
 
-/// Figure of a log with one panel per channel. There are no panels if validation.json has no series, as
-/// from an older version.
+/// Figure of a log with one panel per channel. It has no panels if validation.json, written by an
+/// older version, has no time series.
 Figure log_figure(const Json& log) {
   const std::string file = log.at("file");
   Figure figure{.name = figure_name("log", std::filesystem::path(file).stem().string()),
@@ -72,7 +72,8 @@ void add_log_figures(const Json& data, FiguresOfResults& all) {
   }
   if (all.figures.size() > before) return;
   all.lacking.push_back(
-      "log: there is no validation.json with a log, or an older version made it without series");
+      "log: there is no validation.json with a log (awmr validate --log), or an older version "
+      "wrote it without time series");
 }
 
 }  // namespace awmr

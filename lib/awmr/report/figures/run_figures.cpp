@@ -15,7 +15,7 @@ Role role_of_mode(const Json& run) {
   return kRoles.at(run["mode"]);
 }
 
-/// The runs of one scenario by mode, and the scenario itself; null if its file is missing.
+/// The runs of one scenario, one per mode. `scenario` is null if the scenario's file is missing.
 struct ScenarioRuns {
   std::string stem;
   std::vector<const Json*> runs;
@@ -31,7 +31,7 @@ std::vector<ScenarioRuns> runs_by_scenario(const Json& data) {
   std::vector<ScenarioRuns> all;
   for (auto& [stem, sets] : by_gains) {
     std::vector<const Json*>& runs = sets[sets.count("tuned") > 0 ? "tuned" : "paper"];
-    // The widest line first, so that the others are visible on it.
+    // The mode with the widest line is first, so that the lines of the others are visible on it.
     std::sort(runs.begin(), runs.end(),
               [](const Json* a, const Json* b) { return role_of_mode(*a) < role_of_mode(*b); });
     all.push_back({stem, std::move(runs),
@@ -153,7 +153,8 @@ void add_run_figures(const Json& data, FiguresOfResults& all) {
   const std::vector<ScenarioRuns> scenarios = runs_by_scenario(data);
   if (scenarios.empty()) {
     all.lacking.push_back(
-        "heading, speed, forces, steering, path: there are no runs (run_SCENARIO_MODE_GAINS.csv)");
+        "heading, speed, forces, steering, path: there are no runs (run_SCENARIO_MODE_GAINS.csv), "
+        "which awmr run writes");
   }
   for (const ScenarioRuns& one : scenarios) {
     all.figures.push_back(heading_figure(one));

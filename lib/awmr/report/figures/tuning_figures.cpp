@@ -54,7 +54,8 @@ void add_tuning_figures(const Json& data, FiguresOfResults& all) {
     searches = searches_of(data.at("gains"));
   }
   if (searches.empty()) {
-    all.lacking.push_back("tuning_history: gains.json has no history of a search");
+    all.lacking.push_back(
+        "tuning_history: there is no gains.json with the history of a search (awmr tune)");
     return;
   }
   double last = 0.0;

@@ -28,7 +28,7 @@ std::vector<double> numbers;
 LiveSetup setup;
 std::vector<double> table;
 std::string text;
-constexpr std::size_t kColumns = 8;
+constexpr std::size_t kColumns = 8;  ///< columns of `table`, see fill_table()
 
 Vehicle vehicle_of_setup(double sample_time_s) {
   Vehicle vehicle;
@@ -107,6 +107,7 @@ AWMR_EXPORT(live_setup) double* live_setup(int count) {
   return numbers.data();
 }
 
+/// Reads the setup from the array of live_setup().
 AWMR_EXPORT(live_begin) void live_begin() {
   std::size_t next = 0;
   visit_numbers(setup, [&](double& x) { x = numbers[next++]; });

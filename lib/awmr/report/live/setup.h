@@ -13,12 +13,13 @@ namespace awmr {
 /// Input of the interactive part: the inputs of the tuning constraints (with plant and force limits of
 /// the vehicle) and a heading scenario.
 struct LiveSetup {
-  ConstraintContext context;  ///< its plant is the nominal one of the model
-  double allocation_form = 0.0;
-  /// Largest yaw moment, m, and surge force that a tuned observer compensates; 0 without an observer.
+  ConstraintContext context;     ///< its plant is the nominal one of the model
+  double allocation_form = 0.0;  ///< an AllocationForm, as a number
+  /// Largest yaw moment, m, and surge force, both over F_max, that the tuned observer compensates;
+  /// 0 without an observer.
   double observer_yaw_max_m = 0.0;
   double observer_surge_max = 0.0;
-  double speed_mps = 0.0;  ///< u_d of the scenario
+  double speed_mps = 0.0;  ///< u_d, commanded speed of the scenario, m/s
   double duration_s = 0.0;
   State<double> initial{};
   std::vector<HeadingStep> steps;

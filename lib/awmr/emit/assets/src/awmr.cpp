@@ -1,4 +1,4 @@
-// C interface of awmr/control/, the source that was simulated and tuned.
+// C interface to awmr/control/, the unchanged controller source of the simulations and the tuning.
 
 // Products and sums are rounded separately, whatever the compiler's default is: with fused
 // multiply-add, which rounds a b + c once, the chip's results would differ from the host's.
@@ -16,8 +16,8 @@
 
 #include "awmr/control/autopilot.h"
 
-// 1: the direction of an unsigned speed is computed. 0: for a speed sensor with a sign; saves flash,
-// and awmr_input.speed_unsigned is then a fault.
+// 1: the direction of travel is computed if awmr_input.speed_unsigned is 1. 0: saves flash, for a speed
+// sensor with a sign; speed_unsigned 1 is then a fault.
 #ifndef AWMR_WITH_DIRECTION
 #define AWMR_WITH_DIRECTION 1
 #endif
@@ -48,7 +48,7 @@ const size_t kYawCount = 0;
 
 }  // namespace
 
-// Not static, so that debuggers and flashing tools find it by name.
+// Not static, so that debuggers and flashing tools find the parameters by name.
 extern const awmr::ParameterBlock awmr_parameters;
 const awmr::ParameterBlock awmr_parameters AWMR_IN_FLASH = {
     {AWMR_SURGE_ALPHA, AWMR_SURGE_BETA},
@@ -93,7 +93,7 @@ namespace {
 
 typedef awmr::LineLaws<awmr::LineLawAt<AWMR_LINE_LAW>::Of, float>::Law LineLaw;
 
-/// As awmr::PositionFilter.
+/// Constants of the position estimate, with the names of awmr::PositionFilter's members.
 struct PositionFilter {
   static constexpr float sample_time_s = AWMR_SAMPLE_TIME_S;
   static constexpr float sample_rate_hz = AWMR_SAMPLE_RATE_HZ;
@@ -123,8 +123,9 @@ struct Parts {
 
 awmr::Autopilot<Resistance, Parts> autopilot;
 
-// The barriers prevent the compiler from moving the caller's writes and reads across the call,
-// whatever it assumes about aliasing of the two types.
+// The caller's C structs are read as C++ structs. The empty asm statements here and below are memory
+// barriers: without them the compiler could move the caller's writes across the call, because it assumes
+// that the two types do not alias.
 __attribute__((noinline)) void follow(const awmr_point* points, int16_t count, float acceptance_m, bool skip_passed) {
   // With an invalid acceptance radius, each step gives AWMR_FAULT_OUTPUT until the next route.
   static const awmr_point kNowhere = {__builtin_nanf(""), __builtin_nanf("")};
@@ -160,7 +161,7 @@ static_assert(sizeof(awmr_output) == sizeof(awmr::AutopilotOutput), "");
 static_assert(offsetof(awmr_output, tau_speed) == offsetof(awmr::AutopilotOutput, tau_speed), "");
 static_assert(offsetof(awmr_output, arrived) == offsetof(awmr::AutopilotOutput, arrived), "");
 
-// The C structs are used in place of the C++ ones.
+// The C structs are read and written as the C++ structs of the same layout.
 __attribute__((noinline)) void awmr_step(const awmr_input* input, awmr_output* output) {
   __asm__ volatile("" ::: "memory");
   awmr::autopilot_step(autopilot, *reinterpret_cast<const awmr::AutopilotInput*>(input),

@@ -1,7 +1,7 @@
 /* awmr: the autopilot of one vehicle as a C interface. C99 and C++11.
    Angles in rad, counter-clockwise positive, x forward, y left. Forces are divided by F_max, the
-   largest force of one motor. No memory is allocated. There is one autopilot: call it from one
-   thread or interrupt.
+   largest force of one motor. No memory is allocated. There is one autopilot: call all functions from
+   the same thread or interrupt.
 
      awmr_init();
      every AWMR_SAMPLE_TIME_S: fill an awmr_input; awmr_step(&input, &output); drive the motors. */
@@ -14,8 +14,8 @@
 #include "awmr_params.h"
 
 /* 1: the position can be estimated from a receiver's fixes (awmr_input.position_is_fix); needs 2.9 kB of
-   flash and 140 bytes of RAM. 0: position_is_fix is AWMR_FAULT_RANGE; the default of the Uno, whose
-   flash the sketches fill without it. */
+   flash and 140 bytes of RAM. 0: an input with position_is_fix 1 gives AWMR_FAULT_RANGE. 0 is the default
+   of the Uno, whose flash has no room for it next to the sketches. */
 #ifndef AWMR_WITH_POSITION_ESTIMATE
 #ifdef __AVR_ATmega328P__
 #define AWMR_WITH_POSITION_ESTIMATE 0
@@ -24,23 +24,23 @@
 #endif
 #endif
 
-/* mode: what makes the yaw moment */
+/* awmr_input.mode: the actuators that make the yaw moment */
 #define AWMR_DIFFERENTIAL 0 /* left and right wheel forces, wheels straight */
 #define AWMR_STEERING 1     /* the front wheels, equal forces on both sides */
-#define AWMR_COMBINED 2     /* both; what one cannot make goes to the other, unless
-                               AWMR_FIXED_HALF */
+#define AWMR_COMBINED 2     /* both; if one reaches its limit, the other makes the rest of the
+                               moment (not with AWMR_FIXED_HALF 1) */
 
-/* fault: reason for the safe command (forces 0, wheels straight). Bits, several can be set.
+/* awmr_output.fault: reasons for the safe command (forces 0, wheels straight), one bit each.
    AWMR_FAULT_PARAMETERS is set until reset; the others last as long as their cause. */
 #define AWMR_FAULT_NONE 0x00
 #define AWMR_FAULT_PARAMETERS 0x01      /* the parameters in flash fail their check sum */
 #define AWMR_FAULT_NOT_FINITE 0x02      /* an input is infinite or NaN */
 #define AWMR_FAULT_RANGE 0x04           /* an input is out of range, or the mode unknown */
-#define AWMR_FAULT_HEADING_STALE 0x08   /* heading_ms too old: AWMR_HEADING_TIMEOUT_MS */
-#define AWMR_FAULT_SPEED_STALE 0x10     /* speed_ms too old: AWMR_SPEED_TIMEOUT_MS */
-#define AWMR_FAULT_COMMAND_TIMEOUT 0x20 /* command_ms too old: AWMR_COMMAND_TIMEOUT_MS */
-#define AWMR_FAULT_STEP_LATE 0x40       /* too long since the last step: AWMR_STEP_TIMEOUT_MS */
-#define AWMR_FAULT_OUTPUT 0x80          /* the command would have been outside its limits */
+#define AWMR_FAULT_HEADING_STALE 0x08   /* heading_ms is older than AWMR_HEADING_TIMEOUT_MS */
+#define AWMR_FAULT_SPEED_STALE 0x10     /* speed_ms is older than AWMR_SPEED_TIMEOUT_MS */
+#define AWMR_FAULT_COMMAND_TIMEOUT 0x20 /* command_ms is older than AWMR_COMMAND_TIMEOUT_MS */
+#define AWMR_FAULT_STEP_LATE 0x40       /* the last step was more than AWMR_STEP_TIMEOUT_MS ago */
+#define AWMR_FAULT_OUTPUT 0x80          /* a computed command was outside its limits or not finite */
 
 typedef struct awmr_input {
   uint8_t mode;            /* AWMR_DIFFERENTIAL, AWMR_STEERING or AWMR_COMBINED */
@@ -48,22 +48,22 @@ typedef struct awmr_input {
   float u_mps;             /* forward speed */
   float v_mps;             /* speed to the left; 0 if not measured */
   float r_radps;           /* yaw rate */
-  float x_m;               /* position, read only by guidance and avoidance */
+  float x_m;               /* position: needed by guidance, by avoidance and if speed_unsigned is 1 */
   float y_m;
-  float psi_ref_rad;       /* heading to hold; ignored while guidance is active */
+  float psi_ref_rad;       /* heading to hold; guidance (awmr_follow, ...) replaces it */
   float psi_ref_rate_radps;
   float psi_ref_accel_radps2;
   float u_ref_mps;         /* speed to hold */
   float u_ref_accel_mps2;
   uint32_t now_ms;         /* time now on a clock in ms, which may wrap */
-  uint32_t heading_ms;     /* time on it at which psi_rad and r_radps were measured */
-  uint32_t speed_ms;       /* time on it at which u_mps, x_m and y_m were measured */
-  uint32_t command_ms;     /* time on it of the last command */
+  uint32_t heading_ms;     /* time on this clock at which psi_rad and r_radps were measured */
+  uint32_t speed_ms;       /* time on this clock at which u_mps, x_m and y_m were measured */
+  uint32_t command_ms;     /* time on this clock of the last command */
   uint8_t speed_unsigned;  /* 1: u_mps is the magnitude of the speed, as from a GPS, and x_m, y_m
                               are measured: the direction is computed. 0: u_mps has a sign */
   uint8_t position_is_fix; /* 1: x_m, y_m are the last fix of a receiver, taken at fix_ms: the
-                              position now is estimated from it, heading and speed. 0: they are the
-                              position now */
+                              present position is estimated from the fix, heading and speed. 0: x_m,
+                              y_m are the present position */
   uint32_t fix_ms;
 } awmr_input;
 
@@ -74,10 +74,10 @@ typedef struct awmr_output {
   uint8_t speed_limited;   /* 1: tau_speed was clipped */
   uint8_t steering_limited;   /* 1: the steering angle was clipped */
   uint8_t force_limited;      /* 1: a force was clipped */
-  uint8_t steering_powerless; /* 1: too little force to steer with */
-  float tau_speed;         /* requested by the speed law, before any limit */
-  float tau_turn_m;        /* requested by the heading law, m, before any limit */
-  float psi_ref_rad;       /* heading reference */
+  uint8_t steering_powerless; /* 1: the wheel forces are too small to turn the vehicle by steering */
+  float tau_speed;         /* force of all wheels that the speed law requests, before any limit */
+  float tau_turn_m;        /* yaw moment that the heading law requests, m, before any limit */
+  float psi_ref_rad;       /* heading reference in use: of the input, or of the guidance */
   uint8_t arrived;         /* 1: the route is finished: set u_ref_mps to 0 to stop */
   uint8_t fault;           /* AWMR_FAULT_...; not 0: the safe command */
 } awmr_output;
@@ -93,7 +93,8 @@ typedef struct awmr_point {
 #if AWMR_WITH_LINE && AWMR_LINE_LAW == 0
 typedef struct awmr_line_law {
   float delta_rad;         /* angle of approach to the line, in (0, pi/2] */
-  float width_m;           /* half width of the lane in which the approach flattens, > 0 */
+  float width_m;           /* half width of the lane around the line in which the angle of approach
+                              is proportional to the distance from the line, > 0 */
   float corner_m;          /* the next segment starts this far before a corner, >= 0 */
   uint8_t sideslip_compensation; /* 1: the course over ground is controlled, not the heading; v_mps
                                     is measured */
@@ -101,13 +102,15 @@ typedef struct awmr_line_law {
 #endif
 
 #if AWMR_WITH_PATH
-/* x = amplitude_x_m cos(rate_x_radps t), y = amplitude_y_m sin(rate_y_radps t), t from the first step */
+/* x = amplitude_x_m cos(rate_x_radps t), y = amplitude_y_m sin(rate_y_radps t); t is 0 at the first step
+   along the path */
 typedef struct awmr_path {
   float amplitude_x_m;
   float amplitude_y_m;
   float rate_x_radps;
   float rate_y_radps;
-  float gain_per_s;        /* gain of the position feedback; 0: only direction and speed */
+  float gain_per_s;        /* gain of the position feedback; 0: the vehicle takes direction and
+                              speed of the path, without correcting its position */
 } awmr_path;
 #endif
 
@@ -123,31 +126,33 @@ typedef struct awmr_sector { /* workspace: nothing to fill in */
   uint8_t counts;
 } awmr_sector;
 typedef struct awmr_avoidance {
-  float mmd_base_m;        /* minimum manoeuvring distance at rest: at least the turning radius */
-  float mmd_per_speed_s;   /* increase per m/s, >= 0 */
+  float mmd_base_m;        /* manoeuvring distance at rest, > 0: an obstacle nearer than the
+                              manoeuvring distance is avoided. At least the turning radius */
+  float mmd_per_speed_s;   /* increase of that distance per m/s of speed, >= 0 */
   float sigma_rad;         /* extra angle beyond the tangent next to the obstacle, [0, pi/2) */
   float vehicle_radius_m;  /* of the circle that encloses the vehicle */
-  float clearance_m;       /* free distance between it and the obstacle, > 0 */
-  float hysteresis_m;      /* added distance before avoidance ends, >= 0 */
-  float side_hysteresis_rad; /* advantage of the other side before the side changes, >= 0 */
+  float clearance_m;       /* free distance between this circle and an obstacle, > 0 */
+  float hysteresis_m;      /* avoidance ends this far beyond the manoeuvring distance, >= 0 */
+  float side_hysteresis_rad; /* the side on which an obstacle is passed changes only if the turn to the
+                                other side is smaller by this angle, >= 0 */
   float brake_m;           /* free distance ahead below which the speed is reduced, > 0 */
 } awmr_avoidance;
 #endif
 
 #if AWMR_WITH_SHAPING
 typedef struct awmr_shaping {
-  float omega_radps;       /* bandwidth, > 0; at most 0.5/AWMR_SAMPLE_TIME_S */
-  float rate_max_radps;    /* > 0 */
-  float accel_max_radps2;  /* > 0 */
+  float omega_radps;       /* bandwidth, > 0; above 0.5/AWMR_SAMPLE_TIME_S the reference overshoots */
+  float rate_max_radps;    /* largest rate of the reference, > 0 */
+  float accel_max_radps2;  /* largest acceleration of the reference, > 0 */
 } awmr_shaping;
 #endif
 
 #if AWMR_WITH_OBSERVER
 typedef struct awmr_observer {
   float bandwidth_radps;   /* > 0, below 1/AWMR_SAMPLE_TIME_S */
-  float yaw_max_m;         /* largest moment compensated, over F_max */
-  float surge_max;         /* largest force compensated, over F_max */
-  uint8_t anti_windup;     /* 1; 0 only to see its effect */
+  float yaw_max_m;         /* largest yaw moment that is compensated, over F_max */
+  float surge_max;         /* largest force that is compensated, over F_max */
+  uint8_t anti_windup;     /* 1: on, the usual choice; 0: off, to see its effect in a test */
 } awmr_observer;
 #endif
 
@@ -155,30 +160,30 @@ typedef struct awmr_observer {
 extern "C" {
 #endif
 
-/* Reads and checks the parameters. Returns AWMR_FAULT_NONE or AWMR_FAULT_PARAMETERS; after the
-   latter, awmr_step gives only the safe command. */
+/* Reads the parameters in flash and compares them with their check sum. Returns AWMR_FAULT_NONE or
+   AWMR_FAULT_PARAMETERS; after the latter, awmr_step gives only the safe command. */
 uint8_t awmr_init(void);
 
 /* One control step. */
 void awmr_step(const awmr_input* input, awmr_output* output);
 
-/* Follows `count` waypoints in order from the next step on; a waypoint is reached within
-   acceptance_m. The points are not copied. count 0: back to holding psi_ref_rad. */
+/* Follows `count` waypoints in order from the next step on. A waypoint is reached at a distance of
+   acceptance_m. The points are not copied. count 0: ends guidance, psi_ref_rad is held again. */
 void awmr_follow(const awmr_point* points, int16_t count, float acceptance_m);
 
 /* As above, but skips a waypoint that was passed by, for a vehicle that cannot turn back to it. */
 void awmr_follow_skipping(const awmr_point* points, int16_t count, float acceptance_m);
 
 #if AWMR_WITH_POSITION_ESTIMATE
-/* How often the position was reset to a fix, since the start, up to 255: after five fixes in a row that
-   were too far away. */
+/* Returns how often the position estimate was set to a fix since the start, at most 255. This happens
+   after five fixes in a row that were too far from the estimate. */
 uint8_t awmr_position_resets(void);
 #endif
 
 #if AWMR_WITH_LINE
 /* Follows the line through `count` corners from the next step on, instead of waypoints. The corners
-   are not copied. `parameters`: those of the law of awmr emit --line-law, in the order and units of
-   its header in src/awmr/control/guidance. corner_m: as in awmr_line_law; 0 for pure_pursuit.
+   are not copied. `parameters`: those of the law of awmr emit --line-law, in the order and
+   units (rad, m, s) of its header in src/awmr/control/guidance. corner_m: as in awmr_line_law; 0 for pure_pursuit.
    sideslip_compensation: as in awmr_line_law. */
 void awmr_follow_line_by(const awmr_point* corners, int16_t count, const float* parameters,
                          float corner_m, uint8_t sideslip_compensation);
@@ -189,19 +194,20 @@ void awmr_follow_line(const awmr_point* corners, int16_t count, const awmr_line_
 #endif
 
 #if AWMR_WITH_PATH
-/* Follows a timed path from the next step on. With u_ref_mps 0, at the path's own speed. */
+/* Follows a timed path from the next step on: at the speed u_ref_mps or, if that is 0, at the speed of the
+   path's point. */
 void awmr_follow_path(const awmr_path* path);
 #endif
 
 #if AWMR_WITH_SLOW_DOWN
-/* Reduces the speed from this distance to the last waypoint or the line's end on, to a tenth. 0:
-   off. */
+/* Within distance_m of the last waypoint or of the line's end, reduces the speed in proportion to the
+   distance, at least to a tenth. 0: off. */
 void awmr_slow_down(float distance_m);
 #endif
 
 #if AWMR_WITH_AVOIDANCE
-/* Avoids `count` obstacles, with any guidance. `sectors` has room for `count` elements. Neither is
-   copied. count 0: off. */
+/* Avoids `count` obstacles, with any guidance. `sectors`: working memory for `count` elements. Neither
+   array is copied. count 0: off. */
 void awmr_avoid(const awmr_avoidance* avoidance, const awmr_obstacle* obstacles, awmr_sector* sectors,
                 int16_t count);
 #endif
@@ -212,8 +218,8 @@ void awmr_shape(const awmr_shaping* shaping);
 #endif
 
 #if AWMR_WITH_OBSERVER
-/* Compensates the estimated disturbance. NULL: off. With gains that were tuned with an observer
-   (AWMR_OBSERVER_... in awmr_params.h), it is on from awmr_init() on. */
+/* Estimates a constant disturbance (slope, unequal motors) and compensates it. NULL: off. With gains that
+   were tuned with an observer (AWMR_OBSERVER_... in awmr_params.h), it is on from awmr_init() on. */
 void awmr_observe(const awmr_observer* observer);
 #endif
 

@@ -42,7 +42,7 @@ const float kServoUsPerRad = 573.0f; /* 10 us per degree of the wheels: measure 
 
 namespace awmr_board {
 
-/* Returns the time stamp; before the first reading, one that counts as outdated. */
+/* Returns time_ms; before the first reading (is_taken false), a time that is older than timeout_ms. */
 inline uint32_t time_or_old(bool is_taken, uint32_t time_ms, uint32_t now_ms, uint32_t timeout_ms) {
   return is_taken ? time_ms : now_ms - timeout_ms - 1;
 }
@@ -61,7 +61,7 @@ inline void begin(Imu& imu, Gps& gps, Log& card) {
 }
 
 /* Call in the step: writes sensor readings and time stamps into the input. A rejected sensor keeps
-   its old time stamp, which becomes a fault of the autopilot. */
+   its old time stamp, and the autopilot reports a fault when this exceeds its time-out. */
 inline void measure(const Imu& imu, const Gps& gps, const Command& command, awmr_input& input) {
   input.now_ms = millis();
   input.psi_rad = imu.psi_rad;
@@ -79,14 +79,15 @@ inline void measure(const Imu& imu, const Gps& gps, const Command& command, awmr
       time_or_old(command.has_heard, command.heard_ms, input.now_ms, AWMR_COMMAND_TIMEOUT_MS);
 }
 
-/* Fault of the first sensor that is rejected. */
+/* Returns the reason why compass or gyroscope are rejected or, if they are accepted, why the GPS is
+   rejected; awmr::kSensorGood if none is. */
 inline uint8_t sensor_fault(const Imu& imu, const Gps& gps) {
   const awmr::SensorFault heading = imu.fault();
   return heading != awmr::kSensorGood ? heading : gps.fault();
 }
 
-/* One step of a sketch that uses the autopilot, after `input` has mode and references: reads the
-   sensors, drives, disarms on a fault, logs. */
+/* One step of a sketch that uses the autopilot: reads the sensors, runs awmr_step(), disarms on a fault,
+   drives the motors and logs. Set mode and references of `input` before. */
 inline void step(Imu& imu, Gps& gps, Command& command, Safety& safety, Log& card, awmr_input& input,
                  awmr_output& output) {
   gps.step(input.u_ref_mps, imu.psi_rad, output.psi_ref_rad, safety.is_armed());

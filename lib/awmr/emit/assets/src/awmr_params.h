@@ -1,2 +1,2 @@
-/* The parameters are next to library.properties, where awmr emit writes them. */
+/* Includes the parameters, which awmr emit writes next to library.properties. */
 #include "../awmr_params.h"

@@ -18,23 +18,24 @@ struct Trial {
 struct Settings {
   float settle_s;       /* driving time before the measurement */
   float measure_s;      /* averaging time */
-  float coast_s;        /* maximum duration of a coast-down, */
-  float rest_mps;       /* which also ends below this speed, with enough rows for a curve */
-  float steady_share;   /* maximum relative difference of the means of the window's halves */
+  float coast_s;        /* maximum duration of a coast-down */
+  float rest_mps;       /* a coast-down also ends below this speed, once it has enough rows for a curve */
+  float steady_share;   /* a run is steady if the means of both halves of the averaging time differ by at
+                           most this fraction of the mean */
 };
 
 enum State { kWaiting, kSettling, kMeasuring, kCoasting, kDone };
 
-/* Event of a step. After kNotSteady, kLetGo and kSensorLost, the same run waits to be driven again.
-   */
+/* Event of a step. After kNotSteady, kLetGo, and kSensorLost while driving, the same run waits to be
+   driven again. */
 enum Event {
   kNothing,
   kRow,       /* a row of a surge or turning run, which is finished */
   kCurveRow,  /* a row of a coast-down */
   kCoasted,   /* a coast-down is finished */
-  kNotSteady, /* the window's halves differ, or one has too few fixes */
+  kNotSteady, /* the means of the averaging time's halves differ, or a half has too few fixes */
   kLetGo,     /* the dead man's switch was released */
-  kSensorLost /* a sensor was rejected while driving or coasting; a curve ends there */
+  kSensorLost /* a sensor was rejected. A coast-down ends with the rows so far, and the next run waits */
 };
 
 struct Measured {
@@ -42,7 +43,7 @@ struct Measured {
   float speed_mps;
   uint32_t speed_ms; /* time of its measurement: each reading counts once */
   float yaw_rate_radps;
-  bool is_held;      /* the dead man's switch is held */
+  bool is_held;      /* the dead man's switch is held: the vehicle is armed */
 };
 
 /* For kRow: force, steering_rad and value, the mean speed or yaw rate. For kCurveRow: t_s since
@@ -68,7 +69,7 @@ class Recorder {
     if (state_ == kWaiting) next();
   }
 
-  /* is_doubtful: a sensor is rejected, and measurements are ignored. */
+  /* Call in every control step. is_doubtful: a sensor is rejected; the run in progress ends. */
   Event step(const Measured& m, bool is_doubtful = false) {
     if (is_new_) {
       since_ms_ = m.now_ms;
@@ -88,10 +89,10 @@ class Recorder {
   }
 
   State state() const { return state_; }
-  uint8_t number() const { return number_; } /* of the run, from 0; the count when all are done */
+  uint8_t number() const { return number_; } /* of the present run, from 0; `count` when all are done */
   const Trial& trial() const { return runs_[number_]; }
   const Row& row() const { return row_; }
-  /* Force to command until the next step: 0 unless it drives. */
+  /* Force of every wheel to command until the next step, over F_max: 0 while waiting or coasting. */
   float force() const { return state_ == kSettling || state_ == kMeasuring ? trial().force : 0.0f; }
   float steering_rad() const { return state_ == kWaiting || state_ == kDone ? 0.0f : trial().steering_rad; }
 
@@ -102,15 +103,15 @@ class Recorder {
   uint8_t number_ = 0;
   State state_ = kWaiting;
   bool is_new_ = false;
-  uint32_t since_ms_ = 0; /* start of the state */
+  uint32_t since_ms_ = 0; /* start of the present state */
   uint32_t speed_ms_ = 0;
   float sum_[2] = {0.0f, 0.0f}; /* one per half of the window */
   uint16_t samples_[2] = {0, 0};
   uint8_t curve_rows_ = 0;
   Row row_ = {0.0f, 0.0f, 0.0f, 0.0f};
 
-  static const uint8_t kFewest = 3;      /* fixes in half a window */
-  static const uint8_t kCurveRows = 8;   /* minimum of a coast-down, at rest if necessary */
+  static const uint8_t kFewest = 3;      /* minimum number of fixes in half of the averaging time */
+  static const uint8_t kCurveRows = 8;   /* minimum rows of a coast-down; the last ones can be at rest */
 
   void begin_window(uint32_t now_ms) {
     state_ = kMeasuring;
@@ -125,8 +126,8 @@ class Recorder {
     state_ = kWaiting;
     return why;
   }
-  /* Ends a run after a sensor fault. The rows of a curve are kept, and no other curve gets its
-     run's number. */
+  /* Ends a run after a sensor fault. A driven run waits to be repeated. A coast-down is over: its rows
+     are already in the table under its number, which no other curve may use. */
   Event lose() {
     if (state_ != kCoasting) return give_up(kSensorLost);
     next();

@@ -1,5 +1,5 @@
 // Guides through the bring-up list of README.md after a first flash. Wheels off the ground. Over
-// Serial (115200 baud) it announces each motion; the line "y" arms this motion, anything else is
+// Serial (115200 baud) it announces each motion; the line "y" starts this motion, any other line is a
 // no. The first no ends the bring-up, with the motors off until a reset: fix the fault and start
 // again. Forces are at most kForce, a motion lasts two seconds, and any character during a motion
 // also ends it.
@@ -16,10 +16,11 @@ Stream* gps_port;
 awmr::RmcReader gps_reader;
 volatile bool has_fix = false;
 
-// Commands of the step, set by loop() with interrupts off, because a float has four bytes.
+// Commands for the step. setup() sets them with interrupts off, because the timer interrupt could read a
+// float of which only some of the four bytes are new.
 struct Wanted {
   float left, right, steering_rad;
-  bool by_autopilot; // holds the heading at its start, with forces limited to kForce
+  bool by_autopilot; // true: instead of these, the autopilot holds the heading, with at most kForce
 };
 Wanted wanted;
 awmr_output output;
@@ -122,7 +123,7 @@ void show(float left, float right, float steering_rad, const __FlashStringHelper
   prompt(question);
 }
 
-// The gyroscope is calibrated in the first second at rest.
+// Waits until the gyroscope is calibrated, which takes a second at rest; after 10 s ends the bring-up.
 void wait_still() {
   const uint32_t start_ms = millis();
   while (imu.fault() == awmr::kGyroNotCalibrated) {
@@ -143,7 +144,7 @@ void check_turn() {
     if (millis() - start_ms > 20000) end(F("no turn was seen: gyroscope or its wiring"));
   }
   if (atomically(turned_rad) < 0.0f) end(F("the gyroscope turns the other way: it lies upside down"));
-  delay(6000); // three of the compass's time constants
+  delay(6000); // three time constants of the heading's correction by the compass
   const float turned = awmr::float_math::wrapped(atomically(imu.psi_rad) - before);
   Serial.print(F("turned by the compass, deg: "));
   Serial.println(turned * 57.2957795f, 0);

@@ -51,7 +51,8 @@ void receive() {
 }
 
 void step() {
-  // The turn needs no compass: the compass is being calibrated.
+  // Only STOP and a pause of the commands disarm: sensor faults do not, because the compass is not
+  // calibrated yet.
   if (millis() - command.heard_ms >= 1000) arming.disarm(awmr::DisarmReason::kTimeout);
   if (!arming.is_armed()) force = 0.0f;
   awmr_output output = awmr_output();

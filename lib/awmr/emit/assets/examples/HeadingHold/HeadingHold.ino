@@ -1,6 +1,6 @@
 // Heading and speed hold on the source paper's hardware. Over Serial, 115200 baud, one command per
 // line:
-//   ARM     motors can turn, at speed 0, holding the current heading
+//   ARM     enables the motors, at speed 0 and on the current heading
 //   S 1.0   drive at 1 m/s        H 30   head 30 deg        M 2   combined mode
 //   KEEP    continue: without a command for AWMR_COMMAND_TIMEOUT_MS the motors stop
 //   STOP    motors off, at once

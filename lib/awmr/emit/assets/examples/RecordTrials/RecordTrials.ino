@@ -1,10 +1,10 @@
 // Runs the field sheet automatically and writes its tables: SURGE00.CSV, TURN00.CSV and COAST00.CSV
-// for `awmr identify --surge --turning --coastdown`. Use level, dry ground, half of the runs in
-// each direction, with space for settle_s + measure_s at the run's speed. Over Serial (115200
-// baud), one command per line: "ARM" after the start, a stop and a fault; "G" drives the announced
-// run, "N" skips it. A run needs a command, such as "KEEP", at least once per second; "STOP" or a
-// time-out stops it, and the run waits again. With straight wheels nothing steers: stop the vehicle
-// if it leaves its lane.
+// for `awmr identify --surge --turning --coastdown`. Use level, dry ground, and drive half of the runs in
+// each direction. A run needs the distance of settle_s + measure_s (kSettings: 6 s) at its speed, a
+// coast-down also the distance until rest. Over Serial (115200 baud), one command per line: "ARM" first,
+// and again after each stop or fault; "G" drives the announced run, "N" skips it. A run needs a command,
+// such as "KEEP", at least once per second; "STOP" or a longer pause stops the run, which then waits to
+// be driven again. Nobody steers in the runs with straight wheels: stop the vehicle if it leaves its lane.
 #include <SD.h>
 #include <SPI.h>
 #include <Wire.h>
@@ -46,7 +46,7 @@ struct Pending {
   uint8_t number;
   Row row;
 };
-Pending pending;            // written by the step, for loop() to record
+Pending pending;            // last event of the step, which loop() writes to the card
 volatile bool has_pending = false;
 uint16_t rows_lost = 0;
 
@@ -118,7 +118,7 @@ void announce() {
   Serial.print(run.force, 3);
   Serial.print(F(", steering "));
   Serial.print(run.steering_rad * 57.2957795f, 1);
-  Serial.println(F(" deg: G drives, N leaves out"));
+  Serial.println(F(" deg: G drives, N skips"));
 }
 
 void setup() {

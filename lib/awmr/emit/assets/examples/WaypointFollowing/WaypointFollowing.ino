@@ -1,6 +1,6 @@
-// Drives along waypoints on the source paper's hardware, in m north and west of the first GPS fix,
-// and stops at the last. Over Serial, 115200 baud, one command per line:
-//   ARM     motors can turn       G   drive the route from its first point on
+// Drives along waypoints on the source paper's hardware, and stops at the last one. Waypoints are in m
+// north (x) and west (y) of the first GPS fix. Over Serial, 115200 baud, one command per line:
+//   ARM     enables the motors    G   drive the route from its first point on
 //   KEEP    continue: without a command for AWMR_COMMAND_TIMEOUT_MS the motors stop
 //   STOP    motors off, at once
 // After a reset, STOP, a command time-out, any fault and the last point, the motors are off until

@@ -4,6 +4,7 @@
 
 namespace awmr_board {
 
+/* Call in setup(): sets the pins of motors and servo, wheels straight. */
 inline void begin_actuators() {
   pinMode(kLeftPwmPin, OUTPUT);
   pinMode(kLeftDirectionPin, OUTPUT);
@@ -12,19 +13,21 @@ inline void begin_actuators() {
   begin_servo(2 * kServoCentreUs);
 }
 
+/* force: F' in [-1, 1]; the direction pin is high for a negative force. */
 inline void drive_motor(uint8_t pwm_pin, uint8_t direction_pin, float force) {
   digitalWrite(direction_pin, force < 0.0f ? HIGH : LOW);
   const float size = force < 0.0f ? -force : force;
   analogWrite(pwm_pin, static_cast<int>(255.0f * size + 0.5f));
 }
 
-/* Motors off, wheels straight. */
+/* Sets the command to motors off, wheels straight; drive() applies it. */
 inline void stop(awmr_output& out) {
   out.force_left = 0.0f;
   out.force_right = 0.0f;
   out.steering_rad = 0.0f;
 }
 
+/* Commands motors and servo. */
 inline void drive(const awmr_output& out) {
   set_servo(
       static_cast<uint16_t>(2.0f * (kServoCentreUs + kServoUsPerRad * out.steering_rad)));

@@ -1,5 +1,5 @@
-/* The log on the card: LOG00.AWL and following, for `awmr log` and `awmr identify --log`. A board
-   without a card reports at its start that there is no log. */
+/* The log on the card: LOG00.AWL and following, for `awmr log` and `awmr identify --log`. On a board
+   without a card, begin() returns false and the sketch reports that there is no log. */
 #ifndef AWMR_BOARD_CARD_H
 #define AWMR_BOARD_CARD_H
 
@@ -11,7 +11,8 @@
 namespace awmr_board {
 
 #if AWMR_BOARD_HAS_CARD
-/* Opens the first of NAME00 to NAME99 that does not exist; no file if all exist. */
+/* Creates the first file of NAME00 to NAME99 that does not exist. name_and_extension: "LOG00.AWL". Returns
+   an invalid File if all exist. */
 inline File next_file(const char* name_and_extension) {
   char name[13];
   strncpy(name, name_and_extension, sizeof name - 1);
@@ -34,13 +35,13 @@ class Log {
     return file_ && awmr_log::write_header(file_) && awmr_log::write_header(file_);
   }
 
-  /* Call in the step: never waits. */
+  /* Call in the step: adds a row to the ring buffer. Never waits. */
   void put(const awmr_input& in, const awmr_output& out, uint8_t sensor_fault = 0) {
     awmr_log::put(ring_, in, out, step_number(), reset_cause(), sensor_fault);
   }
 
-  /* Call in loop(): waits as long as the card does. Once per second, flushes the data so that they
-     survive loss of the battery. */
+  /* Call in loop(): writes a complete block, which can wait for the card. Every 16th block (1.3 s at 10 ms)
+     also flushes the file, so that the data so far survive a loss of power. */
   void drain() {
     if (!file_ || awmr_log::drain(ring_, file_) != awmr_log::kWritten) return;
     if (++blocks_ % kBlocksPerFlush == 0) file_.flush();

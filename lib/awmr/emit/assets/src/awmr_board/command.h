@@ -1,5 +1,6 @@
-/* Commands over Serial, 115200 baud: the lines of awmr/control/command_line.h. receive() reads them;
-   loop() prints the answers, because a full port would make the step wait. */
+/* Commands over Serial, 115200 baud: the lines of awmr/control/command_line.h. The sketch's
+   receive() reads them in the timer interrupt; loop() prints the answers, because printing to a full
+   port waits and would delay the control step. */
 #ifndef AWMR_BOARD_COMMAND_H
 #define AWMR_BOARD_COMMAND_H
 
@@ -9,7 +10,7 @@ namespace awmr_board {
 
 enum Answer {
   kOk,
-  kUnknown,     /* in the order of awmr::CommandVerdict from kUnknown on */
+  kUnknown,     /* from here to kTextLocked: in the order of awmr::CommandVerdict */
   kTooLong,
   kDamaged,
   kRepeated,
@@ -24,12 +25,12 @@ enum Answer {
 class Command {
  public:
   awmr::CommandWord word = awmr::CommandWord::kNone;
-  float value = 0.0f;    /* 0 if there is none */
+  float value = 0.0f;    /* 0 if the command has none */
   uint32_t heard_ms = 0; /* time of the last complete command, valid once has_heard */
   bool has_heard = false;
 
-  /* True: a command was received. An invalid line is refused and does not reset the time-out. Never
-     waits. */
+  /* Reads the characters that have arrived; never waits. True: a command was received, see word and
+     value. An invalid line is answered with the reason and does not reset the time-out. */
   bool read() {
     while (Serial.available() > 0) {
       const awmr::CommandVerdict verdict = reader_.take(static_cast<char>(Serial.read()));
@@ -48,7 +49,8 @@ class Command {
     return false;
   }
 
-  /* Call in receive() or the step: queues an answer for loop(). If the queue is full, it is lost. */
+  /* Call in receive() or the step: queues an answer for loop(). fault, cause: the autopilot's fault bits
+     and the sensor fault to print, if not 0. If the queue is full, the answer is lost. */
   void answer(Answer what, uint8_t fault = 0, uint8_t cause = 0) {
     const uint8_t next = static_cast<uint8_t>((written_ + 1) % kWaiting);
     if (next == read_) return;

@@ -1,4 +1,4 @@
-/* Arduino Mega 2560: pins, the servo's timer, a serial port, a card. */
+/* Arduino Mega 2560: pins, the servo's timer, the GPS's port, the card's select pin. */
 #ifndef AWMR_BOARD_MEGA2560_H
 #define AWMR_BOARD_MEGA2560_H
 
@@ -19,7 +19,8 @@ inline Stream& begin_gps_port() {
 
 inline void set_servo(uint16_t half_us) { OCR4A = half_us; }
 
-/* Timer 4, fast PWM to ICR4, clock/8: half a microsecond a count, 20 ms a period. */
+/* half_us: pulse width in units of 0.5 us. Timer 4, fast PWM to ICR4, clock/8: a count is 0.5 us, a period
+   20 ms. */
 inline void begin_servo(uint16_t half_us) {
   pinMode(kServoPin, OUTPUT);
   TCCR4A = _BV(COM4A1) | _BV(WGM41);

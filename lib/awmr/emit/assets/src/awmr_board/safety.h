@@ -13,9 +13,9 @@ class Safety {
   bool is_armed() const { return arming_.is_armed(); }
   awmr::DisarmReason reason() const { return arming_.reason; }
 
-  /* Call in receive(): true if there is a command for the sketch. ARM, STOP and KEEP are
-     handled here, and all other commands are refused while disarmed. `armed_now` is set if this
-     call armed the vehicle. */
+  /* Call in receive(). Handles ARM, STOP and KEEP, and refuses all other commands while disarmed. True:
+     the sketch has to act, either because the vehicle was just armed (`armed_now` is true) or because
+     command.word is a command for the sketch. Call again until the result is false. */
   bool read(Command& command, bool& armed_now) {
     armed_now = false;
     while (command.read()) {
@@ -45,19 +45,21 @@ class Safety {
     return false;
   }
 
+  /* Disarms, and answers `disarmed`. */
   void stop(Command& command, awmr::DisarmReason why) {
     arming_.disarm(why);
     command.answer(kDisarmed);
   }
 
-  /* Call before awmr_step(): while disarmed, ages the command, so that the motors are off. */
+  /* Call before awmr_step(): while disarmed, makes the time of the last command older than the command
+     time-out, so that awmr_step() switches the motors off. */
   void guard(awmr_input& input) const {
     if (is_armed()) return;
     input.command_ms = input.now_ms - AWMR_COMMAND_TIMEOUT_MS - 1;
     input.u_ref_mps = 0.0f;
   }
 
-  /* Call after awmr_step(), with the sensors' fault: any fault disarms. */
+  /* Call after awmr_step() with its fault bits and the sensor fault (`cause`): any of them disarms. */
   void observe(uint8_t fault, uint8_t cause, Command& command) {
     fault_ = fault;
     cause_ = cause;
@@ -66,7 +68,7 @@ class Safety {
 
  private:
   awmr::Arming arming_;
-  uint8_t fault_ = 0xFF; /* of the last step; none yet */
+  uint8_t fault_ = 0xFF; /* fault bits of the last step; all bits until the first step, so ARM is refused */
   uint8_t cause_ = 0;
 };
 
