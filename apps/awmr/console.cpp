@@ -62,7 +62,7 @@ std::string styled(const std::string& summary, const Style& style) {
 
 /// Prints the findings: all with `--verbose`, with `--quiet` only the errors that explain a
 /// refusal, else as findings_text().
-void tell_findings(const Outcome& outcome, Manner manner) {
+void print_findings(const Outcome& outcome, Manner manner) {
   const Style style(stderr);
   std::string text;
   if (!manner.quiet && !manner.verbose) text = findings_text(outcome.findings, style);
@@ -91,7 +91,7 @@ int report(const std::string& command, const Result<Outcome>& result, Manner man
   const std::string text =
       result->summary + (manner.verbose ? result->details : "") + result->closing;
   if (!manner.quiet) exit_code = to_stdout(styled(text, Style(stdout)), exit_code);
-  tell_findings(*result, manner);
+  print_findings(*result, manner);
   return exit_code;
 }
 

@@ -88,26 +88,26 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
 /// vehicle.
 std::vector<Finding> unstable_gains(const Gains<double>& gains, double sample_time_s,
                                     const EmitCommand& command) {
-  constexpr double kMost = 2.0;  // stability limit of a sampled integrator
+  constexpr double kMax = 2.0;  // stability limit of a sampled integrator
   const double heading = gains.heading.lambda + gains.heading.mu / gains.heading.epsilon;
   const double speed = gains.speed.mu / gains.speed.epsilon;
   std::vector<Finding> findings;
   for (const auto& [name, rate] : {std::pair("lambda + mu/epsilon of the heading", heading),
                                    std::pair("mu/epsilon of the speed", speed)}) {
-    if (rate * sample_time_s < kMost) continue;
+    if (rate * sample_time_s < kMax) continue;
     findings.push_back({command.gains.string(), 0, Severity::kWarning, "unstable-gains",
                         fmt::format("{} is {:.3g} 1/s: at a sample time of {:g} s the loop is "
                                     "unstable from {:.3g} 1/s on. Tune again for this model",
-                                    name, rate, sample_time_s, kMost / sample_time_s)});
+                                    name, rate, sample_time_s, kMax / sample_time_s)});
   }
   return findings;
 }
 
 /// Warns if motors that differ by 16 % cause a steady heading error of more than half of
-/// kMostOnCourse_rad, beyond which the sketches report a failure (fault 17).
+/// kMaxOnCourse_rad, beyond which the sketches report a failure (fault 17).
 void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& command,
                       Outcome& outcome) {
-  if (2.0 * parameters.steady_error_rad <= kMostOnCourse_rad) return;
+  if (2.0 * parameters.steady_error_rad <= kMaxOnCourse_rad) return;
   outcome.findings.push_back(
       {command.gains.string(), 0, Severity::kWarning, "weak-heading",
        fmt::format(

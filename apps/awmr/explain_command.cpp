@@ -117,12 +117,12 @@ std::string list_of(const std::vector<Explanation>& all) {
 /// Suggestions for a misspelt or shortened code, at most five: the nearest by spelling, then those
 /// that contain it.
 std::vector<std::string> near_codes(const std::string& code, std::vector<std::string> codes) {
-  constexpr std::size_t kShortest = 3, kMost = 5;
+  constexpr std::size_t kShortest = 3, kMax = 5;
   std::vector<std::string> near;
   if (std::string found = nearest(code, codes); !found.empty()) near.push_back(std::move(found));
   for (std::string& one : codes) {
     const bool contains = code.size() >= kShortest && one.find(code) != std::string::npos;
-    if (!contains || near.size() == kMost) continue;
+    if (!contains || near.size() == kMax) continue;
     if (std::ranges::find(near, one) == near.end()) near.push_back(std::move(one));
   }
   return near;

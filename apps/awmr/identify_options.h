@@ -21,7 +21,7 @@ Status add_family(std::string_view text, IdentifyOptions& options);
 Status add_requested(std::string_view name, IdentifyOptions& options);
 
 /// Largest absolute value of a time in a log (column t_s), s.
-inline constexpr double kMostTime_s = 1e12;
+inline constexpr double kMaxTime_s = 1e12;
 
 /// Adds a span of time that is left out of each log: `A:B` in s, with A before B. Errors (input):
 /// the text is not of this form.

@@ -90,13 +90,13 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
 
 void add_part_options(CLI::App& sub, TrialOptions& trials, std::vector<std::string>& excluded) {
   sub.add_option("--from", trials.used_s.lo, "Use each log from this time on, s, as in its t_s")
-      ->check(within(-kMostTime_s, kMostTime_s));
+      ->check(within(-kMaxTime_s, kMaxTime_s));
   add_end_options(sub, trials, excluded);
 }
 
 void add_end_options(CLI::App& sub, TrialOptions& trials, std::vector<std::string>& excluded) {
   sub.add_option("--until", trials.used_s.hi, "Use each log up to this time, s")
-      ->check(within(-kMostTime_s, kMostTime_s));
+      ->check(within(-kMaxTime_s, kMaxTime_s));
   sub.add_option("--exclude", excluded,
                  "A:B: leave out each log's rows from time A to time B, s; the parts before and "
                  "after count as two logs; may be repeated");

@@ -12,7 +12,7 @@
 namespace awmr::cli {
 namespace {
 
-constexpr std::size_t kFewestRows = 10;
+constexpr std::size_t kMinRows = 10;
 
 }  // namespace
 
@@ -58,7 +58,7 @@ LiveUpdate LiveFit::update(const Recording& recording) const {
     update.faults = written.error().faults;
     return update;
   }
-  if (!recording.has_header() || recording.rows() < kFewestRows) return update;
+  if (!recording.has_header() || recording.rows() < kMinRows) return update;
   fit(update);
   return update;
 }

@@ -94,13 +94,13 @@ std::string verdict_text(const LiveUpdate& update) {
 void LiveScreen::show(const LiveUpdate& update) {
   if (draws_progress()) {
     draw(update);
-  } else if (tells_progress_in_lines()) {
+  } else if (prints_progress_lines()) {
     print_lines(update);
   }
 }
 
 void LiveScreen::say(const std::string& line) {
-  if (draws_progress() || tells_progress_in_lines()) print_to_stderr(line + "\n");
+  if (draws_progress() || prints_progress_lines()) print_to_stderr(line + "\n");
 }
 
 void LiveScreen::draw(const LiveUpdate& update) {

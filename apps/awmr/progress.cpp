@@ -16,7 +16,7 @@ namespace awmr::cli {
 namespace {
 
 std::atomic<bool> drawn_on_terminal = true;
-std::atomic<bool> told_in_lines = true;
+std::atomic<bool> progress_in_lines = true;
 /// The Working object that is displayed.
 std::atomic<const Working*> seen = nullptr;
 
@@ -34,14 +34,14 @@ std::string duration_text(double seconds) {
 
 void show_progress(ProgressManner manner) {
   drawn_on_terminal = manner.on_terminal;
-  told_in_lines = manner.in_lines;
+  progress_in_lines = manner.in_lines;
 }
 
 bool draws_progress() { return drawn_on_terminal && is_terminal(); }
-bool tells_progress_in_lines() { return told_in_lines && !is_terminal(); }
+bool prints_progress_lines() { return progress_in_lines && !is_terminal(); }
 
 void print_notice(std::string_view text) {
-  if (!told_in_lines) return;
+  if (!progress_in_lines) return;
   std::fputs((draws_progress() ? "\r\033[K" : ""), stderr);
   std::fputs(fmt::format("{}\n", spell_options(text, "--")).c_str(), stderr);
 }

@@ -21,7 +21,7 @@ void show_progress(ProgressManner manner);
 /// True if progress is shown on a terminal, that is, enabled and stderr is a terminal.
 bool draws_progress();
 /// True if progress is printed as lines, that is, enabled and stderr is not a terminal (`live`).
-bool tells_progress_in_lines();
+bool prints_progress_lines();
 /// Prints a line on stderr, such as why the next step takes long; not with `--quiet` or `--json`.
 void print_notice(std::string_view text);
 

@@ -108,7 +108,7 @@ void read_identify(JsonObject json, Project& project) {
   each("family", [&](const std::string& text) { return add_family(text, options); });
   each("fit", [&](const std::string& text) { return add_requested(text, options); });
   each("exclude", [&](const std::string& text) { return add_excluded(text, project.trials); });
-  constexpr NumberRule kTime_s{.min = -kMostTime_s, .max = kMostTime_s};
+  constexpr NumberRule kTime_s{.min = -kMaxTime_s, .max = kMaxTime_s};
   Interval& used_s = project.trials.used_s;
   used_s.lo = json.optional_number("from_s", kTime_s).value_or(used_s.lo);
   used_s.hi = json.optional_number("until_s", kTime_s).value_or(used_s.hi);

@@ -137,7 +137,7 @@ void add_draws(CLI::App& sub, TuneCommand& command, CLI::Option* nominal) {
   sub.add_option("--sensitivity", command.sensitivity,
                  "Samples for a global sensitivity analysis (Sobol indices) of the tuned loop to "
                  "parameters, noise, latency and lag (default none; 256 take some seconds)")
-      ->check(within(kFewestSamples, kMostSamples))
+      ->check(within(kMinSobolSamples, kMaxSobolSamples))
       ->excludes(nominal);
 }
 

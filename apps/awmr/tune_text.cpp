@@ -21,7 +21,7 @@ std::string gains_line(const char* name, const Gains<double>& gains, double obje
 /// Lists for each metric the inputs with the largest effect on it.
 std::string sensitivity_text(const RobustTuning& robust) {
   if (!robust.sensitivity) return {};
-  constexpr std::size_t kMostInputs = 3;
+  constexpr std::size_t kMaxInputs = 3;
   std::string text = fmt::format(
       "  sensitivity of the tuned loop: total Sobol indices (95 % interval), {} samples of the "
       "assumed values\n",
@@ -34,7 +34,7 @@ std::string sensitivity_text(const RobustTuning& robust) {
     });
     text += fmt::format("  {:<13} {:<17} {:.3g} +- {:.2g}:", name_of(figure.mode), figure.name,
                         figure.mean, figure.deviation);
-    for (std::size_t i = 0; i < std::min(kMostInputs, order.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(kMaxInputs, order.size()); ++i) {
       const SobolIndex& index = figure.by_input[order[i]];
       text += fmt::format("{} {} {:.2f} ({:.2f} to {:.2f})", i == 0 ? "" : ";",
                           robust.sensitivity->inputs[order[i]], index.total, index.total_ci95.lo,

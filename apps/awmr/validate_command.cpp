@@ -211,7 +211,7 @@ void add_drive_options(CLI::App& sub, ValidateCommand& command) {
   sub.add_option("--from", command.acceptance.from_s,
                  "Use each log from this time on, s; with --scenario: the time at which the "
                  "scenario begins (default: first row with a non-zero command)")
-      ->check(within(-kMostTime_s, kMostTime_s));
+      ->check(within(-kMaxTime_s, kMaxTime_s));
 }
 
 void add_claims_options(CLI::App& sub, ValidateCommand& command) {

@@ -16,10 +16,10 @@ NamedComparison compared(const Model& model, const Gains<double>& gains,
                          std::vector<Scenario> scenarios, int samples, std::uint64_t seed,
                          int threads, const py::object& heading_rate_limit) {
   CompareOptions options{.samples = samples, .seed = seed, .threads = threads};
-  const HeadingRateChoice said =
+  const HeadingRateChoice choice =
       heading_rate_limit.is_none() ? HeadingRateChoice() : std::string(py::str(heading_rate_limit));
   const py::gil_scoped_release released;
-  value_or_raise(limit_heading_rate(rate_to_compare_at(said, model), model, scenarios));
+  value_or_raise(limit_heading_rate(rate_to_compare_at(choice, model), model, scenarios));
   Comparison comparison = value_or_raise(compare(model, gains, scenarios, options));
   return {std::move(comparison), std::move(options)};
 }

@@ -16,7 +16,7 @@ namespace {
 using namespace awmr;
 
 constexpr float kSampleTime_s = 0.01F;
-constexpr int kMostPoints = 4;
+constexpr int kMaxPoints = 4;
 
 /// Parts in use, one bit each.
 enum Use : unsigned {
@@ -108,7 +108,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   InputBytes bytes(data, size);
   const unsigned use = bytes.next<std::uint8_t>();
   AutopilotInput in = input_of(bytes);
-  Position<float> corners[kMostPoints];
+  Position<float> corners[kMaxPoints];
   Obstacle<float> obstacles[2];
   for (Position<float>& corner : corners) corner = bytes.next<Position<float>>();
   for (Obstacle<float>& obstacle : obstacles) obstacle = bytes.next<Obstacle<float>>();
@@ -119,9 +119,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       start_autopilot(autopilot, &kRobot.block, nullptr, 0, nullptr, 0, kRobot.crc, &kRobot.rest),
       "the parameters are good");
   filter_position(autopilot, position_filter<float>(1.5, 0.2, kSampleTime_s));
-  if ((use & kWaypoints) != 0) follow_waypoints(autopilot, {corners, kMostPoints, 1.0F, true});
+  if ((use & kWaypoints) != 0) follow_waypoints(autopilot, {corners, kMaxPoints, 1.0F, true});
   if ((use & kLine) != 0)
-    follow_line(autopilot, {corners, kMostPoints, 0.5F, {1.0F, 2.0F, true}}, 0.01F);
+    follow_line(autopilot, {corners, kMaxPoints, 0.5F, {1.0F, 2.0F, true}}, 0.01F);
   if ((use & kPath) != 0) follow_path(autopilot, {10.0F, 8.0F, 0.1F, 0.3F}, 0.5F);
   part_of<SlowDown<float>>(autopilot).distance_m = (use & kLine) != 0 ? 2.0F : 0.0F;
   if ((use & kObstacles) != 0) {

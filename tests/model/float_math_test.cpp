@@ -44,15 +44,15 @@ Worst worst_error(float lo, float hi, F f, Reference reference) {
 }
 
 // The smallest normal float: the chip treats subnormal numbers differently.
-constexpr float kLeast = std::numeric_limits<float>::min();
+constexpr float kMin = std::numeric_limits<float>::min();
 
 TEST(FloatMath, SineAndCosineKeepTheirStatedErrorUpToTheLargestAngle) {
   const auto sine = worst_error(
-      kLeast, float_math::kAngleMax, [](float x) { return float_math::sin(x); },
+      kMin, float_math::kAngleMax, [](float x) { return float_math::sin(x); },
       [](double x) { return std::sin(x); });
   EXPECT_LT(sine.absolute, 7.9e-8);
   const auto cosine = worst_error(
-      kLeast, float_math::kAngleMax, [](float x) { return float_math::cos(x); },
+      kMin, float_math::kAngleMax, [](float x) { return float_math::cos(x); },
       [](double x) { return std::cos(x); });
   EXPECT_LT(cosine.absolute, 7.9e-8);
 }
@@ -76,7 +76,7 @@ TEST(FloatMath, QuickSineAndCosineKeepTheirStatedError) {
 
 TEST(FloatMath, ArcTangentKeepsItsStatedErrorOverAllFloats) {
   const auto worst = worst_error(
-      kLeast, std::numeric_limits<float>::max(), [](float x) { return float_math::atan(x); },
+      kMin, std::numeric_limits<float>::max(), [](float x) { return float_math::atan(x); },
       [](double x) { return std::atan(x); });
   EXPECT_LT(worst.relative, 9e-7);
 }
@@ -150,7 +150,7 @@ TEST(FloatMath, AnglesOfTheAxesAndOfTheOriginAreExact) {
 TEST(FloatMath, SteeringAngleKeepsItsStatedError) {
   const auto angle = [](float q) { return float_math::twice_atan(q); };
   const auto exact = [](double q) { return 2.0 * std::atan(q); };
-  EXPECT_LT(worst_error(kLeast, 0.2F, angle, exact).relative, 5e-7);
+  EXPECT_LT(worst_error(kMin, 0.2F, angle, exact).relative, 5e-7);
   EXPECT_LT(worst_error(0.2F, 1.0F, angle, exact).relative, 9e-7);
 }
 

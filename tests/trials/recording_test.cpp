@@ -114,13 +114,13 @@ TEST(Recording, LeavesAStreamWithoutAHeaderAsItIs) {
 }
 
 TEST(Recording, StopsWhereItIsFull) {
-  constexpr std::size_t kMost = 1000;
-  Recording recording({}, kMost);
+  constexpr std::size_t kMax = 1000;
+  Recording recording({}, kMax);
   recording.add(kHeader);
   for (int i = 0; i < 100; ++i) recording.add("0.0,0.1,0.1,go,0.0\n");
   recording.finish();
   EXPECT_TRUE(recording.full());
-  EXPECT_LE(recording.text().size(), kMost + 1);
+  EXPECT_LE(recording.text().size(), kMax + 1);
   EXPECT_TRUE(recording.text().ends_with("go,0.0\n"));
 }
 

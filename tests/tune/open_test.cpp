@@ -149,7 +149,7 @@ TEST(Open, RefusesVariationOutsideTheVehiclesRanges) {
     EXPECT_THAT(refused(options), HasSubstr("wheel forces")) << force.lo;
   }
   TuneOptions options = short_search();
-  options.open.mass_factors.assign(kMostOpenValues + 1, 1.0);
+  options.open.mass_factors.assign(kMaxOpenValues + 1, 1.0);
   options.draws = 100;
   EXPECT_THAT(refused(options), HasSubstr("more than 20 values"));
 }

@@ -106,7 +106,7 @@ TEST(History, IsTheBestSoFarOfTheSearchAndEndsWithTheGainsThatItFound) {
   EXPECT_EQ(tuning->history.evaluations, tuning->evaluations);
   const SearchHistory& history = tuning->history;
   ASSERT_FALSE(history.best.empty());
-  EXPECT_LE(history.best.size(), kMostHistorySteps);
+  EXPECT_LE(history.best.size(), kMaxHistorySteps);
   EXPECT_GT(history.global_evaluations, 0);
   EXPECT_LE(history.global_evaluations, history.evaluations);
   // The search starts from pole placement with wide boundary layers, which scores no worse than the

@@ -125,7 +125,7 @@ TEST(Sensitivity, RefusesSettingsWithoutMeaning) {
   EXPECT_THAT(to_text(tune(uncertain_model(), options).error()),
               HasSubstr("which nominal disables"));
   options.nominal = false;
-  options.sensitivity = kMostSamples;
+  options.sensitivity = kMaxSobolSamples;
   options.scenarios = {default_tuning_scenario(paper_model()).value()};
   options.scenarios.front().duration_s = 18000.0;
   EXPECT_THAT(to_text(tune(uncertain_model(), options).error()), HasSubstr("steps"));

@@ -23,7 +23,7 @@ namespace {
 /// Smallest moment of the search, as a fraction of the largest one. The search goes from small to
 /// large moments, a decade at a time, because runs with a larger moment need shorter integration
 /// steps.
-constexpr double kLeast = 1e-4;
+constexpr double kMin = 1e-4;
 
 /// A scenario on the nominal model, with the mode whose lead is examined.
 struct ModeSetting {
@@ -94,14 +94,14 @@ std::optional<std::size_t> first_false(const std::vector<bool>& all) {
 template <class Ahead>
 std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   constexpr double kFine = 0.01;
-  constexpr int kMostRounds = 3;
-  for (double share = kLeast; share < 0.99; share *= 10.0) {
+  constexpr int kMaxRounds = 3;
+  for (double share = kMin; share < 0.99; share *= 10.0) {
     const std::vector<double> decade_m = in_ratios_between(share * most_m, 10.0 * share * most_m);
     const auto first = first_false(ahead(decade_m));
     if (!first) continue;
     double kept_m = *first > 0 ? decade_m[*first - 1] : 0.0;
     double ended_m = decade_m[*first];
-    for (int rounds = 0; rounds < kMostRounds && ended_m - kept_m > kFine * ended_m; ++rounds) {
+    for (int rounds = 0; rounds < kMaxRounds && ended_m - kept_m > kFine * ended_m; ++rounds) {
       const std::vector<double> between_m = evenly_between(kept_m, ended_m);
       const std::size_t end = first_false(ahead(between_m)).value_or(between_m.size() - 1);
       kept_m = end > 0 ? between_m[end - 1] : 0.0;
@@ -206,11 +206,11 @@ void add_measured(const Model& model, BreakEven& entry) {
   }
   // The half width of the interval decreases as 1/sqrt(n) with the number n of turns. n is enough
   // when the interval no longer contains the break-even scrub.
-  constexpr double kMostTurns = 1000.0;
+  constexpr double kMaxTurns = 1000.0;
   const double half = 0.5 * (scrub->ci95_m.hi - scrub->ci95_m.lo);
   const double shrunk = half / std::abs(*entry.yaw_coulomb_m - scrub->moment_m);
   const double turns = std::ceil(scrub->rows * shrunk * shrunk);
-  if (turns <= kMostTurns) entry.turns_to_decide = static_cast<int>(turns);
+  if (turns <= kMaxTurns) entry.turns_to_decide = static_cast<int>(turns);
 }
 
 /// The questions of all scenarios and modes. `without`: rows of sample 0 without scrub. `entry`:

@@ -9,13 +9,13 @@
 namespace awmr {
 namespace {
 
-constexpr long kMost = std::numeric_limits<int>::max();
+constexpr long kMax = std::numeric_limits<int>::max();
 constexpr NumberRule kShareOfRuns{.min = 0.0, .max = 1.0};
 
 void describe_completed(JsonObject json) {
   json.boolean("nominal");
-  json.integer("count", 0, kMost);
-  json.integer("of", 0, kMost);
+  json.integer("count", 0, kMax);
+  json.integer("of", 0, kMax);
   json.number("share", kShareOfRuns);
   json.nullable_interval("ci95");
   json.reject_unknown_keys();
@@ -24,7 +24,7 @@ void describe_completed(JsonObject json) {
 void describe_metrics(JsonObject json) {
   for (const MetricColumn& metric : kMetricColumns) {
     JsonObject summary = json.object(metric.name);
-    summary.integer("count", 0, kMost);
+    summary.integer("count", 0, kMax);
     for (const char* key : {"nominal", "mean", "q05", "q50", "q95"}) summary.nullable_number(key);
     summary.reject_unknown_keys();
   }
@@ -34,7 +34,7 @@ void describe_metrics(JsonObject json) {
 void describe_differences(JsonObject& scenario) {
   for (JsonObject& one : scenario.objects("paired_differences")) {
     for (const char* key : {"first", "second", "metric"}) one.string(key);
-    one.integer("count", 0, kMost);
+    one.integer("count", 0, kMax);
     for (const char* key : {"nominal", "mean", "p", "p_holm", "p_equivalent"}) {
       one.nullable_number(key);
     }
@@ -47,7 +47,7 @@ void describe_differences(JsonObject& scenario) {
 
 void describe_ranking(JsonObject& scenario) {
   for (JsonObject& ranked : scenario.objects("ranking")) {
-    ranked.integer("rank", 1, kMost);
+    ranked.integer("rank", 1, kMax);
     ranked.string("mode");
     ranked.number("score", kPositive);
     ranked.number("completed_share", kShareOfRuns);
@@ -76,8 +76,8 @@ void describe_decision(JsonObject& scenario) {
     change.optional_string("not_run");
     if (auto completed = change.optional_object("completed")) {
       for (JsonObject& mode : completed->values()) {
-        mode.integer("count", 0, kMost);
-        mode.integer("of", 1, kMost);
+        mode.integer("count", 0, kMax);
+        mode.integer("of", 1, kMax);
         mode.reject_unknown_keys();
       }
     }
@@ -105,9 +105,9 @@ void describe_scenarios(JsonObject& json) {
 void describe_overall(JsonObject& json) {
   for (JsonObject& tally : json.objects("overall")) {
     tally.string("metric");
-    tally.integer("scenarios", 0, kMost);
+    tally.integer("scenarios", 0, kMax);
     JsonObject counts = tally.object("best_or_tied");
-    for (const std::string& mode : counts.keys()) counts.integer(mode, 0, kMost);
+    for (const std::string& mode : counts.keys()) counts.integer(mode, 0, kMax);
     tally.reject_unknown_keys();
   }
   for (JsonObject& same : json.objects("counted_once")) {
@@ -120,12 +120,12 @@ void describe_overall(JsonObject& json) {
 void describe_decisions(JsonObject& json) {
   auto decisions = json.optional_object("decisions");
   if (!decisions) return;
-  for (const auto& kind : kDecisionKindNames) decisions->integer(kind.name, 0, kMost);
+  for (const auto& kind : kDecisionKindNames) decisions->integer(kind.name, 0, kMax);
   JsonObject survived = decisions->object("survived");
   for (const auto& kind : kChangeKindNames) {
     JsonObject share = survived.object(kind.name);
-    share.integer("count", 0, kMost);
-    share.integer("of", 0, kMost);
+    share.integer("count", 0, kMax);
+    share.integer("of", 0, kMax);
     share.reject_unknown_keys();
   }
   survived.reject_unknown_keys();
@@ -144,7 +144,7 @@ void describe_break_even(JsonObject& json) {
     entry.optional_interval("measured_m");
     entry.optional_interval("measured_degps");
     if (entry.has("lead")) entry.choice("lead", kLeadNames);  // present if measured_m is
-    entry.optional_integer("turns_to_decide", 0, kMost);
+    entry.optional_integer("turns_to_decide", 0, kMax);
     entry.reject_unknown_keys();
   }
 }
@@ -176,10 +176,10 @@ void describe_comparison(JsonObject& json) {
   read_provenance(json);
   json.optional_string("arithmetic");  // rounding of the runs: "fused" or "scalar"
   json.string("csv_sha256");
-  json.integer("samples", 0, kMost);
+  json.integer("samples", 0, kMax);
   if (auto stopped = json.optional_object("stopped")) {
-    stopped->integer("finished_runs", 0, kMost);
-    stopped->integer("judged_samples", 0, kMost);
+    stopped->integer("finished_runs", 0, kMax);
+    stopped->integer("judged_samples", 0, kMax);
     stopped->reject_unknown_keys();
   }
   json.number("seed", kNonNegative);

@@ -23,12 +23,12 @@ bool stands(const std::string& name, Header header) {
 /// Lists the names for a message. Of more than 20 names, it lists 20 and gives the number of the
 /// others.
 std::string listed(Header names) {
-  constexpr std::size_t kMost = 20;
+  constexpr std::size_t kMax = 20;
   std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
+  for (std::size_t i = 0; i < std::min(names.size(), kMax); ++i) {
     text += (i == 0 ? "" : ", ") + shortened(names[i], 60);
   }
-  if (names.size() > kMost) text += fmt::format(" and {} more", names.size() - kMost);
+  if (names.size() > kMax) text += fmt::format(" and {} more", names.size() - kMax);
   return text;
 }
 

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinks = 40;  ///< maximum chain of symbolic links, as in Linux
+constexpr int kMaxLinks = 40;  ///< maximum chain of symbolic links, as in Linux
 
 std::string reason() { return std::strerror(errno); }
 
@@ -51,7 +51,7 @@ bool read_all(int descriptor, std::size_t max_bytes, std::string& bytes) {
 /// Resolves symbolic links. The last link may point to a missing file. Empty for a loop of links.
 std::optional<fs::path> resolved(fs::path path) {
   std::error_code error;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
+  for (int i = 0; i < kMaxLinks && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
     const fs::path next = fs::read_symlink(path, error);
     if (error) return std::nullopt;
     path = next.is_absolute() ? next : path.parent_path() / next;

@@ -100,15 +100,15 @@ long JsonObject::integer(std::string_view key, long min, long max) {
 }
 
 std::uint64_t JsonObject::seed(std::string_view key) {
-  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+  constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
   if (shape_ != nullptr) {
-    shape_->type(key, {{"type", "integer"}, {"minimum", 0}, {"maximum", kMost}});
+    shape_->type(key, {{"type", "integer"}, {"minimum", 0}, {"maximum", kMax}});
   }
   const Json* value = find(key, true);
   if (value == nullptr) return 0;
   if (!value->is_number_unsigned()) {
     fault(number_error(*value), key,
-          fmt::format("expected a whole number from 0 to {}, found {}", kMost, describe(*value)));
+          fmt::format("expected a whole number from 0 to {}, found {}", kMax, describe(*value)));
     return 0;
   }
   return value->get<std::uint64_t>();

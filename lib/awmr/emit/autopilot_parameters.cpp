@@ -155,7 +155,7 @@ double steady_error_rad(const Plant<double>& plant, const HeadingGains<double>& 
 
 /// Returns AWMR_ON_COURSE_RAD, rad: twice the steady heading error, within 15 to 45 deg.
 double on_course_rad(double error_rad) {
-  return std::clamp(2.0 * error_rad, radians(15.0), kMostOnCourse_rad);
+  return std::clamp(2.0 * error_rad, radians(15.0), kMaxOnCourse_rad);
 }
 
 /// Returns AWMR_OFF_COURSE_MRAD, m rad: the limit of the integral of (heading error - e0) over the
@@ -166,19 +166,19 @@ double on_course_rad(double error_rad) {
 double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
                        const HeadingGains<double>& gains, double full_force, double route_mps,
                        double on_course_rad) {
-  constexpr double kLeast_mrad = 10.0;
-  constexpr double kMost_mrad = 90.0;
+  constexpr double kMin_mrad = 10.0;
+  constexpr double kMax_mrad = 90.0;
   const double beyond_rad = radians(180.0) - on_course_rad;
-  double most = kLeast_mrad;
+  double most = kMin_mrad;
   for (const double share : {0.25, 0.5, 0.75, 1.0}) {
     const double speed_mps = share * route_mps;
     const auto by_vehicle = turn_of_vehicle(plant, vehicle, full_force, speed_mps);
     const auto by_law = turn_of_law(plant, gains, speed_mps);
-    if (!by_vehicle || !by_law) return kMost_mrad;
+    if (!by_vehicle || !by_law) return kMax_mrad;
     const double radius_m = speed_mps / std::min(*by_vehicle, *by_law);
-    most = std::max(most, kLeast_mrad + 0.5 * beyond_rad * beyond_rad * radius_m);
+    most = std::max(most, kMin_mrad + 0.5 * beyond_rad * beyond_rad * radius_m);
   }
-  return std::min(most, kMost_mrad);
+  return std::min(most, kMax_mrad);
 }
 
 /// Checks that the vehicle has the exact allocation. Errors (input): it has the small-angle

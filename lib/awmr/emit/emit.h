@@ -121,7 +121,7 @@ inline constexpr double kUsualFixLatency_s = 0.2;
 
 /// Upper bound of AWMR_ON_COURSE_RAD, the heading error up to which the sketches count a vehicle as
 /// on course, rad.
-inline constexpr double kMostOnCourse_rad = radians(45.0);
+inline constexpr double kMaxOnCourse_rad = radians(45.0);
 
 /// Parameters of the firmware, in the types that the chip uses.
 struct AutopilotParameters {

@@ -42,11 +42,11 @@ std::string why_not(double value, const NumberRule& rule) {
 /// tables determine m', and for other parameters. Also empty for an m' from logs, whose interval is
 /// so wide only if several logs disagree.
 std::string why_open(ParameterId id, const Estimate& estimate) {
-  constexpr double kMostOpen = 1e4;  // ratio of the interval's upper end to its lower end
+  constexpr double kMaxOpen = 1e4;  // ratio of the interval's upper end to its lower end
   const auto& ci = estimate.ci95;
   const bool is_of_logs = estimate.method == name_in(kEstimatorNames, Estimator::kTrajectory);
   if (id != ParameterId::kMassNorm || is_of_logs || !ci || !(ci->lo > 0.0)) return {};
-  if (ci->hi <= kMostOpen * ci->lo) return {};
+  if (ci->hi <= kMaxOpen * ci->lo) return {};
   return fmt::format("its 95 % interval by these trials is too wide, {:.2g} to {:.2g}", ci->lo,
                      ci->hi);
 }

@@ -10,11 +10,11 @@ namespace awmr {
 
 /// Largest permitted product of a rate of decay (1/s) and a Runge-Kutta step (s). Up to this
 /// product, deviations decay without a change of sign. The method is stable up to 2.78.
-inline constexpr double kMostRateTimesStep = 1.0;
+inline constexpr double kMaxRateTimesStep = 1.0;
 
 /// Maximum number of successive halvings of one step, and of halved steps in a run.
-inline constexpr int kMostHalvings = 40;
-inline constexpr double kMostHalves = 5e7;
+inline constexpr int kMaxHalvings = 40;
+inline constexpr double kMaxHalves = 5e7;
 
 /// Rate at which a deviation from the speed w decays, 1/s: g'(w)/inertia with
 ///   g'(w) = alpha beta |w|^(beta-1) + 2 q |w|
@@ -78,14 +78,14 @@ State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution);
 
 /// Replaces one step of h seconds by two steps of h/2 in the lanes of `requested`. A lane that
-/// exceeds kMostHalvings or kMostHalves keeps its state and is marked as unresolved.
+/// exceeds kMaxHalvings or kMaxHalves keeps its state and is marked as unresolved.
 template <class Body, class T, class Rates>
 AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates, Mask<T> requested,
                                      int halvings, Resolution<T>& resolution) {
   using math::any;
   using math::select;
   const Mask<T> too_many =
-      requested && (Mask<T>(halvings == kMostHalvings) || resolution.halves >= T(kMostHalves));
+      requested && (Mask<T>(halvings == kMaxHalvings) || resolution.halves >= T(kMaxHalves));
   resolution.resolved = resolution.resolved && !too_many;
   const Mask<T> halved = requested && resolution.resolved;
   if (!any(halved)) return from;
@@ -97,14 +97,14 @@ AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates,
 }
 
 /// Makes one step of h seconds by the classical Runge-Kutta method if fastest_rate() times h is at
-/// most kMostRateTimesStep at both ends of the step; else two steps of half the length. Lanes
+/// most kMaxRateTimesStep at both ends of the step; else two steps of half the length. Lanes
 /// outside `requested` are undefined.
 template <class Body, class T, class Rates>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution) {
   using math::all;
   using math::any;
-  const T most = T(kMostRateTimesStep);
+  const T most = T(kMaxRateTimesStep);
   Mask<T> fits = fastest_rate(body, from) * h <= most;
   State<T> to = from;
   if (any(fits)) {

@@ -94,7 +94,7 @@ inline double share_until_rest(double way, double from, double to) {
 }
 
 /// Maximum number of times a step is cut at a stop; after that, its remainder is not cut again.
-inline constexpr int kMostStopsInAStep = 4;
+inline constexpr int kMaxStopsInAStep = 4;
 
 /// rk4_step() with friction: the state h seconds after s. `rates(state)`: the rates without
 /// friction.
@@ -108,7 +108,7 @@ State<T> rk4_step_with_friction(const FrictionRates<T>& friction, State<T> s, T 
     const State<T> next = rk4_step(s, h, slid);
     const double surge = share_until_rest(way.surge, value_of(s.u_mps), value_of(next.u_mps));
     const double yaw = share_until_rest(way.yaw, value_of(s.r_radps), value_of(next.r_radps));
-    if ((surge == 1.0 && yaw == 1.0) || stops == kMostStopsInAStep) return next;
+    if ((surge == 1.0 && yaw == 1.0) || stops == kMaxStopsInAStep) return next;
     const bool surge_stops = surge <= yaw;
     const T share = surge_stops ? T(s.u_mps / (s.u_mps - next.u_mps))
                                 : T(s.r_radps / (s.r_radps - next.r_radps));

@@ -22,12 +22,12 @@ std::optional<double> rate_above_coulomb(const Resistance<double>& law, double e
                                          double viscous) {
   constexpr double kFastest = 1e9;
   constexpr double kSlowest = 1e-300;
-  constexpr int kMostSteps = 200;
+  constexpr int kMaxSteps = 200;
   if (!(excess > 0.0) || !std::isfinite(excess)) return std::nullopt;
   // Start above the root: at the smallest of the speeds at which one term alone equals `excess`.
   double w = std::min({std::pow(excess / law.alpha, 1.0 / law.beta),
                        std::sqrt(excess / law.quadratic), excess / viscous});
-  for (int i = 0; i < kMostSteps && w > kSlowest && w <= kFastest; ++i) {
+  for (int i = 0; i < kMaxSteps && w > kSlowest && w <= kFastest; ++i) {
     const double power = law.alpha * std::pow(w, law.beta);
     const double square = law.quadratic * w * w;
     const double linear = viscous * w;

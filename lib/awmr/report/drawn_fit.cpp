@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kCurvePoints = 120;
 constexpr int kCoastSteps = 400;
-constexpr std::size_t kMostCoastdowns = 8;
+constexpr std::size_t kMaxCoastdowns = 8;
 /// 99 % of the values of a normal distribution are within this number of standard deviations.
 constexpr double kWithin99 = 2.576;
 /// Half width of a 95 % interval in standard errors, for a normal distribution.
@@ -66,7 +66,7 @@ void add_left_over(const Model& model, DrawnFit& fit) {
 }
 
 /// Returns pairs of initial speed, m/s, and longest stop time, s, of the coast-downs, by ascending
-/// speed. Each speed occurs once. Of more than kMostCoastdowns pairs, that many are kept, at even
+/// speed. Each speed occurs once. Of more than kMaxCoastdowns pairs, that many are kept, at even
 /// ranks.
 std::vector<std::pair<double, double>> coasts_of(const Model& model) {
   std::vector<std::pair<double, double>> coasts;
@@ -82,10 +82,10 @@ std::vector<std::pair<double, double>> coasts_of(const Model& model) {
   coasts.erase(std::unique(coasts.begin(), coasts.end(),
                            [](const auto& a, const auto& b) { return a.first == b.first; }),
                coasts.end());
-  if (coasts.size() <= kMostCoastdowns) return coasts;
+  if (coasts.size() <= kMaxCoastdowns) return coasts;
   std::vector<std::pair<double, double>> some;
-  for (std::size_t i = 0; i < kMostCoastdowns; ++i) {
-    some.push_back(coasts[i * (coasts.size() - 1) / (kMostCoastdowns - 1)]);
+  for (std::size_t i = 0; i < kMaxCoastdowns; ++i) {
+    some.push_back(coasts[i * (coasts.size() - 1) / (kMaxCoastdowns - 1)]);
   }
   return some;
 }

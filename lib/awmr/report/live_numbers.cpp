@@ -47,7 +47,7 @@ Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   context.yaw_rate_noise_radps = radians(noise.number("yaw_rate_degps", kNonNegative));
   context.latency_s = latest_s;
   context.motor_time_constant_s = robust.number("motor_time_constant_s", kNonNegative);
-  if (!(latest_s < (kMostLatencySamples + 1e-9) * context.sample_time_s)) {
+  if (!(latest_s < (kMaxLatencySamples + 1e-9) * context.sample_time_s)) {
     robust.fault(ErrorCode::kTooLarge, "latency",
                  "is more than 20 samples, for which no gains are tuned; tune again");
   }

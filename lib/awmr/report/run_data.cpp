@@ -24,11 +24,11 @@ namespace fs = std::filesystem;
 
 /// Largest number of rows of all runs together. A row takes about 100 bytes of the page, and the page
 /// must be smaller than 3 MB.
-constexpr std::size_t kMostRows = 20000;
-constexpr std::size_t kMostRowsOfRun = 1500;
-constexpr std::size_t kFewestRowsOfRun = 100;
+constexpr std::size_t kMaxRows = 20000;
+constexpr std::size_t kMaxRowsOfRun = 1500;
+constexpr std::size_t kMinRowsOfRun = 100;
 /// Largest number of samples that a chart shows per mode and metric.
-constexpr std::size_t kMostSamples = 60;
+constexpr std::size_t kMaxSamples = 60;
 /// Speed below which there is no sideslip angle, as for Metrics::sideslip_max_deg.
 constexpr double kMovingMps = 0.05;
 
@@ -105,11 +105,11 @@ Result<std::vector<std::vector<std::string>>> matching_files(const fs::path& dir
   return files;
 }
 
-/// At most kMostSamples of the values, ascending and evenly spaced by rank, including the smallest and
+/// At most kMaxSamples of the values, ascending and evenly spaced by rank, including the smallest and
 /// the largest.
 Json at_even_ranks(std::vector<double> values) {
   std::sort(values.begin(), values.end());
-  const std::size_t count = std::min(values.size(), kMostSamples);
+  const std::size_t count = std::min(values.size(), kMaxSamples);
   Json list = Json::array();
   for (std::size_t i = 0; i < count; ++i) {
     list.push_back(
@@ -145,7 +145,7 @@ Result<Json> read_runs(const fs::path& directory,
     if (is_shown) files.push_back(file);
   }
   if (files.empty()) return Json::array();
-  const std::size_t most = std::clamp(kMostRows / files.size(), kFewestRowsOfRun, kMostRowsOfRun);
+  const std::size_t most = std::clamp(kMaxRows / files.size(), kMinRowsOfRun, kMaxRowsOfRun);
   Json runs = Json::array();
   for (const std::vector<std::string>& file : files) {
     AWMR_ASSIGN_OR_RETURN(const CsvTable table, read_run(directory / file[0]));

@@ -77,7 +77,7 @@ int substeps_for(const Plant<double>& plant, double sample_time_s) {
 
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s) {
   const double count = steps_of_sample(plant, scenario.tyres.has_value(), sample_time_s);
-  return count < kMostSubsteps ? static_cast<int>(count) : kMostSubsteps;
+  return count < kMaxSubsteps ? static_cast<int>(count) : kMaxSubsteps;
 }
 
 double steps_of_run(const Plant<double>& plant, const Scenario& scenario, double sample_time_s) {

@@ -18,7 +18,7 @@ namespace awmr {
 namespace {
 
 /// Largest number of draws until one is admissible.
-constexpr int kMostTries = 1000;
+constexpr int kMaxTries = 1000;
 
 /// Random stream of the scrub, separate from that of the other parameters.
 constexpr std::uint64_t kScrubStream = std::uint64_t{1} << 61U;
@@ -173,7 +173,7 @@ Result<std::vector<Plant<double>>> PlantSampler::draw_evenly(std::uint64_t seed,
 Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
   Random random(seed, static_cast<std::uint64_t>(sample));
   std::vector<double> normals(normals_of_a_draw());
-  for (int attempt = 0; attempt < kMostTries; ++attempt) {
+  for (int attempt = 0; attempt < kMaxTries; ++attempt) {
     for (double& normal : normals) normal = random.normal();
     if (std::optional<Model> drawn = model_at(normals)) {
       Random of_scrub(seed, kScrubStream | static_cast<std::uint64_t>(sample));
@@ -183,7 +183,7 @@ Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
   return input_error(ErrorCode::kNotIdentified, model_.file + ":/covariance",
                      fmt::format("all of {} draws have a negative exponent or term of a "
                                  "resistance; identify the model from more trials",
-                                 kMostTries));
+                                 kMaxTries));
 }
 
 Model PlantSampler::with_scrub(Model drawn, double normal) const {

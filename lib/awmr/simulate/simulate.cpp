@@ -151,16 +151,16 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
 Status check_work(const Plant<double>& plant, const std::string& model_file,
                   const Scenario& scenario, double sample_time_s) {
   const double rows = scenario.duration_s / sample_time_s + 1.0;
-  if (!(rows <= kMostRows)) {
+  if (!(rows <= kMaxRows)) {
     return input_error(
         ErrorCode::kTooLarge, fmt::format("scenario '{}':/duration_s", scenario.name),
         fmt::format("{:g} s at a sample time of {:g} s give {:.3g} rows, but a run has at most "
                     "{:g}; give a duration_s of at most {:g}",
-                    scenario.duration_s, sample_time_s, rows, kMostRows,
-                    (kMostRows - 1.0) * sample_time_s));
+                    scenario.duration_s, sample_time_s, rows, kMaxRows,
+                    (kMaxRows - 1.0) * sample_time_s));
   }
   const double steps = steps_of_run(plant, scenario, sample_time_s);
-  if (!(steps <= kMostSteps)) {
+  if (!(steps <= kMaxSteps)) {
     const StepLimit limit = step_limit(plant, scenario.tyres.has_value());
     const ParameterInfo& parameter = info(limit.parameter);
     return input_error(
@@ -169,7 +169,7 @@ Status check_work(const Plant<double>& plant, const std::string& model_file,
             "the time constant of this parameter requires RK4 steps of {:.3g} s, so {:.3g} steps "
             "for the {:g} s of scenario '{}'; a run has at most {:g} steps. Check {} and the mass "
             "or inertia, or give a shorter duration_s",
-            limit.step_s, steps, scenario.duration_s, scenario.name, kMostSteps, parameter.name));
+            limit.step_s, steps, scenario.duration_s, scenario.name, kMaxSteps, parameter.name));
   }
   return {};
 }

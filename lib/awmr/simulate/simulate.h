@@ -58,7 +58,7 @@ enum class RunEnd {
   kFinished,   ///< the last waypoint or the end of the line was reached
   kNoPassage,  ///< obstacles block the way to the guidance target: the vehicle stopped
   /// Failed early, without a valid result (see failure_of): a number was not finite, no step was
-  /// short enough for the motion, or the run exceeds kMostRows or kMostSteps.
+  /// short enough for the motion, or the run exceeds kMaxRows or kMaxSteps.
   kFailed,
 };
 
@@ -84,11 +84,11 @@ struct SimulateOptions {
 };
 
 /// Limits of a run: rows that take half a gigabyte, and RK4 steps that take about a minute.
-inline constexpr double kMostRows = 2e6;
-inline constexpr double kMostSteps = 1e8;
-inline constexpr int kMostSubsteps = 100'000'000;
+inline constexpr double kMaxRows = 2e6;
+inline constexpr double kMaxSteps = 1e8;
+inline constexpr int kMaxSubsteps = 100'000'000;
 
-/// Number of RK4 steps per sample, in [1, kMostSubsteps], that resolve the time constants of the
+/// Number of RK4 steps per sample, in [1, kMaxSubsteps], that resolve the time constants of the
 /// plant which do not depend on speed (step_limit() in physics.h).
 int substeps_for(const Plant<double>& plant, double sample_time_s);
 /// substeps_for() in a scenario: its tyres, if any, replace the plant's sway and yaw resistance.
@@ -113,7 +113,7 @@ Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scena
                      YawMode mode);
 
 /// Checks the length of a run before it is simulated. Errors (input): the run would have more than
-/// kMostRows rows (the message names duration_s), or more than kMostSteps RK4 steps (the message
+/// kMaxRows rows (the message names duration_s), or more than kMaxSteps RK4 steps (the message
 /// names the parameter whose time constant requires them). `model_file`: name for the message.
 Status check_work(const Plant<double>& plant, const std::string& model_file,
                   const Scenario& scenario, double sample_time_s);

@@ -150,8 +150,8 @@ std::string fault_of_rate(const HeadingRateChoice& choice) {
                      kLeadRates_degps.lo, kLeadRates_degps.hi, choice.empty() ? "nothing" : choice);
 }
 
-HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& said, const Model& model) {
-  if (!said.empty()) return said;
+HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& choice, const Model& model) {
+  if (!choice.empty()) return choice;
   return measured_yaw_rate_degps(model) ? kMeasuredRate : kNoRate;
 }
 
@@ -173,8 +173,9 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
   return {};
 }
 
-std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& said, const Model& model) {
-  if (!said.empty() || measured_yaw_rate_degps(model)) return std::nullopt;
+std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& choice,
+                                                const Model& model) {
+  if (!choice.empty() || measured_yaw_rate_degps(model)) return std::nullopt;
   return Finding{model.file, 0, Severity::kWarning, "not-led",
                  fmt::format("the heading rate is not limited, because the model has no highest "
                              "measured yaw rate; differences between modes may come from "

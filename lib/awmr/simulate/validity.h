@@ -57,19 +57,20 @@ inline constexpr const char* kRateName = "heading_rate_limit";
 /// The message for an invalid choice; empty if the choice is valid.
 std::string fault_of_rate(const HeadingRateChoice& choice);
 
-/// The choice that a comparison uses: `said`, the value of the option, if it is not empty. Default:
+/// The choice that a comparison uses: `choice`, the value of the option, if it is not empty. Default:
 /// "measured" if the model has a highest measured yaw rate, because the yaw resistance is
 /// extrapolated in faster turns; else "none".
-HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& said, const Model& model);
+HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& choice, const Model& model);
 
 /// Applies the limit to every scenario; no effect if the choice is empty or "none". Errors (input):
 /// as fault_of_rate(); "measured" if the model has no highest measured yaw rate.
 Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
                           std::span<Scenario> scenarios);
 
-/// Warning `not-led` (heading rate not limited) if the option is not given (`said` is empty) and
+/// Warning `not-led` (heading rate not limited) if the option is not given (`choice` is empty) and
 /// the model has no highest measured yaw rate.
-std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& said, const Model& model);
+std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& choice,
+                                                const Model& model);
 
 /// Warning `beyond-trials` if a turn of `fastest_degps`, >= 0, is more than kLittleFurther times as
 /// fast as `measured_degps` > 0, the highest rate at which the yaw resistance was measured. `file`:

@@ -33,12 +33,12 @@ constexpr unsigned kWatchdog = 8;
 /// Lists the first few items, each formatted by `text_of`.
 template <class Items, class TextOf>
 std::string list_of(const Items& items, const TextOf& text_of) {
-  constexpr std::size_t kMost = 4;
+  constexpr std::size_t kMax = 4;
   std::string text;
-  for (std::size_t i = 0; i < std::min(kMost, items.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMax, items.size()); ++i) {
     text += (i == 0 ? "" : ", ") + text_of(items[i]);
   }
-  return items.size() > kMost ? text + fmt::format(", and {} more", items.size() - kMost) : text;
+  return items.size() > kMax ? text + fmt::format(", and {} more", items.size() - kMax) : text;
 }
 
 void warn(AwlLog& log, const std::string& file, const char* code, std::string message) {
@@ -46,7 +46,7 @@ void warn(AwlLog& log, const std::string& file, const char* code, std::string me
   log.findings.push_back({name, 0, Severity::kWarning, code, std::move(message)});
 }
 
-void tell_of_scan(const Scan& scan, const std::string& file, AwlLog& log) {
+void report_scan(const Scan& scan, const std::string& file, AwlLog& log) {
   for (const Lost& lost : scan.lost) log.lost += lost.count;
   for (const Damage& damage : scan.damaged) log.damaged_bytes += damage.end - damage.begin;
   if (log.lost > 0) {
@@ -125,8 +125,8 @@ std::vector<Place> without_short_runs(const std::vector<Place>& rows, const std:
 }
 
 /// Adds a finding for runs that began with a supply drop or a watchdog reset.
-void tell_of_resets(std::string_view bytes, const Layout& layout, const std::vector<Place>& rows,
-                    const std::string& file, AwlLog& log) {
+void report_resets(std::string_view bytes, const Layout& layout, const std::vector<Place>& rows,
+                   const std::string& file, AwlLog& log) {
   std::size_t run = 0;
   for (const Place& place : rows) {
     if (place.run == run) continue;
@@ -163,7 +163,7 @@ bool is_awl(std::string_view bytes) { return awl::begins_log(bytes); }
 Result<AwlLog> read_awl(std::string_view bytes, const std::string& file) {
   AWMR_ASSIGN_OR_RETURN(const Scan scan, awl::scan_of(bytes, file));
   AwlLog log{.parameters_sha256 = scan.layout.parameters_sha256};
-  tell_of_scan(scan, file, log);
+  report_scan(scan, file, log);
   const std::vector<Place> rows =
       without_short_runs(usable_rows(bytes, scan, file, log), file, log);
   if (rows.empty()) {
@@ -173,7 +173,7 @@ Result<AwlLog> read_awl(std::string_view bytes, const std::string& file) {
                     log.findings.empty() ? "" : "; " + log.findings.back().message));
   }
   fill_columns(bytes, scan.layout, rows, log);
-  tell_of_resets(bytes, scan.layout, rows, file, log);
+  report_resets(bytes, scan.layout, rows, file, log);
   return log;
 }
 

@@ -15,7 +15,7 @@ const std::string_view kMagic(reinterpret_cast<const char*>(kLogMagic), sizeof k
 const std::string_view kSync(reinterpret_cast<const char*>(kLogSync), sizeof kLogSync);
 
 /// Maximum number of damaged headers. With more, their checksums would dominate the reading time.
-constexpr std::size_t kMostDamagedHeaders = 1000;
+constexpr std::size_t kMaxDamagedHeaders = 1000;
 
 /// The first header of a log begins within this number of bytes.
 constexpr std::size_t kHeaderWithin = 4 * kLogHeaderBytes;
@@ -110,11 +110,11 @@ Result<Scan> scan_of(std::string_view bytes, const std::string& file) {
       after_header = false;
       at += scan.layout.row_bytes;
     } else {
-      if (bytes.substr(at).starts_with(kMagic) && ++damaged_headers > kMostDamagedHeaders) {
+      if (bytes.substr(at).starts_with(kMagic) && ++damaged_headers > kMaxDamagedHeaders) {
         return input_error(
             ErrorCode::kBrokenFile, file,
             fmt::format("byte {}: more than {} damaged headers; give an undamaged copy of the file",
-                        at, kMostDamagedHeaders));
+                        at, kMaxDamagedHeaders));
       }
       at = pass_over(bytes, at, scan);
     }

@@ -18,10 +18,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr std::size_t kFewestWindows = 15;
+constexpr std::size_t kMinWindows = 15;
 constexpr double kSignificance = 5.0;  // smallest significant error, in standard errors
-constexpr double kLeastScale = 0.03;
-constexpr double kLeastOffset_rad = 0.0175;
+constexpr double kMinScale = 0.03;
+constexpr double kMinOffset_rad = 0.0175;
 
 /// Divides the log into windows of a twentieth of its length, but 1 to 5 s. Longer windows reduce
 /// the effect of noise at their ends, but accumulate sideslip and heading errors.
@@ -116,7 +116,7 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
     if (!log[channel]) return std::nullopt;
   }
   const std::vector<LogWindow> windows = calibration_windows(log);
-  if (windows.size() < kFewestWindows) return std::nullopt;
+  if (windows.size() < kMinWindows) return std::nullopt;
   // With k = p + i q: Re(k a) = p Re a - q Im a, Im(k a) = p Im a + q Re a.
   constexpr Eigen::Index kTerms = 4;
   Eigen::MatrixXd left(2 * static_cast<Eigen::Index>(windows.size()), 2 * kTerms);
@@ -144,7 +144,7 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
 std::optional<Calibration> heading_over_rate(const DrivingLog& log) {
   if (!log[LogChannel::kHeading] || !log[LogChannel::kYawRate]) return std::nullopt;
   const std::vector<LogWindow> windows = calibration_windows(log);
-  if (windows.size() < kFewestWindows) return std::nullopt;
+  if (windows.size() < kMinWindows) return std::nullopt;
   const std::vector<double>& psi = log[LogChannel::kHeading]->value;
   const std::vector<double>& rate = log[LogChannel::kYawRate]->value;
   Eigen::MatrixXd left(static_cast<Eigen::Index>(windows.size()), 3);
@@ -165,7 +165,7 @@ std::optional<Calibration> heading_over_rate(const DrivingLog& log) {
 
 bool is_off_one(const Calibration& scale) {
   const double off = std::abs(scale.value - 1.0);
-  return off > kLeastScale && off > kSignificance * scale.std_error;
+  return off > kMinScale && off > kSignificance * scale.std_error;
 }
 
 Finding scale_finding(const DrivingLog& log, std::string message) {
@@ -237,7 +237,7 @@ std::optional<Calibration> offset_of(const CourseFit& course) {
   const double size = std::abs(course.factor);
   if (!(size > kSignificance * course.std_error)) return std::nullopt;
   const Calibration offset{std::arg(course.factor), course.std_error / size};
-  const bool is_there = std::abs(offset.value) > kLeastOffset_rad &&
+  const bool is_there = std::abs(offset.value) > kMinOffset_rad &&
                         std::abs(offset.value) > kSignificance * offset.std_error;
   return is_there ? std::optional(offset) : std::nullopt;
 }

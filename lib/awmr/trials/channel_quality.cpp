@@ -82,8 +82,8 @@ std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
 void classify_repeats(std::span<const double> value, ChannelQuality& quality) {
   const Changes changes = changes_of(value);
   quality.fresh.assign(value.size(), true);
-  constexpr std::size_t kFewestChanges = 8;
-  if (changes.row.size() < kFewestChanges) return;
+  constexpr std::size_t kMinChanges = 8;
+  if (changes.row.size() < kMinChanges) return;
   const double moving = static_cast<double>(changes.row.back() - changes.row.front());
   const double repeated = moving - static_cast<double>(changes.row.size() - 1);
   const double quantum = quantum_of(changes);
@@ -174,8 +174,8 @@ void find_spikes(std::span<const double> all, ChannelQuality& quality) {
     rows.push_back(i);
     value.push_back(all[i]);
   }
-  constexpr std::size_t kFewest = 20;
-  if (rows.size() < kFewest) return;
+  constexpr std::size_t kMin = 20;
+  if (rows.size() < kMin) return;
   const std::vector<double> off = off_median(value);
   const double limit = spike_limit(value, off, quality.quantum);
   for (std::size_t k = 0; k < off.size(); ++k) {
@@ -256,9 +256,10 @@ void find_stuck(std::span<const double> t_s, std::span<const double> value,
   }
   for (const RowSpan& run : long_runs) {
     if (times_held[value[run.begin]] > 1) continue;
-    constexpr double kLeastChanged_s = 0.3;
-    const bool is_told = notable > 0.0 && changed_s(t_s, activity, run, notable) >= kLeastChanged_s;
-    if (!is_told) continue;
+    constexpr double kMinChanged_s = 0.3;
+    const bool is_notable =
+        notable > 0.0 && changed_s(t_s, activity, run, notable) >= kMinChanged_s;
+    if (!is_notable) continue;
     quality.stuck.push_back(run);
     // The first reading of the run is valid.
     for (std::size_t i = run.begin + 1; i < run.end; ++i) quality.fresh[i] = false;
@@ -292,8 +293,8 @@ void find_saturation(std::span<const double> all, std::span<const double> activi
     i = end;
   }
   // A signal with few distinct values repeats all of them.
-  constexpr std::size_t kFewestLevels = 20;
-  if (levels < kFewestLevels) return;
+  constexpr std::size_t kMinLevels = 20;
+  if (levels < kMinLevels) return;
   for (const double bound : {*high, *low}) {
     if (std::abs(bound) <= rest) continue;
     const auto count = static_cast<std::size_t>(std::count(value.begin(), value.end(), bound));

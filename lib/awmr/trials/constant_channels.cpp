@@ -23,10 +23,10 @@ constexpr std::array<MotionLimit, 8> kMotionLimits{{{"x_m", 0.2, true},
 constexpr std::array<LogChannel, 4> kMotionChannels{LogChannel::kHeading, LogChannel::kSpeed,
                                                     LogChannel::kSway, LogChannel::kYawRate};
 /// Minimum number of values of a constant channel; fewer may be equal by chance.
-constexpr std::size_t kFewestValues = 10;
+constexpr std::size_t kMinValues = 10;
 
 bool is_constant(std::span<const double> values) {
-  return values.size() >= kFewestValues &&
+  return values.size() >= kMinValues &&
          std::ranges::all_of(values, [&](double value) { return value == values.front(); });
 }
 

@@ -111,9 +111,9 @@ Topic topic_of(const CsvTable& table, const std::string& column, std::size_t pla
 
 /// Errors: a time that does not fit into 64-bit nanoseconds (beyond the year 2255 in clock time).
 Status check_time(const CsvTable& table) {
-  constexpr double kMost_s = 9e9;
+  constexpr double kMax_s = 9e9;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (std::abs(table.column(kTimeName)[row] + table.clock_s()) > kMost_s) {
+    if (std::abs(table.column(kTimeName)[row] + table.clock_s()) > kMax_s) {
       return input_error(ErrorCode::kOutOfRange, table.place(row, kTimeName),
                          "too large for a time in seconds; convert it with a mapping of t_s");
     }

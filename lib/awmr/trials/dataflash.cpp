@@ -167,9 +167,9 @@ Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
   AWMR_ASSIGN_OR_RETURN(const Contents contents, contents_of(bytes, file));
   Signals signals;
   const std::map<TopicKey, Listed> listed = list_topics(contents, wanted, signals);
-  if (signals.header.size() > kMostSignals) {
+  if (signals.header.size() > kMaxSignals) {
     return input_error(ErrorCode::kTooLarge, file,
-                       fmt::format("there are more than {} signals", kMostSignals));
+                       fmt::format("there are more than {} signals", kMaxSignals));
   }
   const auto take = [&](std::uint8_t type, std::string_view record, std::size_t offset) -> Status {
     if (type == kFormatType) return {};

@@ -19,7 +19,7 @@ bool is_dataflash(std::string_view bytes);
 /// (from a lost write) and an incomplete last record are skipped and noted. Errors: an FMT record
 /// with a wrong length, a wrong number of names or an unknown format character, or one that
 /// contradicts an earlier FMT record of its type; a record with an invalid time; more than
-/// kMostSignals signals.
+/// kMaxSignals signals.
 Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
                                const Wanted& wanted);
 

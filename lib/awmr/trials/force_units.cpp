@@ -22,7 +22,7 @@ constexpr std::array<FullScale, 5> kFullScales{{{100.0, "percent"},
                                                 {1023.0, "10-bit PWM counts"},
                                                 {4095.0, "12-bit PWM counts"}}};
 constexpr double kEndOfScale = 0.005;    // relative tolerance for "the force is at full power"
-constexpr double kLeastShare = 0.2;      // fraction of full power that every vehicle's trials reach
+constexpr double kMinShare = 0.2;        // fraction of full power that every vehicle's trials reach
 constexpr double kPlainlyBeyond = 1.05;  // times F'max; up to this, F' may refer to a smaller F_max
 
 constexpr ForceUnit kMicroseconds{
@@ -56,7 +56,7 @@ std::vector<ForceUnit> scales_of(double largest) {
   for (const FullScale& scale : kFullScales) {
     const ForceUnit unit{scale.words, 1.0 / scale.end};
     if (is_end_of_scale(largest, scale.end)) return {unit};
-    if (largest < scale.end && largest >= kLeastShare * scale.end) found.push_back(unit);
+    if (largest < scale.end && largest >= kMinShare * scale.end) found.push_back(unit);
   }
   return found;
 }
@@ -141,7 +141,7 @@ ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>
       for (const ForceUnit& unit : force_units(of_one, vehicle).units) add_unit(units.units, unit);
     }
   }
-  const Interval possible{wheels || is_sum ? 0.0 : kLeastShare, 1.0 + kEndOfScale};
+  const Interval possible{wheels || is_sum ? 0.0 : kMinShare, 1.0 + kEndOfScale};
   ThrustUnits found{units, {}};
   for (const ForceUnit& unit : units.units) {
     if (unit.factor == 0.0) continue;

@@ -18,8 +18,8 @@ constexpr double kQuantile = 0.95;
 /// Smallest jump of the position, in vehicle lengths. A smaller one may be a correction by the
 /// position receiver.
 constexpr double kVehicleLengths = 4.0;
-constexpr double kLeastTurn_rad = 1.0;
-constexpr std::size_t kFewest = 20;
+constexpr double kMinTurn_rad = 1.0;
+constexpr std::size_t kMin = 20;
 
 struct Move {
   std::size_t from = 0;  ///< row of the first reading
@@ -50,9 +50,9 @@ double common_rate(const std::vector<Move>& moves) {
 
 /// The first jump: a change of more than kTimes times the usual change, after which the signal does
 /// not return. `least`: smallest change that counts as a jump. Empty if there is none, or with
-/// fewer than kFewest changes.
+/// fewer than kMin changes.
 std::optional<Move> jump_in(const std::vector<Move>& moves, double least, const Size& size) {
-  if (moves.size() < kFewest) return std::nullopt;
+  if (moves.size() < kMin) return std::nullopt;
   const double rate = common_rate(moves);
   const auto is_far = [&](const Move& move) {
     return move.size > std::max(least, kTimes * rate * move.span_s);
@@ -82,11 +82,11 @@ std::optional<Contradiction> zero_fix(const DrivingLog& log, const Move& jump) {
   const std::vector<double>& x = log[LogChannel::kX]->value;
   const std::vector<double>& y = log[LogChannel::kY]->value;
   const auto is_zero = [&](std::size_t row) { return x[row] == 0.0 && y[row] == 0.0; };
-  constexpr std::size_t kFewestZeros = 3;
+  constexpr std::size_t kMinZeros = 3;
   const std::size_t zero = is_zero(jump.to) ? jump.to : jump.from;
   std::size_t rows = 0;
   for (std::size_t row = 0; row < log.rows(); ++row) rows += is_zero(row) ? 1U : 0U;
-  if (!is_zero(zero) || rows < kFewestZeros) return std::nullopt;
+  if (!is_zero(zero) || rows < kMinZeros) return std::nullopt;
   return Contradiction{"x_m",
                        fmt::format("x_m and y_m are both exactly 0 in {} rows (such as line {}), "
                                    "{:.3g} m from the next reading: a receiver without a fix. "
@@ -126,7 +126,7 @@ std::optional<Contradiction> jump_contradiction(const Evidence& evidence) {
   const std::vector<double>& heading = log[LogChannel::kHeading]->value;
   const Size size = [&](std::size_t a, std::size_t b) { return std::abs(heading[b] - heading[a]); };
   const auto moves = moves_between(log, rows_with(log, {LogChannel::kHeading}), size);
-  const auto jump = jump_in(moves, kLeastTurn_rad, size);
+  const auto jump = jump_in(moves, kMinTurn_rad, size);
   if (!jump) return std::nullopt;
   constexpr double kAboutHalfATurn_rad = radians(20.0);
   if (std::abs(jump->size - pi<double>()) < kAboutHalfATurn_rad) {

@@ -13,12 +13,12 @@ namespace {
 
 /// Formats the times of the first few rows for a message.
 std::string times_of(const DrivingLog& log, const std::vector<std::size_t>& rows) {
-  constexpr std::size_t kMost = 4;
+  constexpr std::size_t kMax = 4;
   std::string text;
-  for (std::size_t i = 0; i < std::min(kMost, rows.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMax, rows.size()); ++i) {
     text += fmt::format("{}{:.4g} s", i == 0 ? "" : ", ", log.t_s[rows[i]]);
   }
-  return rows.size() > kMost ? text + ", ..." : text;
+  return rows.size() > kMax ? text + ", ..." : text;
 }
 
 void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQuality& quality,

@@ -16,7 +16,7 @@ namespace {
 /// Repeats are reported if P(k or more) is at most this.
 constexpr double kChance = 0.01;
 /// Minimum degrees of freedom for an estimate of the scatter from rows with equal settings.
-constexpr int kFewestDifferences = 3;
+constexpr int kMinDifferences = 3;
 /// A reading with more than six significant digits was computed, so its last place is not its
 /// resolution.
 constexpr double kComputed = 1e-6;
@@ -80,7 +80,7 @@ std::vector<LikeRuns> like_runs(const TrialReader& reader, const std::vector<std
 }
 
 /// Relative standard deviation of the readings of runs with equal settings, repeated readings
-/// counted once. Empty with fewer than kFewestDifferences degrees of freedom.
+/// counted once. Empty with fewer than kMinDifferences degrees of freedom.
 std::optional<double> scatter_seen(const std::vector<LikeRuns>& groups) {
   double squares = 0.0;
   int differences = 0;
@@ -92,7 +92,7 @@ std::optional<double> scatter_seen(const std::vector<LikeRuns>& groups) {
     for (const double value : distinct) squares += (value / mean - 1.0) * (value / mean - 1.0);
     differences += static_cast<int>(distinct.size()) - 1;
   }
-  if (differences < kFewestDifferences) return std::nullopt;
+  if (differences < kMinDifferences) return std::nullopt;
   return std::sqrt(squares / differences);
 }
 

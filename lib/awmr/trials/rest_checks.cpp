@@ -37,9 +37,9 @@ std::vector<WindowMoments> moments_of(const DrivingLog& log, LogChannel channel)
 }
 
 /// True if a channel is only noise about one value. Analysis of variance: F = n var(means of the
-/// windows)/mean variance within a window, with n readings per window, is at most kMostF.
+/// windows)/mean variance within a window, with n readings per window, is at most kMaxForce.
 bool is_noise_alone(const std::vector<WindowMoments>& windows) {
-  constexpr double kMostF = 5.0;  // F is above 1 for correlated noise, above 100 for motion
+  constexpr double kMaxForce = 5.0;  // F is above 1 for correlated noise, above 100 for motion
   const auto n = static_cast<double>(windows.size());
   double mean = 0.0, within = 0.0, readings = 0.0, between = 0.0;
   for (const WindowMoments& w : windows) {
@@ -48,7 +48,7 @@ bool is_noise_alone(const std::vector<WindowMoments>& windows) {
     readings += w.count / n;
   }
   for (const WindowMoments& w : windows) between += (w.mean - mean) * (w.mean - mean) / (n - 1.0);
-  return readings * between <= kMostF * within;
+  return readings * between <= kMaxForce * within;
 }
 
 /// True if the mean speed is 0 within its error, or slower than any vehicle of this length drives.
@@ -67,14 +67,14 @@ bool is_about_zero(const std::vector<WindowMoments>& windows, double length_m) {
 }  // namespace
 
 std::optional<Contradiction> rest_contradiction(const Evidence& evidence) {
-  constexpr std::size_t kFewestWindows = 5;
+  constexpr std::size_t kMinWindows = 5;
   bool shows_motion = false;  // true: the log has a speed or a position
   std::string column;
   for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kX, LogChannel::kY,
                                    LogChannel::kHeading, LogChannel::kYawRate}) {
     if (!evidence.has(channel)) continue;
     const std::vector<WindowMoments> windows = moments_of(evidence.log, channel);
-    if (windows.size() < kFewestWindows || !is_noise_alone(windows)) return std::nullopt;
+    if (windows.size() < kMinWindows || !is_noise_alone(windows)) return std::nullopt;
     const bool is_speed = channel == LogChannel::kSpeed;
     if (is_speed && !is_about_zero(windows, evidence.vehicle.length_m)) return std::nullopt;
     shows_motion |= is_speed || channel == LogChannel::kX || channel == LogChannel::kY;

@@ -8,7 +8,7 @@
 namespace awmr {
 namespace {
 
-constexpr int kFewestPairs = 10;
+constexpr int kMinPairs = 10;
 constexpr double kLargestSpread = 0.6;
 /// Pairs with a smaller |x| are skipped: the vehicle is at rest.
 constexpr double kSmallest = 1e-9;
@@ -24,7 +24,7 @@ std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<con
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (sizes[i] >= half && sizes[i] > kSmallest) ratios.push_back(y[i] / x[i]);
   }
-  if (static_cast<int>(ratios.size()) < kFewestPairs) return std::nullopt;
+  if (static_cast<int>(ratios.size()) < kMinPairs) return std::nullopt;
   const double ratio = median(ratios);
   const double spread = median_absolute_deviation(ratios, ratio) / std::abs(ratio);
   if (!std::isfinite(spread) || spread > kLargestSpread) return std::nullopt;

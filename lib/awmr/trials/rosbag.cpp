@@ -82,12 +82,12 @@ struct BagTopic {
 };
 
 Result<std::vector<BagTopic>> topics_of(sqlite3* database, const std::string& file) {
-  constexpr std::size_t kMostTopics = 10'000;
+  constexpr std::size_t kMaxTopics = 10'000;
   std::vector<BagTopic> topics;
   AWMR_RETURN_IF_ERROR(
       for_each_row(database, "SELECT id, name, type, serialization_format FROM topics ORDER BY id",
                    file, [&](sqlite3_stmt* row) -> Status {
-                     if (topics.size() == kMostTopics)
+                     if (topics.size() == kMaxTopics)
                        return wrong(file, "it has more than 10000 topics");
                      topics.push_back({sqlite3_column_int64(row, 0), text_in(row, 1),
                                        text_in(row, 2), text_in(row, 3)});

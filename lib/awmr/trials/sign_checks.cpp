@@ -56,10 +56,10 @@ CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
   if (n < 10.0 || std::abs(headings) / n > 0.95) return {};
   // Scatter of the angles, 0 to 1. With the right sign, the angles scatter only by noise; with the
   // wrong sign, twice the heading is added to every angle.
-  constexpr double kMostNoise = 0.3;
+  constexpr double kMaxNoise = 0.3;
   const auto holds = [n](double one, double other) {
     const double of_one = 1.0 - one / n;
-    return of_one < kMostNoise && (one > 1.5 * other || 1.0 - other / n > 4.0 * of_one);
+    return of_one < kMaxNoise && (one > 1.5 * other || 1.0 - other / n > 4.0 * of_one);
   };
   if (holds(std::abs(same), std::abs(mirrored))) return {1, std::arg(same)};
   if (holds(std::abs(mirrored), std::abs(same))) return {-1, std::arg(mirrored)};
@@ -245,8 +245,8 @@ std::optional<Contradiction> check_direction(const Evidence& evidence) {
 std::optional<Contradiction> check_one_side(const Evidence& evidence) {
   constexpr double kExplains = 0.5;
   constexpr double kMoreThanSum = 3.0;
-  constexpr std::size_t kFewestSeconds = 10;
-  if (!evidence.has(LogChannel::kSpeed) || evidence.windows.size() < kFewestSeconds) {
+  constexpr std::size_t kMinSeconds = 10;
+  if (!evidence.has(LogChannel::kSpeed) || evidence.windows.size() < kMinSeconds) {
     return std::nullopt;
   }
   double vv = 0.0, ss = 0.0, dd = 0.0, vs = 0.0, vd = 0.0;

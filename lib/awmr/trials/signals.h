@@ -32,7 +32,7 @@ struct Signals {
 using Wanted = std::function<bool(const std::string& name)>;
 
 /// Maximum number of signals per file.
-inline constexpr std::size_t kMostSignals = 200'000;
+inline constexpr std::size_t kMaxSignals = 200'000;
 
 /// Converts signals to a table with one row for every time at which a topic with requested signals
 /// has a message. A row has values of messages at this time only; nothing is interpolated. The

@@ -115,12 +115,12 @@ void note_format(const TrialReader& reader, std::vector<Finding>& findings) {
 }
 
 std::string lines_of(const TrialReader& reader, std::span<const std::size_t> rows) {
-  constexpr std::size_t kMostNamed = 12;
+  constexpr std::size_t kMaxNamed = 12;
   std::string lines = rows.size() == 1 ? "line " : "lines ";
-  for (std::size_t i = 0; i < rows.size() && i < kMostNamed; ++i) {
+  for (std::size_t i = 0; i < rows.size() && i < kMaxNamed; ++i) {
     lines += fmt::format("{}{}", i == 0 ? "" : ", ", reader.table().line(rows[i]));
   }
-  if (rows.size() > kMostNamed) lines += fmt::format(" and {} more", rows.size() - kMostNamed);
+  if (rows.size() > kMaxNamed) lines += fmt::format(" and {} more", rows.size() - kMaxNamed);
   return lines;
 }
 

@@ -21,13 +21,13 @@ namespace {
 
 /// Largest accepted yaw rate over that of rolling wheels: 3 for a steered turn (the vehicle may
 /// drift or also steer its rear wheels), 4 for a differential turn (u is interpolated twice).
-constexpr double kMostSteered = 3.0;
-constexpr double kMostBySides = 4.0;
+constexpr double kMaxSteered = 3.0;
+constexpr double kMaxBySides = 4.0;
 /// Smallest accepted yaw rate of the fastest steered turn of a table, over that of rolling wheels.
 /// A real turn has a ratio several times larger, even with a wheelbase of five times l_f and strong
 /// understeer.
-constexpr double kLeastSteered = 0.01;
-constexpr double kMostAcceleration_mps2 = 60.0;
+constexpr double kMinSteered = 0.01;
+constexpr double kMaxAcceleration_mps2 = 60.0;
 constexpr double kFastestTurn_radps = 25.0;
 
 /// Ratios of the yaw rate to that of rolling wheels that are usual in the right unit. A unit is
@@ -175,11 +175,11 @@ std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& spe
 /// possible circle, of radius l_f/tan(d_r), reaches its limit.
 TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
   const double radius_m = vehicle.front_axle_m / std::tan(row.steering_rad);
-  const double most = std::sqrt(kMostAcceleration_mps2 / radius_m);
+  const double most = std::sqrt(kMaxAcceleration_mps2 / radius_m);
   return {&row, row.yaw_rate_radps / most,
           fmt::format("a lateral acceleration of {:.3g} m/s^2 or more, while grip allows at most "
                       "{:g} (r^2 front_axle_m/tan(steering))",
-                      row.yaw_rate_radps * row.yaw_rate_radps * radius_m, kMostAcceleration_mps2)};
+                      row.yaw_rate_radps * row.yaw_rate_radps * radius_m, kMaxAcceleration_mps2)};
 }
 
 /// One limit, with the rows compared with it.
@@ -193,9 +193,9 @@ struct TurnCriterion {
 std::vector<TurnCriterion> criteria_of(const TrialSet<TurningRow>& turning,
                                        const std::optional<SpeedCurve>& speed,
                                        const Vehicle& vehicle) {
-  TurnCriterion steered{{}, kMostSteered, kLeastSteered, kPossibleShare};
-  TurnCriterion by_sides{{}, kMostBySides, 0.0, kPossibleShare};
-  const Interval grip{0.003, std::sqrt(kPossibleAcceleration_mps2 / kMostAcceleration_mps2)};
+  TurnCriterion steered{{}, kMaxSteered, kMinSteered, kPossibleShare};
+  TurnCriterion by_sides{{}, kMaxBySides, 0.0, kPossibleShare};
+  const Interval grip{0.003, std::sqrt(kPossibleAcceleration_mps2 / kMaxAcceleration_mps2)};
   TurnCriterion circle{{}, 1.0, 0.0, grip};
   TurnCriterion any{{}, 1.0, 0.0, {0.0005, 0.5}};
   for (const auto* rows : {&turning.rows, &turning.by_sides}) {

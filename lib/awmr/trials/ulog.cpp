@@ -63,8 +63,8 @@ Status subscribe(ByteReader message, std::size_t offset, Reading& reading) {
       subscription.wanted.push_back(std::move(leaf));
     }
   }
-  if (reading.signals.header.size() > kMostSignals) {
-    return wrong(reading, offset, fmt::format("there are more than {} signals", kMostSignals));
+  if (reading.signals.header.size() > kMaxSignals) {
+    return wrong(reading, offset, fmt::format("there are more than {} signals", kMaxSignals));
   }
   if (!reading.subscriptions.emplace(*id, std::move(subscription)).second) {
     return wrong(reading, offset, fmt::format("a second topic has the id {}", *id));

@@ -238,10 +238,10 @@ std::optional<Contradiction> check_rate_alone(const Evidence& evidence) {
   const double rate_radps = usual_largest(*evidence.log[LogChannel::kYawRate]);
   // Sliding wheels turn the vehicle less or more than rolling ones, but not by this factor. deg/s
   // instead of rad/s give a factor of 57.
-  constexpr double kMostSlide = 14.0;
+  constexpr double kMaxSlide = 14.0;
   if (rate_radps <= kLargest_radps) {
     const auto ratio = rate_over_rolling(evidence);
-    if (!ratio || *ratio <= kMostSlide) return std::nullopt;
+    if (!ratio || *ratio <= kMaxSlide) return std::nullopt;
     return Contradiction{
         "yaw_rate_radps",
         fmt::format(

@@ -94,10 +94,10 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
     return;
   }
   for (const double factor : open.mass_factors) {
-    if (factor >= kLeastMassFactor && factor <= kMostMassFactor) continue;
+    if (factor >= kMinMassFactor && factor <= kMaxMassFactor) continue;
     faults.push_back({ErrorCode::kOutOfRange, "",
                       fmt::format("open: a mass factor of {} is not in {} ... {}", factor,
-                                  kLeastMassFactor, kMostMassFactor)});
+                                  kMinMassFactor, kMaxMassFactor)});
   }
   for (const Interval& force : open.wheel_forces) {
     if (force.lo >= -1.0 && force.lo < force.hi && force.hi > 0.0 && force.hi <= 1.0) continue;
@@ -106,10 +106,10 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
                                   "max <= 1 is needed",
                                   force.lo, force.hi)});
   }
-  if (std::max(open.mass_factors.size(), open.wheel_forces.size()) > kMostOpenValues) {
+  if (std::max(open.mass_factors.size(), open.wheel_forces.size()) > kMaxOpenValues) {
     faults.push_back({ErrorCode::kTooLarge, "",
                       fmt::format("open: mass_factors or wheel_forces has more than {} values",
-                                  kMostOpenValues)});
+                                  kMaxOpenValues)});
   }
   const auto fewest = static_cast<int>(open.combinations());
   for (const auto& [name, count] :
@@ -151,19 +151,19 @@ void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
     faults.push_back({ErrorCode::kMissing, "",
                       "goals: a goal is without a limit; give at_most at least one metric"});
   }
-  if (!(goal.share >= kLeastShare && goal.share <= kMostShare)) {
+  if (!(goal.share >= kMinGoalShare && goal.share <= kMaxGoalShare)) {
     faults.push_back({ErrorCode::kOutOfRange, "",
                       fmt::format("goals: a share of {} is not in {} ... {}", goal.share,
-                                  kLeastShare, kMostShare)});
+                                  kMinGoalShare, kMaxGoalShare)});
   }
 }
 
 void check_sensitivity(const TuneOptions& options, std::vector<Fault>& faults) {
   if (options.sensitivity == 0) return;
-  if (options.sensitivity < kFewestSamples || options.sensitivity > kMostSamples) {
+  if (options.sensitivity < kMinSobolSamples || options.sensitivity > kMaxSobolSamples) {
     faults.push_back({ErrorCode::kOutOfRange, "",
                       fmt::format("sensitivity: {} is neither 0 nor in {} ... {}",
-                                  options.sensitivity, kFewestSamples, kMostSamples)});
+                                  options.sensitivity, kMinSobolSamples, kMaxSobolSamples)});
   }
   if (options.nominal) {
     faults.push_back({ErrorCode::kConflict, "",
@@ -209,10 +209,10 @@ void check_goals(const TuneOptions& options, const Vehicle& vehicle, std::vector
     faults.push_back({ErrorCode::kConflict, "",
                       "goals are evaluated on fresh draws; judged_draws has to be above 0"});
   }
-  if (options.goals.size() > kMostGoals) {
+  if (options.goals.size() > kMaxGoals) {
     faults.push_back(
         {ErrorCode::kTooLarge, "",
-         fmt::format("goals: {} goals; at most {} are allowed", options.goals.size(), kMostGoals)});
+         fmt::format("goals: {} goals; at most {} are allowed", options.goals.size(), kMaxGoals)});
   }
   for (const TuningGoal& goal : options.goals) check_goal(goal, faults);
 }

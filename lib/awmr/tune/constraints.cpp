@@ -323,7 +323,7 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
                                   double wider) {
   constexpr int kBisections = 20;
   // At the largest width, the fed-forward friction grows with S a tenth as fast as the correction.
-  constexpr double kLeastFrictionShare = 0.1;
+  constexpr double kMinFrictionShare = 0.1;
   double& width = gains.heading.friction_width_radps;
   width = feed_forward_rest_speed<double>();
   const auto& limit = context.limits.steering_rate_rms_degps;
@@ -335,7 +335,7 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
   };
   const double in_proportion =
       plant.yaw.coulomb * gains.heading.epsilon / (plant.inertia_norm * gains.heading.mu);
-  Interval widths{width, std::min(in_proportion / kLeastFrictionShare, context.fastest_radps)};
+  Interval widths{width, std::min(in_proportion / kMinFrictionShare, context.fastest_radps)};
   if (is_calm(widths.lo) || widths.hi <= widths.lo) {
     width = widths.lo;
     return gains;

@@ -12,7 +12,7 @@
 namespace awmr {
 
 /// Largest latency, in samples, for which the damping is computed.
-inline constexpr int kMostLatencySamples = 20;
+inline constexpr int kMaxLatencySamples = 20;
 /// Share of the modelled resistance that mu I'z and mu_s m' must exceed. It is larger than the
 /// relative model error on trials that `awmr validate` accepts by default (0.15).
 inline constexpr double kUnmodelledShare = 0.2;

@@ -117,11 +117,11 @@ Result<Scenario> default_tuning_scenario(const Model& model) {
 
 Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
                                                        const TuneOptions& options,
-                                                       const HeadingRateChoice& said) {
+                                                       const HeadingRateChoice& choice) {
   AWMR_ASSIGN_OR_RETURN(Scenario stepped, default_tuning_scenario(model));
   std::vector<Scenario> scenarios{std::move(stepped)};
   const std::optional<double> measured_degps = measured_yaw_rate_degps(model);
-  if (said.empty() && measured_degps) {
+  if (choice.empty() && measured_degps) {
     Scenario limited = scenarios.front();
     limited.name += kLedSuffix;
     limit_heading_rate(*measured_degps, limited);

@@ -129,7 +129,7 @@ RunNoise draw_noise(const ObjectiveSetting& setting) {
     const double samples = scenario.duration_s / setting.vehicle.sample_time_s;
     bytes += 3.0 * sizeof(double) * samples * static_cast<double>(vehicles);
   }
-  if (bytes > kMostNoiseBytes) return {};
+  if (bytes > kMaxNoiseBytes) return {};
   RunNoise noise(setting.scenarios.size(), std::vector<DrawnNoise>(vehicles));
   parallel_for(setting.scenarios.size() * vehicles, 0, [&](std::size_t i) {
     const std::size_t scenario = i / vehicles;

@@ -85,9 +85,9 @@ struct ObjectiveSetting {
 };
 
 /// Standard normal random numbers of the sensor noise of all runs, by scenario, then vehicle. Empty
-/// if they would exceed kMostNoiseBytes; then each run draws the same numbers itself.
+/// if they would exceed kMaxNoiseBytes; then each run draws the same numbers itself.
 using RunNoise = std::vector<std::vector<DrawnNoise>>;
-inline constexpr double kMostNoiseBytes = 64e6;
+inline constexpr double kMaxNoiseBytes = 64e6;
 RunNoise draw_noise(const ObjectiveSetting& setting);
 
 /// Objective and metrics of one set of gains.

@@ -18,7 +18,7 @@ constexpr int kBisections = 6;
 /// Factor on a limit, so that rounding errors do not violate the limit.
 constexpr double kInside = 1.0 - 1e-9;
 /// Smallest mu (rad/s^2) and mu_s (m/s^2) if the resistance is 0.
-constexpr double kLeastMu = 1e-3;
+constexpr double kMinMu = 1e-3;
 
 const ConstraintReport& named(const std::vector<ConstraintReport>& all, std::string_view name) {
   return *std::ranges::find(all, name, &ConstraintReport::name);
@@ -31,7 +31,7 @@ double violation(const Gains<double>& gains, const ConstraintContext& context) {
 
 /// Smallest mu or mu_s that meets the constraint "mu dominates" or "mu_s dominates".
 double least_mu(const ConstraintReport& dominates) {
-  return std::max(dominates.limit / kInside, kLeastMu);
+  return std::max(dominates.limit / kInside, kMinMu);
 }
 
 SpeedGains<double> place_speed_pole(const std::vector<ConstraintReport>& at_one) {

@@ -42,7 +42,7 @@ SearchSpace::SearchSpace(const TuneOptions& options) : observer_(options.observe
 
 Gains<double> SearchSpace::gains_at(const Point& x) const {
   Point g{};
-  for (unsigned i = 0; i < kMostDimensions; ++i) {
+  for (unsigned i = 0; i < kMaxDimensions; ++i) {
     g[i] = std::clamp(std::exp(x[i]), range_[i].lo, range_[i].hi);
   }
   Gains<double> gains{{g[0], g[1], g[2]}, {g[3], g[4]}};
@@ -52,13 +52,13 @@ Gains<double> SearchSpace::gains_at(const Point& x) const {
 
 Point SearchSpace::lower_corner() const {
   Point x{};
-  for (unsigned i = 0; i < kMostDimensions; ++i) x[i] = std::log(range_[i].lo);
+  for (unsigned i = 0; i < kMaxDimensions; ++i) x[i] = std::log(range_[i].lo);
   return x;
 }
 
 Point SearchSpace::upper_corner() const {
   Point x{};
-  for (unsigned i = 0; i < kMostDimensions; ++i) x[i] = std::log(range_[i].hi);
+  for (unsigned i = 0; i < kMaxDimensions; ++i) x[i] = std::log(range_[i].hi);
   return x;
 }
 
@@ -66,7 +66,7 @@ Point SearchSpace::point_of(const Gains<double>& g) const {
   const Point gains{g.heading.lambda, g.heading.mu,    g.heading.epsilon,
                     g.speed.mu,       g.speed.epsilon, g.observer.bandwidth_radps};
   Point x{};
-  for (unsigned i = 0; i < kMostDimensions; ++i) {
+  for (unsigned i = 0; i < kMaxDimensions; ++i) {
     x[i] = std::log(std::clamp(gains[i], range_[i].lo, range_[i].hi));
   }
   return x;

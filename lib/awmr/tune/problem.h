@@ -15,9 +15,9 @@
 namespace awmr {
 
 /// Number of searched values: lambda, mu, epsilon, mu_s, epsilon_s and the observer's bandwidth.
-inline constexpr unsigned kMostDimensions = 6;
+inline constexpr unsigned kMaxDimensions = 6;
 /// Natural logarithms of these values; the last one is 0 if no observer is searched.
-using Point = std::array<double, kMostDimensions>;
+using Point = std::array<double, kMaxDimensions>;
 
 /// Fills in each absent bound: from the smallest value of the gain among `gains`, divided by
 /// kBoundFactor, to the largest value times kBoundFactor.
@@ -29,7 +29,7 @@ class SearchSpace {
   /// Precondition: all bounds and the observer's limits are set.
   explicit SearchSpace(const TuneOptions& options);
 
-  unsigned dimension() const { return observer_ ? kMostDimensions : kMostDimensions - 1; }
+  unsigned dimension() const { return observer_ ? kMaxDimensions : kMaxDimensions - 1; }
   /// The corners of the bounds.
   Point lower_corner() const;
   Point upper_corner() const;
@@ -38,7 +38,7 @@ class SearchSpace {
   Point point_of(const Gains<double>& gains) const;
 
  private:
-  std::array<Interval, kMostDimensions> range_;
+  std::array<Interval, kMaxDimensions> range_;
   std::optional<ObserverSearch> observer_;
 };
 

@@ -190,12 +190,12 @@ Point start_point(int index, const SearchSpace& space, std::uint64_t seed,
   return x;
 }
 
-/// At most kMostHistorySteps of the steps, evenly spaced, with the first and the last.
+/// At most kMaxHistorySteps of the steps, evenly spaced, with the first and the last.
 std::vector<SearchStep> at_even_ranks(const std::vector<SearchStep>& steps) {
-  if (steps.size() <= kMostHistorySteps) return steps;
+  if (steps.size() <= kMaxHistorySteps) return steps;
   std::vector<SearchStep> kept;
-  for (std::size_t i = 0; i < kMostHistorySteps; ++i) {
-    kept.push_back(steps[i * (steps.size() - 1) / (kMostHistorySteps - 1)]);
+  for (std::size_t i = 0; i < kMaxHistorySteps; ++i) {
+    kept.push_back(steps[i * (steps.size() - 1) / (kMaxHistorySteps - 1)]);
   }
   return kept;
 }

@@ -35,9 +35,9 @@ namespace awmr {
 namespace {
 
 /// Largest number of RK4 steps of a search. They take some hours.
-constexpr double kMostSearchSteps = 1e11;
+constexpr double kMaxSearchSteps = 1e11;
 
-/// Error (input) if all evaluations together take more than kMostSearchSteps.
+/// Error (input) if all evaluations together take more than kMaxSearchSteps.
 Status check_work(const TuneOptions& options, const std::vector<Scenario>& scenarios,
                   const Plant<double>& plant, const Model& model) {
   const double sample_time_s = model.vehicle.sample_time_s;
@@ -54,15 +54,15 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
     evaluations += (3.0 * options.evaluation_draws + sensitivity_runs(model, options.sensitivity)) /
                    (1.0 + options.draws);
   }
-  if (evaluations * steps <= kMostSearchSteps) return {};
+  if (evaluations * steps <= kMaxSearchSteps) return {};
   return input_error(
       ErrorCode::kTooLarge, "",
       fmt::format(
           "{:g} evaluations of {:.3g} RK4 steps each ({} scenarios in every mode) exceed "
           "the limit of {:g} steps; reduce global_evaluations and local_evaluations to {:.0f} "
           "together, or shorten the scenarios",
-          evaluations, steps, scenarios.size(), kMostSearchSteps,
-          std::floor(kMostSearchSteps / steps)));
+          evaluations, steps, scenarios.size(), kMaxSearchSteps,
+          std::floor(kMaxSearchSteps / steps)));
 }
 
 /// The largest change of the commanded heading, rad.
@@ -242,16 +242,16 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
                 .robust = {}};
 }
 
-/// Error (input) if the latency exceeds kMostLatencySamples: the work for a constraint grows with
+/// Error (input) if the latency exceeds kMaxLatencySamples: the work for a constraint grows with
 /// the cube of the latency in samples.
 Status check_latency(const ConstraintContext& context, const std::string& model_file) {
   const double samples = context.latency_s / context.sample_time_s;
-  if (samples < kMostLatencySamples + 1e-9) return {};
+  if (samples < kMaxLatencySamples + 1e-9) return {};
   return input_error(
       ErrorCode::kTooLarge, model_file + ":/vehicle/latency_s",
       fmt::format("{:g} s are {:.4g} samples of {:g} s, more than the limit of {} samples; give a "
                   "longer sample_time_s, or tune without latency, noise and lag ({})",
-                  context.latency_s, samples, context.sample_time_s, kMostLatencySamples,
+                  context.latency_s, samples, context.sample_time_s, kMaxLatencySamples,
                   option_text("nominal")));
 }
 

@@ -126,8 +126,8 @@ struct UnmodelledVariation {
   std::size_t combinations() const;  ///< >= 1
   bool any() const { return !mass_factors.empty() || !wheel_forces.empty(); }
 };
-inline constexpr double kLeastMassFactor = 0.1, kMostMassFactor = 10.0;
-inline constexpr std::size_t kMostOpenValues = 20;  ///< largest number of entries in each list
+inline constexpr double kMinMassFactor = 0.1, kMaxMassFactor = 10.0;
+inline constexpr std::size_t kMaxOpenValues = 20;  ///< largest number of entries in each list
 
 /// Upper limit, > 0, of a run's metric (run_figure_names()), in the metric's unit.
 struct GoalLimit {
@@ -138,17 +138,17 @@ struct GoalLimit {
 /// Goal: at least this share of the draws meets every limit in all scenarios.
 struct TuningGoal {
   std::vector<GoalLimit> at_most;  ///< one or more limits, each of another metric
-  double share = 0.95;             ///< required share of the draws, in [kLeastShare, kMostShare]
-  std::optional<YawMode> mode;     ///< the mode in which it must be met; absent: in each mode
+  double share = 0.95;          ///< required share of the draws, in [kMinGoalShare, kMaxGoalShare]
+  std::optional<YawMode> mode;  ///< the mode in which it must be met; absent: in each mode
   /// true: the objective has a penalty for missing the goal. false: a constraint; gains that miss
   /// it on the draws of the search are rejected.
   bool is_soft = false;
 };
-inline constexpr double kLeastShare = 0.5, kMostShare = 0.999;
-inline constexpr std::size_t kMostGoals = 20;
+inline constexpr double kMinGoalShare = 0.5, kMaxGoalShare = 0.999;
+inline constexpr std::size_t kMaxGoals = 20;
 /// Default of evaluation_draws in a tune.json with goals.
 inline constexpr int kGoalDraws = 500;
-inline constexpr int kFewestSamples = 16, kMostSamples = 100'000;
+inline constexpr int kMinSobolSamples = 16, kMaxSobolSamples = 100'000;
 inline constexpr std::size_t kRunFigures = 6;  ///< names in run_figure_names()
 bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
@@ -198,7 +198,7 @@ struct TuneOptions {
   std::optional<ObserverSearch> observer = {};  ///< absent: no observer is tuned
   std::vector<TuningGoal> goals = {};           ///< robust search only
   /// Number of samples of the sensitivity analysis of the tuned loop (GlobalSensitivity): 0 (none)
-  /// or kFewestSamples to kMostSamples. Robust search only.
+  /// or kMinSobolSamples to kMaxSobolSamples. Robust search only.
   int sensitivity = 0;
   /// Called with the number of evaluated sets of gains, and with the budget global_evaluations +
   /// local_evaluations. The last stage of the search, on all draws, is not counted.
@@ -246,7 +246,7 @@ struct SearchStep {
 
 /// Progress of a search.
 struct SearchHistory {
-  /// In the order of the evaluations, at most kMostHistorySteps. Only evaluations on the draws of
+  /// In the order of the evaluations, at most kMaxHistorySteps. Only evaluations on the draws of
   /// the search (kSearchedDraws) are included, so the result can differ from the last step: the
   /// last stage uses all draws, and settle() selects among equally good gains.
   std::vector<SearchStep> best;
@@ -254,7 +254,7 @@ struct SearchHistory {
   int evaluations = 0;         ///< evaluations of the global and the local searches on these draws
 };
 /// A longer history is thinned to evenly spaced steps, including the first and the last.
-inline constexpr std::size_t kMostHistorySteps = 200;
+inline constexpr std::size_t kMaxHistorySteps = 200;
 
 /// Metrics of a run for goals and evaluation. The objective uses other ones (kObjectiveTerms).
 struct RunOutcome {
@@ -448,7 +448,7 @@ Result<Scenario> default_tuning_scenario(const Model& model);
 ///      measured ones.
 ///   2. The same with the heading rate limited to the highest measured yaw rate. It favours gains
 ///      that are accurate where the model is valid. Left out if the model has no measured yaw rate,
-///      or if `said` (--heading-rate-limit) is not empty: then the caller applies `said`.
+///      or if `choice` (--heading-rate-limit) is not empty: then the caller applies `choice`.
 ///   3. Only if an observer is tuned: the last of these with a constant disturbance, because
 ///      without a disturbance an observer only adds noise. The moment is kPush times the largest
 ///      moment of the weaker mode (turning_authority_m()). The force is kPush times g1(u_d),
@@ -456,7 +456,7 @@ Result<Scenario> default_tuning_scenario(const Model& model);
 /// Errors (input): as Model::plant.
 Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
                                                        const TuneOptions& options,
-                                                       const HeadingRateChoice& said = {});
+                                                       const HeadingRateChoice& choice = {});
 inline constexpr double kPush = 0.1;  ///< size of the disturbance, see default_tuning_scenarios()
 /// Suffix of the name of a default scenario with a heading-rate limit.
 inline constexpr std::string_view kLedSuffix = "_led";

@@ -45,11 +45,11 @@ void read_search(JsonObject& json, TuneOptions& options) {
   }
   search_options(options, ReadOption{json});
   options.sensitivity =
-      static_cast<int>(json.optional_integer("sensitivity", 0, kMostSamples).value_or(0));
-  if (options.sensitivity > 0 && options.sensitivity < kFewestSamples) {
+      static_cast<int>(json.optional_integer("sensitivity", 0, kMaxSobolSamples).value_or(0));
+  if (options.sensitivity > 0 && options.sensitivity < kMinSobolSamples) {
     json.fault(ErrorCode::kOutOfRange, "sensitivity",
                fmt::format("{} samples are too few; give 0, or at least {}", options.sensitivity,
-                           kFewestSamples));
+                           kMinSobolSamples));
   }
   if (const auto seed = json.optional_integer("seed", 0, 4'294'967'295L)) {
     options.seed = static_cast<std::uint64_t>(*seed);
@@ -89,9 +89,9 @@ void read_goals(JsonObject& json, TuneOptions& options) {
   for (JsonObject& goal : json.optional_objects("goals")) {
     options.goals.push_back(read_goal(std::move(goal)));
   }
-  if (options.goals.size() > kMostGoals) {
+  if (options.goals.size() > kMaxGoals) {
     json.fault(ErrorCode::kTooLarge, "goals",
-               fmt::format("{} goals; at most {} are allowed", options.goals.size(), kMostGoals));
+               fmt::format("{} goals; at most {} are allowed", options.goals.size(), kMaxGoals));
   }
   if (!options.goals.empty() && options.nominal) {
     json.fault(ErrorCode::kConflict, "goals",

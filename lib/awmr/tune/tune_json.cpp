@@ -77,8 +77,8 @@ TuningGoal read_goal(JsonObject json) {
     json.fault(ErrorCode::kMissing, "at_most",
                "contains no metric; give at least one with its limit");
   }
-  goal.share =
-      json.optional_number("share", {.min = kLeastShare, .max = kMostShare}).value_or(goal.share);
+  goal.share = json.optional_number("share", {.min = kMinGoalShare, .max = kMaxGoalShare})
+                   .value_or(goal.share);
   if (json.has("mode")) goal.mode = json.choice("mode", kYawModeNames);
   goal.is_soft = json.optional_boolean("soft").value_or(false);
   json.reject_unknown_keys();
@@ -96,7 +96,7 @@ UnmodelledVariation read_open(JsonObject json) {
   UnmodelledVariation open;
   if (json.has("mass_factors")) {
     open.mass_factors =
-        json.numbers("mass_factors", {.min = kLeastMassFactor, .max = kMostMassFactor});
+        json.numbers("mass_factors", {.min = kMinMassFactor, .max = kMaxMassFactor});
     if (open.mass_factors.empty()) {
       json.fault(ErrorCode::kMissing, "mass_factors", "an empty list; leave the key out");
     }
@@ -111,9 +111,9 @@ UnmodelledVariation read_open(JsonObject json) {
   }
   for (const auto& [key, count] : {std::pair("mass_factors", open.mass_factors.size()),
                                    std::pair("wheel_forces", open.wheel_forces.size())}) {
-    if (count <= kMostOpenValues) continue;
+    if (count <= kMaxOpenValues) continue;
     json.fault(ErrorCode::kTooLarge, key,
-               fmt::format("{} values; at most {} are allowed", count, kMostOpenValues));
+               fmt::format("{} values; at most {} are allowed", count, kMaxOpenValues));
   }
   json.reject_unknown_keys();
   return open;

@@ -34,7 +34,7 @@ constexpr Interval kFactor{0.25, 4.0};
 constexpr int kGrid = 9;
 constexpr int kBits = 10;
 constexpr double kWorthNaming = 0.3;
-constexpr std::size_t kMostNamed = 4;
+constexpr std::size_t kMaxNamed = 4;
 
 void add_parameters(const Model& model, std::vector<Change>& changes) {
   for (const ParameterInfo& parameter : parameter_table()) {
@@ -199,7 +199,7 @@ std::vector<FaultHypothesis> fault_hypotheses(const Model& model,
       [](const FaultHypothesis& a, const FaultHypothesis& b) { return a.explained > b.explained; });
   std::erase_if(hypotheses,
                 [](const FaultHypothesis& one) { return one.explained < kWorthNaming; });
-  if (hypotheses.size() > kMostNamed) hypotheses.resize(kMostNamed);
+  if (hypotheses.size() > kMaxNamed) hypotheses.resize(kMaxNamed);
   return hypotheses;
 }
 

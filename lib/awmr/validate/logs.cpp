@@ -47,13 +47,13 @@ Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
 }
 
 /// Largest number of readings of a channel in its computed series, and in the chart.
-constexpr std::size_t kMostInSeries = 100000;
-constexpr std::size_t kMostDrawn = 1000;
+constexpr std::size_t kMaxInSeries = 100000;
+constexpr std::size_t kMaxDrawn = 1000;
 
 PredictedSeries drawn(const PredictedSeries& all) {
   const std::vector<std::vector<double>> signals{all.measured, all.predicted};
   PredictedSeries some;
-  for (const std::size_t row : drawn_rows(all.t_s, signals, kDrawnTolerance, kMostDrawn)) {
+  for (const std::size_t row : drawn_rows(all.t_s, signals, kDrawnTolerance, kMaxDrawn)) {
     some.t_s.push_back(all.t_s[row]);
     some.measured.push_back(all.measured[row]);
     some.predicted.push_back(all.predicted[row]);
@@ -82,7 +82,7 @@ LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, do
                            double tolerance, double motor_lag_s) {
   LogValidation validation{log.file, horizon_s, {}, true};
   const PredictionOptions options{
-      .horizon_s = horizon_s, .motor_lag_s = motor_lag_s, .most_in_series = kMostInSeries};
+      .horizon_s = horizon_s, .motor_lag_s = motor_lag_s, .most_in_series = kMaxInSeries};
   for (const ChannelPrediction& prediction : predict_log(log, plant, options)) {
     ChannelValidation entry{std::string(info(prediction.channel).name),
                             std::string(info(prediction.channel).unit),

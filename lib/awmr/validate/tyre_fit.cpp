@@ -14,7 +14,7 @@ namespace awmr::tyre_fit {
 namespace {
 
 /// Minimum number of windows with each kind of turn (by wheel forces, by steering).
-constexpr std::size_t kFewestTurns = 3;
+constexpr std::size_t kMinTurns = 3;
 
 Estimate estimate_of(double log_value, double log_error, std::size_t windows) {
   const double value = std::exp(log_value);
@@ -42,8 +42,8 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
     by_steering += turns.by_steering ? 1U : 0U;
   }
   const bool steers = vehicle.has_steering();
-  const bool enough = windows.size() >= kFewestTyreWindows && by_sides >= kFewestTurns &&
-                      (!steers || by_steering >= kFewestTurns);
+  const bool enough = windows.size() >= kMinTyreWindows && by_sides >= kMinTurns &&
+                      (!steers || by_steering >= kMinTurns);
   if (enough) return std::nullopt;
   return finding(
       log, Severity::kError, "tyres-need-turns",
@@ -51,7 +51,7 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
           "a fit of the tyres needs at least {} windows of {:g} s, {} of them with each kind of "
           "turn; these logs have {}, {} with turns by left and right wheel forces{} (a turn by "
           "forces and steering together is of neither kind). Record a drive that turns {}",
-          kFewestTyreWindows, kWindow_s, kFewestTurns, windows.size(), by_sides,
+          kMinTyreWindows, kWindow_s, kMinTurns, windows.size(), by_sides,
           steers ? fmt::format(" and {} with steered turns", by_steering) : "",
           steers ? "by wheel forces with straight wheels, then by steering with equal forces, "
                    "then by steering while it coasts"

@@ -56,7 +56,7 @@ struct TyreFit {
   std::optional<Estimate> friction;  ///< mu; absent if the logs do not determine it
   /// c_a, 1/rad; absent if the logs do not determine it.
   std::optional<Estimate> cornering_per_rad;
-  int windows = 0;  ///< windows of 5 s in the fit, kFewestTyreWindows ... 60
+  int windows = 0;                          ///< windows of 5 s in the fit, kMinTyreWindows ... 60
   std::vector<HeldOutError> held_out = {};  ///< by channel
   /// The plant with the smaller errors on held-out windows; absent if the interval of D_w contains
   /// 0.
@@ -64,7 +64,7 @@ struct TyreFit {
 };
 
 /// Minimum number of windows for a fit.
-inline constexpr std::size_t kFewestTyreWindows = 12;
+inline constexpr std::size_t kMinTyreWindows = 12;
 /// Written in place of the name of the better plant if neither is better.
 inline constexpr std::string_view kUndecidedPlant = "undecided";
 

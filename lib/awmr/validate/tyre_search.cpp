@@ -86,7 +86,7 @@ ceres::Problem problem_of(const Windows& windows, const Plants& plants, const We
 std::vector<LogTyres> starts_of(const Windows& windows, const Plants& plants) {
   constexpr std::array kFrictions{0.25, 0.5, 0.75, 1.1};
   constexpr std::array kStiffnesses{3.0, 6.0, 12.0, 24.0};
-  constexpr std::size_t kMostStarts = 3;
+  constexpr std::size_t kMaxStarts = 3;
   Windows some;
   for (std::size_t i = 0; i < windows.size(); i += 3) some.push_back(windows[i]);
   std::vector<std::pair<double, LogTyres>> points;
@@ -98,7 +98,7 @@ std::vector<LogTyres> starts_of(const Windows& windows, const Plants& plants) {
   }
   std::ranges::sort(points, {}, [](const auto& point) { return point.first; });
   std::vector<LogTyres> starts;
-  for (std::size_t i = 0; i < std::min(points.size(), kMostStarts); ++i) {
+  for (std::size_t i = 0; i < std::min(points.size(), kMaxStarts); ++i) {
     starts.push_back(points[i].second);
   }
   return starts;
@@ -201,12 +201,12 @@ LogTyres default_tyres() {
 
 std::optional<Fit> fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                        const LogTyres& from) {
-  constexpr int kMostRounds = 8;
+  constexpr int kMaxRounds = 8;
   constexpr double kSameCost = 1e-5;  // converged: largest change of the cost divided by the errors
   const auto first = sums_on_tyres(windows, plants, from);
   if (!first) return std::nullopt;
   Fit best{.at = from, .weights = first->weights(), .cost = first->cost()};
-  for (int round = 0; round < kMostRounds && !best.converged; ++round) {
+  for (int round = 0; round < kMaxRounds && !best.converged; ++round) {
     Fit next = best;
     ceres::Problem problem = problem_of(windows, plants, best.weights, is_free, next.at);
     silence_ceres();

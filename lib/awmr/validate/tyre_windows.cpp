@@ -114,8 +114,8 @@ std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
 }
 
 Windows evenly_chosen(const std::vector<ReplayedWindow>& all) {
-  constexpr std::size_t kMostWindows = 60;
-  const std::size_t count = std::min(all.size(), kMostWindows);
+  constexpr std::size_t kMaxWindows = 60;
+  const std::size_t count = std::min(all.size(), kMaxWindows);
   Windows windows;
   for (std::size_t i = 0; i < count; ++i) windows.push_back(&all[i * all.size() / count]);
   return windows;

@@ -11,14 +11,14 @@ namespace awmr {
 namespace {
 
 constexpr const char* kValidationSchema = "awmr.validation/1";
-constexpr long kMost = std::numeric_limits<int>::max();
+constexpr long kMax = std::numeric_limits<int>::max();
 const std::string kVerdicts[] = {"reproduced", "not-reproduced"};
 
 void describe_trials(JsonObject& json) {
   for (JsonObject& trial : json.objects("trials")) {
     trial.choice("kind", kTrialKindNames);
     trial.string("file");
-    trial.integer("line", 0, kMost);
+    trial.integer("line", 0, kMax);
     trial.string("unit");
     trial.number("measured");
     trial.nullable_number("predicted");
@@ -39,7 +39,7 @@ void describe_logs(JsonObject& json) {
     log.boolean("passed");
     for (JsonObject& channel : log.object("channels").values()) {
       channel.string("unit");
-      channel.integer("samples", 0, kMost);
+      channel.integer("samples", 0, kMax);
       describe_error(channel.object("one_step"));
       describe_error(channel.object("long_horizon"));
       if (auto series = channel.optional_object("series")) {
@@ -72,7 +72,7 @@ TyreFit tyres_from_json(JsonObject json) {
   fit.friction = read_estimate(estimates, "friction");
   fit.cornering_per_rad = read_estimate(estimates, "cornering_stiffness_per_rad");
   estimates.reject_unknown_keys();
-  fit.windows = static_cast<int>(json.integer("windows", kFewestTyreWindows, kMost));
+  fit.windows = static_cast<int>(json.integer("windows", kMinTyreWindows, kMax));
   JsonObject channels = json.object("held_out");
   for (const std::string& channel : channels.keys()) {
     JsonObject error = channels.object(channel);
@@ -100,7 +100,7 @@ void describe_drives(JsonObject& json) {
     drive.boolean("inside");
     for (JsonObject& channel : drive.object("channels").values()) {
       channel.string("unit");
-      channel.integer("samples", 1, kMost);
+      channel.integer("samples", 1, kMax);
       channel.number("noise");
       channel.boolean("noise_from_log");
       for (const char* key : {"distance", "allowed", "difference"}) channel.number(key);

@@ -13,7 +13,7 @@ namespace {
 
 /// ln of lambda, mu/epsilon, mu, mu_s/epsilon_s, mu_s, and of the friction width where there is dry friction.
 using Vector = std::array<double, 6>;
-constexpr double kLeastWidth_radps = 0.02;
+constexpr double kMinWidth_radps = 0.02;
 
 Vector logarithms(const LawGains& k) {
   return {std::log(k.lambda),   std::log(k.mu / k.epsilon),
@@ -29,7 +29,7 @@ LawGains gains_at(const Vector& x) {
           mu / std::exp(x[1]),
           speed_mu,
           speed_mu / std::exp(x[3]),
-          std::max(std::exp(x[5]), kLeastWidth_radps)};
+          std::max(std::exp(x[5]), kMinWidth_radps)};
 }
 
 struct Member {

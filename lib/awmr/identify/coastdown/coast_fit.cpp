@@ -68,8 +68,8 @@ TransformedParameters start_of(Family family, const Interval& beta_range) {
 }
 
 Interval range_of(TransformedParameter shape, const Interval& beta_range) {
-  constexpr double kMostOverAlpha = 1e9;
-  return shape == TransformedParameter::kBeta ? beta_range : Interval{0.0, kMostOverAlpha};
+  constexpr double kMaxOverAlpha = 1e9;
+  return shape == TransformedParameter::kBeta ? beta_range : Interval{0.0, kMaxOverAlpha};
 }
 
 bool is_inside(const Interval& range, double value) {

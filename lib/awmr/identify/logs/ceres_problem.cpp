@@ -216,7 +216,7 @@ class EndAtLimit : public ceres::IterationCallback {
 };
 
 /// Sets the stop reason of a search, and whether the search converged and is usable.
-void tell_end(const ceres::Solver::Summary& summary, bool at_limit, Solved& solved) {
+void report_end(const ceres::Solver::Summary& summary, bool at_limit, Solved& solved) {
   const bool rough = summary.termination_type == ceres::USER_SUCCESS && !at_limit;
   solved.cost = summary.final_cost;
   solved.converged = rough || converged(summary);
@@ -265,7 +265,7 @@ Solved search_from(const LogProblem& problem, SearchPoint from, double function_
   options.callbacks.push_back(&end_at_limit);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &search, &summary);
-  tell_end(summary, end_at_limit.has_ended(), solved);
+  report_end(summary, end_at_limit.has_ended(), solved);
   return solved;
 }
 

@@ -109,7 +109,7 @@ struct Drift {
   ChannelNoise noise;  ///< scaled to a total variance of 1
   double cost = std::numeric_limits<double>::infinity();
 
-  bool plainly_better_than(double other) const {
+  bool is_significantly_better_than(double other) const {
     constexpr double kPlainly = 10.0;  // decrease of -2 ln L by two more parameters: p = 0.007
     return cost < other - kPlainly;
   }
@@ -231,7 +231,7 @@ double second_order_cost(unsigned, const double* x, double*, void* data) {
 /// also if the search fails, because the caller compares it with the other noise models.
 Drift likeliest_from(std::span<const ErrorSeries> series, const SecondOrder& from,
                      const SecondOrderRange& range) {
-  constexpr int kMostEvaluations = 150;
+  constexpr int kMaxEvaluations = 150;
   constexpr double kFine = 0.02;  // the search ends at changes of -2 ln L below this
   constexpr double kFirstStep = 0.5;
   const std::array<double, 3> lowest = range.lowest.as_array();
@@ -246,7 +246,7 @@ Drift likeliest_from(std::span<const ErrorSeries> series, const SecondOrder& fro
   nlopt_set_min_objective(opt.get(), second_order_cost, &search);
   nlopt_set_initial_step1(opt.get(), kFirstStep);
   nlopt_set_ftol_abs(opt.get(), kFine);
-  nlopt_set_maxeval(opt.get(), kMostEvaluations);
+  nlopt_set_maxeval(opt.get(), kMaxEvaluations);
   double least = 0.0;
   nlopt_optimize(opt.get(), x.data(), &least);
   return search.best;
@@ -301,9 +301,9 @@ ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_sh
   if (step_s > 0.0) {
     const double white_cost = likelihood(some, noise).cost;
     const Drift drift = likeliest_drift(some, step_s, white_cost);
-    if (drift.plainly_better_than(white_cost)) {
+    if (drift.is_significantly_better_than(white_cost)) {
       const Drift second = likeliest_second_order(some, step_s, before);
-      noise = second.plainly_better_than(drift.cost) ? second.noise : drift.noise;
+      noise = second.is_significantly_better_than(drift.cost) ? second.noise : drift.noise;
     }
   }
   const Likelihood scale = likelihood(series, noise);

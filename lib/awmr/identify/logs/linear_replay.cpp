@@ -201,7 +201,7 @@ void LinearStepper::step(const DelayedCommand& command, double h, LinearMotion& 
     const double surge = share_until_rest(way_.surge, from.u_mps, next.u_mps);
     const double yaw = share_until_rest(way_.yaw, from.r_radps, next.r_radps);
     const double share = std::min(surge, yaw);
-    if (share == 1.0 || stops == kMostStopsInAStep) return move_to(next, h, motion);
+    if (share == 1.0 || stops == kMaxStopsInAStep) return move_to(next, h, motion);
     move_to(state_after(command, share * h, from), share * h, motion);
     stop(surge <= yaw ? LogChannel::kSpeed : LogChannel::kYawRate, command, motion);
     h *= 1.0 - share;

@@ -109,11 +109,11 @@ std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
 /// Limit of the work (Effort) of all searches: about half a minute on a processor of 2023, more for
 /// long logs. A log that the model describes well needs a tenth of this.
 std::int64_t effort_limit(const std::vector<DrivingLog>& logs) {
-  constexpr double kLeast = 6e8;
+  constexpr double kMin = 6e8;
   constexpr double kPerSecond = 1e6;  // per second of log
   double duration_s = 0.0;
   for (const DrivingLog& log : logs) duration_s += log.t_s.back() - log.t_s.front();
-  return std::llround(kLeast + kPerSecond * duration_s);
+  return std::llround(kMin + kPerSecond * duration_s);
 }
 
 LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,

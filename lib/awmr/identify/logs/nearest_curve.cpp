@@ -35,14 +35,14 @@ Nearest fitted(const Eigen::VectorXd& speed, const Eigen::VectorXd& force, doubl
 
 Resistance<double> nearest_curve(const Resistance<double>& curve, const FamilyTerms& terms,
                                  double fastest) {
-  constexpr double kLeastShare = 0.1;
-  constexpr double kLeastBeta = 0.2;
+  constexpr double kMinShare = 0.1;
+  constexpr double kMinBeta = 0.2;
   constexpr double kBetaStep = 0.1;
   constexpr int kBetas = 24;  // number of exponents to try, up to 2.5
   const Eigen::VectorXd speed = Eigen::VectorXd::LinSpaced(kSpeeds, fastest / kSpeeds, fastest);
   const Eigen::VectorXd force = speed.unaryExpr([&](double w) { return curve.at(w); });
   const bool constant = terms.coulomb || terms.dead_zone;
-  const double least = constant ? kLeastShare * curve.at(0.5 * fastest) : 0.0;
+  const double least = constant ? kMinShare * curve.at(0.5 * fastest) : 0.0;
   Nearest best;
   const auto consider = [&](double beta) {
     for (const bool quadratic : {false, true}) {
@@ -54,7 +54,7 @@ Resistance<double> nearest_curve(const Resistance<double>& curve, const FamilyTe
     }
   };
   if (!terms.beta) consider(1.0);
-  for (int i = 0; terms.beta && i < kBetas; ++i) consider(kLeastBeta + kBetaStep * i);
+  for (int i = 0; terms.beta && i < kBetas; ++i) consider(kMinBeta + kBetaStep * i);
   return best.squares < std::numeric_limits<double>::infinity() ? best.curve : curve;
 }
 

@@ -311,7 +311,7 @@ std::optional<CoastingTurn> coasting_turn(const Model& model) {
   const Vehicle& vehicle = model.vehicle;
   const auto surge = model.plant(Motion::kSteadySurge);
   if (!vehicle.has_steering() || !surge) return std::nullopt;
-  constexpr double kMostAcross_mps2 = 0.2 * kGravity_mps2;
+  constexpr double kMaxAcross_mps2 = 0.2 * kGravity_mps2;
   const double force = std::max(0.0, vehicle.wheel_force.hi - surge->wheel_dead_zone);
   const auto reachable = steady_rate(surge->surge, driven_wheels(*surge) * force,
                                      driven_wheels(*surge) * surge->back_emf_s_per_m);
@@ -319,7 +319,7 @@ std::optional<CoastingTurn> coasting_turn(const Model& model) {
   if (!(fastest_mps > 0.0)) return std::nullopt;
   const double speed_mps = 0.5 * fastest_mps;
   const double wheelbase_m = 2.0 * vehicle.front_axle_m;
-  const double most_rad = std::atan(kMostAcross_mps2 * wheelbase_m / (speed_mps * speed_mps));
+  const double most_rad = std::atan(kMaxAcross_mps2 * wheelbase_m / (speed_mps * speed_mps));
   const double steering_rad = std::min(radians(0.5 * vehicle.steering_max_deg), most_rad);
   return CoastingTurn{speed_mps, degrees(steering_rad),
                       degrees(speed_mps * std::tan(steering_rad) / wheelbase_m)};

@@ -9,20 +9,20 @@
 namespace awmr {
 namespace {
 
-constexpr long kMostRuns = std::numeric_limits<int>::max();
+constexpr long kMaxRuns = std::numeric_limits<int>::max();
 
 void describe_recovery(JsonObject& json) {
   json.schema("awmr.recover/1");
   read_provenance(json);
-  json.integer("runs", 0, kMostRuns);
-  json.integer("refused_runs", 0, kMostRuns);
+  json.integer("runs", 0, kMaxRuns);
+  json.integer("refused_runs", 0, kMaxRuns);
   json.string("noise");
   for (JsonObject& parameter : json.object("parameters").values()) {
     for (const char* key :
          {"truth", "bias", "rmse", "mean_std_error", "coverage95", "worst_relative_error"}) {
       parameter.number(key);
     }
-    parameter.integer("runs", 0, kMostRuns);
+    parameter.integer("runs", 0, kMaxRuns);
     parameter.reject_unknown_keys();
   }
   read_findings(json);

@@ -252,15 +252,15 @@ std::string noise_in_words(const RowNoise& rows, const RecoverOptions& options) 
 
 /// Checks the simulated log. Errors (input): too few or too many rows.
 Status check_drive(const DrivePlan& drive) {
-  constexpr double kFewest = 20.0;
-  constexpr double kMost = 1e6;
+  constexpr double kMin = 20.0;
+  constexpr double kMax = 1e6;
   const double rows = drive.duration_s * drive.rate_hz;
-  if (drive.rate_hz > 0.0 && rows >= kFewest && rows <= kMost) return {};
+  if (drive.rate_hz > 0.0 && rows >= kMin && rows <= kMax) return {};
   return input_error(
       ErrorCode::kOutOfRange, option_text("duration"),
       fmt::format("{:g} s at {:g} Hz make {:.3g} rows; a simulated log needs {:g} to "
                   "{:g} rows",
-                  drive.duration_s, drive.rate_hz, rows, kFewest, kMost));
+                  drive.duration_s, drive.rate_hz, rows, kMin, kMax));
 }
 
 /// Adapts the options of a log to the model, unless the user requested parameters. If the model has

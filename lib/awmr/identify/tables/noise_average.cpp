@@ -45,7 +45,7 @@ bool has_evidence(const SteadyFit& fit) {
 }
 
 /// Sets the weights from their unnormalised logarithms. Raises the weight of the first alternative,
-/// the chosen fit, to kLeastOwnWeight. Removes alternatives with weight 0.
+/// the chosen fit, to kMinOwnWeight. Removes alternatives with weight 0.
 void normalise(std::vector<NoiseAlternative>& alternatives, const std::vector<double>& logarithms) {
   const double largest = *std::max_element(logarithms.begin(), logarithms.end());
   double others = 0.0;
@@ -54,7 +54,7 @@ void normalise(std::vector<NoiseAlternative>& alternatives, const std::vector<do
     if (k > 0) others += alternatives[k].weight;
   }
   const double own =
-      std::max(alternatives.front().weight, others * kLeastOwnWeight / (1.0 - kLeastOwnWeight));
+      std::max(alternatives.front().weight, others * kMinOwnWeight / (1.0 - kMinOwnWeight));
   alternatives.front().weight = own;
   for (NoiseAlternative& alternative : alternatives) alternative.weight /= own + others;
   std::erase_if(alternatives, [](const NoiseAlternative& a) { return !(a.weight > 0.0); });

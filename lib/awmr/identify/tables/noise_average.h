@@ -32,7 +32,7 @@ struct NoiseAlternative {
 /// Smallest weight of the chosen fit, whose value is reported. Half of its distribution lies on
 /// either side of this value. With a weight of 5 %, at least 2.5 % of the mixture then lies on
 /// either side, so the 95 % interval always contains the reported value.
-inline constexpr double kLeastOwnWeight = 0.05;
+inline constexpr double kMinOwnWeight = 0.05;
 
 /// Returns the chosen fit, then the usable fits of the same family with the same free parameters
 /// under the other error models. Returns only the chosen fit if the user selected the error model

@@ -212,11 +212,11 @@ void measure_scrub(const TrialSet<TurningRow>& turning, Model& model) {
   if (model.yaw_held_m) note_standing(model, turning, standing);
   const std::vector<SteadyPoint> turns =
       turning_points(turning.by_sides, *model[ParameterId::kWheelDeadZone].value);
-  if (turns.size() < kFewestScrubRows) {
+  if (turns.size() < kMinScrubRows) {
     note(model, turning, "few-scrub-rows",
          fmt::format("{} differential turns are too few for an interval of the tyre scrub; record "
                      "at least {}",
-                     turns.size(), kFewestScrubRows));
+                     turns.size(), kMinScrubRows));
     return;
   }
   const ScrubMoments met = met_by(turns, *law);

@@ -19,7 +19,7 @@
 namespace awmr {
 
 /// Smallest number of differential turns for a scrub estimate with an interval.
-inline constexpr std::size_t kFewestScrubRows = 3;
+inline constexpr std::size_t kMinScrubRows = 3;
 
 /// Computes the scrub from the differential turns of the table. Does nothing without differential
 /// turns or without g3. Sets model.yaw_held_m, the largest moment (over F_max, m) at which the

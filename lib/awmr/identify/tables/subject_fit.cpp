@@ -22,7 +22,7 @@ constexpr double kTablesPlainlyBetter = 10.0;
 
 /// Smallest number n of runs with an AICc, whose denominator n - p - 2 must be positive. The
 /// smallest families have p = 2 parameters.
-constexpr std::size_t kFewestToCompare = 5;
+constexpr std::size_t kMinToCompare = 5;
 
 /// The chosen fit and the index of its report in SubjectFit::reports; no fit if none is accepted.
 struct Choice {
@@ -53,11 +53,11 @@ Choice choose_log_linear(const Subject& subject, const SubjectOptions& options,
 /// `families-not-compared`: the power law is used without a comparison, because there are too few
 /// rows.
 Finding not_compared(const Subject& subject) {
-  return about(subject, Severity::kWarning, "families-not-compared",
-               fmt::format("{} rows for the {} resistance are too few to compare families by AICc, "
-                           "which needs {} rows; the power law is used. Record another run",
-                           subject.points.size(), name_in(kFitSubjectNames, subject.name),
-                           kFewestToCompare));
+  return about(
+      subject, Severity::kWarning, "families-not-compared",
+      fmt::format("{} rows for the {} resistance are too few to compare families by AICc, "
+                  "which needs {} rows; the power law is used. Record another run",
+                  subject.points.size(), name_in(kFitSubjectNames, subject.name), kMinToCompare));
 }
 
 /// Error finding if no family can be chosen. `tried`: true if the family is selected by AICc and at
@@ -84,7 +84,7 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
                                       : best_candidate(candidates, wanted);
   const bool tried = std::ranges::any_of(
       candidates, [&](const FamilyCandidate& c) { return c.problem.noise == wanted; });
-  if (!chosen && !options.family.family && subject.points.size() < kFewestToCompare) {
+  if (!chosen && !options.family.family && subject.points.size() < kMinToCompare) {
     // No family has an AICc with so few runs. The power law has as few parameters as any family.
     chosen = candidate_of(candidates, Family::kPower, wanted);
     choice.findings.push_back(not_compared(subject));

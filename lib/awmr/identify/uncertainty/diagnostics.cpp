@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kFewestForShape = 8;
+constexpr std::size_t kMinForShape = 8;
 constexpr double kSignificant = 0.05;
 
 double mean_of(std::span<const double> x) {
@@ -37,7 +37,7 @@ std::string verdict(double p, const char* passed, const char* failed) {
 
 std::optional<Diagnostic> normality(std::span<const double> residuals) {
   const std::size_t n = residuals.size();
-  if (n < kFewestForShape) return std::nullopt;
+  if (n < kMinForShape) return std::nullopt;
   std::vector<double> x(residuals.begin(), residuals.end());
   std::sort(x.begin(), x.end());
   const double mean = mean_of(x);
@@ -88,7 +88,7 @@ std::optional<Diagnostic> whiteness(std::span<const double> residuals, int lags)
 std::optional<Diagnostic> curvature(std::span<const double> forces,
                                     const Eigen::VectorXd& residuals) {
   const std::size_t n = forces.size();
-  if (n < kFewestForShape) return std::nullopt;
+  if (n < kMinForShape) return std::nullopt;
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),

@@ -86,7 +86,7 @@ void set_uncertainty(const Posterior& posterior, Eigen::Index i, double slope,
   for (std::size_t q = 0; q < kQuantiles.size(); ++q) {
     quantiles[q] = to_value(posterior.quantile(i, kQuantiles[q].probability));
   }
-  // The value is between these quantiles, because its alternative has at least kLeastOwnWeight. Min
+  // The value is between these quantiles, because its alternative has at least kMinOwnWeight. Min
   // and max only remove rounding.
   estimate.ci95 = Interval{std::min(quantiles.front(), *estimate.value),
                            std::max(quantiles.back(), *estimate.value)};

@@ -138,7 +138,7 @@ Figure spread_figure(const std::string& stem, const std::string& metric, const J
 }
 
 /// True if a mode has a nominal value or a median of the metric other than 0.
-bool is_told(const Json& scenario, const std::string& metric) {
+bool is_reported(const Json& scenario, const std::string& metric) {
   const Json& modes = scenario.at("modes");
   return std::any_of(modes.begin(), modes.end(), [&](const Json& mode) {
     if (!mode.at("metrics").contains(metric)) return false;
@@ -155,7 +155,7 @@ void add_spreads(const Json& data, const Json& scenario, const std::string& stem
   const Json samples = has_samples ? data.at("samples").at(name) : Json::object();
   for (const Json& metric : data.at("comparison").at("ranking").at("metrics")) {
     const std::string metric_name = metric.at("name");
-    if (!(number_in(metric, "weight").value_or(0.0) > 0.0) || !is_told(scenario, metric_name)) {
+    if (!(number_in(metric, "weight").value_or(0.0) > 0.0) || !is_reported(scenario, metric_name)) {
       continue;
     }
     all.figures.push_back(spread_figure(stem, metric_name, scenario, samples));

@@ -7,7 +7,7 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kMostNameBytes = 100;
+constexpr std::size_t kMaxNameBytes = 100;
 
 /// Makes equal names of figures unique by a number: path_a, path_a_2.
 void number_equal_names(std::vector<Figure>& figures) {
@@ -37,7 +37,7 @@ Status add_from_file(void (*add)(const Json&, FiguresOfResults&), const std::str
 
 std::string figure_name(const std::string& kind, const std::string& name) {
   std::string text = kind + "_";
-  for (const char c : first_characters(name, kMostNameBytes)) {
+  for (const char c : first_characters(name, kMaxNameBytes)) {
     const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
     text += letter || is_digit(c) || c == '-' || c == '_' ? c : '_';
   }

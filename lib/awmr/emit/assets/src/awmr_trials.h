@@ -16,11 +16,12 @@ struct Trial {
 };
 
 struct Settings {
-  float settle_s;       /* driving time before the measurement */
-  float measure_s;      /* averaging time */
-  float coast_s;        /* maximum duration of a coast-down */
-  float rest_mps;       /* a coast-down also ends below this speed, once it has enough rows for a curve */
-  float steady_share;   /* a run is steady if the means of both halves of the averaging time differ by at
+  float settle_s;  /* driving time before the measurement */
+  float measure_s; /* averaging time */
+  float coast_s;   /* maximum duration of a coast-down */
+  float rest_mps; /* a coast-down also ends below this speed, once it has enough rows for a curve */
+  float
+      steady_share; /* a run is steady if the means of both halves of the averaging time differ by at
                            most this fraction of the mean */
 };
 
@@ -43,7 +44,7 @@ struct Measured {
   float speed_mps;
   uint32_t speed_ms; /* time of its measurement: each reading counts once */
   float yaw_rate_radps;
-  bool is_held;      /* the dead man's switch is held: the vehicle is armed */
+  bool is_held; /* the dead man's switch is held: the vehicle is armed */
 };
 
 /* For kRow: force, steering_rad and value, the mean speed or yaw rate. For kCurveRow: t_s since
@@ -89,12 +90,16 @@ class Recorder {
   }
 
   State state() const { return state_; }
-  uint8_t number() const { return number_; } /* of the present run, from 0; `count` when all are done */
+  uint8_t number() const {
+    return number_;
+  } /* of the present run, from 0; `count` when all are done */
   const Trial& trial() const { return runs_[number_]; }
   const Row& row() const { return row_; }
   /* Force of every wheel to command until the next step, over F_max: 0 while waiting or coasting. */
   float force() const { return state_ == kSettling || state_ == kMeasuring ? trial().force : 0.0f; }
-  float steering_rad() const { return state_ == kWaiting || state_ == kDone ? 0.0f : trial().steering_rad; }
+  float steering_rad() const {
+    return state_ == kWaiting || state_ == kDone ? 0.0f : trial().steering_rad;
+  }
 
  private:
   const Trial* runs_;
@@ -110,8 +115,9 @@ class Recorder {
   uint8_t curve_rows_ = 0;
   Row row_ = {0.0f, 0.0f, 0.0f, 0.0f};
 
-  static const uint8_t kFewest = 3;      /* minimum number of fixes in half of the averaging time */
-  static const uint8_t kCurveRows = 8;   /* minimum rows of a coast-down; the last ones can be at rest */
+  static const uint8_t kMin = 3; /* minimum number of fixes in half of the averaging time */
+  static const uint8_t kCurveRows =
+      8; /* minimum rows of a coast-down; the last ones can be at rest */
 
   void begin_window(uint32_t now_ms) {
     state_ = kMeasuring;
@@ -143,7 +149,7 @@ class Recorder {
       }
       return kNothing;
     }
-    if (samples_[0] < kFewest || samples_[1] < kFewest) return give_up(kNotSteady);
+    if (samples_[0] < kMin || samples_[1] < kMin) return give_up(kNotSteady);
     const float mean = (sum_[0] + sum_[1]) / static_cast<float>(samples_[0] + samples_[1]);
     const float apart = sum_[1] / samples_[1] - sum_[0] / samples_[0];
     const float most = settings_.steady_share * (mean < 0.0f ? -mean : mean);
