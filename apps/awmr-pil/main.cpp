@@ -17,7 +17,7 @@
 namespace {
 
 int report(const awmr::Error& error, bool json = false) {
-  awmr::pil::end_if_told_to();
+  awmr::pil::exit_if_interrupted();
   const std::string text = json ? awmr::cli::error_text(error) : awmr::to_text(error, "--");
   std::fputs(text.c_str(), stderr);
   return awmr::exit_code(error);
@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
-    awmr::pil::end_if_told_to();
+    awmr::pil::exit_if_interrupted();
     std::fprintf(stderr, "error: bug in awmr-pil, please report it: %s [internal]\n", error.what());
     return 3;
   }

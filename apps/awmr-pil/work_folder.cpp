@@ -181,7 +181,7 @@ void clean_up_at_signals() {
   }
 }
 
-void end_if_told_to() {
+void exit_if_interrupted() {
   if (!can_end || ::kill(::getpid(), question()) != 0) return;
   while (::sem_wait(&not_ending) != 0) {
   }

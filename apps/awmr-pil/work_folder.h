@@ -34,6 +34,6 @@ void clean_up_at_signals();
 
 /// Never returns if a signal is about to end the program, so that errors caused by the signal are
 /// not reported. Returns at once otherwise.
-void end_if_told_to();
+void exit_if_interrupted();
 
 }  // namespace awmr::pil

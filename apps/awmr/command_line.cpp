@@ -44,8 +44,8 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return near.empty() ? near : fmt::format("; did you mean '{}'?", near);
 }
 
-std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error, int argc,
-                          char** argv) {
+std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error, int argc,
+                             char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
   if (app.get_subcommands().empty() && !first.empty() && first.front() != '-') {
     return fmt::format("no command is called '{}'{}", shortened(first),

@@ -13,6 +13,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 
 /// Describes the command-line error: CLI11's message, the unknown command or option, and the
 /// closest known name. Precondition: `app` is as the failed parse left it.
-std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
+std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error, int argc,
+                             char** argv);
 
 }  // namespace awmr::cli

@@ -76,12 +76,12 @@ Json table_json(const EmittedTable& table) {
 /// requested.
 void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& command,
                 Outcome& outcome) {
-  if (command.emit.table_error || table.worst_share() <= kTableError) return;
+  if (command.emit.table_error || table.largest_relative_error() <= kTableError) return;
   outcome.findings.push_back(
       {command.model.filename().string(), 0, Severity::kWarning, "coarse-table",
        fmt::format("the {} resistance is so steep at low speed that its best table has an error of "
                    "up to {:.2g} % (usual: {:g} %); the chip's feed-forward has the same error",
-                   name, 100.0 * table.worst_share(), 100.0 * kTableError)});
+                   name, 100.0 * table.largest_relative_error(), 100.0 * kTableError)});
 }
 
 /// Returns a warning for each loop (heading, speed) that is unstable at this sample time with any

@@ -76,7 +76,7 @@ std::string joined(const std::vector<std::pair<std::string, std::string>>& docum
   return awmr::to_text(json);
 }
 
-bool asks_for_json(int argc, char** argv) {
+bool requests_json(int argc, char** argv) {
   return std::any_of(argv + std::min(argc, 1), argv + argc,
                      [](const char* word) { return std::string_view(word) == "--json"; });
 }

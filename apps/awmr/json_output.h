@@ -39,6 +39,6 @@ std::string error_schema();
 std::string joined(const std::vector<std::pair<std::string, std::string>>& documents);
 
 /// True if `--json` is among the arguments, even if other arguments are invalid.
-bool asks_for_json(int argc, char** argv);
+bool requests_json(int argc, char** argv);
 
 }  // namespace awmr::cli

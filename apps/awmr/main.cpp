@@ -59,8 +59,8 @@ int end_of_parsing(const CLI::App& app, const CLI::ParseError& error, int argc, 
   }
   // Without arguments, shows the commands and returns the exit code of a usage error, so that a
   // script with an empty variable fails.
-  const std::string what = awmr::printable(awmr::cli::what_is_wrong(app, error, argc, argv));
-  if (awmr::cli::asks_for_json(argc, argv)) {
+  const std::string what = awmr::printable(awmr::cli::usage_error_text(app, error, argc, argv));
+  if (awmr::cli::requests_json(argc, argv)) {
     std::fputs(
         awmr::cli::error_text(awmr::input_error(awmr::ErrorCode::kUsage, "", what).value()).c_str(),
         stderr);
@@ -90,7 +90,7 @@ int run(int argc, char** argv) {
 
 int fail(const awmr::Error& error, int argc, char** argv) {
   const std::string text =
-      awmr::cli::asks_for_json(argc, argv) ? awmr::cli::error_text(error) : awmr::to_text(error);
+      awmr::cli::requests_json(argc, argv) ? awmr::cli::error_text(error) : awmr::to_text(error);
   std::fputs(text.c_str(), stderr);
   return awmr::exit_code(error);
 }

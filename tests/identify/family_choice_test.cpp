@@ -243,7 +243,7 @@ TEST(Families, ReportALimitThatEndsTheLastSearch) {
     LogFitOptions options = from_nothing(logs);
     options.effort = std::make_shared<Effort>(limit);
     FamilyFit first = fit_family(logs, options, Family::kPower, Family::kPower);
-    const FamilyContest contest{.surge = true, .yaw = false, .only_suspects = false};
+    const FamilyContest contest{.surge = true, .yaw = false, .only_candidates = false};
     const BestFamily found = best_family(logs, options, std::move(first), contest);
     return std::pair(found.is_out_of_time, options.effort->spent());
   };

@@ -666,11 +666,11 @@ TEST(Log, ARefusedTermOfAResistanceRefusesTheRest) {
   problem.bounds.assign(4, {-10.0, 10.0});
   Identifiability found;
   found.covariance = Eigen::MatrixXd::Identity(4, 4);
-  found.why_not = {"", "", "", "the search ended at the end of its range"};
+  found.refusal_reason = {"", "", "", "the search ended at the end of its range"};
   const Identifiability result = without_stopped(found, problem, {0.0, 0.0, 1.0, 0.1});
-  EXPECT_EQ(result.why_not[0], "");
-  EXPECT_THAT(result.why_not[1], ::testing::StartsWith("yaw.coulomb is not determined"));
-  EXPECT_THAT(result.why_not[2], ::testing::StartsWith("yaw.alpha is not determined"));
+  EXPECT_EQ(result.refusal_reason[0], "");
+  EXPECT_THAT(result.refusal_reason[1], ::testing::StartsWith("yaw.coulomb is not determined"));
+  EXPECT_THAT(result.refusal_reason[2], ::testing::StartsWith("yaw.alpha is not determined"));
 }
 
 /// Oscillating errors, d'' = -2 zeta omega d' - omega^2 d + noise, integrated with small steps,

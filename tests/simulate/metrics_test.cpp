@@ -223,7 +223,7 @@ TEST(Validity, WarnsIfHeadingsAreNotRateLimited) {
   Model model = fitted_paper_model();
   const auto finding = heading_rate_not_limited("", model);
   ASSERT_TRUE(finding);
-  EXPECT_EQ(finding->code, "not-led");
+  EXPECT_EQ(finding->code, "heading-rate-not-limited");
   EXPECT_FALSE(heading_rate_not_limited(kNoRate, model));  // a limit was given
   model.vehicle.yaw_rate_max_degps = 15.0;
   EXPECT_FALSE(heading_rate_not_limited("", model));

@@ -242,8 +242,9 @@ Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, std::optional<double
   AWMR_ASSIGN_OR_RETURN(parameters.yaw, table(yaw));
   parameters.block.surge_table = shape_of(parameters.surge);
   parameters.block.yaw_table = shape_of(parameters.yaw);
-  parameters.table_error = std::max({table_error.value_or(kTableError),
-                                     parameters.surge.worst_share(), parameters.yaw.worst_share()});
+  parameters.table_error =
+      std::max({table_error.value_or(kTableError), parameters.surge.largest_relative_error(),
+                parameters.yaw.largest_relative_error()});
   return {};
 }
 

@@ -109,7 +109,7 @@ struct EmittedTable {
   double worst_relative_error = 0.0;  ///< largest error relative to g, where g is above `split`
 
   /// Returns the largest relative error: relative to g, or to `split` where g is below `split`.
-  double worst_share() const;
+  double largest_relative_error() const;
   /// Returns the table in the type that the chip reads. It points to `lines` of this object.
   ResistanceTable view() const;
 };

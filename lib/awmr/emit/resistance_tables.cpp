@@ -86,7 +86,7 @@ ResistanceTable EmittedTable::view() const {
   return {lines.data(), static_cast<std::uint16_t>(lines.size()), first, mantissa_bits};
 }
 
-double EmittedTable::worst_share() const {
+double EmittedTable::largest_relative_error() const {
   return std::max(worst_error / split, worst_relative_error);
 }
 
@@ -116,8 +116,11 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
       if (!below.contains(lowest)) below[lowest] = measure_below(law, rest_speed, table);
       table.worst_error = std::max(from_first.absolute, below[lowest].absolute);
       table.worst_relative_error = std::max(from_first.relative, below[lowest].relative);
-      if (closest.lines.empty() || table.worst_share() < closest.worst_share()) closest = table;
-      if (table.worst_share() <= error_share.value_or(kTableError)) best = std::move(table);
+      if (closest.lines.empty() ||
+          table.largest_relative_error() < closest.largest_relative_error())
+        closest = table;
+      if (table.largest_relative_error() <= error_share.value_or(kTableError))
+        best = std::move(table);
     }
   }
   if (!best.lines.empty()) return best;
@@ -127,7 +130,7 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
       fmt::format("the {} resistance has no table of at most {} entries with an error below "
                   "{}; the smallest error is {:.2g}: raise {}, or use {}",
                   name, kMaxLines, option_text(fmt::format("table-error {:g}", *error_share)),
-                  closest.worst_share(), option_text("table-error"),
+                  closest.largest_relative_error(), option_text("table-error"),
                   option_text("resistance powf")));
 }
 

@@ -30,7 +30,7 @@ void take_out(ParameterId id, std::string why, Model& model,
 }
 
 /// Reason why a model file cannot hold this value; empty if it can.
-std::string why_not(double value, const NumberRule& rule) {
+std::string refusal_reason(double value, const NumberRule& rule) {
   if (!std::isfinite(value)) return "the fitted value is not finite";
   if (value >= rule.min && value <= rule.max) return {};
   return fmt::format("the fit gives {:.4g}, outside the allowed range [{:g}, {:g}]", value,
@@ -52,7 +52,7 @@ std::string why_open(ParameterId id, const Estimate& estimate) {
 }
 
 /// Removes the parameters that depend on a removed parameter, and adds the reasons.
-void take_out_what_hangs_on_it(Model& model, std::map<ParameterId, std::string>& reasons) {
+void remove_dependent_values(Model& model, std::map<ParameterId, std::string>& reasons) {
   const auto follow = [&](ParameterId first, ParameterId second) {
     if (!reasons.contains(first)) return;
     take_out(second, fmt::format("{} is not determined: {}", info(first).name, reasons.at(first)),
@@ -97,7 +97,7 @@ std::map<ParameterId, std::string> take_out_inadmissible(Model& model) {
   for (const ParameterInfo& parameter : parameter_table()) {
     Estimate& estimate = model[parameter.id];
     if (!estimate.value || estimate.source == Source::kGiven) continue;
-    std::string why = why_not(*estimate.value, rule_of(parameter.id));
+    std::string why = refusal_reason(*estimate.value, rule_of(parameter.id));
     if (why.empty()) why = why_open(parameter.id, estimate);
     if (!why.empty()) take_out(parameter.id, std::move(why), model, reasons);
     const bool error = !estimate.std_error || std::isfinite(*estimate.std_error);
@@ -111,7 +111,7 @@ std::map<ParameterId, std::string> take_out_inadmissible(Model& model) {
                      "record more runs",
                      parameter.name)});
   }
-  take_out_what_hangs_on_it(model, reasons);
+  remove_dependent_values(model, reasons);
   if (!model[ParameterId::kMassNorm].value) model.mass_norm_by_grip.reset();
   model.covariance = kept(model.covariance, model);
   return reasons;

@@ -141,13 +141,13 @@ SubjectFit identify_laws(const Vehicle& vehicle, const TrialData& data,
   if (data.surge) {
     surge = identify_law(surge_subject(vehicle, *data.surge),
                          subject_options(options, method, options.surge_family), values);
-    reasons.surge = surge.why_not;
+    reasons.surge = surge.refusal_reason;
   }
   if (data.turning) {
     const double dead_zone = *values.model[ParameterId::kWheelDeadZone].value;
     reasons.turning = identify_law(yaw_subject(vehicle, *data.turning, dead_zone),
                                    subject_options(options, method, yaw_family(options)), values)
-                          .why_not;
+                          .refusal_reason;
   }
   return surge;
 }

@@ -18,7 +18,7 @@ double goal_rad(const RunRow& row, const Scenario& scenario) {
 }
 
 /// True if the commanded speed is constant in this scenario: only then a speed drop is defined.
-bool asks_for_one_speed(const Scenario& scenario) {
+bool has_one_speed(const Scenario& scenario) {
   if (scenario.avoidance || std::holds_alternative<LissajousPath>(scenario.guidance)) return false;
   const auto* waypoints = std::get_if<WaypointPath>(&scenario.guidance);
   const auto* line = std::get_if<LinePath>(&scenario.guidance);
@@ -113,7 +113,7 @@ Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending,
     }
   }
   const bool reached = sums.speed_reached > 0.0 && scenario.speed_mps > 0.0;
-  if (!open && asks_for_one_speed(scenario) && reached) {
+  if (!open && has_one_speed(scenario) && reached) {
     m.speed_drop_mps = std::max(0.0, scenario.speed_mps - sums.speed_least_mps);
   }
   if (!scenario.obstacles.empty()) {

@@ -145,9 +145,9 @@ void limit_heading_rate(double limit_degps, Scenario& scenario) {
 std::string fault_of_rate(const HeadingRateChoice& choice) {
   if (choice == kMeasuredRate || choice == kNoRate) return {};
   const auto rate_degps = number_from_text(choice);
-  if (rate_degps && kLeadRates_degps.contains(*rate_degps)) return {};
+  if (rate_degps && kHeadingRateLimits_degps.contains(*rate_degps)) return {};
   return fmt::format("must be {}, {}, or deg/s from {:g} to {:g}, found {}", kMeasuredRate, kNoRate,
-                     kLeadRates_degps.lo, kLeadRates_degps.hi, choice.empty() ? "nothing" : choice);
+                     kHeadingRateLimits_degps.lo, kLeadRates_degps.hi, choice.empty() ? "nothing" : choice);
 }
 
 HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& choice, const Model& model) {
@@ -176,7 +176,7 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
 std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& choice,
                                                 const Model& model) {
   if (!choice.empty() || measured_yaw_rate_degps(model)) return std::nullopt;
-  return Finding{model.file, 0, Severity::kWarning, "not-led",
+  return Finding{model.file, 0, Severity::kWarning, "heading-rate-not-limited",
                  fmt::format("the heading rate is not limited, because the model has no highest "
                              "measured yaw rate; differences between modes may come from "
                              "extrapolation. Give yaw_rate_max_degps in vehicle.json, or {}",

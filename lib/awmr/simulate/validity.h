@@ -48,7 +48,7 @@ inline constexpr double kShapingBandwidth_radps = 4.0;
 /// Value of the option --heading-rate-limit: deg/s from 0.1 to 3600, "measured" (the highest
 /// measured yaw rate, measured_yaw_rate_degps()) or "none"; empty: the option is not given.
 using HeadingRateChoice = std::string;
-inline constexpr Interval kLeadRates_degps{0.1, 3600.0};
+inline constexpr Interval kHeadingRateLimits_degps{0.1, 3600.0};
 inline constexpr const char* kMeasuredRate = "measured";
 inline constexpr const char* kNoRate = "none";
 /// Key of the heading rate limit among the options that an output file records.
@@ -67,7 +67,7 @@ HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& choice, const Mode
 Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
                           std::span<Scenario> scenarios);
 
-/// Warning `not-led` (heading rate not limited) if the option is not given (`choice` is empty) and
+/// Warning `heading-rate-not-limited` if the option is not given (`choice` is empty) and
 /// the model has no highest measured yaw rate.
 std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& choice,
                                                 const Model& model);

@@ -88,8 +88,8 @@ std::string ratios_in_words(const CoastFit& fit) {
 
 /// Adds `power-law-inadequate` if the AICc of another family is lower than that of the power law by
 /// at least kFamilyAicThreshold.
-void hold_against_others(const std::vector<CoastFit>& fits, const std::string& file,
-                         MassResult& result) {
+void compare_with_other_families(const std::vector<CoastFit>& fits, const std::string& file,
+                                 MassResult& result) {
   const CoastFit& power = fits.front();
   const CoastFit& best = best_of(fits);
   if (!power.aicc || !best.aicc || *power.aicc - *best.aicc < kFamilyAicThreshold) return;
@@ -142,7 +142,7 @@ MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& v
   for (const CoastFit& other : fits) {
     if (&other != &fit && other.usable) result.reports.push_back(report_of_alone(other));
   }
-  if (!family.requested) hold_against_others(fits, curves.front().file, result);
+  if (!family.requested) compare_with_other_families(fits, curves.front().file, result);
   result.alone = fit;
   return result;
 }

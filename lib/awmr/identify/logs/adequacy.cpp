@@ -14,8 +14,8 @@ namespace {
 
 /// Adds reports of the other families of surge resistance. Returns the advice to use a better
 /// family; empty if the power law is the best.
-std::optional<std::string> try_rivals(BestFamily alternatives, const FamilyFit& chosen,
-                                      Adequacy& adequacy) {
+std::optional<std::string> try_alternatives(BestFamily alternatives, const FamilyFit& chosen,
+                                            Adequacy& adequacy) {
   for (EstimatorReport& report : reports_of(alternatives.others, chosen)) {
     adequacy.alternatives.push_back(std::move(report));
   }
@@ -80,8 +80,8 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
         "an unmodelled effect acts on the vehicle (a motor driver that brakes at a command of 0, a "
         "slope, sliding tyres), or the sensor drifts";
     if (channel == LogChannel::kSpeed && try_families) {
-      advice = try_rivals(best_family(logs, power_law, chosen, {.only_suspects = false}), chosen,
-                          adequacy)
+      advice = try_alternatives(best_family(logs, power_law, chosen, {.only_candidates = false}),
+                                chosen, adequacy)
                    .value_or(advice);
     }
     const bool is_models = noise.overwhelms_sensor() && is_evaluated(chosen.fit.noise, channel);

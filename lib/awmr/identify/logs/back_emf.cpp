@@ -67,7 +67,7 @@ bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candid
   constexpr double kWorthATry = 4.0;  // estimated decrease of -2 ln L
   const auto candidate_term = std::ranges::find(candidate_terms, ParameterId::kBackEmf);
   if (candidate_term == candidate_terms.end()) return false;
-  if (!fit.usable || fit.suspect_gain[at(candidate_term - candidate_terms.begin())] > kWorthATry)
+  if (!fit.usable || fit.candidate_gain[at(candidate_term - candidate_terms.begin())] > kWorthATry)
     return true;
   return std::ranges::any_of(fit.noise,
                              [](const auto& channel) { return channel.second.has_slow_drift(); });
@@ -76,7 +76,7 @@ bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candid
 bool shows_back_emf(const FamilyFit& with, const FamilyFit& without) {
   if (!with.fit.usable) return false;
   for (std::size_t i = 0; i < with.fit.quantities.size(); ++i) {
-    const bool is_open = !with.fit.why_not[i].empty();
+    const bool is_open = !with.fit.refusal_reason[i].empty();
     if (with.fit.quantities[i].is(ParameterId::kBackEmf) && is_open) return false;
   }
   return aic_lead(with.fit, without.fit) > kFamilyAicThreshold;

@@ -29,7 +29,7 @@ struct ByLog {
 /// Index of a quantity in a fit; empty if the fit does not identify it.
 std::optional<std::size_t> place_in(const LogFit& fit, const std::string& name) {
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    if (fit.quantities[i].name() == name && fit.why_not[i].empty()) return i;
+    if (fit.quantities[i].name() == name && fit.refusal_reason[i].empty()) return i;
   }
   return std::nullopt;
 }
@@ -123,7 +123,7 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
   const double level = kLevel / static_cast<double>(common.fit.quantities.size());
   for (std::size_t i = 0; i < common.fit.quantities.size(); ++i) {
     const FreeQuantity& q = common.fit.quantities[i];
-    if (q.kind == FreeQuantity::Kind::kBias || !common.fit.why_not[i].empty()) continue;
+    if (q.kind == FreeQuantity::Kind::kBias || !common.fit.refusal_reason[i].empty()) continue;
     const ByLog by_log = collect(files, fits, q.name());
     if (by_log.files.size() < 2) continue;
     const Heterogeneity between = heterogeneity(by_log);
@@ -134,7 +134,7 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
     const Eigen::Index row = eigen_index(i);
     one.refuses = std::sqrt(common.fit.covariance(row, row)) > kUnknown * q.large_change;
     if (one.refuses) {
-      common.fit.why_not[i] =
+      common.fit.refusal_reason[i] =
           fmt::format("the logs give different values: {:.4g}", fmt::join(one.values, ", "));
     }
     disagreements.push_back(one);

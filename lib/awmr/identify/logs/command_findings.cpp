@@ -25,7 +25,7 @@ std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
   constexpr double kSmallest = 1e-3;
   std::vector<FoundTerm> found;
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    if (fit.quantities[i].kind != kind || !fit.why_not[i].empty()) continue;
+    if (fit.quantities[i].kind != kind || !fit.refusal_reason[i].empty()) continue;
     const double error = std::sqrt(fit.covariance(eigen_index(i), eigen_index(i)));
     if (std::abs(fit.coordinates[i]) < std::max(kSmallest, 2.0 * error)) continue;
     found.push_back({fit.quantities[i], fit.coordinates[i], error});

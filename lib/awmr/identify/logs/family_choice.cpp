@@ -124,10 +124,10 @@ bool is_of_yaw(ParameterId term) {
 double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate_terms,
                     bool of_yaw) {
   double most = 0.0;
-  for (std::size_t i = 0; i < std::min(candidate_terms.size(), fit.suspect_gain.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(candidate_terms.size(), fit.candidate_gain.size()); ++i) {
     const bool is_of_axis =
         candidate_terms[i] != ParameterId::kBackEmf && is_of_yaw(candidate_terms[i]) == of_yaw;
-    if (is_of_axis) most = std::max(most, fit.suspect_gain[i]);
+    if (is_of_axis) most = std::max(most, fit.candidate_gain[i]);
   }
   return most;
 }
@@ -140,7 +140,7 @@ bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_ter
   if (!fit.usable) return true;
   for (std::size_t i = 0; i < candidate_terms.size(); ++i) {
     if (candidate_terms[i] == ParameterId::kBackEmf) continue;  // belongs to no family
-    if (is_of_yaw(candidate_terms[i]) == of_yaw && fit.suspect_gain[i] > kWorthATry) return true;
+    if (is_of_yaw(candidate_terms[i]) == of_yaw && fit.candidate_gain[i] > kWorthATry) return true;
   }
   const auto drifts = [&](LogChannel channel) {
     const auto noise = fit.noise.find(channel);
@@ -306,7 +306,7 @@ std::vector<Contender> close_losers(const LogFit& winner, bool of_yaw, const Fam
 bool is_contested(const LogFitOptions& power_law, const FamilyFit& first,
                   const FamilyContest& contest, bool of_yaw) {
   if (!(of_yaw ? contest.yaw : contest.surge)) return false;
-  return !contest.only_suspects || suspicious(first.fit, power_law.candidate_terms, of_yaw);
+  return !contest.only_candidates || suspicious(first.fit, power_law.candidate_terms, of_yaw);
 }
 
 }  // namespace

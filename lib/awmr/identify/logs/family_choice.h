@@ -48,7 +48,7 @@ struct FamilyContest {
   double lead = 0.0;  ///< another family replaces that of `first` if its AIC is lower by more
   /// True: fits other families only if a score test or a slow drift suggests a missing term, or if
   /// `first` did not converge.
-  bool only_suspects = true;
+  bool only_candidates = true;
 };
 
 /// Result of best_family().

@@ -28,7 +28,7 @@ double unknown_from(const FreeQuantity& q) {
 
 /// Describes why a quantity is not identified. `std`: its standard error in large changes.
 /// `unknown`: the limit of `std`.
-std::string how_open(double std, double unknown = kUnknown) {
+std::string uncertainty_text(double std, double unknown = kUnknown) {
   if (!std::isfinite(std) || std > 1e3) return "no measurement depends on it";
   return fmt::format("the standard error is {:.2g} times the accepted limit", std / unknown);
 }
@@ -37,7 +37,7 @@ std::string how_open(double std, double unknown = kUnknown) {
 /// determine. `std`: standard error along the direction.
 void refuse_direction(const Eigen::VectorXd& direction, double std,
                       const std::vector<FreeQuantity>& quantities,
-                      std::vector<std::string>& why_not) {
+                      std::vector<std::string>& refusal_reason) {
   constexpr double kPart = 0.1;  // smallest contribution to the squared length
   std::vector<std::size_t> parts;
   std::vector<std::string> names;
@@ -47,10 +47,10 @@ void refuse_direction(const Eigen::VectorXd& direction, double std,
     names.push_back(quantities[at(i)].name());
   }
   const std::string why = names.size() == 1
-                              ? "these logs do not determine it: " + how_open(std)
+                              ? "these logs do not determine it: " + uncertainty_text(std)
                               : fmt::format("these logs determine only a combination of {}: {}",
-                                            fmt::join(names, ", "), how_open(std));
-  for (const std::size_t i : parts) why_not[i] = why;
+                                            fmt::join(names, ", "), uncertainty_text(std));
+  for (const std::size_t i : parts) refusal_reason[i] = why;
 }
 
 std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities, ParameterId id) {
@@ -110,17 +110,18 @@ void widen(const Scores& scores, Identifiability& found) {
   found.covariance = factor.asDiagonal() * found.covariance * factor.asDiagonal();
 }
 
-/// Refuses all quantities correlated (by more than kHangs) with quantity number `stopped`, whose
+/// Refuses all quantities correlated (by more than kDependent) with quantity number `stopped`, whose
 /// search ended at a bound.
-void refuse_what_hangs_on(Eigen::Index stopped, const std::vector<FreeQuantity>& quantities,
-                          Identifiability& found) {
-  constexpr double kHangs = 0.3;  // smallest correlation that counts
+void refuse_dependent(Eigen::Index stopped, const std::vector<FreeQuantity>& quantities,
+                      Identifiability& found) {
+  constexpr double kDependent = 0.3;  // smallest correlation that counts
   const Eigen::MatrixXd& c = found.covariance;
   for (Eigen::Index i = 0; i < c.rows(); ++i) {
     const double correlation = c(i, stopped) / std::sqrt(c(i, i) * c(stopped, stopped));
-    if (i == stopped || !found.why_not[at(i)].empty() || !(std::abs(correlation) > kHangs))
+    if (i == stopped || !found.refusal_reason[at(i)].empty() ||
+        !(std::abs(correlation) > kDependent))
       continue;
-    found.why_not[at(i)] = fmt::format(
+    found.refusal_reason[at(i)] = fmt::format(
         "it depends on {} (correlation {:.2f}), whose search ended at a limit of its range",
         quantities[at(stopped)].name(), correlation);
   }
@@ -141,9 +142,9 @@ std::string* reason_to_add(const std::vector<FreeQuantity>& quantities, Paramete
                            ParameterId cause, Identifiability& found) {
   const auto place = place_of(quantities, dependent);
   const auto cause_place = place_of(quantities, cause);
-  if (!place || !cause_place || found.why_not[*cause_place].empty()) return nullptr;
-  std::string& why_not = found.why_not[*place];
-  return why_not.empty() ? &why_not : nullptr;
+  if (!place || !cause_place || found.refusal_reason[*cause_place].empty()) return nullptr;
+  std::string& refusal_reason = found.refusal_reason[*place];
+  return refusal_reason.empty() ? &refusal_reason : nullptr;
 }
 
 }  // namespace
@@ -163,7 +164,7 @@ Identifiability identifiability(const Eigen::MatrixXd& information, const Scores
   const double largest = values(n - 1);
   Identifiability found;
   found.condition_number = values(0) > 0.0 ? std::sqrt(largest / values(0)) : kInfinity;
-  found.why_not.resize(at(n));
+  found.refusal_reason.resize(at(n));
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index d = 0; d < n; ++d) {
     const double shown = values(d) > kNull * largest ? values(d) : 0.0;
@@ -173,17 +174,17 @@ Identifiability identifiability(const Eigen::MatrixXd& information, const Scores
     if (std < kUnknown) {
       ++found.rank;
     } else {
-      refuse_direction(direction, std, quantities, found.why_not);
+      refuse_direction(direction, std, quantities, found.refusal_reason);
     }
   }
   found.covariance = scale.asDiagonal() * inverse * scale.asDiagonal();
   widen(scores, found);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double std = std::sqrt(found.covariance(i, i)) / scale(i);
-    std::string& why_not = found.why_not[at(i)];
+    std::string& refusal_reason = found.refusal_reason[at(i)];
     const double unknown = unknown_from(quantities[at(i)]);
-    if (why_not.empty() && std > unknown) {
-      why_not = "these logs do not determine it: " + how_open(std, unknown);
+    if (refusal_reason.empty() && std > unknown) {
+      refusal_reason = "these logs do not determine it: " + uncertainty_text(std, unknown);
     }
   }
   return found;
@@ -194,8 +195,8 @@ Identifiability without_stopped(Identifiability found, const LogProblem& problem
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     if (!stopped(quantities[i], coordinates[i], problem.bounds[i])) continue;
-    found.why_not[i] = why_stopped(quantities[i], coordinates[i]);
-    refuse_what_hangs_on(eigen_index(i), quantities, found);
+    found.refusal_reason[i] = why_stopped(quantities[i], coordinates[i]);
+    refuse_dependent(eigen_index(i), quantities, found);
   }
   for (const auto& [alpha, term] :
        {std::pair(ParameterId::kSurgeAlpha, ParameterId::kSurgeCoulomb),
@@ -205,7 +206,7 @@ Identifiability without_stopped(Identifiability found, const LogProblem& problem
         std::pair(ParameterId::kYawAlpha, ParameterId::kYawQuadratic)}) {
     if (std::string* const why = reason_to_add(quantities, alpha, term, found)) {
       *why = fmt::format("{} is not determined, and the resistance needs it: {}", info(term).name,
-                         found.why_not[*place_of(quantities, term)]);
+                         found.refusal_reason[*place_of(quantities, term)]);
     }
   }
   for (const auto& [alpha, beta] : {std::pair(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta),

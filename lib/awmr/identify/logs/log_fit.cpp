@@ -36,8 +36,8 @@ LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
 }
 
 /// Score-test estimate of the decrease of -2 ln L by each candidate term.
-std::vector<double> suspect_gains(const LogProblem& problem, const SearchPoint& point,
-                                  const std::vector<ParameterId>& candidate_terms) {
+std::vector<double> candidate_gains(const LogProblem& problem, const SearchPoint& point,
+                                    const std::vector<ParameterId>& candidate_terms) {
   std::vector<FreeQuantity> terms;
   terms.reserve(candidate_terms.size());
   for (const ParameterId id : candidate_terms) terms.push_back(free_parameter(id));
@@ -64,10 +64,10 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
   return {.quantities = quantities,
           .coordinates = coordinates,
           .covariance = found.covariance,
-          .why_not = found.why_not,
+          .refusal_reason = found.refusal_reason,
           .noise = problem.model.noise,
           .errors = errors_by_channel(problem, errors_at(problem, solved.point), options.loss),
-          .suspect_gain = suspect_gains(problem, solved.point, options.candidate_terms),
+          .candidate_gain = candidate_gains(problem, solved.point, options.candidate_terms),
           .widened = found.widened(),
           .report = log_report({problem, solved, found, bootstrap95}),
           .usable = solved.usable && solved.converged};

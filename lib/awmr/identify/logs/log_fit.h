@@ -18,14 +18,14 @@ namespace awmr {
 /// Result of fit_logs().
 struct LogFit {
   std::vector<FreeQuantity> quantities;
-  std::vector<double> coordinates;   ///< by quantity
-  Eigen::MatrixXd covariance;        ///< of the coordinates; large variance if not identifiable
-  std::vector<std::string> why_not;  ///< by quantity: why it is refused; empty if identified
+  std::vector<double> coordinates;  ///< by quantity
+  Eigen::MatrixXd covariance;       ///< of the coordinates; large variance if not identifiable
+  std::vector<std::string> refusal_reason;  ///< by quantity: why it is refused; empty if identified
   NoiseLevels noise;
   ErrorsByChannel errors;  ///< model + bias - measured at the optimum, SI, not whitened
   /// By LogFitOptions::candidate_terms: score-test estimate of the decrease of -2 ln L if the term
   /// were free, >= 0.
-  std::vector<double> suspect_gain;
+  std::vector<double> candidate_gain;
   double widened = 1.0;    ///< see Identifiability::widened()
   EstimatorReport report;  ///< report for /estimates; its parameters are the quantities
   bool usable = false;     ///< true if the final search converged

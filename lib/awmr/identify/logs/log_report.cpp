@@ -39,7 +39,7 @@ EstimatorParameter parameter_of(const LogReportInput& input, std::size_t i) {
   const FreeQuantity& q = input.problem.model.quantities[i];
   const double x = input.solved.point.coordinates[i];
   EstimatorParameter parameter{q.name(), q.value(x), {}, {}, {}};
-  if (!input.found.why_not[i].empty()) return parameter;
+  if (!input.found.refusal_reason[i].empty()) return parameter;
   const double error = std::sqrt(input.found.covariance(eigen_index(i), eigen_index(i)));
   const double half = t_quantile_95(input.found.degrees_of_freedom[i]) * error;
   parameter.std_error = q.jacobian(x) * error;

@@ -239,7 +239,7 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   const FamilyContest contest{.surge = surge_open,
                               .yaw = yaw_open,
                               .lead = is_family_requested ? 0.0 : kFamilyAicThreshold,
-                              .only_suspects = !is_family_requested};
+                              .only_candidates = !is_family_requested};
   const auto contenders =
       static_cast<double>(contender_count(power_law, chosen.found.best, contest));
   announce(options,
@@ -405,12 +405,12 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
     const bool parameter = q.kind == FreeQuantity::Kind::kParameter;
-    if (!fit.why_not[i].empty()) {
-      if (parameter) stage.reasons[q.id] = fit.why_not[i];
+    if (!fit.refusal_reason[i].empty()) {
+      if (parameter) stage.reasons[q.id] = fit.refusal_reason[i];
       if (q.is(ParameterId::kBackEmf)) stage.is_back_emf_open = true;
       if (!parameter) {
         stage.findings.push_back({file, 0, Severity::kWarning, "not-identifiable",
-                                  fmt::format("{}: {}", q.name(), fit.why_not[i])});
+                                  fmt::format("{}: {}", q.name(), fit.refusal_reason[i])});
       }
       continue;
     }

@@ -174,7 +174,7 @@ std::optional<Finding> obstacle(const Subject& subject, const SubjectOptions& op
 /// Copies the choice and its findings into the result.
 void take(const Subject& subject, Choice choice, SubjectFit& result) {
   result.method = std::move(choice.method);
-  if (!choice.fit) result.why_not = choice.findings.back().message;
+  if (!choice.fit) result.refusal_reason = choice.findings.back().message;
   append(std::move(choice.findings), result.findings);
   if (!choice.fit) return;
   result.chosen = std::move(choice.fit);
@@ -223,7 +223,7 @@ SubjectFit fit_rows(const Subject& subject, const SubjectOptions& options) {
   const ErrorModel wanted = wanted_noise(subject, options);
   result.log_linear = options.method == Method::kLogLinear;
   if (auto finding = obstacle(subject, options, wanted, line)) {
-    result.why_not = finding->message;
+    result.refusal_reason = finding->message;
     result.findings.push_back(*std::move(finding));
     return result;
   }

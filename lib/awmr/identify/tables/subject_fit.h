@@ -15,7 +15,7 @@ struct SubjectFit {
   /// different rates) or no fit is accepted.
   std::optional<SteadyFit> chosen;
   /// Why no fit is accepted. Empty if a fit was chosen or the rows cannot determine the law.
-  std::string why_not;
+  std::string refusal_reason;
   SteadyProblem problem;    ///< of the chosen fit
   bool log_linear = false;  ///< the chosen fit is log-linear
   std::string method;       ///< description of the method
