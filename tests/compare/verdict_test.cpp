@@ -13,8 +13,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// 20 samples in which steering takes `behind_s` longer than differential, with spread `spread_s`,
-/// and fails in the first `failures`.
+/// Comparison of 20 samples. Steering settles `behind_s` later than differential on average, with
+/// the standard deviation `spread_s`, and fails in the first `failures` samples.
 Comparison twenty(double behind_s, double spread_s, int failures = 0) {
   Comparison c;
   for (const YawMode mode : {YawMode::kDifferential, YawMode::kSteering}) {

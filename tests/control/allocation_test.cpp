@@ -1,4 +1,5 @@
-/// Allocations: exact inverses inside the limits, finite and ordered outside.
+/// Allocations: inside the limits the wheel forces and the steering make exactly the requested
+/// force and moment; outside the limits they are finite and ordered.
 #include "awmr/control/allocation.h"
 
 #include <gtest/gtest.h>
@@ -284,7 +285,7 @@ AllocationLimits<double> small_angle_limits(CombinedSplit split = CombinedSplit:
   return l;
 }
 
-/// (41) with sin d_r = d_r and cos d_r = 1.
+/// Force and moments by equation (41) with sin d_r = d_r and cos d_r = 1.
 GeneralisedForces<double> delivered_for_small_angles(const Allocation<double>& a) {
   const auto l = limits();
   const double sum = a.force.left + a.force.right;

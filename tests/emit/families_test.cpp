@@ -70,9 +70,9 @@ double zero_of(const F& rising) {
   return lo;
 }
 
-/// A turn by 180 deg with the radius R takes R (pi - e0)^2/2, of distance off course times its
-/// angle beyond e0; 10 m rad are left for its beginning. Recomputed for turn_of_vehicle() and
-/// turn_of_law().
+/// While a vehicle turns by 180 deg with the radius R, the distance times the heading error beyond
+/// e0 adds up to R (pi - e0)^2/2; 10 m rad are left for the beginning of the turn. Recomputed for
+/// turn_of_vehicle() and turn_of_law().
 TEST(OffCourse, IsTenPlusAHalfTurnOfTheWidestRadiusAtTheRoutesSpeeds) {
   const Model model = paper_robot();
   const Plant<double> plant = model.plant().value();

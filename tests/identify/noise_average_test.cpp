@@ -1,4 +1,5 @@
-/// Intervals averaged over the unknown location of a table's errors.
+/// Intervals of tables, averaged over the noise models: it is not known whether force, speed or
+/// time has the errors.
 #include <gtest/gtest.h>
 
 #include <algorithm>

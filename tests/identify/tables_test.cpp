@@ -284,7 +284,8 @@ TEST(Options, ThatContradictEachOtherAreRefused) {
   EXPECT_FALSE(identify(vehicle(), data, options, {}));
 }
 
-/// Points of a convex curve, which a power law with an exponent up to 1 fits best at the bound 1.
+/// Points on a convex curve, to be fitted by `family`. A power law whose exponent may be at most 1
+/// fits them best at this bound.
 SteadyProblem steeper_than_its_range(Family family) {
   SteadyProblem problem;
   problem.family = family;

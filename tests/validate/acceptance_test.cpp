@@ -1,5 +1,5 @@
-/// A drive under the controller compared with its prediction: the predicted vehicle is accepted at
-/// the stated rate, another one is rejected, and the change is named.
+/// A drive under the controller compared with the model's prediction: the modelled vehicle is
+/// accepted in 95 % of the drives, a changed vehicle is rejected, and the change is named.
 #include "awmr/validate/acceptance.h"
 
 #include <gmock/gmock.h>

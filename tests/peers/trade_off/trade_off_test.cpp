@@ -15,7 +15,7 @@ namespace {
 
 class TradeOff : public ::testing::TestWithParam<testing::TestVehicle> {};
 
-/// Distance of two sets of gains: the largest |ln| of the ratio of two gains.
+/// Distance of two sets of gains: the largest |ln| of the ratio of corresponding gains.
 double distance_of(const LawGains& a, const LawGains& b) {
   double most = 0.0;
   for (const double ratio : {a.lambda / b.lambda, a.mu / b.mu, a.epsilon / b.epsilon,
@@ -76,7 +76,8 @@ TEST_P(TradeOff, TunedGainsAreOnTheIndependentFront) {
 
 INSTANTIATE_TEST_SUITE_P(FromToyToTractor, TradeOff, ::testing::ValuesIn(testing::test_vehicles()));
 
-/// The paper's vehicle, whose figures the library and the independent simulator have to agree on.
+/// For the paper's vehicle, settling time and activity by the library and by the independent
+/// simulator have to agree.
 TEST(IndependentSimulator, AgreesWithTheLibraryOnSettlingAndActivity) {
   const Model model = testing::model_of(testing::test_vehicles()[4]);
   TuneOptions options;
