@@ -151,8 +151,8 @@ int alarms_with(const MakeTurn& turn) {
 }
 
 TEST(Scrub, IsConstantForTurnsWithOneForceOrAtOneRate) {
-  // One force with scattered rates: the scrub of a turn then falls with its rate by arithmetic
-  // alone.
+  // All turns have the same force and scattered yaw rates. The computed scrub of a turn, force
+  // minus resistance, then falls with its rate although the true scrub is constant.
   const TurningRow exact = by_sides(0.2, 0.01, 1.0, 20);
   EXPECT_LE(alarms_with([&](int i, double deviate) {
               TurningRow row = exact;
@@ -166,7 +166,8 @@ TEST(Scrub, IsConstantForTurnsWithOneForceOrAtOneRate) {
               return by_sides(0.2, 0.01, std::exp(0.1 * deviate), 20 + i);
             }),
             0);
-  // At several rates at most one in twenty, plus four standard errors.
+  // With turns at several rates, a false finding for at most one table in twenty, plus four
+  // standard errors.
   EXPECT_LE(alarms_with([](int i, double deviate) {
               return by_sides(0.05 * (1 + i % 4), 0.01, std::exp(0.03 * deviate), 20 + i);
             }),

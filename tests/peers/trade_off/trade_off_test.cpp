@@ -97,7 +97,7 @@ TEST(IndependentSimulator, AgreesWithTheLibraryOnSettlingAndActivity) {
     // Activity scatters by less than 1 %.
     EXPECT_NEAR(means.settling_s / named.point.settling_time_s, 1.0, 0.07) << named.gains;
     EXPECT_NEAR(means.variation / named.point.control_variation, 1.0, 0.03) << named.gains;
-    // Half the step: the integrator's own error.
+    // With half the integration step, the difference is the integrator's error.
     const Means finer = means_of(one, trials, controls, 1e-3);
     EXPECT_NEAR(finer.settling_s / means.settling_s, 1.0, 0.01);
     EXPECT_NEAR(finer.variation / means.variation, 1.0, 0.01);
