@@ -9,7 +9,7 @@ namespace {
 /// be in flight. Twelve sums and their two constants fit into the sixteen registers of every
 /// processor with FMA.
 constexpr int kSums = 12;
-/// Rounds between two clock readings.
+/// Number of rounds of FMAs between two readings of the clock.
 constexpr int kRounds = 10000;
 
 using Four = double __attribute__((vector_size(32)));

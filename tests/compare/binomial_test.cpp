@@ -48,7 +48,8 @@ TEST(PairedT, HasTheTablesQuantiles) {
 }
 
 TEST(Equivalence, IsTheOneSidedTestAgainstTheMargin) {
-  // The mean is 1 of its standard errors inside: with 2 degrees p = (1 - 1/sqrt 3)/2.
+  // The mean is one standard error inside the margin: with 2 degrees of freedom p = (1 - 1/sqrt
+  // 3)/2.
   EXPECT_NEAR(equivalence_p(-0.5, 0.5 * std::sqrt(3.0), 3, 1.0), 0.5 - 0.5 / std::sqrt(3.0), 1e-12);
   EXPECT_NEAR(equivalence_p(1.5, 0.5 * std::sqrt(3.0), 3, 1.0), 0.5 + 0.5 / std::sqrt(3.0), 1e-12);
   EXPECT_EQ(equivalence_p(1.0, 0.0, 3, 1.0), 0.0);

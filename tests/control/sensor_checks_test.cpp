@@ -93,7 +93,8 @@ TEST(Rmc, RefusesEmptyAndMalformedFields) {
   }
 }
 
-/// Serial port with a receive buffer of 64 characters, like Arduino's.
+/// Serial port with an unlimited receive buffer. `most`: largest number of characters that waited
+/// in it, to be compared with the size of Arduino's buffer.
 struct Port {
   std::string waiting;
   int most = 0;

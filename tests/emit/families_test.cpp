@@ -98,7 +98,8 @@ TEST(OffCourse, IsTenPlusAHalfTurnOfTheWidestRadiusAtTheRoutesSpeeds) {
   EXPECT_LT(most, 90.0);
 }
 
-/// I'z lambda (mu/epsilon) e = 0.08 d g1(u): twice this error, from 15 to 45 deg.
+/// Unequal motors cause the steady heading error e with I'z lambda (mu/epsilon) e = 0.08 d g1(u).
+/// The bound is twice this error, at least 15 and at most 45 deg.
 TEST(OnCourse, IsTwiceTheErrorThatUnequalMotorsCause) {
   const Model model = paper_robot();
   const Plant<double> plant = model.plant().value();

@@ -243,8 +243,8 @@ TEST(ResistanceTables, AreRefusedWhereNoTableIsGoodEnough) {
   EXPECT_THAT(to_text(p.error()), HasSubstr("table-error"));
 }
 
-/// Tables of resistances that are so steep at rest that a chord has a large error at any speed of a
-/// table.
+/// Model of a robot whose resistances rise so steeply from rest that a chord has a large error at
+/// any speed of a table.
 Model steep_robot() {
   Model model = paper_robot();
   model[ParameterId::kSurgeBeta].value = 0.05;

@@ -27,8 +27,8 @@ Vehicle steered() {
   return v;
 }
 
-/// A turning row at this yaw rate: its moment is g3 plus the scrub moment `scrub_m`, times the
-/// factor `noise`.
+/// Row of a differential turn at this yaw rate: its moment is g3 plus the scrub moment `scrub_m`,
+/// all times `factor` (the noise).
 TurningRow by_sides(double rate_radps, double scrub_m, double factor, int line) {
   const double moment_m = factor * (kTruth.a3 * std::pow(rate_radps, kTruth.b3) + scrub_m);
   const double half = moment_m / (4.0 * steered().half_track_m);
@@ -110,7 +110,7 @@ TEST(Scrub, RefusesANegativeScrub) {
 }
 
 TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
-  // The scrub moment is 0.2 r m, r from 0.05 to 0.3 rad/s.
+  // The true scrub moment is 0.2 r, m, at yaw rates r from 0.05 to 0.3 rad/s.
   constexpr int kTables = 200;
   int findings = 0, held = 0;
   for (std::uint64_t seed = 1; seed <= kTables; ++seed) {

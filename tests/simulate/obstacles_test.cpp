@@ -69,8 +69,9 @@ std::vector<Obstacle<double>> ring(const Position<double>& centre, int left_out)
 }
 
 TEST(Passage, IsBlockedByAClosedRingAndNotByAGap) {
-  // Neighbours are 2 * 8 sin(9 deg) = 2.50 m apart; inflated by 1.3 m each disc has 1.7 m. Without
-  // one disc the gap is 2 * 8 sin(18 deg) = 4.94 m, more than 3.4 m.
+  // Centres of neighbouring discs are 2 * 8 sin(9 deg) = 2.50 m apart, and their radii, inflated by
+  // 1.3 m, are 1.7 m: they overlap. Without one disc the distance across the gap is
+  // 2 * 8 sin(18 deg) = 4.94 m, more than 2 * 1.7 = 3.4 m.
   EXPECT_FALSE(passage_exists(ring({30.0, 0.0}, -1), 1.3, {0.0, 0.0}, {30.0, 0.0}));
   for (int gap = 0; gap < 20; ++gap) {
     EXPECT_TRUE(passage_exists(ring({30.0, 0.0}, gap), 1.3, {0.0, 0.0}, {30.0, 0.0})) << gap;
