@@ -1,5 +1,5 @@
-// Injects failures of the operator's line: generates its characters and reads them as the sketches
-// do (control/command_line.h).
+// Injects failures of the operator's line: generates the characters that arrive at the vehicle, and
+// reads them as the sketches do (control/command_line.h).
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,15 @@
 
 namespace awmr::pil {
 
-/// Simulated operator of one run, who sends KEEP every 0.3 s until the line fails.
+/// Simulated operator of one run, who sends KEEP every 0.3 s until the line fails. After that, the
+/// failed line delivers other characters or none.
 class CheckedCommands {
  public:
   explicit CheckedCommands(cli::Injection injection) : injection_(injection) {}
 
-  /// Executes one step: stores the time of the last complete command in `times`, and disarms at
-  /// STOP. `fails`: true while the line fails.
+  /// Executes one control step: reads the characters sent up to times.now_ms, stores the time of
+  /// the last accepted command in times.command_ms, and disarms at STOP. `fails`: the line has
+  /// failed.
   void step(bool fails, Arming& arming, InputTimes& times);
 
  private:

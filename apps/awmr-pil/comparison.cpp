@@ -54,7 +54,8 @@ Sample sample_of(const LoopRow& row) {
           .fault = static_cast<double>(out.fault)};
 }
 
-/// Returns the command as the chip output it, because the actuators could hide a difference.
+/// Returns a row with the command as the executor returned it, because the rounding of the
+/// actuators could hide a difference.
 Sample raw_sample_of(const LoopRow& row) {
   const Allocation<float>& command = row.step.output.command;
   Sample sample = sample_of(row);
@@ -110,7 +111,7 @@ std::vector<Sample> samples_of(const std::vector<Row>& rows, Of of) {
 double Difference::largest() const {
   double largest = 0.0;
   for (const auto& [name, value] : signals) {
-    // The bound is for SI units. heading_deg is the same signal as psi_rad, in degrees.
+    // One bound holds for all signals, in SI units. heading_deg is psi_rad in degrees.
     if (name != "heading_deg") largest = std::max(largest, value);
   }
   return largest;

@@ -11,32 +11,34 @@
 namespace awmr::pil {
 
 struct Difference {
-  /// Largest absolute difference of each signal over all rows; infinite if only one of the two is
-  /// finite.
+  /// By name, in the signal's unit: largest absolute difference over the rows that both runs have;
+  /// infinite if a value is finite in only one of the runs.
   std::vector<std::pair<std::string, double>> signals;
   bool same_length = true;  ///< both runs have the same number of rows
 
-  double largest() const;
-  double of(const std::string& signal) const;
+  double largest() const;  ///< over all signals in SI units, that is, without heading_deg
+  double of(const std::string& signal) const;  ///< infinite for an unknown signal
 };
 
-/// Compares two runs of run_loop(): the outputs of the control step as the executors returned them,
-/// and the vehicle's state.
+/// Compares two runs of run_loop(): the vehicle's state, and the outputs of the control step as the
+/// executors returned them, before the actuators.
 Difference difference(const std::vector<LoopRow>& a, const std::vector<LoopRow>& b);
-/// Compares a run of run_loop() with a run of simulate(), which computes in double.
+/// Compares a run of run_loop() with a run of simulate(), which computes in double. The commands
+/// compared are those that the actuators received.
 Difference difference(const std::vector<LoopRow>& a, const Run& b);
 
 /// Largest distance of a heading in `a` from the range of the headings in `b` at the previous, the
-/// same and the next sample, deg, >= 0. Because of rounding, one of the runs may turn to its next
-/// leg one sample earlier. Infinite if a heading is not finite.
+/// same and the next sample, deg, >= 0; infinite if a heading is not finite. The neighbouring
+/// samples count because rounding may let one run turn to its next leg one sample earlier.
 double heading_apart_deg(const std::vector<LoopRow>& a, const Run& b);
 
-/// Cycles per control step.
+/// Clock cycles of a control step: least, mean and most of a run.
 struct Cycles {
   unsigned min = 0;
   double mean = 0.0;
   unsigned max = 0;
 };
+/// Rows without a number of cycles (on the host) do not count.
 Cycles cycles_of(const std::vector<LoopRow>& rows);
 
 }  // namespace awmr::pil

@@ -22,7 +22,7 @@ constexpr std::uint8_t kPaint = 0xC5;
 /// instruction. Timers and interrupts stay exact, because simavr ends a run where one is due.
 constexpr avr_cycle_count_t kRunCycles = 1000;
 
-/// The only emulator: callbacks of this simavr version take no user data.
+/// The only emulator, for sleep(): simavr 1.6 gives this callback no user data.
 Emulator* the_emulator = nullptr;
 
 void no_log(avr_t*, int, const char*, va_list) {}
@@ -72,7 +72,8 @@ std::span<std::uint8_t> Emulator::flash(const std::string& symbol, std::size_t s
 
 std::uint64_t Emulator::cycles() const { return avr_->cycle; }
 
-/// Replaces simavr's sleep, which waits in real time.
+/// Replaces simavr's sleep callback, which waits in real time. Records the sleep and the cycles of
+/// the interrupt before it.
 void Emulator::sleep(avr_t* avr, std::uint64_t) {
   Emulator& self = *the_emulator;
   if (self.entered_at_ != 0) {

@@ -24,42 +24,46 @@ inline constexpr unsigned kInterruptEntryCycles = 5;
 
 class Emulator {
  public:
-  /// Loads firmware. Only one emulator may exist at a time. Errors (input): the file is not
-  /// firmware for this chip; (fault) libsimavr lacks the chip.
+  /// Loads firmware. Only one emulator may exist at a time. Errors (input): the file cannot be read
+  /// as firmware for an AVR; (fault) libsimavr does not support the ATmega2560.
   static Result<std::unique_ptr<Emulator>> load(const std::filesystem::path& elf);
   ~Emulator();
   Emulator(const Emulator&) = delete;
   Emulator& operator=(const Emulator&) = delete;
 
-  /// Flash holds .text and .data, RAM .data and .bss.
+  /// Sizes of the program in flash (.text and .data) and of its variables in RAM (.data and .bss,
+  /// without the stack).
   unsigned flash_bytes() const { return flash_bytes_; }
   unsigned ram_bytes() const { return ram_bytes_; }
 
-  /// Returns a variable in RAM by its symbol. Precondition: the firmware defines it.
+  /// Returns the `size` bytes of a variable in RAM, by its symbol. Writing to them changes the
+  /// chip's memory. Precondition: the firmware defines the symbol.
   std::span<std::uint8_t> ram(const std::string& symbol, std::size_t size);
-  /// Returns a constant in flash by its symbol.
+  /// The same for a constant in flash.
   std::span<std::uint8_t> flash(const std::string& symbol, std::size_t size);
 
   /// Resets the chip like its reset pin: RAM is kept and the time continues.
   void reset();
-  /// Runs until the chip sleeps. Errors (fault): the chip crashed, or is still awake after
-  /// `cycle_limit` cycles.
+  /// Runs until the chip sleeps. Errors (fault): the program crashed or ended, or the chip is still
+  /// awake after `cycle_limit` cycles.
   Status run_to_sleep(std::uint64_t cycle_limit);
-  /// Runs until `done` returns true; it is called before each batch of instructions. Errors: as
-  /// run_to_sleep().
+  /// Runs until `done` returns true. `done` is called before each batch of instructions, at most
+  /// 1000 cycles long. Errors (fault): as run_to_sleep(), with `done` instead of the sleep.
   Status run_until(const std::function<bool()>& done, std::uint64_t cycle_limit);
-  /// Cycles of the last interrupt, from its entry (included) to the next sleep.
+  /// Clock cycles of the last interrupt that woke the chip, from its entry (included) to the next
+  /// sleep.
   unsigned last_interrupt_cycles() const { return last_interrupt_cycles_; }
   std::uint64_t cycles() const;
 
-  /// Fills the free RAM with a pattern; the chip must be asleep.
+  /// Fills the RAM between the variables and the stack with a pattern, to measure the stack.
+  /// Precondition: the chip sleeps.
   void paint_stack();
   /// Bytes from the top of RAM down to the lowest address written since paint_stack().
   unsigned stack_bytes() const;
 
   /// Sets the callback for the bytes that USART0 sends.
   void on_uart_output(std::function<void(std::uint8_t)> receive) { receive_ = std::move(receive); }
-  /// Connects USART0 to the callback and to send_to_uart(); call once.
+  /// Connects USART0 to the callback and to send_to_uart(). Call once, after load().
   void connect_uart();
   /// Queues bytes for USART0, which receives each as soon as it accepts it.
   void send_to_uart(std::span<const std::uint8_t> bytes);

@@ -1,4 +1,5 @@
-// Interface of what executes the control step: the host's own build, the emulated chip or a board.
+// Interface to the programs that execute the control step: the same sources built for the host, the
+// firmware on the emulated chip, or the firmware on a real board.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace awmr::pil {
 
 struct Step {
   AutopilotOutput output{};
-  std::optional<unsigned> cycles;  ///< cycles of the chip; absent on the host
+  std::optional<unsigned> cycles;  ///< clock cycles that the step took; absent on the host
   bool restarted = false;          ///< the chip was reset and restarted before this step
 };
 
@@ -26,9 +27,11 @@ class Executor {
   /// Starts the controller and returns the fault of its start-up check. Errors: the link or the
   /// chip fails.
   virtual Result<std::uint8_t> start() = 0;
-  /// Resets the chip during the run; the next step restarts the controller with the same points.
+  /// Resets the chip during the run. Its guidance then starts again from the first of the same
+  /// points. Errors (input): a real board cannot be reset.
   virtual Status reset() = 0;
-  /// Follows these points as waypoints or as a line, depending on the mission.
+  /// Follows these points from the next step on, as waypoints or as a line, depending on the
+  /// mission. Errors (input): more points than the firmware has room for.
   virtual Status follow(const Points& points) = 0;
   virtual Result<Step> step(const AutopilotInput& input) = 0;
 };
@@ -46,23 +49,26 @@ class Chip : public Executor {
   virtual ChipFigures figures() const = 0;
 };
 
-/// Runs the control step in float on this machine. The executor keeps references to the arguments.
+/// Runs the control step in float on this machine. The arguments must outlive the executor, which
+/// refers to them.
 std::unique_ptr<Executor> host_executor(const AutopilotParameters& parameters,
                                         const Mission& mission);
 
-/// Exchanges data through the RAM of an emulated chip. `damage_parameters`: flips a bit of the
-/// parameters in flash before the start.
+/// Runs firmware on an emulated chip and exchanges data through its RAM. `damage_parameters`: flip
+/// a bit of the parameters in flash before the start. Errors: as Emulator::load().
 Result<std::unique_ptr<Chip>> memory_link(const std::filesystem::path& elf, bool damage_parameters);
-/// Exchanges data through the USART of an emulated chip. The line flips a fraction `noise` of the
-/// bits and loses the same fraction of the bytes, in both directions.
+/// Runs firmware on an emulated chip and exchanges data through its USART. `parameters_crc`: as for
+/// frame_link(). The line flips a fraction `noise` of the bits and loses the same fraction of the
+/// bytes, in both directions. Errors: as Emulator::load().
 Result<std::unique_ptr<Chip>> uart_link(const std::filesystem::path& elf, bool damage_parameters,
                                         std::uint32_t parameters_crc, double noise);
-/// Exchanges data through a serial port. `elf`: the firmware with which the board was flashed.
+/// Exchanges data with a real board through a serial port. `elf`: the firmware with which the board
+/// was flashed, read for its use of flash and RAM. Errors: as Emulator::load().
 Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
                                         const std::filesystem::path& elf,
                                         std::uint32_t parameters_crc);
-/// Connects an emulated chip's USART to a pseudo-terminal and prints the terminal's name on stdout.
-/// Returns when the other end is closed.
+/// Runs firmware on an emulated chip whose USART is connected to a pseudo-terminal, and prints the
+/// terminal's name on stdout. Returns when the program that opened the terminal closes it.
 Status serve_terminal(const std::filesystem::path& elf);
 
 }  // namespace awmr::pil

@@ -36,7 +36,7 @@ constexpr const char* kFlags[] = {"-mmcu=atmega2560",
                                   "-Ipil",
                                   "src/awmr.cpp"};
 /// Compiler options for few cycles. Those after -O2 keep more values in registers, which saves 350
-/// of 9,700 cycles.
+/// of the 9,700 cycles of a step.
 constexpr const char* kForSpeed[] = {"-O2", "-mstrict-X", "-fno-tree-pre",
                                      "-fno-move-loop-invariants"};
 constexpr const char* kForSize[] = {"-Os", "-mcall-prologues"};
@@ -60,7 +60,8 @@ Status put_temporary(const fs::path& path, std::string_view bytes) {
                      fmt::format("cannot write the file: {}", std::strerror(errno)));
 }
 
-/// Checks the path from `kept` to `file`. Errors (input): it contains a symbolic link.
+/// Checks the path of `file` below the folder `kept`. Errors (input): a folder on it, or the file
+/// itself, is a symbolic link.
 Status check_no_link(const fs::path& kept, const fs::path& file) {
   fs::path place = kept;
   for (const fs::path& part : file) {

@@ -18,7 +18,7 @@ struct FirmwareKind {
   LinkKind link = LinkKind::kMemory;
   cli::Optimize optimize = cli::Optimize::kSpeed;
   std::string mission;        ///< content of mission.h, by mission_header()
-  bool is_directed = false;   ///< true: the firmware finds the sign of a speed without sign
+  bool is_directed = false;   ///< true: the measured speed has no sign; the firmware finds it
   bool is_estimated = false;  ///< true: the firmware estimates positions between GPS fixes
 };
 
@@ -34,8 +34,9 @@ Result<std::filesystem::path> build_firmware(const std::filesystem::path& direct
 /// option; the directory cannot be created or written to.
 Status prepare_to_keep(const std::filesystem::path& kept);
 
-/// Copies the build from `directory` to `kept`. Errors (input): a file cannot be written; `kept`
-/// contains a symbolic link where a file would be written.
+/// Copies sources and ELF file of the build from `directory` to `kept`. Errors (input): a file
+/// cannot be written; `kept` contains a symbolic link in the place of a file or folder of the
+/// build.
 Status keep_firmware(const std::filesystem::path& directory, const std::filesystem::path& kept);
 
 }  // namespace awmr::pil

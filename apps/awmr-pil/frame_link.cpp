@@ -8,11 +8,11 @@
 namespace awmr::pil {
 namespace {
 
-/// Attempts for one request. If one bit in a thousand is damaged, 40 % of the attempts succeed, and
-/// 40 attempts in a row fail with a probability of 1e-9.
+/// How often one request is sent at most. If one bit in a thousand is damaged, 40 % of the attempts
+/// succeed, and 40 attempts in a row fail with a probability of 1e-9.
 constexpr int kAttempts = 40;
-/// Attempts for the first request. Fewer are enough, because it is short, and there may be no
-/// board.
+/// The same for the start request. Fewer attempts are enough because it is short, and waiting is in
+/// vain if no board is connected.
 constexpr int kStartAttempts = 10;
 
 /// Encodes a request as a frame.
@@ -52,8 +52,9 @@ class FrameLink : public Chip {
     return ask(::pil::kFollow, writer.bytes(), 0);
   }
 
-  /// Executes one step. A chip that does not answer is started again, because after a reset it
-  /// answers no request before a start.
+  /// Executes one step. If the chip does not answer, it may have been reset: it then answers
+  /// nothing before a start request. It is started, gets its points, and the step is requested
+  /// again.
   Result<Step> step(const AutopilotInput& input) override {
     const std::vector<std::uint8_t> request = pack(input);
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(::pil::kStep, request, kStepBytes));
@@ -84,8 +85,8 @@ class FrameLink : public Chip {
     if (crc != parameters_crc_) {
       return input_error(
           ErrorCode::kStaleResult, "--port",
-          fmt::format("the firmware on the board has other parameters (check sum {:08X}) than this "
-                      "model and these gains ({:08X}): flash pil_uart.elf of --build-dir",
+          fmt::format("the firmware on the board has other parameters (checksum {:08X}) than this "
+                      "model, gains and scenario ({:08X}): flash pil_uart.elf of --build-dir",
                       crc, parameters_crc_));
     }
     return fault;
@@ -97,18 +98,18 @@ class FrameLink : public Chip {
     return type == ::pil::kHello ? kStartAttempts : kAttempts;
   }
 
-  /// Exchanges a request for its answer; no answer is an error.
+  /// As exchange(), but no answer is an error (refused).
   Status ask(std::uint8_t type, std::span<const std::uint8_t> bytes, std::size_t length) {
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(type, bytes, length));
     if (answered) return {};
     return refusal(ErrorCode::kNoAnswer,
-                   fmt::format("the chip gave no complete answer to {} requests '{}' in a row: "
-                               "check its firmware, the baud rate and the noise of the line",
+                   fmt::format("the chip gave no complete answer to {} requests of type '{}' in a "
+                               "row: check its firmware, the baud rate and the noise of the line",
                                attempts_for(type), static_cast<char>(type)));
   }
 
-  /// Sends a request, repeats it if the line stays silent, and waits for the answer of `length`
-  /// bytes. False: no answer.
+  /// Sends a request with these bytes, repeats it while the line stays silent, and waits for the
+  /// answer, whose payload must have `length` bytes. False: no answer to any attempt.
   Result<bool> exchange(std::uint8_t type, std::span<const std::uint8_t> bytes,
                         std::size_t length) {
     const std::vector<std::uint8_t> request = framed(type, ++sequence_, bytes);
@@ -122,7 +123,7 @@ class FrameLink : public Chip {
   }
 
   /// Reads until the answer to the current request is complete. False: the line became silent
-  /// before.
+  /// before that. Errors (fault): the answer's payload does not have `length` bytes.
   Result<bool> is_answered(std::uint8_t type, std::size_t length) {
     const Patience patience = type == ::pil::kHello ? Patience::kStart : Patience::kAnswer;
     reader_.reset();
@@ -133,8 +134,10 @@ class FrameLink : public Chip {
       // Ignores a delayed answer to an earlier request that was repeated.
       if (reader_.type() != type || reader_.sequence() != sequence_) continue;
       if (reader_.length() == length) return true;
-      return program_fault(fmt::format("the chip answered with {} bytes to a request '{}'",
-                                       reader_.length(), static_cast<char>(type)));
+      return program_fault(
+          fmt::format("the chip answered with {} bytes, a wrong length, to a "
+                      "request of type '{}'",
+                      reader_.length(), static_cast<char>(type)));
     }
   }
 

@@ -10,7 +10,8 @@
 
 namespace awmr::pil {
 
-/// Timeout for a byte: kStart while the chip checks its parameters, kAnswer otherwise.
+/// How long to wait for a byte: kStart (longer) while the chip starts and checks its parameters,
+/// kAnswer otherwise. The times depend on the line.
 enum class Patience { kStart, kAnswer };
 
 /// Byte stream to and from a chip, emulated or real. Bytes may be damaged or lost on the way.
@@ -18,7 +19,7 @@ class Line {
  public:
   virtual ~Line() = default;
   virtual Status open() = 0;
-  /// Resets the chip at the other end. Errors (input): not possible.
+  /// Resets the chip at the other end. Errors (input): this line cannot (a real board).
   virtual Status reset() = 0;
   virtual Status send(std::span<const std::uint8_t> bytes) = 0;
   /// Returns the next byte; none if the line stays silent. Errors: the chip or the line is gone.
@@ -26,7 +27,8 @@ class Line {
   virtual ChipFigures figures() const = 0;
 };
 
-/// `parameters_crc`: CRC of the parameters that the chip must hold.
+/// Makes a chip from a line to it. `parameters_crc`: CRC-32 of the parameters, xor mission_crc(),
+/// that the firmware must have; start() refuses another (input error).
 std::unique_ptr<Chip> frame_link(std::unique_ptr<Line> line, std::uint32_t parameters_crc);
 
 }  // namespace awmr::pil

@@ -12,8 +12,8 @@ struct HostParts : AllParts<split> {
 };
 
 /// Executes the control step on this machine. All optional parts are compiled in, and those that
-/// the mission does not need are disabled. The results must equal those of a firmware that does not
-/// contain these.
+/// the mission does not need are disabled. The results must equal those of the firmware, in which
+/// unneeded parts are not compiled at all.
 template <class G, CombinedSplit split>
 class HostExecutor : public Executor {
  public:

@@ -28,7 +28,7 @@ float& field_of(AutopilotInput& in, int field) {
   return *fields[field];
 }
 
-/// Largest magnitude accepted by the safety checks.
+/// Largest magnitude of an input field that the safety checks accept.
 float largest_of(const SafetyLimits& limits, int field) {
   constexpr float kHeading = 0.5F * float_math::kAngleMax;
   const float largest[kFields] = {kHeading,
@@ -72,7 +72,8 @@ Position<float> hostile_point(Random& random, const Position<float>& vehicle_m) 
   return {vehicle_m.x_m + off(), vehicle_m.y_m + off()};
 }
 
-/// Sets the time of the fix: usually to a new fix up to 2 s old, sometimes of any time; or keeps it.
+/// Sets the time stamp of the GPS fix: usually a new fix up to 2 s old, sometimes one of any time;
+/// sometimes keeps the last fix.
 void receive_fix(AutopilotInput& in, Random& random) {
   in.position_is_fix = 1;
   const std::uint32_t kind = random.bits() % 8;

@@ -1,4 +1,4 @@
-// Searches for the inputs with which a control step takes the most cycles.
+// Searches for the inputs with which a control step takes the most clock cycles.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace awmr::pil {
 
-/// Results with inputs that no vehicle produces.
+/// Results of control steps with inputs that no vehicle produces.
 struct Hostile {
   unsigned cycles = 0;        ///< cycles of the longest step, including the setup of new points
   std::size_t steps = 0;      ///< number of steps tried
@@ -22,9 +22,10 @@ struct HostileSearch {
 };
 
 /// Searches for the inputs with the slowest step, by repeatedly changing the slowest input so far.
-/// Values are at and beyond the limits, tiny, subnormal or not finite; headings have many turns.
-/// Points of the mission are replaced by points near the vehicle or anywhere. A fix is new (up to
-/// 2 s old, or of any time) or repeated. The sequence is deterministic. Errors: those of the
+/// Values are at and beyond the limits of `limits`, tiny, subnormal or not finite; headings have
+/// many turns. Points of the mission are replaced by points near the vehicle or anywhere. A GPS fix
+/// is new (up to 2 s old, or with any time stamp) or repeated. The sequence is deterministic. The
+/// host executes the same steps, and its outputs are compared with the chip's. Errors: those of the
 /// executors.
 Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
                         const Mission& mission, const HostileSearch& search,

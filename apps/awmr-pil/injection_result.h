@@ -9,7 +9,7 @@
 
 namespace awmr::pil {
 
-/// Returns the samples before which the chip was restarted.
+/// Returns the indices of the samples before which the chip was restarted, in increasing order.
 std::vector<std::size_t> restarts_of(const std::vector<LoopRow>& rows);
 
 /// Compares the faults and commands of a run with those that its injection must cause.

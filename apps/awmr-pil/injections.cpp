@@ -9,8 +9,9 @@ namespace {
 
 using cli::Injection;
 
-// Faults of the autopilot after a rejected heading (or speed) sensor. The vehicle is disarmed, so
-// commands time out, and the reading becomes stale; either fault may come first.
+// Faults of the autopilot after the sketches' checks reject a heading (or speed) sensor. The
+// reading becomes stale. The vehicle is also disarmed, so its commands time out. Either fault may
+// come first.
 constexpr std::uint8_t kHeading = kFaultHeadingStale | kFaultCommandTimeout;
 constexpr std::uint8_t kSpeed = kFaultSpeedStale | kFaultCommandTimeout;
 
@@ -26,9 +27,9 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kCommandTimeout, Duration::kTwentySteps, kFaultCommandTimeout},
     {Injection::kStepLate, Duration::kOneStep, kFaultStepLate},
     {Injection::kParameters, Duration::kWholeRun, kFaultParameters},
-    // The last number limits the time to the safe command: detection plus the autopilot's timeout.
-    // In a turn, a frozen value contradicts the other sensor (kHeadingOutOfStep) before it has been
-    // repeated often enough for the check of frozen values.
+    // The last number is the longest time to the safe command, s: detection plus the autopilot's
+    // timeout. In a turn, a frozen compass or gyroscope contradicts the other one
+    // (kHeadingOutOfStep) before the check of frozen values has seen enough equal readings.
     {Injection::kCompassSilent, Duration::kFromTheMiddle, kHeading, kCompassSilent, kSensorGood,
      1.5},
     {Injection::kCompassFrozen, Duration::kFromTheMiddle, kHeading, kCompassFrozen,
@@ -51,7 +52,8 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kGpsRepeated, Duration::kFromTheMiddle, kSpeed, kGpsRepeated, kSensorGood, 1.5},
     {Injection::kGpsLate, Duration::kFromTheMiddle, kSpeed, kGpsSilent, kSensorGood, 1.5},
     {Injection::kGpsJump, Duration::kFromTheMiddle, kSpeed, kGpsJump, kSensorGood, 1.5},
-    // Motion checks detect these after 2 to 6 m, which take long if the vehicle creeps.
+    // The checks of the motion detect the next three after 2 to 6 m, which take long if the vehicle
+    // creeps.
     {Injection::kGpsSpeedZero, Duration::kFromTheMiddle, kFaultCommandTimeout, kGpsInconsistent,
      kSensorGood, 40.0},
     {Injection::kGpsPositionFrozen, Duration::kFromTheMiddle, kFaultCommandTimeout,
@@ -69,8 +71,8 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kServoReversed, Duration::kFromTheMiddle, kHeading, kWrongTurn, kOffCourse, 60.0},
     {Injection::kCompassTurning, Duration::kFromTheMiddle, kFaultCommandTimeout, kOffHeading,
      kWrongWay, 40.0},
-    // The limit is the command timeout plus the interval between two commands. STOP acts in the
-    // next step.
+    // Failures of the operator's line. The limit is the command timeout plus the interval between
+    // two commands. STOP acts in the next step.
     {Injection::kCommandSilence, Duration::kFromTheMiddle, kFaultCommandTimeout, kSensorGood,
      kSensorGood, 1.4},
     {Injection::kCommandNoise, Duration::kFromTheMiddle, kFaultCommandTimeout, kSensorGood,

@@ -13,9 +13,9 @@ namespace awmr::pil {
 /// When an injection acts.
 enum class Duration {
   kNever,         ///< the controller's inputs are not changed
-  kWholeRun,      ///< from the start
-  kOneStep,       ///< in the middle of the run
-  kTwentySteps,   ///< from the middle of the run on
+  kWholeRun,      ///< from the start to the end
+  kOneStep,       ///< one step in the middle of the run
+  kTwentySteps,   ///< twenty steps from the middle of the run on
   kFromTheMiddle  ///< from the middle to the end
 };
 
@@ -43,11 +43,12 @@ bool is_command_failure(cli::Injection injection);
 /// failures of the operator's line.
 bool is_expected_cause(cli::Injection injection, SensorFault cause);
 
-/// Samples at which an injection acts: [first, last).
+/// Indices of the samples at which an injection acts: [first, last); empty if it never acts.
 struct Window {
   std::size_t first = 0;
   std::size_t last = 0;
 };
+/// `middle`: index of the sample in the middle of the run; `samples`: number of samples of the run.
 Window injection_window(cli::Injection injection, std::size_t middle, std::size_t samples);
 
 }  // namespace awmr::pil

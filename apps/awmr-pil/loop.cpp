@@ -23,9 +23,9 @@ using cli::Injection;
 
 float single(double value) { return static_cast<float>(value); }
 
-/// Returns the chip's input. Its reference heading is the one before avoidance and shaping, because
-/// these run on the chip. A chip that follows points or a path ignores the reference heading. The
-/// reference speed is 0 at the end of the path, or if obstacles leave no passage.
+/// Returns the chip's input at the time `t_s`. Its reference heading is the one before obstacle
+/// avoidance and shaping, because these run on the chip; a chip that follows points or a path
+/// ignores it. The reference speed is 0 at the end of the path, or if obstacles leave no passage.
 AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed,
                         const GuidanceOutput& output) {
   const bool stops = output.finished || output.no_passage;
@@ -44,7 +44,7 @@ AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed
   return in;
 }
 
-/// Age of inputs that are no longer updated, ms: longer than every timeout.
+/// Age of the last command while the vehicle is disarmed, ms: longer than every timeout.
 constexpr std::uint32_t kSilence_ms = 4'000'000;
 
 void inject(Injection injection, AutopilotInput& in) {
@@ -76,7 +76,7 @@ void inject(Injection injection, AutopilotInput& in) {
   }
 }
 
-/// Injects a pause before a step: advances all times by `by_ms`.
+/// Injects a pause of `by_ms` before a step: advances the clock and all time stamps.
 void delay(std::uint32_t by_ms, InputTimes& times) {
   times.now_ms += by_ms;
   times.heading_ms += by_ms;
@@ -96,8 +96,8 @@ void command(const LoopSetup& setup, LoopRow& row) {
   }
 }
 
-/// Gives each side the negated force of the other: the vehicle turns as commanded, but drives in
-/// the opposite direction.
+/// Motors mounted the wrong way round on exchanged sides: each side gets the negated force of the
+/// other. The vehicle turns as commanded, but drives in the opposite direction.
 void reverse_motors(LoopRow& row) { row.force = {-row.force.right, -row.force.left}; }
 
 void swap_sides(LoopRow& row) { row.force = {row.force.right, row.force.left}; }
@@ -136,8 +136,8 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
   std::vector<Fault> faults;
   if (std::holds_alternative<OpenLoop>(scenario.guidance)) {
     faults.push_back({ErrorCode::kUnsupported, file + ":/guidance",
-                      "is open loop, which uses no controller; give heading, waypoints, line or "
-                      "lissajous"});
+                      "is open loop, in which no controller runs; give a guidance of type heading, "
+                      "waypoints, line or lissajous"});
   }
   if (scenario.held_tau_speed()) {
     faults.push_back({ErrorCode::kUnsupported, file + ":/guidance/tau_speed",
@@ -169,7 +169,7 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
   Sensing sensing(setup.scenario.sensors, setup.sample_time_s, run_seed(setup.scenario.seed, 0, 0));
   Positioning positioning(setup.scenario, setup.sample_time_s);
   Sensed sensed = sensing.at(0, physics.state());
-  Sensed located = sensed;  // for the guidance in double: the chip estimates its own position
+  Sensed located = sensed;  // with the estimated position, for the host's guidance in double
   located.position_m = positioning.step(0.0, sensed);
   ScenarioGuidance guidance(setup.scenario, setup.sample_time_s, located);
   if (!setup.mission.points.points_m.empty()) {

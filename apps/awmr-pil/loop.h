@@ -1,5 +1,5 @@
-// Closed loop of the vehicle, simulated in double as in simulate/, and the control step of an Executor,
-// computed in float.
+// Closed loop of the vehicle, simulated in double as by simulate/, and the control step, computed
+// in float by an Executor.
 #pragma once
 
 #include <vector>
@@ -16,13 +16,13 @@ namespace awmr::pil {
 struct LoopSetup {
   Plant<double> plant;
   double sample_time_s = 0.01;
-  double force_max = 1.0;
+  double force_max = 1.0;  ///< largest F' of a wheel, over F_max
   Scenario scenario;
   Mission mission;  ///< mission_of() the scenario
   YawMode mode = YawMode::kCombined;
   cli::Injection injection = cli::Injection::kNone;
-  SafetyLimits limits{};                 ///< limits of the firmware
-  GpsLimits gps_limits{};                ///< of the sketches
+  SafetyLimits limits{};                 ///< limits of the firmware's input checks
+  GpsLimits gps_limits{};                ///< limits of the sketches' GPS checks
   std::size_t middle = 0;                ///< first sample at which the injection acts
   std::vector<std::size_t> resets = {};  ///< samples before which the executor is reset
 };
@@ -31,24 +31,25 @@ struct LoopRow {
   double t_s = 0.0;
   State<double> state{};
   Step step;
-  SensorFault cause = kSensorGood;    ///< check that rejects a sensor, if a failure is injected
+  SensorFault cause = kSensorGood;    ///< sensor check that fails, with an injected failure
   SideForces<double> force{};         ///< forces that the actuators receive in this step
   double steering_command_rad = 0.0;  ///< steering angle that the servo receives in this step
 };
 
-/// Copies noise and latency of the scenario's GPS to the model's vehicle, so that firmware and
-/// simulator have the same position filter.
+/// Copies noise and latency of the scenario's GPS to the model's vehicle, from which the firmware's
+/// position filter is computed: it is then the simulator's filter.
 void know_receiver(const Gps& gps, Model& model);
 
-/// True if the simulated speed sensor gives |u|, so that the firmware has to find the direction.
+/// True if the simulated speed sensor gives |u|; the firmware then has to find the direction of
+/// travel.
 bool has_unsigned_speed(const Scenario& scenario);
 
 /// Checks that the firmware can run the scenario. Errors (input): the scenario uses a feature that
 /// the firmware does not support, or has more than kMaxPoints points.
 Status check_scenario(const Scenario& scenario, const std::string& file);
 
-/// Runs the loop until the scenario or its path ends. Errors: those of the executor; (input) the
-/// simulation diverges.
+/// Runs the loop until the scenario's duration or path ends, or obstacles leave no passage. Returns
+/// one row per sample. Errors: those of the executor; (input) the simulation diverges.
 Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor,
                                       const Progress& progress = {});
 

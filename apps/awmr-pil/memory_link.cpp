@@ -10,7 +10,8 @@
 namespace awmr::pil {
 namespace {
 
-/// Time limit of the start-up in cycles: 1 s, ten times what the checksum of the parameters takes.
+/// Time limit for the chip to fall asleep, in cycles: 1 s. The longest wait is the start-up, whose
+/// checksum of the parameters takes a tenth of this.
 constexpr std::uint64_t kStartCycles = 16'000'000;
 
 class MemoryLink : public Chip {
@@ -50,8 +51,8 @@ class MemoryLink : public Chip {
     return {};
   }
 
-  /// Executes one step. The chip has slept since its last step, so it does not read while the host
-  /// writes.
+  /// Executes one step. The chip has slept since its last step, so it does not read the input while
+  /// the host writes it.
   Result<Step> step(const AutopilotInput& input) override {
     const std::vector<std::uint8_t> bytes = pack(input);
     std::copy(bytes.begin(), bytes.end(), input_.begin());

@@ -79,7 +79,7 @@ std::string braced(const std::vector<float>& values) {
   return fmt::format("{{{}}}", fmt::join(literals, ", "));
 }
 
-/// Statements executed once, after awmr_init().
+/// Texts of mission.h: constants, and statements that pil_set_up() executes once after awmr_init().
 struct SetUp {
   std::string constants;
   std::string calls;

@@ -1,5 +1,5 @@
-// Mission of the firmware: the guidance features that a scenario needs, with values in float as on
-// the chip.
+// Mission of the firmware: the guidance features that a scenario needs and their parameters, in
+// float as on the chip.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ namespace awmr::pil {
 /// Waypoints, or corners of a line.
 struct Points {
   std::vector<Position<float>> points_m;
-  float acceptance_m = 0.0F;
+  float acceptance_m = 0.0F;  ///< radius at which a waypoint counts as reached; 0 for a line
 };
 
 /// Guidance law for a line; the line's corners are in Mission::points.
@@ -29,7 +29,8 @@ struct LineMission {
   float corner_m = 0.0F;
 };
 
-/// Timed path; `gain_per_s` is 0 for the open-loop form.
+/// Timed (Lissajous) path. `gain_per_s`: gain of the position error; 0: the path is followed
+/// without feedback of the position.
 struct PathMission {
   Lissajous<float> path{};
   float gain_per_s = 0.0F;
@@ -41,14 +42,14 @@ struct Mission {
   bool skip_passed = false;
   std::optional<LineMission> line;
   std::optional<PathMission> path;
-  std::optional<float> slow_down_m;
+  std::optional<float> slow_down_m;  ///< distance from the end at which the vehicle slows down
   std::optional<Avoidance<float>> avoidance;
   std::vector<Obstacle<float>> obstacles;
   std::optional<HeadingShaping<float>> shaping;
   std::optional<Observers<float>> observers;
   CombinedSplit split = CombinedSplit::kRedistribute;
 
-  /// True if the chip computes the guidance; false if it receives reference headings.
+  /// True if the chip computes the reference headings; false if it receives them from the host.
   bool leads() const { return !points.points_m.empty() || path.has_value(); }
 };
 
@@ -60,12 +61,13 @@ std::set<FirmwarePart> parts_of(const Mission& mission);
 /// Maximum number of points that the firmware for `awmr pil` can follow.
 inline constexpr std::size_t kMaxPoints = 16;
 
-/// Generates mission.h of the firmware: the capacity for points, and functions that set up the
-/// mission and follow points. All missions without optional parts have the same mission.h.
+/// Generates mission.h of the firmware: the capacity for points, and the functions that set up the
+/// mission and follow points. Missions with the same `skip_passed` and without optional parts have
+/// the same mission.h.
 std::string mission_header(const Mission& mission);
 
-/// Returns 0 if no part is needed; else a checksum of mission_header(), which detects a board
-/// flashed for another mission.
+/// Returns 0 if no optional part is needed and no waypoint is skipped; else a checksum of
+/// mission_header(), which detects a board flashed for another mission.
 std::uint32_t mission_crc(const Mission& mission);
 
 }  // namespace awmr::pil

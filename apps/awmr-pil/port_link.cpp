@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kStartTimeout_ms = 500;   ///< the check of the parameters takes 50 ms
 constexpr int kAnswerTimeout_ms = 300;  ///< 140 bytes take 146 ms at 9600 baud
-/// Waiting time after opening the port: a Mega 2560 then resets, and its boot loader waits.
+/// Waiting time after opening the port, which resets a Mega 2560: its boot loader waits first.
 constexpr int kBootTime_ms = 2000;
 
 class Port : public Line {
@@ -104,7 +104,7 @@ Result<int> open_terminal() {
   return terminal;
 }
 
-/// Writes as many bytes as the other side accepts.
+/// Writes the bytes, up to the first one that the terminal does not accept; the rest is lost.
 void write_to(int terminal, const std::string& bytes) {
   std::size_t sent = 0;
   while (sent < bytes.size()) {

@@ -21,8 +21,8 @@ struct ChipRun {
   ChipFigures figures;
   std::optional<Hostile>
       hostile;  ///< absent without hostile steps, with an injection, for a real board
-  std::uint8_t start_fault = 0;
-  double real_time_factor = 0.0;  ///< simulated time divided by elapsed time
+  std::uint8_t start_fault = 0;   ///< fault of the firmware's check at its start; 0: none
+  double real_time_factor = 0.0;  ///< simulated time over processor time (board: elapsed time)
 };
 
 /// A check of a run: a value and its upper bound.
@@ -34,8 +34,8 @@ struct Check {
   std::string unit;
 };
 
-/// Effect of an injected fault. The window is that of injection_window(); for a failure that
-/// disarms the vehicle it extends from the first fault to the end.
+/// Effect of an injected fault. The "window" is that of injection_window(); for a failure that
+/// disarms the vehicle it extends from the first fault of the autopilot to the end of the run.
 struct Injected {
   std::uint8_t expected = 0;  ///< fault bits of which at least one must be raised
   std::uint8_t seen = 0;      ///< bits set on every sample of the window, or by the first fault
@@ -48,9 +48,9 @@ struct Injected {
 struct Report {
   ChipRun chip;
   Cycles cycles;
-  std::vector<std::size_t> restarts;  ///< samples before which the chip was restarted
-  Difference from_float;
-  std::optional<Difference> from_double;  ///< absent with an injection
+  std::vector<std::size_t> restarts;      ///< samples before which the chip was restarted
+  Difference from_float;                  ///< of the chip's run and the host's float run
+  std::optional<Difference> from_double;  ///< of the chip's and the double run, without injection
   double heading_apart_deg = 0.0;         ///< heading_apart_deg() of chip and host's double run
   std::optional<Difference> by_float32;   ///< host runs: float with powf compared with double
   std::optional<Difference> by_table;     ///< host runs in float: tables compared with powf

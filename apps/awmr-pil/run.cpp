@@ -42,8 +42,8 @@ struct Inputs {
   AutopilotParameters parameters;
 };
 
-/// Checks the sample time. Errors (input): the timer of pil_memory.cpp cannot count it, which has
-/// 16 bits and counts at clock/8 (at most 32 ms).
+/// Checks the sample time for --link memory. Errors (input): it is too long (or too short) for the
+/// timer of pil_memory.cpp, which has 16 bits and counts at clock/8.
 Status check_sample_time(const Model& model) {
   // The number of counts is computed in float and rounded as in the firmware.
   const float counts = static_cast<float>(model.vehicle.sample_time_s) * 2e6F + 0.5F;
@@ -101,7 +101,8 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   return in;
 }
 
-/// Runs the same loop in float on this machine, with resets at the same samples as the chip.
+/// Runs the loop with the control step in float on this machine. `form`: how resistances are
+/// computed, by table or powf; `resets`: samples before which the controller is reset.
 Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
                                       const std::vector<std::size_t>& resets = {}) {
   AutopilotParameters parameters = in.parameters;
@@ -118,7 +119,7 @@ Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
   return run_loop(setup, *host);
 }
 
-/// Places the injection in the middle of the run: at half the length of a run without injection.
+/// Sets the sample at which the injection begins: in the middle of a run without injection.
 Status place_injection(Inputs& in) {
   Inputs undisturbed = in;
   undisturbed.setup.injection = Injection::kNone;
@@ -252,7 +253,7 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
   AWMR_RETURN_IF_ERROR(failure_of(exact, in.setup.scenario));
   report.from_double = difference(report.chip.rows, exact);
   report.heading_apart_deg = heading_apart_deg(report.chip.rows, exact);
-  // Only the power law has a powf version to compare with.
+  // Resistance families other than the power law have no powf form to compare the tables with.
   if (in.model.surge_family != Family::kPower || in.model.yaw_family != Family::kPower) return {};
   const auto by_powf = run_host(in, ResistanceForm::kPowf);
   if (!by_powf) return tl::unexpected(by_powf.error());

@@ -21,15 +21,15 @@ struct Outcome {
   std::vector<Finding> findings = {};
 };
 
-/// Progress callbacks. `doing` is called when a new stage begins, `progress` with the fraction
-/// done.
+/// Progress callbacks. `doing` is called with a description when a new stage begins (compiling,
+/// running, ...), `progress` with the numbers of steps done and in total.
 struct Watch {
   std::function<void(std::string_view)> doing = [](std::string_view) {};
   Progress progress = {};
 };
 
-/// Executes `awmr pil` and writes pil.json. Errors: invalid input; no compiler; the chip or the
-/// link fails.
+/// Executes `awmr pil` and writes pil.json, also if a check fails (Outcome::passed). Errors:
+/// invalid input; no compiler; the chip or the link fails.
 Result<Outcome> run_pil(const cli::PilOptions& options, const Watch& watch);
 
 }  // namespace awmr::pil

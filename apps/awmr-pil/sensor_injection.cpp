@@ -10,7 +10,8 @@ using cli::Injection;
 
 /// Resolution of the boards' gyroscope (range +-500 deg/s), rad/s per count.
 constexpr float kRadpsPerWord = 500.0F / 32768.0F * 0.0174532925F;
-/// RMS noise of a working gyroscope and of a working compass, counts.
+/// Standard deviation of the noise of a working gyroscope and of a working compass, and size of the
+/// magnetic field, counts.
 constexpr double kGyroNoise = 5.0;
 constexpr double kFieldNoise = 3.0;
 constexpr double kFieldSize = 250.0;
@@ -68,7 +69,7 @@ SensorFault CheckedSensors::step(std::size_t k, bool fails, const Commanded& bef
     in.measured.r_radps = -in.measured.r_radps;
   }
   if (fails && injection_ == Injection::kCompassTurning) {
-    // The controller's heading drifts as well, because the heading filter follows the compass.
+    // The heading that the controller gets drifts as well, because it is filtered from the compass.
     turned_rad_ += kCompassTurning_radps * sample_time_s_;
     in.measured.psi_rad =
         float_math::wrapped(in.measured.psi_rad + static_cast<float>(turned_rad_));

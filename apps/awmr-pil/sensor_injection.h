@@ -1,6 +1,6 @@
 // Injects sensor failures: derives raw readings from the simulated motion, and applies the checks
-// of the sketches (control/heading_check.h, gps_check.h). The reading of a rejected sensor keeps
-// its old time, as on the board.
+// of the sketches (control/heading_check.h, gps_check.h). The time stamp of a rejected sensor is
+// not renewed, as on the board, so that the autopilot finds its reading too old.
 #pragma once
 
 #include <deque>
@@ -16,7 +16,7 @@ namespace awmr::pil {
 
 /// Commands of the autopilot in the previous step.
 struct Commanded {
-  float moment_m;     ///< commanded yaw moment, m; 0: the motors are off
+  float moment_m;     ///< commanded yaw moment over F_max, m; 0: the motors are off
   float psi_ref_rad;  ///< commanded heading
 };
 
@@ -25,8 +25,9 @@ class CheckedSensors {
  public:
   CheckedSensors(cli::Injection injection, double sample_time_s, const GpsLimits& limits);
 
-  /// Executes the k-th step: stores the times of the last accepted readings in `in`. Returns why a
-  /// sensor is rejected, else kSensorGood. `fails`: true while the injection acts.
+  /// Executes the k-th control step: stores the times of the last accepted readings in in.times.
+  /// Returns why a sensor is rejected, else kSensorGood. `fails`: the injection acts, and may also
+  /// change in.measured.
   SensorFault step(std::size_t k, bool fails, const Commanded& before, AutopilotInput& in);
 
  private:
@@ -39,7 +40,7 @@ class CheckedSensors {
   std::int16_t field_[3] = {0, 0, 0};
   double heading_rad_ = 0.0;  ///< output of the complementary filter
   bool has_heading_ = false;
-  std::optional<double> stuck_rad_;  ///< heading that the compass keeps
+  std::optional<double> stuck_rad_;  ///< heading that a stuck compass keeps; absent: not stuck
   double turned_rad_ = 0.0;          ///< error so far of a compass whose heading drifts
   std::optional<GpsFix> fix_;
   Position<float> fix_m_{};

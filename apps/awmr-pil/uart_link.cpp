@@ -11,11 +11,12 @@ namespace {
 
 /// Timeout of the start in cycles: 1 s, ten times the duration of the parameter check.
 constexpr std::uint64_t kLineStartCycles = 16'000'000;
-/// Timeout of an answer in cycles: 30 ms. A request, its step and its answer take 3 ms, and the
-/// chip discards an incomplete frame after 20 ms.
+/// Timeout of an answer in cycles: 30 ms. A request, its step and its answer take 3 ms. It must be
+/// longer than the pause of 20 ms after which the chip discards an incomplete frame.
 constexpr std::uint64_t kLineAnswerCycles = 480'000;
 
-/// Damages or loses transmitted bytes, in a deterministic sequence.
+/// Loses a fraction `share` of the transmitted bytes and flips this fraction of the bits of the
+/// others, in a deterministic sequence.
 class Noise {
  public:
   explicit Noise(double share) : share_(share) {}

@@ -1,5 +1,5 @@
-// Converts the host's input and output of a control step from and to the byte layout of awmr_input
-// and awmr_output on the chip: little-endian, without padding.
+// Converts input and output of a control step between the host's structs and the bytes of
+// awmr_input and awmr_output on the chip: little-endian, without padding.
 #pragma once
 
 #include <cstdint>

@@ -38,7 +38,7 @@ std::mutex folder_mutex;
 fs::path& folder = *new fs::path;
 
 bool can_end = false;  ///< true: the thread that ends the program at a signal was started
-sem_t not_ending;      ///< posted by that thread to answer question(): no signal came before
+sem_t not_ending;      ///< posted by that thread in answer to question(): no signal is pending
 
 /// True for `awmr-pil-NUMBER-XXXXXX`, where NUMBER is a process ID.
 bool is_run_folder(std::string_view name) {
@@ -48,7 +48,8 @@ bool is_run_folder(std::string_view name) {
   return digits > 0 && name.substr(digits).starts_with('-');
 }
 
-/// Locks the folder itself until the process ends; -1 if another process holds the lock.
+/// Locks the folder itself until the returned descriptor is closed or the process ends; -1 if
+/// another process holds the lock.
 int lock_folder(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0) return file;

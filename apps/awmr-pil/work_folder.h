@@ -9,12 +9,12 @@
 namespace awmr::pil {
 
 /// Folder in TMPDIR that only this user can enter. The destructor removes the folder, and so does a
-/// signal that ends the program (clean_up_at_signals()). If the program is killed, the next run
-/// removes the folder, because the lock on the folder ended with the process.
+/// signal that ends the program (clean_up_at_signals()). If the program is killed (SIGKILL), the
+/// lock on its folder ends with the process, and the next run removes the unlocked folder.
 class WorkFolder {
  public:
-  /// Removes the folders of finished runs, then creates this run's folder. Only one may exist at a
-  /// time. Errors (input): TMPDIR is missing, not a directory or not writable.
+  /// Removes the folders that killed runs left, then creates this run's folder. A process may have
+  /// only one. Errors (input): TMPDIR is not an absolute path, or no folder can be created there.
   static Result<std::unique_ptr<WorkFolder>> make();
   ~WorkFolder();
   WorkFolder(const WorkFolder&) = delete;

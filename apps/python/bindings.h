@@ -39,8 +39,8 @@ T value_or_raise(Result<T> result) {
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-/// Returns the value for a name. Raises InputError for an unknown name; the message lists the known
-/// ones.
+/// Returns the value for a name, for the argument `what`. Raises InputError for an unknown name;
+/// the message lists the known ones.
 template <class Value, std::size_t N>
 Value value_of(const NameTable<Value, N>& names, const std::string& name, const char* what) {
   if (const auto value = value_in(names, name)) return *value;
@@ -50,7 +50,7 @@ Value value_of(const NameTable<Value, N>& names, const std::string& name, const 
       input_error(ErrorCode::kUnknownName, what, "'" + name + "' is not one of" + known).value());
 }
 
-/// Copies the numbers into a NumPy array.
+/// Copies the numbers into a one-dimensional NumPy array.
 template <class T>
 py::array_t<T> to_array(const std::vector<T>& values) {
   return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
@@ -74,8 +74,8 @@ void bind_read(py::module_& module, const char* name, Read read, const char* tex
       py::arg("path"), text);
 }
 
-/// A vehicle and the file from which it was read. A model that is identified with it names this
-/// file.
+/// A vehicle and the file from which it was read. A model that is identified for it records name
+/// and hash of this file.
 struct VehicleOfFile : Vehicle {
   InputFile file;
 };

@@ -59,10 +59,11 @@ py::dict comparison_columns(const NamedComparison& named) {
 }  // namespace
 
 void bind_compare(py::module_& module) {
-  py::class_<NamedComparison>(module, "Comparison", "The modes on the same scenarios.")
+  py::class_<NamedComparison>(module, "Comparison",
+                              "Result of compare(): the yaw-control modes on the same scenarios.")
       .def_property_readonly("columns", comparison_columns,
-                             "comparison.csv as a dict of NumPy arrays, units in the names, NaN if "
-                             "a metric does not apply")
+                             "comparison.csv as a dict of NumPy arrays, one row per run, units in "
+                             "the names; NaN if a metric does not apply")
       .def(
           "csv", [](const NamedComparison& named) { return comparison_csv(named.comparison); },
           "the bytes of comparison.csv")
@@ -81,9 +82,9 @@ void bind_compare(py::module_& module) {
       py::arg("heading_rate_limit") = py::none(),
       "Compares the yaw-control modes on a list of scenarios, for the model's own values and "
       "`samples` draws from its covariance. The results equal those of `awmr compare`, for any "
-      "number of threads (0: all cores). heading_rate_limit: a number in deg/s, \"measured\" or "
-      "\"none\"; default: \"measured\" if the model has a measured yaw rate, else \"none\". Raises "
-      "InputError.");
+      "number of threads (0: all cores). `heading_rate_limit`: limit of the rate of heading "
+      "commands in deg/s, \"measured\" (the highest yaw rate of the trials) or \"none\"; default: "
+      "\"measured\" if the model has such a yaw rate, else \"none\". Raises InputError.");
 }
 
 }  // namespace awmr::python

@@ -49,13 +49,14 @@ void bind_errors(py::module_& module) {
   classes->base = new_class(
       module, "Error",
       "An error, with the messages of the command line: one line per fault. `faults` is a list of "
-      "(place, message), the place FILE:LINE:COLUMN, FILE:/json/pointer or an option; `codes` "
-      "has each fault's code (awmr explain CODE), `exit_code` is the command line's.",
+      "(place, message); the place is FILE:LINE:COLUMN, FILE:/json/pointer, an option or empty. "
+      "`codes` has the code of each fault (awmr explain CODE prints its meaning), `exit_code` the "
+      "exit code with which the command line would end.",
       PyExc_Exception);
   classes->input =
       new_class(module, "InputError", "A file or a value is wrong (exit code 2).", classes->base);
-  classes->refused = new_class(
-      module, "Refused", "The function ran with a negative result (exit code 1).", classes->base);
+  classes->refused = new_class(module, "Refused",
+                               "The function ran, but has no result (exit code 1).", classes->base);
   classes->fault = new_class(module, "ProgramFault", "A fault of the library itself (exit code 3).",
                              classes->base);
   py::register_exception_translator([](std::exception_ptr thrown) {

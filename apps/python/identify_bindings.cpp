@@ -85,28 +85,35 @@ py::list suggested(const Model& model, const std::string& parameter, int repeats
 }  // namespace
 
 void bind_identify(py::module_& module) {
-  py::class_<Identification>(module, "Identification", "A model, and the refused parameters.")
+  py::class_<Identification>(module, "Identification",
+                             "Result of identify(): a model, and the refused parameters.")
       .def_readonly("model", &Identification::model)
       .def_property_readonly(
           "refused", refused_names,
-          "requested parameters that the data do not identify (exit code 1 of the "
-          "command line); model.findings give the reasons");
+          "names of the requested parameters that the data do not identify (the command line then "
+          "ends with exit code 1); model.findings has the reasons");
   module.def(
       "identify", fit, py::arg("trials"), py::kw_only(), py::arg("method") = py::none(),
       py::arg("noise") = py::none(), py::arg("family") = Words{}, py::arg("loss") = "squares",
       py::arg("joint") = false, py::arg("fit") = Words{}, py::arg("seed") = 1,
       py::arg("starts") = 6, py::arg("bootstrap") = 0, py::arg("time_limit_s") = 0.0,
       py::arg("cross_validate") = false, py::arg("threads") = 0,
-      "Fits the vehicle's parameters. `method`: \"log-linear\", \"nonlinear\" or \"trajectory\" "
-      "(None: chosen by the data); `noise`: \"force\", \"speed\" or \"time\"; `family`, `fit`: "
-      "lists of the values of --family and --fit; `time_limit_s` in s, 0: none; `threads` 0: all "
-      "cores. The results equal those of `awmr identify`, for any number of threads. Raises "
-      "InputError.");
-  module.def("suggest", suggested, py::arg("model"), py::kw_only(), py::arg("parameter") = "",
-             py::arg("repeats") = 3,
-             "The trials to record next, best first, as a list of dicts: `settings` as text, "
-             "`numbers`, and the standard error of `parameter` before and after the trial, in its "
-             "unit. Trials that identify parameters without a value come first.");
+      "Fits the parameters of a vehicle to its trials. The arguments are the options of the same "
+      "names of `awmr identify`, whose results these equal. `method`: \"log-linear\", "
+      "\"nonlinear\" or \"trajectory\" (None: chosen by the data); `noise`: the quantity that has "
+      "the errors, \"force\", \"speed\" or \"time\"; `family`, `fit`: lists of the values of "
+      "--family and --fit; `time_limit_s`: 0 is no limit; `threads`: 0 is all cores, and the "
+      "number "
+      "does not change the results. Raises InputError.");
+  module.def(
+      "suggest", suggested, py::arg("model"), py::kw_only(), py::arg("parameter") = "",
+      py::arg("repeats") = 3,
+      "The trials to record next, best first, as a list of dicts: `kind`, `settings` as "
+      "text, the settings as `numbers`, and `std_error_before` and `std_error_after` the "
+      "trial, of `parameter` in its unit. The argument `parameter` selects whose standard "
+      "error is to be reduced (\"\": those of all parameters together), `repeats` the number "
+      "of runs of each trial. Trials that identify parameters without a value come first; "
+      "these have only `parameter` and `settings`. Raises InputError.");
 }
 
 }  // namespace awmr::python

@@ -23,7 +23,7 @@ void bind_findings(py::module_& module) {
   py::class_<Finding>(module, "Finding",
                       "A message about the data or the result: `severity` is \"note\", "
                       "\"warning\" or \"error\"; `code` does not change between versions; `line` "
-                      "is 0 if the message does not refer to a line.")
+                      "is the line of `file`, 0 if the message does not refer to a line.")
       .def_readonly("file", &Finding::file)
       .def_readonly("line", &Finding::line)
       .def_readonly("code", &Finding::code)
@@ -44,35 +44,45 @@ Result<VehicleOfFile> read_with_its_file(const std::filesystem::path& path) {
 }
 
 void bind_vehicle(py::module_& module) {
-  py::class_<Vehicle>(module, "Vehicle", "The vehicle's data before any trial.")
+  py::class_<Vehicle>(module, "Vehicle",
+                      "The vehicle's data that are known before any trial (vehicle.json).")
       .def_readonly("name", &Vehicle::name)
-      .def_readonly("mass_kg", &Vehicle::mass_kg, "m, kg")
+      .def_readonly("mass_kg", &Vehicle::mass_kg, "m, kg, ready to drive")
       .def_readonly("length_m", &Vehicle::length_m, "along the body's x, m")
       .def_readonly("width_m", &Vehicle::width_m, "along the body's y, m")
-      .def_readonly("front_axle_m", &Vehicle::front_axle_m, "l_f, centre of gravity to axle, m")
-      .def_readonly("half_track_m", &Vehicle::half_track_m, "d, centre line to a wheel's middle, m")
-      .def_readonly("steering_max_deg", &Vehicle::steering_max_deg, "stop, deg")
-      .def_readonly("steering_max_rate_degps", &Vehicle::steering_max_rate_degps, "deg/s")
-      .def_readonly("steering_time_constant_s", &Vehicle::steering_time_constant_s, "s")
-      .def_readonly("sample_time_s", &Vehicle::sample_time_s, "T_s, s")
+      .def_readonly("front_axle_m", &Vehicle::front_axle_m,
+                    "l_f, from the centre of gravity to the front axle, m")
+      .def_readonly("half_track_m", &Vehicle::half_track_m,
+                    "d, from the centre line to the middle of a wheel, m")
+      .def_readonly("steering_max_deg", &Vehicle::steering_max_deg,
+                    "largest steering angle to either side, deg; 0 without steering")
+      .def_readonly("steering_max_rate_degps", &Vehicle::steering_max_rate_degps,
+                    "largest rate of the steering servo, deg/s; 0 without steering")
+      .def_readonly("steering_time_constant_s", &Vehicle::steering_time_constant_s,
+                    "T, first-order lag of the steering servo, s; 0 without steering")
+      .def_readonly("sample_time_s", &Vehicle::sample_time_s,
+                    "T_s, time between two steps of the controller, s")
       .def_property_readonly(
           "wheel_force",
           [](const Vehicle& v) { return py::make_tuple(v.wheel_force.lo, v.wheel_force.hi); },
-          "least and largest F' of a wheel, over F_max")
+          "(least, largest) force F' of one wheel over F_max; the least is negative if the motors "
+          "reverse")
       .def_property_readonly("drive",
                              [](const Vehicle& v) { return name_in(kDriveNames, v.drive); })
-      .def_property_readonly("inertia_kgm2", &Vehicle::inertia_kgm2, "Iz, kg m^2");
+      .def_property_readonly("inertia_kgm2", &Vehicle::inertia_kgm2,
+                             "Iz, kg m^2: the measured yaw inertia, else that of a uniform box");
   py::class_<VehicleOfFile, Vehicle>(module, "VehicleOfFile",
-                                     "A vehicle as read_vehicle() returns it: results made from it "
-                                     "name its file.");
-  bind_read(module, "read_vehicle", read_with_its_file, "vehicle.json. Raises InputError.");
+                                     "A vehicle as read_vehicle() returns it: a model identified "
+                                     "for it names its file.");
+  bind_read(module, "read_vehicle", read_with_its_file, "Reads a vehicle.json. Raises InputError.");
 }
 
 void bind_estimate(py::module_& module) {
   py::class_<Estimate>(
       module, "Estimate",
-      "One identified number. `value` is None if the data do not determine it, `std_error` and "
-      "`ci95` (lo, hi) if there is no uncertainty; all in the parameter's unit (`awmr.units`).")
+      "One identified number. `value` is None if the data do not determine it; `std_error` and "
+      "`ci95` (lo, hi) are None if its uncertainty is not known. All are in the parameter's unit "
+      "(`awmr.units`).")
       .def_readonly("value", &Estimate::value)
       .def_readonly("std_error", &Estimate::std_error)
       .def_property_readonly("ci95", [](const Estimate& e) { return interval_of(e.ci95); })
@@ -111,8 +121,8 @@ py::list names_of(const Model& model) {
 
 void bind_model_class(py::module_& module) {
   py::class_<Model>(module, "Model",
-                    "The identified vehicle: model[\"surge.alpha\"] is an Estimate, "
-                    "model.keys() the names.")
+                    "The identified model of a vehicle. model[\"surge.alpha\"] is the Estimate of "
+                    "that parameter, model.keys() are the parameters' names.")
       .def("__getitem__",
            [](const Model& model, const std::string& name) { return model[parameter_of(name)]; })
       .def("keys", names_of, "the parameters that this model has")
@@ -123,19 +133,20 @@ void bind_model_class(py::module_& module) {
       .def_property_readonly("yaw_family", [](const Model& m) { return name_of(m.yaw_family); })
       .def_property_readonly(
           "covariance", covariance_of,
-          "(names, covariance matrix) of the fitted parameters, in products of their "
-          "units")
+          "(names, covariance matrix) of the fitted parameters; an element has the product of "
+          "the units of its two parameters")
       .def_property_readonly("findings", [](const Model& m) { return m.record.findings; })
       .def("text", model_text, "the bytes of model.json");
   bind_read(
       module, "read_model", [](const auto& path) { return read_model(path); },
-      "model.json. Raises InputError.");
+      "Reads a model.json. Raises InputError.");
   module.def(
       "write_model",
       [](const Model& model, const std::filesystem::path& path) {
         value_or_raise(write_model(model, path));
       },
-      py::arg("model"), py::arg("path"), "Writes model.json, whole or not at all.");
+      py::arg("model"), py::arg("path"),
+      "Writes model.json, completely or not at all. Raises InputError.");
 }
 
 Gains<double> gains_from(double lambda, double mu, double epsilon, double speed_mu,
@@ -151,8 +162,8 @@ Gains<double> gains_from(double lambda, double mu, double epsilon, double speed_
   for (const double one : {bandwidth_radps, yaw_max_m, surge_max}) {
     if (one >= 0.0 && one < 1e9 && (one > 0.0) == observer.is_on()) continue;
     throw Raised(input_error(ErrorCode::kOutOfRange, "gains",
-                             "an observer has a bandwidth, yaw_max_m and surge_max above 0, or "
-                             "none of them")
+                             "expected observer_bandwidth_radps, observer_yaw_max_m and "
+                             "observer_surge_max all above 0, or all 0")
                      .value());
   }
   return {{lambda, mu, epsilon}, {speed_mu, speed_epsilon}, observer};
@@ -162,10 +173,11 @@ void bind_gains(py::module_& module) {
   using G = Gains<double>;
   py::class_<G>(
       module, "Gains",
-      "The controller's gains. Heading law: slope lambda_ (1/s), mu (rad/s^2), epsilon "
-      "(rad/s). Speed law: speed_mu (m/s^2), speed_epsilon (m/s). All are > 0. Disturbance "
-      "observer: observer_bandwidth_radps (0: none), observer_yaw_max_m (m), "
-      "observer_surge_max.")
+      "The controller's gains, all > 0. Heading law: slope lambda_ of the sliding surface (1/s), "
+      "largest corrective yaw acceleration mu (rad/s^2), half width epsilon of the boundary layer "
+      "(rad/s). Speed law: speed_mu (m/s^2) and speed_epsilon (m/s), likewise. Disturbance "
+      "observer (three zeros: none): observer_bandwidth_radps, and the largest compensated yaw "
+      "moment observer_yaw_max_m (m) and force observer_surge_max, both over F_max.")
       .def(py::init(&gains_from), py::kw_only(), py::arg("lambda_"), py::arg("mu"),
            py::arg("epsilon"), py::arg("speed_mu"), py::arg("speed_epsilon"),
            py::arg("observer_bandwidth_radps") = 0.0, py::arg("observer_yaw_max_m") = 0.0,
@@ -188,13 +200,14 @@ void bind_gains(py::module_& module) {
       .def_property_readonly("observer_surge_max", [](const G& g) { return g.observer.surge_max; });
   bind_read(
       module, "read_gains", [](const auto& path) { return read_gains(path); },
-      "gains.json. Raises InputError.");
+      "Reads a gains.json. Raises InputError.");
   module.def(
       "write_gains",
       [](const G& gains, const std::filesystem::path& path) {
         value_or_raise(write_gains(gains, path));
       },
-      py::arg("gains"), py::arg("path"), "Writes gains.json, without the results of a tuning.");
+      py::arg("gains"), py::arg("path"),
+      "Writes gains.json with the gains alone, without the results of tuning. Raises InputError.");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// Python module `awmr`: the library's functions under their own names.
+/// Python module `awmr`: functions of the library, under the library's names.
 #include "awmr/core/provenance.h"
 #include "bindings.h"
 
@@ -8,9 +8,8 @@ PYBIND11_MODULE(awmr, module) {
       "\n"
       "Names end in the unit: _m, _s, _rad, _deg, _mps, _radps, _kg. Forces are divided by F_max, "
       "the largest force of one motor. Angles and yaw rates are positive counter-clockwise, "
-      "lateral quantities to the left. Tables are dicts of NumPy arrays, warnings are a list of "
-      "Finding, "
-      "failures raise Error.";
+      "lateral quantities to the left. Tables are dicts of NumPy arrays. Warnings are in the list "
+      "`findings` of a result; failures raise Error.";
   module.attr("__version__") = awmr::version();
   awmr::python::bind_errors(module);
   awmr::python::bind_model(module);

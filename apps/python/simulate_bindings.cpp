@@ -65,18 +65,20 @@ py::dict metrics_dict(const Metrics& metrics) {
 }  // namespace
 
 void bind_simulate(py::module_& module) {
-  py::class_<Scenario>(module, "Scenario", "A path with its obstacles, disturbances and noise.")
+  py::class_<Scenario>(module, "Scenario",
+                       "What a run has to follow (headings, waypoints, ...), with the obstacles, "
+                       "disturbances and sensor noise (scenario.json).")
       .def_readonly("name", &Scenario::name)
-      .def_readonly("duration_s", &Scenario::duration_s, "s");
+      .def_readonly("duration_s", &Scenario::duration_s, "longest duration of a run, s");
   bind_read(
       module, "read_scenario", [](const auto& path) { return read_scenario(path); },
-      "scenario.json. Raises InputError.");
+      "Reads a scenario.json. Raises InputError.");
   py::class_<EvaluatedRun>(module, "Run", "One simulated run.")
       .def_property_readonly(
           "columns", run_columns,
           "run.csv as a dict of NumPy arrays, units in the names: t_s, x_m, y_m, "
           "psi_rad (unwrapped), u_mps, v_mps, r_radps, force_left, force_right "
-          "(over F_max), steering_rad, ...; the row at t has the command until the next row")
+          "(over F_max), steering_rad, ...; the commands of a row hold until the next row")
       .def_property_readonly(
           "metrics", [](const EvaluatedRun& evaluated) { return metrics_dict(evaluated.metrics); },
           "dict of the metrics of comparison.csv, units in the names; None if a metric does not "
@@ -91,8 +93,10 @@ void bind_simulate(py::module_& module) {
           "the bytes of run.csv");
   module.def("simulate", simulated, py::arg("model"), py::arg("gains"), py::arg("scenario"),
              py::kw_only(), py::arg("mode") = "combined",
-             "One run of the model with its own controller. `mode`: \"differential\", "
-             "\"steering\" or \"combined\". Raises InputError if the model lacks a parameter.");
+             "Simulates one run of the model in a scenario. The controller has the model's "
+             "parameters and these gains. `mode`: source of the yaw moment, \"differential\", "
+             "\"steering\" or \"combined\". Raises InputError if the model lacks a parameter or "
+             "the run diverges.");
 }
 
 }  // namespace awmr::python

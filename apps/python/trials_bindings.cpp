@@ -10,7 +10,8 @@
 namespace awmr::python {
 namespace {
 
-/// Optional path; for kinds with several files a path or a list of paths.
+/// Arguments of load_trials(): an optional path; for kinds of trials with several files, also a
+/// list of paths.
 using Path = std::optional<std::filesystem::path>;
 using Paths =
     std::variant<std::monostate, std::filesystem::path, std::vector<std::filesystem::path>>;
@@ -117,7 +118,8 @@ py::list logs_of(const TrialsOfFiles& trials) {
 /// A vehicle as returned by read_vehicle(), or the vehicle of a model, which has no file.
 using AnyVehicle = std::variant<VehicleOfFile, Vehicle>;
 
-/// Vehicle file and trial files, in the order in which the command line names them.
+/// Vehicle file (if there is one) and trial files with their hashes, in the order of the command
+/// line's record. Errors (input): a file cannot be read.
 Result<std::vector<InputFile>> inputs_of(const AnyVehicle& vehicle, const TrialFiles& files) {
   std::vector<InputFile> inputs;
   if (const auto* read = std::get_if<VehicleOfFile>(&vehicle)) inputs.push_back(read->file);
@@ -164,19 +166,24 @@ TrialsOfFiles load(const AnyVehicle& vehicle, const Path& surge, const Path& tur
 void bind_trials(py::module_& module) {
   py::class_<TrialsOfFiles>(
       module, "Trials",
-      "Trials in SI units. A table is a dict of NumPy arrays by column, NaN for an empty cell, "
-      "with `line`, each row's line in the file; None if there is no such table.")
+      "Trials in SI units. A table is a dict from column to NumPy array, with NaN for an empty "
+      "cell; its column `line` is each row's line in the file. None if there is no such table.")
       .def_readonly("vehicle", &TrialsOfFiles::vehicle)
       .def_readonly("findings", &TrialsOfFiles::findings)
-      .def_property_readonly("surge", surge_of, "tau_speed = 4 F' (1), speed_mps (m/s), ...")
-      .def_property_readonly("turning", turning_of,
-                             "steering_rad, wheel_force (over F_max), yaw_rate_radps (rad/s), ...")
-      .def_property_readonly("coastdown", stop_times_of, "initial_speed_mps (m/s), stop_time_s (s)")
-      .def_property_readonly("curves", curves_of, "list of coast-down curves: t_s (s), speed_mps")
+      .def_property_readonly("surge", surge_of,
+                             "straight runs: tau_speed (drive force over F_max), speed_mps, ...")
+      .def_property_readonly(
+          "turning", turning_of,
+          "steady turns: steering_rad (left positive), wheel_force (over F_max), "
+          "yaw_rate_radps, ...")
+      .def_property_readonly("coastdown", stop_times_of,
+                             "coast-downs by stop time: initial_speed_mps, stop_time_s")
+      .def_property_readonly("curves", curves_of, "list of coast-down curves: t_s, speed_mps")
       .def_property_readonly(
           "logs", logs_of,
-          "list of logs: t_s (s), force_left, force_right (over F_max); if logged, "
-          "steering_cmd_rad and the channels, NaN in rows without a reading");
+          "list of driving logs: t_s, force_left and force_right (of each wheel of a side, over "
+          "F_max), and, if logged, steering_cmd_rad and the sensor channels, which are NaN in rows "
+          "without a reading");
   module.def(
       "load_trials", load, py::arg("vehicle"), py::kw_only(), py::arg("surge") = py::none(),
       py::arg("turning") = py::none(), py::arg("coastdown") = std::monostate{},
@@ -184,8 +191,12 @@ void bind_trials(py::module_& module) {
       py::arg("prefer") = "printed", py::arg("as_is") = false, py::arg("steady_from_logs") = false,
       "Reads the trial files of one vehicle, given as paths; `coastdown` and `log` may be lists of "
       "paths. `columns`: column mappings as in --column, such as \"speed_mps=V*0.2778\". `prefer`: "
-      "use the \"printed\" or the \"timed\" speed if a row gives both. Raises InputError with all "
-      "faults of all files.");
+      "which speed or yaw rate to use if a row gives it twice, the \"printed\" one or the "
+      "\"timed\" "
+      "one (distance or turns over elapsed time). `as_is`: accept trials that contradict "
+      "themselves or the vehicle, with a warning. `steady_from_logs`: also use steady stretches of "
+      "the logs as surge and "
+      "turning runs. Raises InputError with all faults of all files.");
 }
 
 }  // namespace awmr::python

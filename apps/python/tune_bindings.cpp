@@ -49,7 +49,7 @@ py::list scores_of(const Tuning& tuning) {
   return all;
 }
 
-/// Results on fresh draws, as a list of dicts; empty for nominal gains.
+/// Results of each set of gains on new draws of the plant, as a list of dicts; empty if `nominal`.
 py::list evaluated_gains_of(const Tuning& tuning) {
   py::list all;
   if (!tuning.robust) return all;
@@ -70,7 +70,7 @@ py::list evaluated_gains_of(const Tuning& tuning) {
   return all;
 }
 
-/// Results of the goals, as a list of dicts; empty without goals.
+/// Results of the goals of tune.json, as a list of dicts; empty without goals.
 py::list goals_of(const Tuning& tuning) {
   py::list all;
   if (!tuning.robust) return all;
@@ -95,33 +95,38 @@ py::list goals_of(const Tuning& tuning) {
 }  // namespace
 
 void bind_tune(py::module_& module) {
-  py::class_<Tuning>(module, "Tuning", "Gains and the results of the tuning.")
+  py::class_<Tuning>(module, "Tuning", "Result of tune(): the gains and how they perform.")
       .def_readonly("gains", &Tuning::gains)
-      .def_readonly("objective", &Tuning::objective, "1 for the baseline gains, lower is better")
+      .def_readonly("objective", &Tuning::objective,
+                    "objective of the gains, lower is better; the baseline gains have 1")
       .def_readonly("evaluations", &Tuning::evaluations)
       .def_readonly("algorithm", &Tuning::algorithm)
       .def_readonly("stop_reason", &Tuning::stop_reason)
       .def_property_readonly(
           "constraints", constraints_of,
-          "list of dicts: name, value <= limit, margin = limit - value, required")
+          "list of dicts: name, value, limit, `sense` (on which side of its limit the value must "
+          "be), `margin` (distance from the limit, >= 0 if met), and whether it is required")
       .def_property_readonly("scores", scores_of,
-                             "list of dicts by scenario and mode: objective and the metrics of "
-                             "comparison.csv")
+                             "list of dicts by scenario and mode, for the model's own parameters: "
+                             "objective and the metrics of comparison.csv")
       .def_property_readonly(
           "judged", evaluated_gains_of,
-          "list of dicts by gains (\"robust\", \"baseline\", ...) and mode: each "
-          "figure's median, q95 and tail_mean over fresh draws; empty for "
-          "nominal gains")
+          "list of dicts by gains (\"robust\": the tuned ones, \"baseline\", ...) and mode: for "
+          "each metric its median, 95 % quantile `q95` and mean of the worst runs `tail_mean`, "
+          "over new draws that the search did not use; empty if `nominal`")
       .def_property_readonly("goals", goals_of,
-                             "list of dicts by gains, goal and mode: runs, runs that meet it, ci95 "
-                             "of the share, and the verdict met, missed or open");
-  module.def("tune", tuned, py::arg("model"), py::kw_only(), py::arg("config") = py::none(),
-             py::arg("nominal") = false, py::arg("draws") = py::none(), py::arg("observer") = false,
-             "Searches the controller's gains under T2 < T1. `config`: path of tune.json; `draws`: "
-             "number of plants drawn from the model's covariance (default 32); `nominal`: tune for "
-             "the nominal parameters without draws, noise and lag; `observer`: also tune a "
-             "disturbance observer. The results equal those of `awmr tune`. Raises Refused if no "
-             "gains meet the constraints, InputError if the model lacks a parameter.");
+                             "list of dicts by gains, goal of tune.json and mode: number of runs, "
+                             "number that meet the goal (`held`), 95 % interval of their fraction, "
+                             "and the verdict \"met\", \"missed\" or \"open\" (undecided)");
+  module.def(
+      "tune", tuned, py::arg("model"), py::kw_only(), py::arg("config") = py::none(),
+      py::arg("nominal") = false, py::arg("draws") = py::none(), py::arg("observer") = false,
+      "Searches the gains of the controller that minimise the objective and meet the "
+      "constraints, such as T2 < T1. `config`: path of a tune.json; `draws`: number of plants "
+      "drawn from the model's covariance (default 32); `nominal`: tune for the model's own "
+      "parameters, without draws, noise and lag; `observer`: also tune a disturbance "
+      "observer. The results equal those of `awmr tune`. Raises Refused if no gains meet the "
+      "constraints, InputError if the model lacks a parameter or `config` is wrong.");
 }
 
 }  // namespace awmr::python

@@ -65,7 +65,7 @@ def turning(chance):
 
 
 def coastdown(chance):
-    """Wheel encoder while the rover rolls out, motors off from the start of the record."""
+    """Speed by the wheel encoder at 50 Hz while the rover coasts to rest; the motors are off from the start of the record."""
     lines = ["run;t_ms;kmh"]
     for run, start in enumerate((1.4, 1.8, 2.1), 1):
         s = 1 - B1

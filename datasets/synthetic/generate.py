@@ -73,7 +73,8 @@ def coast(name, seed):
 
 
 def field(name, seed):
-    """Two turns in a field of 130 counts, with magnets (centre) and iron (gain matrix of determinant 1) on the vehicle."""
+    """Two turns in a horizontal field of 130 counts. Magnets on the vehicle shift the readings (ahead_0, left_0), iron distorts them
+    by a symmetric matrix of determinant 1."""
     chance = random.Random(seed)
     lines = ["# synthetic, see README.md", "t_s,field_ahead,field_left,yaw_rate_radps"]
     ahead_0, left_0, gain, cross = 42.0, -67.0, 1.1, 0.06

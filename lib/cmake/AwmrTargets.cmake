@@ -1,4 +1,5 @@
-# One warnings target, linked privately everywhere and never exported.
+# Compiler warnings, as a target that every target of this project links privately. It is not exported, so that users of the
+# library do not get the warnings.
 add_library(awmr_warnings INTERFACE)
 target_compile_options(awmr_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
@@ -6,8 +7,8 @@ target_compile_options(awmr_warnings INTERFACE
   $<$<BOOL:${AWMR_WARNINGS_AS_ERRORS}>:-Werror>)
 
 # awmr_library(NAME HEADERS file... [SOURCES file...] [PUBLIC target...] [PRIVATE target...])
-# The library of one folder, `awmr_NAME` with the alias `awmr::NAME`; header-only without SOURCES.
-# HEADERS are the public ones: they are installed, and no other is.
+# Defines the library of one folder, `awmr_NAME` with the alias `awmr::NAME`; header-only without SOURCES. HEADERS are the
+# public headers; only these are installed.
 function(awmr_library name)
   cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target awmr_${name})
@@ -16,7 +17,7 @@ function(awmr_library name)
     target_link_libraries(${target} PUBLIC ${ARG_PUBLIC}
       PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:awmr_warnings>)
     set(scope PUBLIC)
-    # The same products and sums on every compiler: no contraction into fused multiply-add.
+    # No contraction of products and sums into fused multiply-add, so that every compiler gives the same results.
     target_compile_options(${target} PRIVATE -ffp-contract=off)
   else()
     add_library(${target} INTERFACE)
@@ -33,14 +34,14 @@ function(awmr_library name)
   set_property(GLOBAL APPEND PROPERTY AWMR_LIBRARIES ${target})
 endfunction()
 
-# gold links a test in a quarter of the default linker's time. Debian 12's binutils has it, newer ones need not.
+# The linker gold takes a quarter of the default linker's time for a test. Debian 12's binutils contains gold, newer ones may not.
 include(CheckLinkerFlag)
 check_linker_flag(CXX -fuse-ld=gold AWMR_HAS_GOLD)
 
 # awmr_test(NAME SOURCES file... [TIER tier] [LINK target...] [CASES n] [TOGETHER suite...]): one GoogleTest executable.
-# Each case is a test of its own, except that a suite of TOGETHER is one test, as its cases share a costly set-up.
-# Properties have a fixed seed and n cases, 100 by default. TIER is `unit` by default (tests/README.md). Instances of value-parameterised
-# suites that are named Long are in tier `long`; those named Short detect the same defects with fewer repeats.
+# Each test case is a test of CTest, except that each suite in TOGETHER is one test, because its cases share a costly set-up.
+# RapidCheck's properties have a fixed seed and n random cases, 100 by default. TIER is `unit` by default (tests/README.md). Instances
+# of value-parameterised suites that are named Long are in tier `long`; those named Short detect the same defects with fewer repeats.
 function(awmr_test name)
   cmake_parse_arguments(ARG "" "CASES;TIER" "SOURCES;LINK;TOGETHER" ${ARGN})
   if(NOT ARG_CASES)
@@ -51,7 +52,7 @@ function(awmr_test name)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  # Compiled quickly rather than for speed. GCC 12 sees overflows at -O1 that are not there.
+  # -O1 shortens the compile time. With it GCC 12 gives false warnings of overflows, which are disabled.
   target_compile_options(${name} PRIVATE -ffp-contract=off $<$<CONFIG:Release>:-O1>
     $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-stringop-overflow>)
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gmock GTest::gtest_main awmr_warnings)
@@ -72,9 +73,9 @@ function(awmr_test name)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "Long/*" TEST_LIST ${name}_long PROPERTIES ${properties} LABELS long)
 endfunction()
 
-# awmr_command_test(NAME TIER tier TIMEOUT seconds COMMAND word... [NEEDS package=variable...]): a test that is a command;
-# 77 is its exit code for "skipped". Where a variable of NEEDS is false, the test is skipped and names the package.
-# It starts before the cases of awmr_test(), as it takes longer.
+# awmr_command_test(NAME TIER tier TIMEOUT seconds COMMAND word... [NEEDS package=variable...]): a test that runs a command, whose
+# exit code 77 means "skipped". If a variable of NEEDS is false, the test is skipped and names the missing package. CTest
+# starts these tests before the cases of awmr_test(), because they take longer (COST).
 function(awmr_command_test name)
   cmake_parse_arguments(ARG "" "TIER;TIMEOUT" "COMMAND;NEEDS" ${ARGN})
   foreach(need IN LISTS ARG_NEEDS)

@@ -1,4 +1,4 @@
-# Debian 12 packages; scripts/setup installs them.
+# Libraries, with the versions of Debian 12; scripts/setup installs the packages.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Ceres 2.1 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)

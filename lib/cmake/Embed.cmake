@@ -1,7 +1,7 @@
-# awmr_embed(NAME OUTPUT HEADER FILES path=source...): writes OUTPUT, a source that defines what HEADER declares,
+# awmr_embed(NAME OUTPUT HEADER FILES path=source...): writes OUTPUT, a C++ source that defines the function declared in HEADER,
 #   const std::vector<EmbeddedFile>& NAME();
-# the files as text, in this order, each under its path. The standard promises 64 KiB a literal; the compilers here
-# take any.
+# It returns the text of the files, in this order, each under its path. The texts are string literals: the standard guarantees
+# only 64 KiB each, but GCC and Clang accept any length.
 function(awmr_embed name output header)
   cmake_parse_arguments(ARG "" "" "FILES" ${ARGN})
   set(entries)

@@ -1,11 +1,12 @@
-# AWMR_KERNELS: the instruction sets that batches of runs are compiled for (lib/awmr/simulate/lanes/README.md).
+# AWMR_KERNELS: the vector instruction sets for which the simulation of batches of runs is compiled, one kernel for each
+# (lib/awmr/simulate/lanes/README.md).
 #   avx2, avx512  on x86-64; both by default
 #   neon          on 64-bit ARM; by default
-#   (empty)       none: runs go one by one
-#   native        the one kernel that the building processor needs: avx2 has the bits of avx512 and compiles in half the
-#                 time; none where the processor has no AVX2 with fused multiply-add
-#   runnable      those of the default that the building processor runs: the others cannot be tested there
-# Sets AWMR_BUILT_KERNELS, the list that is built.
+#   (empty)       none: runs are simulated one by one
+#   native        one kernel that the building processor supports: avx2 (also with AVX-512, because avx2 gives the same bits and
+#                 compiles in half the time) or neon; none on x86-64 without AVX2 and fused multiply-add
+#   runnable      those of the default that the building processor supports, because the others cannot be tested there
+# Sets AWMR_BUILT_KERNELS, the list of kernels to build.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(known_kernels avx2 avx512)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")

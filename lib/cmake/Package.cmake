@@ -1,10 +1,11 @@
-# What belongs beside the programs, and the Debian package: `cpack -G DEB` in the build directory.
+# Installs configs, datasets and documents next to the programs, and defines the Debian package: `cpack -G DEB` in the build
+# directory.
 set(doc ${CMAKE_INSTALL_DATADIR}/doc/awmr)
 install(DIRECTORY configs datasets DESTINATION ${CMAKE_INSTALL_DATADIR}/awmr
   PATTERN "generate.py" EXCLUDE)
 install(FILES README.md CHANGELOG.md lib/THIRD_PARTY.md DESTINATION ${doc})
 
-# The licences in one file, as Debian has it: awmr's own, and that of awmr-pil.
+# Debian's file `copyright`: the licences of awmr and of awmr-pil.
 file(READ LICENSE licence)
 file(CONFIGURE OUTPUT copyright @ONLY CONTENT
 "awmr, its library, data and pages:\n\n@licence@
@@ -27,11 +28,11 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
-# What `find_package(awmr)` looks for, what `awmr pil` compiles firmware with, what the Python module gives rows as, and what draws
-# figures for print.
+# Packages that only some uses need: `find_package(awmr)` (cmake and the libraries), `awmr pil` (the AVR compiler), the Python module
+# (NumPy) and plot.py of `--figures` (Matplotlib).
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, libceres-dev, libeigen3-dev, nlohmann-json3-dev, libfmt-dev, libmuparser-dev, \
 libexpected-dev, libssl-dev, libnlopt-dev, libnlopt-cxx-dev, libsqlite3-dev, libgeographiclib-dev, gcc-avr, avr-libc, python3-numpy, python3-matplotlib")
-# Everything, and what is for Debian alone.
+# All components, and the component `debian` with the files that only the Debian package contains.
 set(CPACK_INSTALL_CMAKE_PROJECTS "${CMAKE_BINARY_DIR};awmr;ALL;/;${CMAKE_BINARY_DIR};awmr;debian;/")
 if(PROJECT_IS_TOP_LEVEL)
   include(CPack)

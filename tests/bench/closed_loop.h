@@ -1,5 +1,5 @@
-/// Hand-written closed loop of a heading scenario, for any scalar type. The caller supplies the
-/// controller and the motion.
+/// Hand-written closed loop of a scenario with heading commands, for any scalar type. The caller
+/// supplies the controller and the equations of motion.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,9 @@
 
 namespace awmr::bench {
 
-/// Metrics of the run. `command(measured, reference)` returns the allocation of a sample;
-/// `move(t_s, allocation, state)` advances the state by one sample.
+/// Executes a run and returns its metrics. `command(measured, reference)` returns the allocation
+/// (wheel forces and steering) of a sample; `move(t_s, allocation, state)` advances the state by
+/// one sample.
 template <class T, class Command, class Move>
 MetricsAccumulator<T> driven(const Scenario& scenario, double sample_time_s,
                              const Resistance<T>& yaw, const MetricsVehicle<T>& vehicle,

@@ -9,14 +9,14 @@ namespace {
 /// be in flight. Twelve sums and their two constants fit into the sixteen registers of every
 /// processor with FMA.
 constexpr int kSums = 12;
-/// Rounds between two clock readings.
+/// Number of rounds of FMAs between two readings of the clock.
 constexpr int kRounds = 10000;
 
 using Four = double __attribute__((vector_size(32)));
 using Eight = double __attribute__((vector_size(64)));
 
-/// s = s x + y in twelve sums, repeatedly; x and y keep them near 1. x and y are hidden from the
-/// compiler, and the sums appear to be read.
+/// Repeats s = s x + y for twelve sums s; x and y keep them near 1. The compiler cannot remove this
+/// work: x and y are hidden from it, and the sums appear to be read.
 #define AWMR_FMA_ROUNDS(Vector)                                              \
   Vector x = Vector{} + 0.999;                                               \
   Vector y = Vector{} + 0.001;                                               \

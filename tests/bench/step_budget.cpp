@@ -1,6 +1,6 @@
-// Counts the arithmetic operations of a Runge-Kutta step of a closed loop, including its share of
-// laws, allocation and metrics, over the nominal run. Prints JSON for scripts/bench.
-// usage: step_budget MODEL.json GAINS.json SCENARIO.json
+// Counts the arithmetic operations of a closed loop per Runge-Kutta step, including the control
+// laws, the allocation and the metrics, as a mean over the run of the nominal vehicle. Prints JSON
+// for scripts/bench. usage: step_budget MODEL.json GAINS.json SCENARIO.json
 #include <fmt/format.h>
 
 #include <algorithm>

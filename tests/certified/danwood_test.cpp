@@ -1,4 +1,5 @@
-/// NIST StRD nonlinear regression, data set DanWood: y = b1 x^b2, certified to eleven digits.
+/// Fit of a power law compared with certified values: data set DanWood of NIST StRD (nonlinear
+/// regression), y = b1 x^b2, certified to eleven digits.
 #include <gtest/gtest.h>
 
 #include "awmr/identify/identify.h"
@@ -6,8 +7,8 @@
 namespace awmr::testing {
 namespace {
 
-/// The certified data as a surge trial: y is the force, scaled by 0.1 so that tau_speed stays
-/// below 4.
+/// The data set as surge runs: x is the speed and y the force tau_speed, scaled by 0.1 so that it
+/// stays below 4.
 TrialData danwood() {
   constexpr double kY[] = {2.138, 3.421, 3.597, 4.340, 4.882, 5.660};
   constexpr double kX[] = {1.309, 1.471, 1.490, 1.565, 1.611, 1.680};

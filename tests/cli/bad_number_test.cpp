@@ -71,7 +71,7 @@ TEST(BadNumber, IsRefusedByEveryNumericOption) {
   }
 }
 
-/// Options with a time on a log's clock, which may be negative.
+/// Options whose value is a time on a log's clock. Such a time may be negative.
 TEST(BadNumber, IsRefusedAsATime) {
   const std::string files =
       "identify --vehicle configs/paper/vehicle.json "

@@ -1,4 +1,4 @@
-/// Completions as shown by the shells; manual pages as read by groff and mandoc.
+/// Completions of the command line in bash, zsh and fish; manual pages as read by groff and mandoc.
 #include <gmock/gmock.h>
 
 #include <string>

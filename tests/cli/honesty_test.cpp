@@ -1,5 +1,6 @@
-/// Behaviour with files of another vehicle, of the user or of the fit itself. Findings on stderr
-/// are also in the command's file.
+/// Files that do not belong together or must not be overwritten: results of another model, files
+/// that the user edited, a log that the model was fitted to. Findings on stderr are also in the
+/// output file.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -151,7 +152,7 @@ TEST_F(Honesty, AReportLeavesOutWhatIsNotOfItsModel) {
   const std::set<std::string> codes = codes_in(data.at("findings"));
   EXPECT_THAT(codes, Contains("result-of-another-model"));
   EXPECT_THAT(codes, Contains("result-without-origin"));
-  // Another model: all results of the first are discarded.
+  // The directory gets another model: the report leaves out all results of the first one.
   fs::copy(kept("other.json"), path("model.json"), fs::copy_options::overwrite_existing);
   ASSERT_EQ(awmr("report " + directory_.path().string()).exit_code, 0);
   EXPECT_FALSE(page().contains("gains"));
@@ -195,7 +196,7 @@ TEST_F(Honesty, ALogOfTheFitIsNoValidation) {
   EXPECT_THAT(validate(kept("model.json")), Not(Contains("log-of-the-fit")));
 }
 
-// One command per line, with the file that contains its document.
+// Each command is listed with the file to which it writes its findings.
 TEST_F(Honesty, FindingsOnStderrAreThoseOfTheFile) {
   const std::string model = kept("model.json");
   const std::string both = fmt::format("--model {} --gains {}", model, kept("gains.json"));
@@ -229,8 +230,8 @@ TEST_F(Honesty, FindingsOnStderrAreThoseOfTheFile) {
   EXPECT_THAT(seen, Not(IsEmpty()));
 }
 
-/// The document without the parts that depend on the order of the files: the list of inputs, and
-/// keys.
+/// The document without what may depend on the order of the files: the list of inputs, and the
+/// order of keys.
 nlohmann::json without_inputs(const Json& document) {
   nlohmann::json unordered = nlohmann::json::parse(document.dump());
   unordered.erase("inputs");

@@ -29,8 +29,8 @@ const std::string kDrive = std::string(AWMR_SOURCE_DIR) + "/datasets/synthetic/d
 const std::string kVehicle = " --vehicle configs/paper/vehicle.json";
 const std::string kPowerLaw = " --family power";
 
-/// End of a shell command `{ COMMAND`: then sends empty lines as long as there is a reader, like a
-/// recorder without data.
+/// Ends a shell command `{ COMMAND`: after COMMAND, empty lines are sent as long as there is a
+/// reader, as by a recorder without data.
 const std::string kOnAndOn = "; while echo; do sleep 0.1; done 2>/dev/null; }";
 
 class Live : public ::testing::Test {

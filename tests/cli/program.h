@@ -1,4 +1,4 @@
-/// The program under test, run from the source directory so that the README's paths hold.
+/// Runs the program under test in the source directory, so that the paths of the READMEs are valid.
 #pragma once
 
 #include "support/process.h"

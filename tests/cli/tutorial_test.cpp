@@ -16,7 +16,7 @@ using nlohmann::json;
 
 const std::string kSource = AWMR_SOURCE_DIR;
 
-/// Lines of a document's ```sh blocks.
+/// The commands in the ```sh blocks of a document, one per line.
 std::vector<std::string> commands_in(const std::string& path) {
   std::istringstream document(read_all(path));
   std::vector<std::string> lines;
@@ -36,7 +36,9 @@ const std::map<std::string, double> kTruth{{"/surge/alpha", 2.05}, {"/surge/beta
                                            {"/yaw/alpha", 0.042},  {"/yaw/beta", 0.90},
                                            {"/mass_norm", 0.7},    {"/inertia_norm", 0.00879667}};
 
-/// From tables the inertia is that of a box, which is the truth here, and m' has the interval.
+/// Expects each true value within the model's 95 % interval. In a model from tables, I'z is m'
+/// times the Iz/m of a uniform box, as in the simulated rover, and its interval follows from that
+/// of m'.
 void expect_true(const fs::path& model_file) {
   const json model = json::parse(read_all(model_file));
   for (const auto& [pointer, truth] : kTruth) {

@@ -11,7 +11,8 @@ namespace awmr::testing {
 namespace {
 
 TEST(ClopperPearson, IsExactAtTheEnds) {
-  // 0 of n: the upper end solves (1 - p)^n = 0.025; n of n by symmetry.
+  // For 0 of n the upper end solves (1 - p)^n = 0.025; for n of n the lower end follows by
+  // symmetry.
   EXPECT_EQ(clopper_pearson(0, 20).lo, 0.0);
   EXPECT_NEAR(clopper_pearson(0, 20).hi, 1.0 - std::pow(0.025, 1.0 / 20.0), 1e-12);
   EXPECT_NEAR(clopper_pearson(20, 20).lo, std::pow(0.025, 1.0 / 20.0), 1e-12);
@@ -47,7 +48,8 @@ TEST(PairedT, HasTheTablesQuantiles) {
 }
 
 TEST(Equivalence, IsTheOneSidedTestAgainstTheMargin) {
-  // The mean is 1 of its standard errors inside: with 2 degrees p = (1 - 1/sqrt 3)/2.
+  // The mean is one standard error inside the margin: with 2 degrees of freedom p = (1 - 1/sqrt
+  // 3)/2.
   EXPECT_NEAR(equivalence_p(-0.5, 0.5 * std::sqrt(3.0), 3, 1.0), 0.5 - 0.5 / std::sqrt(3.0), 1e-12);
   EXPECT_NEAR(equivalence_p(1.5, 0.5 * std::sqrt(3.0), 3, 1.0), 0.5 + 0.5 / std::sqrt(3.0), 1e-12);
   EXPECT_EQ(equivalence_p(1.0, 0.0, 3, 1.0), 0.0);
@@ -55,7 +57,8 @@ TEST(Equivalence, IsTheOneSidedTestAgainstTheMargin) {
 }
 
 TEST(Holm, StepsDownAndKeepsTheOrder) {
-  // 4 * 0.01, 3 * 0.02, then 2 * 0.03 and 0.2, none smaller than the previous value.
+  // By increasing p: 4 * 0.01, 3 * 0.02, 2 * 0.03 and 1 * 0.2, none smaller than the previous
+  // value.
   const std::vector<double> p = {0.03, 0.01, 0.2, 0.02};
   const std::vector<double> corrected = holm(p);
   EXPECT_NEAR(corrected[1], 0.04, 1e-15);

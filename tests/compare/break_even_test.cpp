@@ -1,5 +1,5 @@
-/// Break-even scrub moment of a mode's advantage, compared with simulate() on either side of the
-/// result.
+/// Break-even scrub moment, with which a mode loses its advantage over another one: checked by
+/// simulate() with a slightly smaller and a slightly larger moment.
 #include "awmr/compare/break_even.h"
 
 #include <gmock/gmock.h>
@@ -131,7 +131,7 @@ YawScrub scrub_of(const Interval& scrub_m) {
           {radians(20.0), radians(200.0)}};
 }
 
-/// Break-even scrub moments, computed with a model without scrub.
+/// Break-even scrub moments in m, computed with a model without a measured scrub.
 std::vector<double> ending_moments_m() {
   std::vector<double> moments_m;
   const Comparison comparison = table_with(std::nullopt);

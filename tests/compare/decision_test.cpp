@@ -24,7 +24,7 @@ const Contender kDifferential{YawMode::kDifferential, ""};
 const Contender kSteering{YawMode::kSteering, ""};
 const Contender kCombined{YawMode::kCombined, ""};
 
-/// One run of each mode whose scored metrics are drawn about 1.
+/// Comparison with one run of each mode, whose scored metrics are random numbers around 1.
 Comparison drawn(std::uint64_t number) {
   Comparison comparison;
   Random random(11, number);

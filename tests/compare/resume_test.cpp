@@ -1,4 +1,4 @@
-/// Stopping and resuming, several sets of gains, seeded noise.
+/// Comparisons that are stopped and resumed; comparisons of several sets of gains; seeded noise.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -169,13 +169,13 @@ TEST(SeveralGains, AreComparedWithEachOtherAndByMode) {
   const Json& scenario = json["scenarios"][0];
   EXPECT_EQ(scenario["modes"].size(), 6U);
   EXPECT_TRUE(scenario["modes"].contains("combined with slow.json"));
-  // 3 pairs of modes for each set, and one pair of sets for each mode.
+  // Paired differences: 3 pairs of modes for each set of gains, and one pair of sets for each mode.
   std::set<std::string> pairs;
   for (const Json& d : scenario["paired_differences"]) {
     pairs.insert(d["first"].get<std::string>() + d["second"].get<std::string>());
   }
   EXPECT_EQ(pairs.size(), 9U);
-  // A tenth of mu/eps settles ten times as slowly: the paper's gains win.
+  // Gains with a tenth of mu/eps settle ten times as slowly: the paper's gains are first.
   EXPECT_THAT(scenario["ranking"][0]["mode"].get<std::string>(), HasSubstr("paper.json"));
 }
 

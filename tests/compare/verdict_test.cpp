@@ -13,8 +13,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// 20 samples in which steering takes `behind_s` longer than differential, with spread `spread_s`,
-/// and fails in the first `failures`.
+/// Comparison of 20 samples. Steering settles `behind_s` later than differential on average, with
+/// the standard deviation `spread_s`, and fails in the first `failures` samples.
 Comparison twenty(double behind_s, double spread_s, int failures = 0) {
   Comparison c;
   for (const YawMode mode : {YawMode::kDifferential, YawMode::kSteering}) {
@@ -63,16 +63,18 @@ TEST(Verdict, GivesTheDifferenceOfTheOtherInEitherOrder) {
 }
 
 TEST(Verdict, ReportsATie) {
-  // A mean of 0.1 s with a standard error of 5/sqrt(20) = 1.1 s: 11 % of 10 s, in one of four
-  // metrics.
+  // The mean difference is 0.1 s with a standard error of 5/sqrt(20) = 1.1 s, that is, 11 % of 10
+  // s, in one of four metrics.
   EXPECT_THAT(verdict(twenty(0.1, 5.0)),
               HasSubstr("are tied: these runs show no significant difference"));
-  // 0.4 s with 0.02 s: less than 5 %, whatever p is.
+  // The difference is 0.4 s with a standard error of 0.02 s: significant, but less than 5 % of 10
+  // s.
   EXPECT_THAT(verdict(twenty(0.4, 0.1)), HasSubstr("are tied: equal within 5 %"));
 }
 
 TEST(Verdict, GivesTheExactShareOfFailures) {
-  // 10 of 20 compared with 20 of 20: McNemar's p is 2/1024, and 10 of 20 has [27, 73] %.
+  // Steering completes 10 of 20 runs, differential 20: McNemar's p is 2/1024, and the 95 % interval
+  // of 10 of 20 is [27, 73] %.
   const std::string text = verdict(twenty(0.0, 0.0, 10));
   EXPECT_THAT(text, HasSubstr("differential is best"));
   EXPECT_THAT(text, HasSubstr("steering completed 10 of 20 (95 %: 27 to 73 %)"));
@@ -100,13 +102,13 @@ TEST(Verdict, ReportsThatNoneCompleted) {
 }
 
 TEST(Verdict, DoesNotRankByAFailureThatMayBeChance) {
-  // One of 20: p = 1.
+  // Steering fails one of 20 runs: McNemar's p is 1.
   EXPECT_THAT(verdict(twenty(0.0, 0.0, 1)), HasSubstr("tied"));
 }
 
 TEST(Verdict, RanksAModeThatNeverCompletesLast) {
-  // 0 of 4 compared with 4 of 4: McNemar's p is 0.125, but steering fails each of them although it
-  // is faster.
+  // Steering completes 0 of 4 runs, differential 4: McNemar's p is only 0.125. Steering is behind
+  // all the same, although its settling times are shorter, because it fails every run.
   Comparison c = twenty(-3.0, 0.1, 20);
   std::erase_if(c.rows, [](const ComparisonRow& row) { return row.sample > 4; });
   const std::string text = verdict(c);

@@ -1,4 +1,5 @@
-/// Allocations: exact inverses inside the limits, finite and ordered outside.
+/// Allocations: inside the limits the wheel forces and the steering make exactly the requested
+/// force and moment; outside the limits they are finite and ordered.
 #include "awmr/control/allocation.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +51,7 @@ TEST(Allocation, DeliversExactlyWhatIsRequestedInsideTheLimits) {
   }));
 }
 
-/// Independent reference, slow: solves (41) numerically for each mode.
+/// Independent reference: solves equation (41) of the paper numerically for each mode; slow.
 class Reference41 {
  public:
   Reference41(const AllocationLimits<double>& its_limits) : l(its_limits) {}
@@ -266,8 +267,8 @@ TEST(Allocation, RedistributionNeverDeliversLessOfTheMomentThanTheFixedHalf) {
 }
 
 TEST(Allocation, SteeringTakesOverTheMomentOfClippedForces) {
-  // tau_speed 3.6 leaves each force 0.1 of room: less than half of the moment requires. Steering
-  // has room for the rest, to either side.
+  // With tau_speed 3.6 each force is 0.1 below its limit, too little for half of the moment.
+  // Steering makes the missing moment, to either side.
   for (const double tau_turn_m : {0.3, -0.3}) {
     const Allocation<double> a = allocate(YawMode::kCombined, 3.6, tau_turn_m, limits());
     EXPECT_TRUE(a.force_limited);
@@ -284,7 +285,7 @@ AllocationLimits<double> small_angle_limits(CombinedSplit split = CombinedSplit:
   return l;
 }
 
-/// (41) with sin d_r = d_r and cos d_r = 1.
+/// Force and moments by equation (41) with sin d_r = d_r and cos d_r = 1.
 GeneralisedForces<double> delivered_for_small_angles(const Allocation<double>& a) {
   const auto l = limits();
   const double sum = a.force.left + a.force.right;
@@ -312,15 +313,15 @@ TEST(AllocationForSmallAngles, IsThePapersEquationWithItsMisprintsCorrected) {
 }
 
 TEST(AllocationForSmallAngles, MovesTheRestOfALimitedPathToTheOther) {
-  // The stop, 20 deg, leaves steering l_f tau_speed d_max/2 of the moment; differential force
-  // provides the rest.
+  // At its stop of 20 deg, steering makes the moment l_f tau_speed d_max/2; differential forces
+  // make the rest.
   const Allocation<double> stopped = allocate(YawMode::kCombined, 1.0, 0.4, small_angle_limits());
   EXPECT_TRUE(stopped.steering_limited);
   EXPECT_DOUBLE_EQ(stopped.steering_rad, radians(20.0));
   const auto tau = delivered_for_small_angles(stopped);
   EXPECT_NEAR(tau.tau_steering_m, 0.35 * 0.5 * radians(20.0), 1e-15);
   EXPECT_NEAR(tau.tau_steering_m + tau.tau_diff_m, 0.4, 1e-15);
-  // At tau_speed 3.9 each side has 0.025 of room: steering gets the rest.
+  // With tau_speed 3.9 each force is 0.025 below its limit: steering makes the missing moment.
   const Allocation<double> forced = allocate(YawMode::kCombined, 3.9, 0.2, small_angle_limits());
   EXPECT_TRUE(forced.force_limited);
   const auto left = delivered_for_small_angles(forced);

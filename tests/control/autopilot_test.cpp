@@ -78,7 +78,7 @@ std::vector<Position<float>> drive() {
 TEST_F(AutopilotLeads, ByWaypointsUntilTheLastIsReached) {
   const Waypoints<float> waypoints{kPoints, 2, 3.0F, false};
   follow_waypoints(autopilot_, waypoints);
-  in_.reference.psi_rate_radps = 0.4F;  // not that of the guidance heading
+  in_.reference.psi_rate_radps = 0.4F;  // must be ignored: the heading comes from the guidance
   in_.reference.psi_accel_radps2 = 0.5F;
   auto progress = start_waypoints(Position<float>{0.0F, 0.0F}, in_.measured.psi_rad);
   bool has_arrived = false;

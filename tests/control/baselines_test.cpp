@@ -126,14 +126,16 @@ using Vector3 = Eigen::Matrix<Real, 3, 1>;
 using Equations = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using Unknowns = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 
-/// Plant for which the gains are optimal: x_dot = A x + B w, x = (e, e_dot, z).
+/// Linear plant for which the LQI gains are optimal: x_dot = A x + B w, x = (e, e_dot, z), with z
+/// the integral of the heading error e.
 struct LinearPlant {
   Matrix3 a = Matrix3::Zero();
   Vector3 b{0.0L, -1.0L, 0.0L};
   LinearPlant() { a(0, 1) = a(2, 0) = 1.0L; }
 };
 
-/// Routh and Hurwitz: every root of s^3 + c2 s^2 + c1 s + c0 = det(s I - A) has a negative real part.
+/// Routh and Hurwitz: every root of s^3 + c2 s^2 + c1 s + c0 = det(s I - A) has a negative real
+/// part.
 bool is_stable(const Matrix3& a) {
   const Real c2 = -a.trace();
   const Real c1 = (a.trace() * a.trace() - (a * a).trace()) / 2.0L;

@@ -128,7 +128,7 @@ TEST_F(RollingVehicle, DrivesBackwardOnCommand) {
 }
 
 TEST_F(RollingVehicle, IsNeverPushedFasterDownASlope) {
-  vehicle_.slope = 0.3;  // backward
+  vehicle_.slope = 0.3;  // force over F_max, backward
   double slowest = 0.0;
   for (int i = 0; i < 6000; ++i) {
     step(0.0F);
@@ -139,7 +139,7 @@ TEST_F(RollingVehicle, IsNeverPushedFasterDownASlope) {
 
 TEST(RunsAwayUnsigned, IsTheConditionOfTheLaw) {
   const Resistance<double> g1{.alpha = 1.3, .beta = 1.0};
-  // m' mu_s/eps_s = g1(u)/u = 1.3
+  // The law runs away if m' mu_s/eps_s is above g1(u)/u = 1.3.
   EXPECT_FALSE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{1.2, 1.0}, 0.5));
   EXPECT_TRUE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{1.4, 1.0}, 0.5));
 }

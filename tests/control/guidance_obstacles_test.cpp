@@ -31,7 +31,7 @@ Avoided<double> avoided(const std::vector<O>& obstacles, double guidance_rad = 0
 }
 
 TEST(Obstacles, BeyondTheManoeuvringDistanceNothingHappens) {
-  // D_obs = 7.1 - (1 + 1) = 5.1 > MMD = 4 + 1
+  // The distance D_obs = 7.1 - (1 + 1) = 5.1 m to the inflated disc is above MMD = 4 + 1 m.
   const auto a = avoided({{{7.1, 0.0}, 1.0}});
   EXPECT_FALSE(a.active);
   EXPECT_EQ(a.psi_rad, 0.0);
@@ -39,7 +39,8 @@ TEST(Obstacles, BeyondTheManoeuvringDistanceNothingHappens) {
 }
 
 TEST(Obstacles, TheTurnIsTheTangentPlusSigmasShare) {
-  // D = 6, R = 2, D_obs = 4, w = 1/5: asin(1/3) + 0.2/5; ties go left.
+  // Centre at D = 6 m, inflated radius R = 2 m, D_obs = 4 m, weight w = 1/5: the heading changes by
+  // asin(1/3) + 0.2/5; with equal angles, to the left.
   const auto a = avoided({{{6.0, 0.0}, 1.0}});
   EXPECT_TRUE(a.active);
   EXPECT_NEAR(a.psi_rad, std::asin(1.0 / 3.0) + 0.04, 1e-12);

@@ -65,7 +65,7 @@ TEST(Waypoints, APassedOneIsTurnedBackToOrMissed) {
   const P points[] = {{10.0, 0.0}, {20.0, 0.0}};
   auto back = start_waypoints(P{0.0, 0.0}, 0.0);
   auto on = back;
-  const P beyond{10.5, 3.0};  // 3.04 m off, beyond the perpendicular at x = 10
+  const P beyond{10.5, 3.0};  // 3.04 m from the waypoint, past the perpendicular at x = 10
   const auto turned = guide(Waypoints<double>{points, 2, 1.0, false}, beyond, back);
   EXPECT_EQ(back.next, 0);
   EXPECT_NEAR(turned.psi_rad, std::atan2(-3.0, -0.5), 1e-15);

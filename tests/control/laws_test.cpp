@@ -47,7 +47,8 @@ TEST(Laws, HeadingLawBySubstitution) {
 }
 
 TEST(Laws, TheLayersConditionIsOnTheSurfaceNotOnTheError) {
-  // e = 3 rad < eps = 4, yet S = 9 > 4: the correction saturates at mu.
+  // The correction depends on S, not on e: e = 3 rad is below eps = 4, but S = 9 is above it, so
+  // the correction saturates at mu.
   Controller<double> c = paper_controller_of<double>();
   c.gains.heading.epsilon = 4.0;
   EXPECT_NEAR(heading_law(prepared(c), {0.0, 0.0, 0.0, 0.0}, {3.0, 0.0, 0.0, 0.0, 0.0}),
@@ -65,7 +66,7 @@ TEST(Laws, ErrorsAcrossTheCutTakeTheShortWay) {
 
 TEST(Laws, SpeedLawBySubstitution) {
   const Controller<double> c = paper_controller_of<double>();
-  // (u_d - u)/eps_s = 0.3/1.2 = 0.25
+  // The correction is mu_s (u_d - u)/eps_s, with (u_d - u)/eps_s = 0.3/1.2 = 0.25.
   EXPECT_NEAR(speed_law(prepared(c), {0.0, 0.7, 0.05, 0.2}, {0.0, 0.0, 0.0, 1.0, 0.1}),
               1.3157 * std::pow(0.7, 0.8841) - 0.0768 * 0.2 * 0.05 + 0.0768 * (0.1 + 5.0 * 0.25),
               1e-15);

@@ -1,5 +1,5 @@
 #pragma once
-// Autopilot fixture for tests of the complete step: the paper's robot with safety limits.
+// Test fixture for complete autopilot steps: the paper's robot with safety limits.
 #include <gtest/gtest.h>
 
 #include "awmr/control/autopilot.h"

@@ -111,7 +111,8 @@ TEST(PositionEstimate, AveragesTheFirstFixes) {
   }
 }
 
-/// The steady gain of P += q t, P -= P^2/(P + R):  P^2 = q t R - P q t  after the fix.
+/// In the steady state of P += q t (between two fixes) and P -= P^2/(P + R) (at a fix), the
+/// variance after a fix satisfies P^2 = q t R - P q t.
 TEST(PositionEstimate, HasTheSteadyGainOfTheFilter) {
   Drive<double> drive(position_filter<double>(1.5, 0.2, kStep_s));
   drive.run(60.0);

@@ -68,7 +68,7 @@ TEST(Times, AreOldOneMillisecondBeyondTheirLimit) {
   for (const Kind& kind : {Kind{&InputTimes::heading_ms, 100, kFaultHeadingStale},
                            Kind{&InputTimes::speed_ms, 600, kFaultSpeedStale},
                            Kind{&InputTimes::command_ms, 1000, kFaultCommandTimeout}}) {
-    // The second one spans the clock's wrap-around.
+    // At the second time, the clock has just overflowed.
     for (const std::uint32_t now_ms : {5000U, 50U}) {
       const auto fault_at = [&](std::uint32_t age_ms) {
         InputTimes times{now_ms, now_ms, now_ms, now_ms};

@@ -93,7 +93,8 @@ TEST(Rmc, RefusesEmptyAndMalformedFields) {
   }
 }
 
-/// Serial port with a receive buffer of 64 characters, like Arduino's.
+/// Serial port with an unlimited receive buffer. `most`: largest number of characters that waited
+/// in it, to be compared with the size of Arduino's buffer.
 struct Port {
   std::string waiting;
   int most = 0;
@@ -134,7 +135,7 @@ struct ReceiverOnAPort {
 TEST(GpsReceiver, SpreadsASentenceOverStepsAndPublishesTwoStepsAfterItsEnd) {
   ReceiverOnAPort board;
   board.on_the_way =
-      sentence(kGood) + "\n";  // 82 characters: the third step reads the last of them
+      sentence(kGood) + "\n";  // 82 characters, 39 per step: the third step reads the last one
   for (int i = 1; i <= 4; ++i) {
     board.step();
     EXPECT_FALSE(board.gps.has_fix()) << i;
@@ -419,7 +420,7 @@ double wrong_turn_after_rad(double rate_radps, double fall) {
 
 TEST(TurnCheck, FindsAQuarterTurnAgainstTheMomentUnlessTheTurnIsBraked) {
   for (const double rate_radps : {0.2, 1.0, 4.0}) {
-    // A quarter turn and one sample.
+    // The fault is raised after a quarter turn, at the latest one sample later.
     EXPECT_NEAR(wrong_turn_after_rad(rate_radps, 0.0), 1.5707963, 0.011 * rate_radps);
     EXPECT_NEAR(wrong_turn_after_rad(rate_radps, -1.0), 1.5707963, 0.021 * rate_radps);
     EXPECT_EQ(wrong_turn_after_rad(rate_radps, 0.3), -1.0);
@@ -493,15 +494,17 @@ int faults_of_slow_drives(float wander_m, float speed_share, float off_rad) {
 }
 
 TEST(MotionCheck, AcceptsADriftingPositionOfASlowVehicle) {
-  // The limits are 3.2 and 3.5 standard deviations of the drift: at most one in 200.
+  // The limits of the two checks are 3.2 and 3.5 standard deviations of the drift: a false fault in
+  // at most one of 200 drives.
   EXPECT_LE(faults_of_slow_drives(1.5F, 1.0F, 0.0F), 1);
   EXPECT_EQ(faults_of_slow_drives(1.0F, 1.0F, 0.0F), 0);
 }
 
 TEST(MotionCheck, FindsASpeedOfZeroAndACompassThatIsOffOnASlowVehicle) {
-  // 6 m in 90 s: faster than 0.067 m/s.
+  // Detected after 6 m, here within 90 s, if the drive is faster than 0.067 m/s.
   EXPECT_EQ(faults_of_slow_drives(0.0F, 0.0F, 0.0F), 200);
-  // |ahead| + |left| = 10 m + 0.1 m/s t, within 120 s: faster than 0.16 m/s at 45 deg.
+  // Detected when |ahead| + |left| of the displacement reaches 10 m + 0.1 m/s t. At 45 deg this is
+  // within 120 s if the drive is faster than 0.16 m/s.
   EXPECT_GE(faults_of_slow_drives(0.0F, 1.0F, 0.785F), 200 * 8 / 10);
 }
 

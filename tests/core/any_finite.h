@@ -1,4 +1,4 @@
-/// Generators of random numbers for rapidcheck.
+/// Generator of random doubles for RapidCheck.
 #pragma once
 
 #include <rapidcheck.h>
@@ -11,7 +11,7 @@ namespace awmr::testing {
 /// Generates any finite double from sign, exponent and mantissa: all magnitudes, subnormals, both
 /// zeros.
 inline rc::Gen<double> any_finite() {
-  // rapidcheck covers the whole range only at its nominal size.
+  // Below its nominal size RapidCheck draws from a part of the range only.
   return rc::gen::resize(
       rc::kNominalSize,
       rc::gen::map(

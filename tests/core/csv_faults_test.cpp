@@ -265,7 +265,7 @@ TEST(CsvFaults, ALongCellIsCutBetweenCharacters) {
   for (int i = 0; i < 50; ++i) cell += "\xC3\xBC";
   const auto texts = cell_faults(cell);
   ASSERT_THAT(texts, SizeIs(1));
-  // 1 + 2 * 19 = 39 bytes: the 40th would be half a character.
+  // A shown cell has at most 40 bytes: 1 + 2 * 19 = 39, because the 40th would be half a character.
   std::string expected = "\"x";
   for (int i = 0; i < 19; ++i) expected += "\xC3\xBC";
   EXPECT_THAT(texts[0], HasSubstr(expected + "...\""));

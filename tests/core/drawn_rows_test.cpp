@@ -1,4 +1,4 @@
-/// Thinning keeps the visible features: peaks, corners, both ends.
+/// Thinning of a curve's rows for drawing keeps the visible features: peaks, corners, both ends.
 #include "awmr/core/drawn_rows.h"
 
 #include <gmock/gmock.h>

@@ -8,7 +8,8 @@
 
 namespace awmr::testing {
 
-/// `PLACE: MESSAGE` of each fault, the place without the directory of its file.
+/// Returns `PLACE: MESSAGE` of each fault of an error, the place without the directory of its file;
+/// empty for a value.
 template <class T>
 std::vector<std::string> faults_of(const Result<T>& result) {
   std::vector<std::string> texts;

@@ -39,8 +39,8 @@ constexpr Compiler kCompilers[] = {
     {"AvrCxx14", kAvrGxx, "c++14", true, true},
 };
 
-/// Model with values that are hard to write as literals: ends of the range, whole numbers above
-/// 2^24, values whose ninth digit matters, exponents.
+/// Model with values that are hard to write as float literals: ends of the range, whole numbers
+/// above 2^24, values whose ninth digit matters, values with an exponent.
 Model strained_robot() {
   Model model = paper_robot();
   using Limits = std::numeric_limits<float>;

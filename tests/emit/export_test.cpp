@@ -1,4 +1,5 @@
-/// Exported parameters, compared with the equations of the target programs' control loops.
+/// Exported parameters of autopilots, compared with the equations of ArduPilot's and PX4's control
+/// loops.
 #include "awmr/emit/export.h"
 
 #include <gmock/gmock.h>

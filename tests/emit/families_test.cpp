@@ -70,9 +70,9 @@ double zero_of(const F& rising) {
   return lo;
 }
 
-/// A turn by 180 deg with the radius R takes R (pi - e0)^2/2, of distance off course times its
-/// angle beyond e0; 10 m rad are left for its beginning. Recomputed for turn_of_vehicle() and
-/// turn_of_law().
+/// While a vehicle turns by 180 deg with the radius R, the distance times the heading error beyond
+/// e0 adds up to R (pi - e0)^2/2; 10 m rad are left for the beginning of the turn. Recomputed for
+/// turn_of_vehicle() and turn_of_law().
 TEST(OffCourse, IsTenPlusAHalfTurnOfTheWidestRadiusAtTheRoutesSpeeds) {
   const Model model = paper_robot();
   const Plant<double> plant = model.plant().value();
@@ -98,7 +98,8 @@ TEST(OffCourse, IsTenPlusAHalfTurnOfTheWidestRadiusAtTheRoutesSpeeds) {
   EXPECT_LT(most, 90.0);
 }
 
-/// I'z lambda (mu/epsilon) e = 0.08 d g1(u): twice this error, from 15 to 45 deg.
+/// Unequal motors cause the steady heading error e with I'z lambda (mu/epsilon) e = 0.08 d g1(u).
+/// The bound is twice this error, at least 15 and at most 45 deg.
 TEST(OnCourse, IsTwiceTheErrorThatUnequalMotorsCause) {
   const Model model = paper_robot();
   const Plant<double> plant = model.plant().value();

@@ -219,8 +219,8 @@ TEST(ResistanceTables, StayWithinTheirBoundOfTheLawBetweenTheirMeasuredPlaces) {
         autopilot_parameters(paper_robot(), kPaperGains, paper_inputs(), {.table_error = bound})
             .value();
     const ResistanceTable table = p.surge.view();
-    // Positions that are not multiples of 1/64 of a cell; the error of a chord changes little
-    // between them.
+    // Speeds between those at which the search for the table measures its error (multiples of 1/64
+    // of a cell); the error of a chord changes little between them.
     for (int i = 1; i < 40000; ++i) {
       const float speed = static_cast<float>(i * 1.99e-4);
       const double exact = plant.surge(static_cast<double>(speed));
@@ -243,8 +243,8 @@ TEST(ResistanceTables, AreRefusedWhereNoTableIsGoodEnough) {
   EXPECT_THAT(to_text(p.error()), HasSubstr("table-error"));
 }
 
-/// Tables of resistances that are so steep at rest that a chord has a large error at any speed of a
-/// table.
+/// Model of a robot whose resistances rise so steeply from rest that a chord has a large error at
+/// any speed of a table.
 Model steep_robot() {
   Model model = paper_robot();
   model[ParameterId::kSurgeBeta].value = 0.05;

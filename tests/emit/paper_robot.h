@@ -1,4 +1,4 @@
-/// Hand-written model and gains as identify and tune would make them from the paper's tables.
+/// Model and gains of the paper's robot, written by hand in the form that identify and tune give.
 #pragma once
 
 #include <filesystem>
@@ -76,7 +76,7 @@ inline std::vector<std::pair<std::string, double>> expected_macros(const Model& 
           {"AWMR_SPEED_EPSILON", gains.speed.epsilon}};
 }
 
-/// Text after `#define NAME `; empty if there is none.
+/// Returns the text after `#define NAME ` in a header; empty if it does not define NAME.
 inline std::string macro_text(const std::string& header, const std::string& name) {
   const std::string start = "\n#define " + name + " ";
   const std::size_t at = header.find(start);
@@ -85,7 +85,7 @@ inline std::string macro_text(const std::string& header, const std::string& name
   return header.substr(begin, header.find('\n', begin) - begin);
 }
 
-/// The header as a user might edit it by hand.
+/// The header with the value of one macro replaced, as a user might edit it by hand.
 inline std::string with_macro(std::string header, const std::string& name,
                               const std::string& literal) {
   const std::string old_line = "\n#define " + name + " " + macro_text(header, name) + "\n";

@@ -18,9 +18,9 @@ namespace {
 
 using namespace awmr_trials;
 
-/// Ten times as heavy relative to its motors as the paper's robot, which stops between two GPS
-/// fixes:
-/// m' du/dt = 2 F' (1 + cos d) - a1 u^b1,  I'z dr/dt = 2 F' l_f sin d - a3 r^b3
+/// Simulated rover, ten times as heavy relative to its motors as the paper's robot, because that
+/// one comes to rest between two GPS fixes: m' du/dt = 2 F' (1 + cos d) - a1 u^b1,  I'z dr/dt = 2
+/// F' l_f sin d - a3 r^b3
 struct Rover {
   double a1 = 1.3157, b1 = 0.8841, a3 = 0.3028, b3 = 0.8250, mass = 1.0, inertia = 0.15;
   double front_axle_m = paper_vehicle().front_axle_m;

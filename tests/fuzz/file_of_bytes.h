@@ -14,8 +14,8 @@
 
 namespace awmr::fuzz {
 
-/// Path of a file with these bytes. It is in its own directory, so that relative paths in the bytes
-/// lead nowhere.
+/// Returns the path of a file with these bytes. The file is alone in its directory, so that
+/// relative paths in the bytes name no existing file.
 inline const std::filesystem::path& file_of_bytes(const std::uint8_t* data, std::size_t size) {
   static const std::filesystem::path kPath = [] {
     const char* memory = ::access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp";
@@ -32,7 +32,8 @@ inline const std::filesystem::path& file_of_bytes(const std::uint8_t* data, std:
   return kPath;
 }
 
-/// True if a reader refused the file. A refusal must be an input error with readable faults.
+/// True if a reader refused the file. Aborts unless a refusal is an input error with readable
+/// faults.
 template <class T>
 bool is_refused(const Result<T>& read) {
   if (read) return false;

@@ -8,8 +8,8 @@
 
 namespace awmr::fuzz {
 
-/// Every column has one value per message, and there are no more values than bytes. The signals
-/// become a table or are refused.
+/// Aborts unless every column of the signals has one value per message and there are no more values
+/// than bytes in the log. Then converts the signals to a table, which may refuse them.
 inline void check(Result<Signals> signals, std::size_t bytes) {
   if (!signals) {
     require(!signals.error().faults.empty(), "an error names a fault");

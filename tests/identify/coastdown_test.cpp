@@ -1,5 +1,5 @@
-/// m' from coast-downs: exact curves, several runs, an unknown start, no surge law, curves together
-/// with stop times.
+/// Identification of m' from coast-downs: exact curves, several runs, an unknown time at which the
+/// motors go off, no surge trial, curves together with stop times.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

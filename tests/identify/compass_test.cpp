@@ -15,7 +15,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// f = o + S^-1 c, with det S = 1.
+/// True calibration: the compass reads f = o + S^-1 c for the field c, with offsets o and the
+/// symmetric soft-iron matrix S, det S = 1.
 struct Truth {
   double ahead_0 = 42.0, left_0 = -67.0;
   double ahead = 1.1, cross = 0.06;
@@ -138,7 +139,8 @@ TEST(Compass, ReportsAxesThatContradictTheGyroscope) {
     EXPECT_THAT(to_text(fit.error()),
                 HasSubstr("signs of field_ahead and field_left, whether they are exchanged"));
   }
-  // deg/s, a gyroscope stuck at zero, and turns that differ by 11 %; 9 % are accepted.
+  // Refused: a gyroscope in deg/s, one stuck at zero, and turns that differ by 11 %. 9 % are
+  // accepted.
   for (const double factor : {57.3, 0.0, 1.11, 0.89}) {
     FieldRecord apart = record_of({}, {});
     for (double& value : apart.yaw_rate_radps) value *= factor;

@@ -1,4 +1,4 @@
-/// Initial guesses of log fits, and comparison of resistance families at their own optima.
+/// Initial guesses of log fits, and comparison of resistance families, each at its best fit.
 #include "awmr/identify/logs/family_choice.h"
 
 #include <gtest/gtest.h>

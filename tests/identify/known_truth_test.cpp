@@ -35,8 +35,8 @@ TEST(Identify, ExactDataGiveTheTruthByEveryEstimator) {
 }
 
 TEST(Identify, IntervalsCoverTheTruthAtTheirRateWhereTheNoiseIsTheEstimatorsOwn) {
-  // 95 % of 1000 runs: 950 with a standard deviation of 6.9; 4 of them give a failure probability
-  // of 6e-5 per check.
+  // 95 % of 1000 runs are 950, with a standard deviation of 6.9. A tolerance of 4 standard
+  // deviations gives a failure probability of 6e-5 per check.
   constexpr int kRuns = 1000;
   const Truth& truth = kTruths[0];
   int surge_alpha = 0;
@@ -86,8 +86,8 @@ TEST(Identify, CovarianceIsSymmetricAndHasNoNegativeDirection) {
 }
 
 TEST(Identify, StopTimeErrorIncludesTheCorrelationOfTheSurgeFit) {
-  // d ln m' = d ln a1 + (-1/(1 - b1) + mean ln u) d b1, from the joint covariance of (a1, b1) under one
-  // place of the errors.
+  // d ln m' = d ln a1 + (-1/(1 - b1) + mean ln u) d b1, with the joint covariance of (a1, b1) if
+  // the errors are on the force.
   const auto result = identify(vehicle(), synthetic(kTruths[0], 0.03, 7),
                                {.method = Method::kNonlinear, .noise = ErrorModel::kForce}, {});
   const Model& m = result->model;

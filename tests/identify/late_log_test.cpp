@@ -43,7 +43,8 @@ TEST(LateLog, SeparatesASteeringDeadTimeFromServoLag) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
 }
 
-/// Every `every`-th row of the log. Commands are those of the row and act `rows_later` rows later.
+/// Every `every`-th row of a log whose commands act `rows_later` rows (of the original log) after
+/// the row in which they are logged.
 DrivingLog with_late_commands(DrivingLog log, const Truth& t, std::size_t every,
                               std::size_t rows_later) {
   const DrivingLog all = log;

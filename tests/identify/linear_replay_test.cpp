@@ -75,7 +75,7 @@ State<T> first_state(const std::function<T(std::size_t, double)>& seed) {
 
 struct ByHand {
   std::vector<LinearMotion> motions;
-  std::vector<LinearMotion> earlier;  ///< by the delay of the speed
+  std::vector<LinearMotion> earlier;  ///< as measured with the delay kSpeedDelay_s
 };
 
 constexpr double kInputDelay_s = 0.033;
@@ -154,14 +154,15 @@ ByJets by_jets(const DrivingLog& log, double step_s, Drive drive = Drive::kFourW
   return found;
 }
 
-/// Of the derivative by the delay of the commands, which follows from the rates where a command
-/// changes; that of jets follows from the lengths of the Runge-Kutta steps. The two differ by the
-/// error of a step in which the yaw rate passes the kink of its resistance: 8.5e-4 with steps of 4
-/// ms, 8e-6 with 0.25 ms.
+/// Additional tolerance of the derivative with respect to the delay of the commands. By hand it
+/// follows from the rates where a command changes, by jets from the lengths of the Runge-Kutta
+/// steps. The two differ by the error of a step in which the yaw rate passes the kink of its
+/// resistance: 8.5e-4 with steps of 4 ms, 8e-6 with 0.25 ms.
 constexpr double kChanges = 1e-3;
 
-/// Tolerance relative to the largest derivative of the column over the log, or to `least`. `but`: a
-/// column to skip.
+/// Expects equal states and derivatives by jets and by hand. The tolerance is relative to the
+/// largest derivative of the column over the log, at least to `least`. `but`: a column to skip; -1:
+/// none.
 void expect_equal(const std::vector<State<Jet>>& jets, const std::vector<LinearMotion>& motions,
                   double tolerance, int but = -1, double least = 1e-9) {
   ASSERT_EQ(jets.size(), motions.size());

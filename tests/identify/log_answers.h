@@ -1,4 +1,4 @@
-/// Logs with command latency, and summaries of a fit's results.
+/// Logs of vehicles whose motors lag, and checks of a fit's results.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -23,15 +23,15 @@ inline void expect_recovered(const Identification& result, ParameterId id, doubl
   EXPECT_NEAR(*estimate.value, truth, deviations * *estimate.std_error) << info(id).name;
 }
 
-/// The power law in surge and yaw, for tests whose subject is not the family.
+/// Options for the power law in surge and yaw, for tests that do not test the choice of the family.
 inline IdentifyOptions power_law() {
   IdentifyOptions options;
   options.surge_family = options.yaw_family = {.family = Family::kPower, .requested = true};
   return options;
 }
 
-/// Mean force over every row with motors of the time constant T: F'(t + h) = c + (F'(t) - c)
-/// exp(-h/T).
+/// Mean force from each row to the next of motors with the time constant T = lag_s under the
+/// command c: F'(t + h) = c + (F'(t) - c) exp(-h/T).
 inline std::vector<double> behind_motors(const DrivingLog& log, const std::vector<double>& command,
                                          double lag_s) {
   std::vector<double> mean = command;
@@ -45,7 +45,7 @@ inline std::vector<double> behind_motors(const DrivingLog& log, const std::vecto
   return mean;
 }
 
-/// The drive of drive() with motors that lag.
+/// The log of drive() for a vehicle whose motors lag by the time constant `lag_s`.
 inline DrivingLog drive_with_lag(const Truth& t, std::uint64_t seed, double lag_s,
                                  DrivePlan plan = {.duration_s = 20.0}) {
   const std::map<LogChannel, double> noise{{LogChannel::kX, 0.02},

@@ -29,7 +29,8 @@ TEST(Log, IdentifiesEveryParameterFromALogAlone) {
     const auto result = identify(robot(), data, {}, {});
     ASSERT_TRUE(result);
     EXPECT_TRUE(result->refused.empty());
-    // Eight parameters, two truths: 4.5 deviations give a failure probability of 1e-4.
+    // For eight parameters and two true vehicles, 4.5 standard errors give a failure probability of
+    // 1e-4.
     expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
     expect_recovered(*result, ParameterId::kSurgeBeta, t.b1, 4.5);
     expect_recovered(*result, ParameterId::kYawAlpha, t.a3, 4.5);
@@ -443,7 +444,7 @@ TEST_P(BackEmfOfSeeds, IsRecoveredFromDrivingAndCoastingAndReported) {
     ASSERT_TRUE(ci95);
     covered += ci95->contains(kBackEmf) ? 1 : 0;
   }
-  // Three misses of three at 5 % each have a probability of 1.3e-4.
+  // An interval misses the truth with 5 %; all three do with a probability of 1.3e-4.
   if (GetParam() == 3) {
     EXPECT_GE(covered, 1);
   }
@@ -750,7 +751,8 @@ TEST(Recover, GivesBiasAndCoverageOfTables) {
   ASSERT_TRUE(recovery);
   EXPECT_EQ(recovery->failed, 0);
   for (const RecoveredParameter& p : recovery->parameters) {
-    // 95 % of 400 with a deviation of 1.1 %; 4.5 of them.
+    // The coverage of 400 intervals is 95 % with a standard deviation of 1.1 %; 4.5 of them are
+    // allowed.
     EXPECT_NEAR(p.coverage95, 0.95, 0.05) << info(p.id).name;
     EXPECT_NEAR(p.bias, 0.0, 5.0 * p.rmse / std::sqrt(400.0) + 0.02 * p.truth) << info(p.id).name;
   }

@@ -1,4 +1,5 @@
-/// Intervals averaged over the unknown location of a table's errors.
+/// Intervals of tables, averaged over the noise models: it is not known whether force, speed or
+/// time has the errors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -113,7 +114,7 @@ TEST(NoiseAverage, MassIntervalCoversTheTruthForEveryErrorLocation) {
 TEST(Posterior, QuantilesOfOneAlternativeAreStudents) {
   const Posterior one{{{1.0, Eigen::VectorXd::Constant(1, 2.0),
                         Eigen::MatrixXd::Constant(1, 1, 9.0), Eigen::VectorXd::Constant(1, 8.0)}}};
-  // t of 8 degrees of freedom: 2.306004 at 97.5 % (R, qt).
+  // The 97.5 % quantile of Student's t with 8 degrees of freedom is 2.306004 (R, qt).
   EXPECT_NEAR(one.quantile(0, 0.975), 2.0 + 3.0 * 2.306004, 3e-6);
   EXPECT_NEAR(one.quantile(0, 0.5), 2.0, 1e-12);
 }

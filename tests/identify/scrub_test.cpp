@@ -27,8 +27,8 @@ Vehicle steered() {
   return v;
 }
 
-/// A turning row at this yaw rate: its moment is g3 plus the scrub moment `scrub_m`, times the
-/// factor `noise`.
+/// Row of a differential turn at this yaw rate: its moment is g3 plus the scrub moment `scrub_m`,
+/// all times `factor` (the noise).
 TurningRow by_sides(double rate_radps, double scrub_m, double factor, int line) {
   const double moment_m = factor * (kTruth.a3 * std::pow(rate_radps, kTruth.b3) + scrub_m);
   const double half = moment_m / (4.0 * steered().half_track_m);
@@ -110,7 +110,7 @@ TEST(Scrub, RefusesANegativeScrub) {
 }
 
 TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
-  // The scrub moment is 0.2 r m, r from 0.05 to 0.3 rad/s.
+  // The true scrub moment is 0.2 r, m, at yaw rates r from 0.05 to 0.3 rad/s.
   constexpr int kTables = 200;
   int findings = 0, held = 0;
   for (std::uint64_t seed = 1; seed <= kTables; ++seed) {
@@ -151,8 +151,8 @@ int alarms_with(const MakeTurn& turn) {
 }
 
 TEST(Scrub, IsConstantForTurnsWithOneForceOrAtOneRate) {
-  // One force with scattered rates: the scrub of a turn then falls with its rate by arithmetic
-  // alone.
+  // All turns have the same force and scattered yaw rates. The computed scrub of a turn, force
+  // minus resistance, then falls with its rate although the true scrub is constant.
   const TurningRow exact = by_sides(0.2, 0.01, 1.0, 20);
   EXPECT_LE(alarms_with([&](int i, double deviate) {
               TurningRow row = exact;
@@ -166,7 +166,8 @@ TEST(Scrub, IsConstantForTurnsWithOneForceOrAtOneRate) {
               return by_sides(0.2, 0.01, std::exp(0.1 * deviate), 20 + i);
             }),
             0);
-  // At several rates at most one in twenty, plus four standard errors.
+  // With turns at several rates, a false finding for at most one table in twenty, plus four
+  // standard errors.
   EXPECT_LE(alarms_with([](int i, double deviate) {
               return by_sides(0.05 * (1 + i % 4), 0.01, std::exp(0.03 * deviate), 20 + i);
             }),

@@ -1,4 +1,4 @@
-/// Simulated trials with known values.
+/// Simulated tables of trials of a vehicle whose parameters are known.
 #pragma once
 
 #include <cmath>
@@ -25,8 +25,8 @@ inline Vehicle vehicle() {
   return v;
 }
 
-/// Ten surge, eight turning and three coast-down runs. The noise is a factor exp(sigma N) on the
-/// force in the row, as the log-linear estimator assumes.
+/// Ten surge, eight turning and three coast-down runs. The noise is a factor exp(sigma N), N
+/// standard normal, on the force of each row, as the log-linear estimator assumes.
 inline TrialData synthetic(const Truth& t, double sigma, std::uint64_t seed) {
   Random random(seed, 0);
   TrialData data;

@@ -1,4 +1,5 @@
-/// Families, robust losses, outliers and influence for tables of steady runs.
+/// Fits of tables of steady runs: resistance families, robust losses, outliers and influence of
+/// runs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -201,7 +202,7 @@ TEST_P(OutlierTables, OfRunsWithEqualErrorsOfTheirTimesHaveThemAsRarelyAsTheLeve
     ASSERT_TRUE(result);
     named += finding(result->model, "outlier") != nullptr;
   }
-  // 5 % of the tables, plus 2.3 standard deviations.
+  // At most 5 % of the tables may have the finding by chance, plus 2.3 standard deviations.
   EXPECT_LE(named, 0.05 * GetParam() + 2.3 * std::sqrt(0.05 * 0.95 * GetParam()));
 }
 
@@ -284,7 +285,8 @@ TEST(Options, ThatContradictEachOtherAreRefused) {
   EXPECT_FALSE(identify(vehicle(), data, options, {}));
 }
 
-/// Points of a convex curve, which a power law with an exponent up to 1 fits best at the bound 1.
+/// Points on a convex curve, to be fitted by `family`. A power law whose exponent may be at most 1
+/// fits them best at this bound.
 SteadyProblem steeper_than_its_range(Family family) {
   SteadyProblem problem;
   problem.family = family;

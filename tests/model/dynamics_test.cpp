@@ -1,4 +1,5 @@
-/// Equations of motion: substitution, symmetry and agreement of their two forms.
+/// Equations of motion: values by hand, symmetry, and agreement of the form with wheel forces and
+/// the form with generalised forces.
 #include "awmr/model/dynamics.h"
 
 #include <gtest/gtest.h>
@@ -169,8 +170,9 @@ TEST(BackEmf, IsZeroForMotorsThatAreOff) {
   }));
 }
 
-/// A wheel force acts along the rolling direction, so back-EMF takes the power k_e w^2 of each
-/// wheel out of the motion: sum m' u u_dot + m' v v_dot + I'z r r_dot.
+/// A wheel force acts along the rolling direction. Back-EMF therefore takes the power k_e w^2, w
+/// the rolling speed, of each wheel out of the motion's power m' u u_dot + m' v v_dot + I'z r
+/// r_dot.
 TEST(BackEmf, BrakesEveryWheelByItsPower) {
   EXPECT_TRUE(rc::check([] {
     const Plant<double> plant = with_back_emf();

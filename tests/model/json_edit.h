@@ -1,4 +1,4 @@
-/// Makes JSON documents with one error from a valid document.
+/// Makes JSON documents with one error each from a valid document.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -38,7 +38,7 @@ std::vector<std::string> faults_of(Read read, const std::string& text) {
   return faults;
 }
 
-/// Sets or removes the value at a pointer.
+/// A change of a JSON document: sets or removes the value at a JSON pointer.
 struct Edit {
   std::string pointer;
   Json value;

@@ -41,7 +41,7 @@ Model some_model() {
     model[parameter.id] = {value, value / 7.0, Interval{value / 3.0, value * 3.0}, Source::kFitted,
                            "log-linear"};
   }
-  // Consistent with the covariance below.
+  // Standard errors that are consistent with the covariance below.
   model[ParameterId::kSurgeAlpha].std_error = std::sqrt(1e-4);
   model[ParameterId::kSurgeBeta].std_error = std::sqrt(2.5e-4);
   model[ParameterId::kMassNorm].source = Source::kDerived;

@@ -42,20 +42,21 @@ TEST(Sliding, HoldsAVehicleUnderAForceBelowFriction) {
 }
 
 TEST(Sliding, ReleasesAVehicleUnderAForceAboveFriction) {
-  // 0.3 s at (0.25 - 0.2)/0.1 m/s^2
+  // Accelerates from rest for 0.3 s by (force - friction)/m' = (0.25 - 0.2)/0.1 m/s^2.
   EXPECT_NEAR(after(moving(0.0), 0.25, 0.0, 0.02, 15).u_mps, 0.15, 1e-14);
   EXPECT_NEAR(after(moving(0.0), -0.25, 0.0, 0.02, 15).u_mps, -0.15, 1e-14);
 }
 
 TEST(Sliding, StopsInTheMiddleOfAStepAndStays) {
-  // 0.11 m/s at 2 m/s^2: 0.055 s, then held
+  // Friction stops 0.11 m/s at 0.2/0.1 = 2 m/s^2 in 0.055 s and then holds the vehicle.
   EXPECT_GT(after(moving(0.11), 0.0, 0.0, 0.02, 2).u_mps, 0.0);
   EXPECT_EQ(after(moving(0.11), 0.0, 0.0, 0.02, 3).u_mps, 0.0);
   EXPECT_EQ(after(moving(-0.11), 0.1, 0.0, 0.02, 30).u_mps, 0.0);
 }
 
 TEST(Sliding, ReversesUnderAForceAboveFriction) {
-  // Back at (0.3 + 0.2)/0.1 m/s^2 for 0.022 s, then forward at (0.3 - 0.2)/0.1 for the other 0.038 s
+  // Moving backward, it slows down by (0.3 + 0.2)/0.1 m/s^2 for 0.022 s, then accelerates forward
+  // by (0.3 - 0.2)/0.1 m/s^2 for the remaining 0.038 s.
   EXPECT_NEAR(after(moving(-0.11), 0.3, 0.0, 0.02, 3).u_mps, 0.038, 1e-14);
 }
 

@@ -1,4 +1,5 @@
-/// Steady rates are found if they exist, and every search terminates.
+/// Steady speeds and yaw rates, at which the resistance equals the force, are found if they exist,
+/// and every search terminates.
 #include "awmr/model/steady.h"
 
 #include <gtest/gtest.h>
@@ -83,7 +84,8 @@ TEST(Steady, AForceBelowFrictionHasNoSteadyRate) {
 }
 
 TEST(Steady, TheTimeToRestIsTheIntegralDownToRest) {
-  // m' du/dt = -(c + a u):  t = (m'/a) ln(1 + a u0/c);  m' du/dt = -a u^b:  m' u0^(1 - b)/((1 - b) a)
+  // m' du/dt = -(c + a u):  t = (m'/a) ln(1 + a u0/c);  m' du/dt = -a u^b:  m' u0^(1 - b)/((1 - b)
+  // a)
   const Resistance<double> linear{.alpha = 0.8, .beta = 1.0, .rest_speed = 0.0, .coulomb = 0.1};
   EXPECT_NEAR(*stop_time_s(linear, 0.5, 2.0), 0.5 / 0.8 * std::log(1.0 + 0.8 * 2.0 / 0.1), 1e-9);
   const Resistance<double> power{.alpha = 0.8, .beta = 0.5};

@@ -1,4 +1,4 @@
-/// Scale of each parameter and its inverse.
+/// Coordinate of each parameter in fits and draws (logarithm or the value itself), and its inverse.
 #include "awmr/model/transform.h"
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@ file(REMOVE_RECURSE ${prefix} ${WORK}/consumer ${WORK}/run)
 file(MAKE_DIRECTORY ${WORK}/run)
 run(${WORK} ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 
-# Only public headers: none marked as private or dependent on an internal library.
+# Only public headers may be installed: none that is marked as private or includes an internal library.
 file(GLOB_RECURSE headers RELATIVE ${prefix}/include ${prefix}/include/*)
 foreach(header IN LISTS headers)
   file(READ ${prefix}/include/${header} text)

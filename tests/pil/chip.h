@@ -14,9 +14,10 @@ namespace awmr::testing {
 
 class Chip : public ::testing::Test {
  protected:
-  static constexpr std::uint64_t kCyclesMax = 160'000'000;  // 10 s of the chip
+  static constexpr std::uint64_t kCyclesMax = 160'000'000;  // 10 s of the chip's time
 
-  /// Builds tests/pil/PROGRAM.cpp with the emitted library and runs it until it sets log_done.
+  /// Builds tests/pil/PROGRAM.cpp with the emitted library and runs it until it sets its variable
+  /// log_done.
   void run_chip(const std::string& program, const std::string& flags = "") {
     ASSERT_TRUE(found(kAvrGxx));
     write_library(directory_.path());

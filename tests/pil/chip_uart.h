@@ -1,5 +1,6 @@
 #pragma once
-// USART0 of the chip as a replacement for the card, for the programs of log_chip_test.cpp.
+// Sends the log through USART0 of the chip instead of writing it to an SD card, for the programs of
+// log_chip_test.cpp.
 #include <avr/io.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -149,7 +149,8 @@ TEST_P(PilScenario, RunsBitForBitAsOnTheHostAndWithinItsBudgets) {
   const Json json = result();
   EXPECT_EQ(largest(json["difference"]), 0.0);
   EXPECT_LE(json["difference_double"]["heading_deg"].get<double>(), 0.0071);
-  // Unused parts cost nothing: these images have the size from before parts existed.
+  // Optional parts that are not compiled in cost nothing: the firmware is as small as before there
+  // were optional parts.
   EXPECT_LE(json["flash_bytes"].get<int>(), 12050);
   EXPECT_LE(json["ram_bytes"].get<int>(), 416);
   EXPECT_GT(json["stack_bytes"].get<int>(), 50);
@@ -256,8 +257,7 @@ std::string name_of_file(const ::testing::TestParamInfo<const char*>& test) {
 
 INSTANTIATE_TEST_SUITE_P(, PilGuidance, ::testing::ValuesIn(kGuided), name_of_file);
 
-/// Tier `long`: all of configs/ to its end, except open loop, which has no controller, the LQI, and
-/// those of PilScenario.
+/// Tier `long`: each scenario of kGuided and kGuidedElsewhere to its end.
 class PilWholeScenario : public PilGuidance {};
 
 TEST_P(PilWholeScenario, GuidanceOnTheChipGivesTheBitsOfTheHost) {
@@ -462,7 +462,7 @@ TEST_P(PilFault, GivesTheSafeCommandAndItsCode) {
   scenario["guidance"]["steps"].push_back(
       {{"t_s", 60}, {"psi_deg", name == "steering-stuck" ? 150 : 30}});
   write_all(path("long.json"), scenario.dump());
-  // Combined, each path undoes what the other does wrong.
+  // In combined mode, wheel forces and steering compensate each other's failure.
   const bool is_of_servo = name == "steering-stuck" || name == "servo-reversed";
   const char* mode = name == "sides-swapped" ? "differential"
                      : is_of_servo           ? "steering"

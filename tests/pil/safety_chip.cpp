@@ -45,7 +45,7 @@ int main() {
   for (uint8_t i = 0; i < awmr::kSensorFaultCount; ++i) safety_causes[i] = sequence.causes[i];
   safety_disarmed = sequence.disarmed;
   log_done = 1;
-  // The emulator ends when the chip sleeps with interrupts off.
+  // Loops instead of sleeping, because simavr ends when the chip sleeps with interrupts off.
   for (;;) {
   }
 }

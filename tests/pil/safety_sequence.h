@@ -12,7 +12,8 @@
 namespace safety_sequence {
 
 const uint16_t kSteps = 1600;
-// Ticks per step of 10 ms, and characters that arrive at a port of 38,400 baud in each.
+// Timer ticks per control step of 10 ms, and characters that a port of 38,400 baud receives per
+// tick.
 const uint8_t kTicksPerStep = 4;
 const uint8_t kCharactersPerTick = 10;
 
@@ -37,7 +38,7 @@ struct Sequence {
   char sentence[80];
   uint8_t arrived, taken;  // characters that arrived at the port, and that were read from it
   uint8_t causes[awmr::kSensorFaultCount];  // steps with each sensor fault, at most 255
-  uint8_t disarmed;                         // how often
+  uint8_t disarmed;                         // how often the vehicle was disarmed
 };
 
 inline uint32_t draw(Sequence& s) {
@@ -59,7 +60,8 @@ inline void begin(Sequence& s) {
   s.input.speed_unsigned = 1;
 }
 
-// One in four blocks of 200 steps has its own failure.
+// True while the failure `which` (0 to 5) acts: in the first 120 steps of its own block of 200
+// steps, blocks 2 to 7.
 inline bool fails(uint16_t step, uint8_t which) {
   return step >= 400 && step % 200 < 120 && step / 200 == static_cast<uint16_t>(which + 2);
 }
@@ -75,7 +77,8 @@ inline void sense(Sequence& s, uint16_t step) {
   s.heading.step.take(fails(step, 3) && step % 200 < 30 ? 0.5F : 0.01F, 0.01F);
 }
 
-// A character in flash on the chip, whose RAM is for the firmware.
+// Returns a character of a text. On the chip the texts are in flash, to leave the RAM to the
+// firmware.
 inline char character(const char* place) {
 #ifdef __AVR__
   return static_cast<char>(pgm_read_byte(place));
@@ -87,7 +90,7 @@ inline char digit(int value) {
   return static_cast<char>(value < 10 ? '0' + value : 'A' + value - 10);
 }
 
-// Sends a sentence followed by its checksum.
+// Puts a GPS sentence with time, position and checksum on the line.
 inline void say_fix(Sequence& s, uint16_t step) {
   static const char kPattern[] AWMR_IN_FLASH =
       "$GPRMC,120000.00,A,4806.0000000,N,01130.0000000,E,1.900,,230394,,,A*";
@@ -123,7 +126,7 @@ inline void receive(Sequence& s) {
   s.gps.receive(port, s.now_ms);
 }
 
-// Sensor readings at this step, and the ticks since the last one.
+// Draws the sensor readings of this step, and executes the timer ticks since the last step.
 inline void prepare(Sequence& s, uint16_t step) {
   if (!fails(step, 0)) s.word = static_cast<int16_t>(static_cast<int16_t>(draw(s) % 21) - 10);
   for (uint8_t i = 0; i < 3; ++i) s.field[i] = static_cast<int16_t>(i * 100 + draw(s) % 9);

@@ -254,8 +254,8 @@ TEST_F(ReportInBrowser, TheWaypointDiamondHasItsTrueExtentAtEqualAxes) {
   const Json& paths = page.at("paths");
   const auto path = std::find_if(paths.begin(), paths.end(), is_diamond);
   ASSERT_NE(path, paths.end());
-  // A line may err by 1/2000 of a range of 40 m, and a corner is drawn to some hundredths of a
-  // pixel.
+  // Rows are left out where a line is off by less than 1/2000 of the range of 40 m, and a corner is
+  // drawn to some hundredths of a pixel.
   constexpr double kTolerance_m = 0.03;
   const fs::path run = file("run_c8_waypoints_differential_tuned.csv");
   const Extent x = extent_of(run, 1);

@@ -83,7 +83,7 @@ TEST(Report, NeedsAModelAndRefusesABrokenCompanion) {
   EXPECT_THAT(broken.error().faults.front().place, HasSubstr("gains.json"));
 }
 
-// Inputs of the live part from gains.json other than the gains.
+// The report's live part (sliders) also reads draws, noise and constraints from gains.json.
 TEST(Report, NamesThePlaceWhereGainsDoNotSayHowTheyWereTuned) {
   const ScratchFile model("model.json", model_text(whole_model()));
   const std::string gains = R"({"schema": "awmr.gains/1",

@@ -1,4 +1,4 @@
-/// Batches compared with simulate(), which is the reference.
+/// Batches of runs in vector registers, compared with simulate() for each run.
 #include "awmr/simulate/batch.h"
 
 #include <gtest/gtest.h>
@@ -121,9 +121,9 @@ bool is_near(const Metrics& batch, const Metrics& scalar) {
   return true;
 }
 
-/// Amplification of small changes by a run: the largest effect of changing the mass or the inertia
-/// by 1e-12, up and down. Several changes are needed, because it is a matter of chance whether one
-/// moves the time at a limit by a sample.
+/// Amplification of small changes by a run: the largest effect on a metric of changing the mass or
+/// the inertia by the fraction 1e-12, up and down. Several changes are tried, because it is a
+/// matter of chance whether one of them moves the time at a limit by a sample.
 struct Amplification {
   double largest = 0.0;            ///< relative change of a metric
   std::set<std::size_t> is_there;  ///< metrics that exist only with or only without such a change
@@ -240,7 +240,7 @@ TEST_F(Batch, IsTheRunOfSimulateOnFourTyresAfterAMinute) {
   }
 }
 
-/// Gains with and without an observer, and with another one, in one batch.
+/// One batch has runs with gains without an observer and with two different observers.
 TEST_F(Batch, IsTheRunOfSimulateWhateverObserverItsGainsHave) {
   const ObserverGains<double> observers[] = {{}, {5.0, 0.1, 0.5}, {1.0, 0.02, 0.3}};
   for (const Scenario& scenario : shipped_scenarios(30.0)) {

@@ -1,6 +1,6 @@
-# Checks that every symbol of a kernel file contains the name of its instruction set. Another
-# function would be merged with the rest of the program's and run on processors without the
-# instructions.
+# Checks that every symbol of a kernel file contains the name of its instruction set. The linker
+# could otherwise use a function of the kernel in place of the same function elsewhere in the
+# program, which then runs on processors without these instructions.
 # usage: cmake -DNM=nm -DLIBRARY=libawmr_simulate.a -DKERNELS=count -P kernel_symbols.cmake
 execute_process(COMMAND ${NM} -C ${LIBRARY} OUTPUT_VARIABLE listing ERROR_QUIET COMMAND_ERROR_IS_FATAL ANY)
 string(REPLACE ";" "," listing "${listing}")
@@ -19,7 +19,7 @@ foreach(line IN LISTS lines)
   elseif(instructions AND line MATCHES "^[0-9a-f]+ [A-Zuvw] (.*)$")
     set(symbol "${CMAKE_MATCH_1}")
     if(NOT symbol MATCHES "${instructions}" AND NOT symbol MATCHES "^DW\\.ref\\.")
-      message(SEND_ERROR "kernel_${instructions}.cpp gives the linker '${symbol}'")
+      message(SEND_ERROR "kernel_${instructions}.cpp gives the linker '${symbol}', which does not contain the name '${instructions}'")
     endif()
   endif()
 endforeach()

@@ -1,5 +1,6 @@
-/// Lanes of the instruction set for which a file is compiled, and whether this processor has it.
-/// For files compiled into one program per instruction set.
+/// Type of the lanes (vector registers) of the instruction set for which a file is compiled, and
+/// whether this processor supports that set. For files compiled into one program per instruction
+/// set.
 #pragma once
 
 #if defined(__AVX512F__)

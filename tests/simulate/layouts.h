@@ -18,8 +18,8 @@ inline constexpr Avoidance<double> kAvoidance{.mmd_base_m = 6.0,
                                               .brake_m = 1.5};
 inline constexpr Position<double> kGoal_m{30.0, 0.0};
 
-/// 1 to 10 discs of 0.3 to 2.5 m, from 3 m ahead of the start to beyond the goal, that leave both
-/// ends free.
+/// Scenario with 1 to 10 discs with radii of 0.3 to 2.5 m, from 3 m ahead of the start to beyond
+/// the goal. They leave start and goal free.
 inline Scenario random_layout(std::uint64_t number) {
   Random random(20260117, number);
   Scenario scenario{

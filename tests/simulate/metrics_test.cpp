@@ -40,7 +40,7 @@ TEST(Metrics, HeadingStepIsSettledFromTheFirstRowThatStaysInTheBand) {
   EXPECT_TRUE(m.completed);
   EXPECT_EQ(m.settling_time_s, 2.0);
   EXPECT_NEAR(*m.overshoot_deg, 1.0, 1e-12);
-  // |e| dt: 10 + 1 + 0.4 + 0.1;  t |e| dt: 0 + 1 + 0.8 + 0.3
+  // Sum of |e| dt: 10 + 1 + 0.4 + 0.1. Sum of t |e| dt: 0 + 1 + 0.8 + 0.3.
   EXPECT_NEAR(*m.heading_iae_degs, 11.5, 1e-9);
   EXPECT_NEAR(*m.heading_itae_degs2, 2.1, 1e-9);
   EXPECT_EQ(m.path_length_m, 4.0);
@@ -101,8 +101,8 @@ TEST(Metrics, ATimedPathIsCompletedWhereItStaysWithinTheToleranceInTheSecondHalf
 TEST(Metrics, ControlVariationIsPerSecondAndOverTheLimits) {
   awmr::Run run = by_hand({0.0, 10.0, 10.0, 10.0, 10.0});
   run.rows[1].steering_command_rad =
-      radians(20.0);             // there and back: twice the full range of one side
-  run.rows[2].force.left = 0.5;  // there and back at F'max = 1
+      radians(20.0);             // to the stop and back: twice the full range of one side
+  run.rows[2].force.left = 0.5;  // to 0.5 and back, with F'max = 1
   EXPECT_NEAR(evaluate(run).control_variation, (2.0 + 1.0) / 4.0, 1e-12);
   Controller<double> weak = make_controller(paper_plant(), paper_vehicle(), {});
   weak.limits.force_max = 0.5;

@@ -69,8 +69,9 @@ std::vector<Obstacle<double>> ring(const Position<double>& centre, int left_out)
 }
 
 TEST(Passage, IsBlockedByAClosedRingAndNotByAGap) {
-  // Neighbours are 2 * 8 sin(9 deg) = 2.50 m apart; inflated by 1.3 m each disc has 1.7 m. Without
-  // one disc the gap is 2 * 8 sin(18 deg) = 4.94 m, more than 3.4 m.
+  // Centres of neighbouring discs are 2 * 8 sin(9 deg) = 2.50 m apart, and their radii, inflated by
+  // 1.3 m, are 1.7 m: they overlap. Without one disc the distance across the gap is
+  // 2 * 8 sin(18 deg) = 4.94 m, more than 2 * 1.7 = 3.4 m.
   EXPECT_FALSE(passage_exists(ring({30.0, 0.0}, -1), 1.3, {0.0, 0.0}, {30.0, 0.0}));
   for (int gap = 0; gap < 20; ++gap) {
     EXPECT_TRUE(passage_exists(ring({30.0, 0.0}, gap), 1.3, {0.0, 0.0}, {30.0, 0.0})) << gap;
@@ -80,7 +81,8 @@ TEST(Passage, IsBlockedByAClosedRingAndNotByAGap) {
   EXPECT_TRUE(passage_exists(ring({30.0, 0.0}, -1), 1.3, {0.0, 0.0}, {60.0, 0.0}));
 }
 
-/// Flood fill on a grid of 0.1 m: upper and lower bound from discs inflated slightly less and more.
+/// True if a flood fill on a grid of 0.2 m from (0, 0) reaches (20, 0), m, around the discs
+/// inflated by `grow_m`.
 bool flooded(const std::vector<Obstacle<double>>& discs, double grow_m) {
   constexpr int kSize = 200;
   constexpr double kCell_m = 0.2;
@@ -112,7 +114,7 @@ bool flooded(const std::vector<Obstacle<double>>& discs, double grow_m) {
 }
 
 TEST(Passage, AgreesWithFloodingAGrid) {
-  // Many small discs around the goal, so that some layouts are closed.
+  // Many small discs around the goal, so that some layouts have no passage.
   int closed = 0;
   int decided = 0;
   for (std::uint64_t number = 0; number < 60; ++number) {
@@ -124,8 +126,8 @@ TEST(Passage, AgreesWithFloodingAGrid) {
       const double from_goal_m = 4.0 + 2.0 * random.uniform();
       discs.push_back({{20.0 + from_goal_m * std::cos(angle), from_goal_m * std::sin(angle)}, 0.9});
     }
-    // A path is at most half a cell's diagonal, 0.141 m, from the nearest cell centres. Flooding
-    // with discs 0.15 m smaller and larger bounds the truth; if both agree it is known.
+    // A path is at most half a cell's diagonal, 0.141 m, from the nearest cell centres. Flood fills
+    // with discs 0.15 m smaller and larger therefore bound the answer; if both agree, it is known.
     const bool at_most = flooded(discs, 0.5 - 0.15);
     const bool at_least = flooded(discs, 0.5 + 0.15);
     const bool exists = passage_exists(discs, 0.5, {0.0, 0.0}, {20.0, 0.0});

@@ -1,11 +1,12 @@
-/// The paper's vehicle as an identified model, with intervals for corner cases.
+/// The paper's vehicle as an identified model with 95 % intervals, for scenarios at a corner of
+/// them.
 #pragma once
 
 #include "support/paper_vehicle.h"
 
 namespace awmr::testing {
 
-/// Every parameter with an interval of +-10 %.
+/// Model in which every parameter has an interval of +-10 %.
 inline Model model_with_intervals() {
   Model model = fitted_paper_model();
   for (Estimate& estimate : model.estimates) {

@@ -1,4 +1,4 @@
-/// The paper's vehicle in open loop, for tests of the simulator.
+/// Simulates the paper's vehicle in open loop, for tests of the simulator.
 #pragma once
 
 #include "awmr/core/units.h"

@@ -23,8 +23,8 @@ TEST(Rest, MotorsOffEverySpeedFallsToZeroWithoutChangingSign) {
       ASSERT_GE(s.r_radps, 0.0) << "beta " << beta << " row " << i;
       ASSERT_LE(s.r_radps, run.rows[i - 1].state.r_radps) << "beta " << beta << " row " << i;
     }
-    // Below 1 the stop takes finite time, and the chord's decay from 1e-3 at more than 1/h ends at
-    // 0.
+    // With an exponent below 1 the stop takes a finite time. Below 1e-3 rad/s the resistance is a
+    // chord, whose decay is faster than 1/h and ends at 0.
     if (beta < 1.0) {
       EXPECT_EQ(run.rows.back().state.r_radps, 0.0) << beta;
       EXPECT_EQ(run.rows.back().state.u_mps, 0.0) << beta;

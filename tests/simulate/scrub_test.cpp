@@ -141,8 +141,8 @@ TEST(Scrub, IsDrawnWithItsErrorAndLeavesOtherDrawsAsTheyAre) {
     sum += drawn->yaw_scrub_m;
     squares += drawn->yaw_scrub_m * drawn->yaw_scrub_m;
   }
-  // Of 2,000 draws the mean has a standard error of 0.002/sqrt(2000) = 4.5e-5, the deviation one of
-  // 0.002/sqrt(4000) = 3.2e-5; 5 of them.
+  // The standard error of the mean of 2,000 draws is 0.002/sqrt(2000) = 4.5e-5, that of their
+  // standard deviation 0.002/sqrt(4000) = 3.2e-5; 5 standard errors are allowed.
   const double mean = sum / kDraws;
   EXPECT_NEAR(mean, 0.01, 2.3e-4);
   EXPECT_NEAR(std::sqrt(squares / kDraws - mean * mean), 0.002, 1.6e-4);

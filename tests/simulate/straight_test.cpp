@@ -1,5 +1,5 @@
-/// Models of straight motion only: straight runs equal those of the full model, others are refused
-/// by name.
+/// Models without turning parameters: straight runs equal those of the full model, and scenarios
+/// that turn are refused by name.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -16,7 +16,8 @@ inline void mirror_points(std::vector<Position<double>>& points) {
   for (Position<double>& point : points) point.y_m = -point.y_m;
 }
 
-/// Mirrored: y, psi, v, r, d_r change their sign, and so do sway, yaw and their random numbers.
+/// The scenario mirrored at the x axis: y, psi, v, r and d_r change their sign, and so do
+/// disturbances in sway and yaw with their random numbers.
 inline Scenario mirrored(Scenario s) {
   s.initial.y_m *= -1.0;
   s.initial.psi_rad *= -1.0;
@@ -58,7 +59,7 @@ struct Elsewhere {
   void move(std::vector<Position<double>>& points) const {
     for (Position<double>& point : points) point = of(point);
   }
-  /// Not for a Lissajous path, which has no angle.
+  /// The scenario after this motion. Not for a Lissajous path, which cannot be rotated.
   Scenario of(Scenario s) const {
     const Position<double> start = of(Position<double>{s.initial.x_m, s.initial.y_m});
     s.initial.x_m = start.x_m;

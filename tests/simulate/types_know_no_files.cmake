@@ -1,5 +1,5 @@
-# Types, equations and the closed loop build for targets without a file system. The preprocessor
-# lists their includes.
+# Checks that the sources of types, equations and the closed loop include no header for files, so
+# that they compile for targets without a file system. The preprocessor lists their includes.
 foreach(source
     core/provenance.h model/vehicle.h model/model.h model/record.h model/vehicle.cpp model/family.cpp
     model/parameters.cpp model/model.cpp control/controller.h control/autopilot.h

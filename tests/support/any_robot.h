@@ -14,12 +14,13 @@ inline double between(double lo, double hi) {
   return lo + (hi - lo) * *rc::gen::inRange(0, 1000001) / 1e6;
 }
 
-/// Log-uniform between two values, both > 0.
+/// Draws a number log-uniformly between two values, both > 0.
 inline double ratio_between(double lo, double hi) {
   return lo * std::pow(hi / lo, *rc::gen::inRange(0, 1000001) / 1e6);
 }
 
-/// The range of vehicles from a toy to a tractor; `beyond` 10: ten times beyond either end.
+/// Draws a plant in the range from a toy to a tractor. `beyond` 10 extends the range of each
+/// parameter tenfold at both ends; 1: not.
 inline Plant<double> any_plant(double beyond) {
   return {.surge = {.alpha = ratio_between(0.1 / beyond, 5.0 * beyond),
                     .beta = between(0.0, 1.0 + 0.3 * beyond),
@@ -36,7 +37,7 @@ inline Plant<double> any_plant(double beyond) {
           .steering_time_constant_s = ratio_between(0.01 / beyond, 0.5 * beyond)};
 }
 
-/// A power-law model of such a plant, as a reader would return it.
+/// Draws a plant by any_plant() and returns its power-law model, as read from a model.json.
 inline Model any_model(double beyond) {
   const Plant<double> plant = any_plant(beyond);
   Model model;
@@ -55,7 +56,7 @@ inline Model any_model(double beyond) {
   return model;
 }
 
-/// Gains from slow to aggressive.
+/// Draws gains from slow to aggressive; `beyond` as for any_plant().
 inline Gains<double> any_gains(double beyond) {
   return {.heading = {.lambda = ratio_between(0.5 / beyond, 15.0 * beyond),
                       .mu = ratio_between(1.0 / beyond, 200.0 * beyond),

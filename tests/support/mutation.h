@@ -44,8 +44,8 @@ constexpr auto operator*(Sign sign, const T& value) {
   return chosen(sign.id) ? Value(-value) : Value(value);
 }
 
-// An operator between two operands: (a op Between) keeps a, (that op b) applies the original or the
-// mutated operator.
+// Implements a mutated operator. `a op Kind{7}` gives a Half that keeps a; `Half op b` applies the
+// original or the mutated operator to a and b.
 template <typename Kind, typename A>
 struct Half {
   const A& a;

@@ -1,5 +1,5 @@
-/// Default robot of the tests: configs/paper/vehicle.json with the results of Tables 2 and 3. A
-/// test whose numbers depend on another field copies this vehicle and sets that field.
+/// Default robot of the tests: configs/paper/vehicle.json with parameters from the paper's Tables 2
+/// and 3. A test that needs another value of a field copies this vehicle and sets the field.
 #pragma once
 
 #include "awmr/control/controller.h"
@@ -16,8 +16,8 @@ inline const Vehicle& paper_vehicle() {
   return kVehicle;
 }
 
-/// By ParameterId: a1, b1, a3, b3 log-linear from the tables as printed, m' as printed, and I'z =
-/// m' Iz/m.
+/// Parameter values by ParameterId: a1, b1, a3, b3 by log-linear fits of the tables as printed, m'
+/// as printed, and I'z = m' Iz/m.
 template <class T>
 ParameterValues<T> paper_values_of() {
   ParameterValues<T> values;

@@ -1,5 +1,5 @@
-/// Scalar type with explicit conversion from double and none to other types: code that compiles
-/// with it does not mix double into its scalar by accident.
+/// Scalar type with explicit conversion from double and no conversion to other types. A template
+/// that compiles with it does not compute in double by accident when its scalar is float.
 #pragma once
 
 #include <cmath>

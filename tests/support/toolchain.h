@@ -32,7 +32,7 @@ inline std::string cached(const std::string& compiler) {
   return cache.ends_with("-NOTFOUND") ? compiler : std::string(cache) + " " + compiler;
 }
 
-/// Assertion that the program was found when the build was configured.
+/// Assertion that CMake found the program when the build was configured.
 inline ::testing::AssertionResult found(std::string_view program) {
   if (program.ends_with("-NOTFOUND") || program.empty()) {
     return ::testing::AssertionFailure()
@@ -42,7 +42,7 @@ inline ::testing::AssertionResult found(std::string_view program) {
   return ::testing::AssertionSuccess();
 }
 
-/// Assertion that the program ended with 0 and printed no warnings.
+/// Assertion that the program ended with exit code 0; a failure shows its output.
 inline ::testing::AssertionResult succeeded(const ProcessResult& result) {
   if (result.exit_code == 0) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << "exit code " << result.exit_code << "\n"

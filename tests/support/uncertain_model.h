@@ -1,4 +1,4 @@
-// The paper's vehicle with a covariance of four fitted parameters.
+// Model of the paper's vehicle with a covariance of four fitted parameters.
 #pragma once
 
 #include "awmr/core/units.h"
@@ -20,7 +20,7 @@ inline Model uncertain_model() {
   return model;
 }
 
-/// A scenario with one short heading step, which has a value of every heading metric.
+/// A scenario with one short heading step, in which every heading metric has a value.
 inline Scenario short_heading(const std::string& name = "step") {
   return {.name = name,
           .duration_s = 3.0,

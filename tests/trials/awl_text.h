@@ -1,4 +1,4 @@
-/// Generates on-board logs with the chip's own code, and arbitrary headers.
+/// Generates on-board logs (AWL files) with the chip's own code, or with arbitrary headers.
 #pragma once
 
 #include <cstring>
@@ -9,7 +9,7 @@
 
 namespace awmr::testing {
 
-/// Columns of LogRow, as awmr_log.h lists them.
+/// JSON text that describes the columns of LogRow, as awmr_log.h writes it.
 inline std::string awl_json(const std::string& time_scale = "0.01") {
   std::string json =
       R"({"schema":"awmr.awl/1","parameters_sha256":"abc","row_bytes":64,"columns":[)"
@@ -36,7 +36,7 @@ inline std::string awl_header(const std::string& json) {
   return bytes + le(~crc);
 }
 
-/// A sealed row of a vehicle that accelerates and turns.
+/// A row, still without checksum, of a vehicle that accelerates and turns.
 inline LogRow awl_row(std::uint32_t sequence) {
   const float t_s = 0.01F * static_cast<float>(sequence);
   LogRow row{};
@@ -57,7 +57,7 @@ inline std::string awl_bytes(LogRow row) {
   return bytes;
 }
 
-/// Header and rows [from, to).
+/// Bytes of the rows with the numbers [from, to), without the log's header.
 inline std::string awl_rows(std::uint32_t from, std::uint32_t to) {
   std::string bytes;
   for (std::uint32_t i = from; i < to; ++i) bytes += awl_bytes(awl_row(i));

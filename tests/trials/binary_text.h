@@ -10,7 +10,7 @@
 
 namespace awmr::testing {
 
-/// Bytes of a number, least significant first.
+/// Bytes of a number, least significant first (little-endian).
 template <class T>
 std::string le(T value) {
   std::string bytes(sizeof(T), '\0');
@@ -52,7 +52,8 @@ inline std::string dataflash_record(std::uint8_t type, const std::string& fields
 
 // CDR
 
-/// A CDR message: numbers are aligned to their size, counted from after the first four bytes.
+/// Builds a ROS 2 message in CDR encoding: each number is aligned to a multiple of its size,
+/// counted from the end of the header of four bytes.
 class Cdr {
  public:
   template <class T>

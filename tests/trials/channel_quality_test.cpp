@@ -166,7 +166,7 @@ TEST(ChannelQuality, RestIsNotStuckForTinyNumbers) {
   }
 }
 
-/// A speed controller keeps the speed within one step of a coarse sensor, so the reading is
+/// A speed controller holds the speed within one quantisation step of the sensor, so the reading is
 /// constant while the command changes with the ground.
 TEST(ChannelQuality, ASteadySpeedThatIsKeptIsNotStuck) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

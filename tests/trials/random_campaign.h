@@ -1,5 +1,6 @@
-/// Random realistic vehicles and tables of runs, which no check may refuse. The physics differs
-/// from the library's on purpose: a bicycle with slip, and differential drive with scrub.
+/// Random realistic vehicles with tables of surge and turning runs, which no check may refuse. The
+/// physics is not that of awmr's model, on purpose: a bicycle with slip, and differential drive
+/// with tyre scrub.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ namespace awmr::testing {
 
 struct Campaign {
   Vehicle vehicle;
-  std::string surge;    ///< tables as written to files
+  std::string surge;    ///< table of surge runs, as written to a file
   std::string turning;  ///< yaw_rate_radps in the requested unit
 };
 
@@ -24,9 +25,9 @@ struct DrawnVehicle {
   double top_speed_mps;  ///< at F' = 1
   double steepness;      ///< u ~ F'^steepness
   double wheelbase_m;
-  double slows;               ///< fraction of the speed that remains in a turn
-  double characteristic_mps;  ///< of understeer
-  double friction;            ///< of tyres on the ground
+  double slows;               ///< fraction of the straight speed that remains in a turn
+  double characteristic_mps;  ///< characteristic speed of understeer, u_ch
+  double friction;            ///< friction coefficient of tyres on the ground
   double agility;             ///< factor on the yaw rate; above 1: oversteer, or rear steering
   double scrubs;  ///< fraction of the left/right speed difference that remains with scrub
 };
@@ -98,7 +99,8 @@ class CampaignDraw {
     }
     return text;
   }
-  /// A bicycle: r = u tan(d)/L / (1 + (u/u_ch)^2), limited by grip on its circle, r u <= mu g.
+  /// Turns of a bicycle: r = u tan(d)/L / (1 + (u/u_ch)^2), limited by the tyres' grip, r u <= mu
+  /// g.
   std::string steered_table() {
     std::string text = "steering_deg,wheel_force,yaw_rate_radps\n";
     for (const double share : {0.25, 0.5, 0.75, 1.0}) {

@@ -51,8 +51,8 @@ std::string findings_of(Reader read, const std::string& text) {
 std::string copied(const std::string& text) { return text + text.substr(text.find('\n') + 1); }
 
 TEST(RepeatedRows, ADuplicatedTableIsNamedWithItsLines) {
-  // Times to 0.01 s: five pairs of runs with s = 0.3 % of 5 to 18 s contain 0.7 equal ones by
-  // chance.
+  // With times to 0.01 s and a scatter s of 0.3 % of 5 to 18 s, 0.7 of five pairs of runs have
+  // equal times by chance.
   const std::string table = surge_text(1, 1, {0.005, 0.0, 2});
   EXPECT_EQ(findings_of(read_surge, table), "");
   EXPECT_THAT(findings_of(read_surge, copied(table)),
@@ -67,7 +67,7 @@ TEST(RepeatedRows, ACopyToTheMillisecondIsNamed) {
   EXPECT_EQ(findings_of(read_surge, text + "0.2,10,100.124\n"), "");
   // An equal time at another force is another run.
   EXPECT_EQ(findings_of(read_surge, text + "0.3,10,100.123\n"), "");
-  // So is one with a different speed.
+  // An equal time with a different speed is another run, too.
   EXPECT_EQ(findings_of(read_surge,
                         "tau_speed,distance_m,elapsed_s,speed_mps\n0.2,10,100.123,0.1\n"
                         "0.2,10,100.123,0.11\n"),
@@ -81,8 +81,10 @@ TEST(RepeatedRows, ASingleCopyIsNamedWhereItIsLessLikelyThanOneInAHundred) {
               HasSubstr("1 of 2 rows"));
   EXPECT_EQ(findings_of(read_surge, "tau_speed,distance_m,elapsed_s\n1,10,8.913\n1,10,8.913\n"),
             "");
-  // Three pairs to 0.1 s at 10 s: a = 0.1/(2 0.03) = 5/3, p = erf(a) - (1 - exp(-a^2))/(a sqrt(pi)) = 0.664,
-  // L = 1.99 and P(3 or more) = 0.32; at 400 s p = 0.0235, L = 0.071, P(3 or more) = 6e-5.
+  // Three pairs of runs, times of 10 s to 0.1 s: a = 0.1/(2 0.03) = 5/3. A pair is equal by chance
+  // with p = erf(a) - (1 - exp(-a^2))/(a sqrt(pi)) = 0.664; the expected number of equal pairs is 3
+  // p = 1.99, and the Poisson probability of 3 or more is 0.32. At 400 s these are 0.0235, 0.071
+  // and 6e-5.
   EXPECT_EQ(findings_of(read_surge,
                         "tau_speed,distance_m,elapsed_s\n1,10,10.1\n1,10,10.1\n1.1,10,9.9\n"
                         "1.1,10,9.9\n1.2,10,9.8\n1.2,10,9.8\n"),

@@ -1,4 +1,4 @@
-/// A log with two steady stretches: one straight, one turning.
+/// A log with two stretches of steady motion: one straight, one turning.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// Trials from text, and the findings of their readers.
+/// Reads trials from a text instead of a file, and lists the readers' findings.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ struct Read {
   std::vector<Finding> findings;
 };
 
-/// Reads text that must be accepted.
+/// Reads a text that must be accepted; returns the rows and the findings.
 template <class Reader>
 auto accepted(Reader read, const std::string& text, const TrialOptions& options = {}) {
   const ScratchFile file("trial.csv", text);
@@ -36,7 +36,7 @@ auto accepted(Reader read, const std::string& text, const TrialOptions& options 
   return Read<Set>{set ? *set : Set{}, findings};
 }
 
-/// Faults of refused text, as `LINE:COLUMN: MESSAGE`; empty if it is accepted.
+/// Faults with which the reader refuses a text, as `LINE:COLUMN: MESSAGE`; empty if it accepts it.
 template <class Reader>
 std::vector<std::string> faults_of(Reader read, const std::string& text,
                                    const TrialOptions& options = {}) {

@@ -77,7 +77,7 @@ TEST(TurnUnits, TurnsAndTimesOfOtherUnitsAreNamed) {
   const auto refused = [&](const std::string& rows) {
     return refusal_of(paper_vehicle(), kPaperSurge, columns + rows);
   };
-  // 0.088 and 0.22 rad/s: a turn in 71.4 and 28.56 s.
+  // One turn in 71.4 s and in 28.56 s: 0.088 and 0.22 rad/s.
   EXPECT_EQ(refused("10,0.35,1,71.4\n20,0.35,1,28.56\n"), "");
   EXPECT_THAT(refused("10,0.35,360,71.4\n20,0.35,360,28.56\n"),
               HasSubstr("turns=\"turns\"*0.002777778"));
@@ -135,7 +135,8 @@ TEST(TurnUnits, TheBoundsAreTheDocumentedOnes) {
     return refusal_of(sides, surge,
                       fmt::format("force_left,force_right,yaw_rate_radps\n-0.2,0.6,{}\n", rate));
   };
-  // (2 - -0.5)/(2 0.36) = 3.47 rad/s, of which four times are possible.
+  // The sides differ by 2 - (-0.5) m/s: 2.5/(2 0.36) = 3.47 rad/s. Up to four times this is
+  // accepted.
   EXPECT_EQ(by_sides(3.95 * 2.5 / 0.72), "");
   EXPECT_THAT(by_sides(4.05 * 2.5 / 0.72), HasSubstr("differ by 2.5 m/s"));
 

@@ -54,7 +54,8 @@ TEST(Constraints, GiveBothFormsOfT2BelowT1ForThePapersGains) {
 }
 
 TEST(Constraints, RequireOnlyTheFormRequested) {
-  // margin 0.5: 0.12 <= 0.1667 holds, 0.24 <= 0.1667 does not.
+  // With the margin 0.5 the limit is 0.5 T1 = 0.1667 s: T2 = 0.12 s is below it, 2 T2 = 0.24 s is
+  // not.
   const auto paper = constraints_of(kPaperGains, paper_context(ReachingForm::kPaper, 0.5));
   const auto strict = constraints_of(kPaperGains, paper_context(ReachingForm::kStrict, 0.5));
   EXPECT_LT(named(paper, "T2 < T1 (strict)").margin, 0.0);
@@ -358,7 +359,8 @@ TEST(PolePlacement, KeepsTheConstraintsOfEachDraw) {
 }
 
 TEST(SampledLoop, IsTheDoubleIntegratorsWithoutResistanceAndServo) {
-  // a = 0, s = 1: psi+ = psi + T r + T^2/2 w, r+ = r + T w, w = -(l + k) r - l k psi gives
+  // Without resistance (a = 0) and with direct forces (s = 1): psi+ = psi + T r + T^2/2 w,
+  // r+ = r + T w, w = -(l + k) r - l k psi gives
   //   z^2 - (2 - T (l + k) - T^2/2 l k) z + (1 - T (l + k) + T^2/2 l k) = 0.
   // The servo adds its own real pole, damping 1.
   const double l = 8.0;
@@ -632,7 +634,7 @@ TEST(Constraints, AreThoseOfThePlantWithTheSmallestMargin) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   const std::vector<ConstraintReport> own = constraints_of(kPaperGains, context);
   Plant<double> heavy = context.plant;
-  heavy.yaw.alpha *= 1.5;  // needs a larger mu
+  heavy.yaw.alpha *= 1.5;  // more yaw resistance needs a larger mu
   context.draws = {context.own(), {heavy, context.wheel_force}};
   const std::vector<ConstraintReport> worst = constraints_of(kPaperGains, context);
   ASSERT_EQ(worst.size(), own.size());
@@ -646,7 +648,7 @@ TEST(Constraints, AreThoseOfThePlantWithTheSmallestMargin) {
 
 TEST(Constraints, IncludeTheDifferenceOfADrawToTheModel) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
-  Plant<double> loaded = context.plant;  // by 150 % of its own mass
+  Plant<double> loaded = context.plant;  // with a load of 150 % of its own mass
   loaded.mass_norm *= 2.5;
   loaded.inertia_norm *= 2.5;
   Plant<double> light = context.plant;

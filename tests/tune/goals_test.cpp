@@ -1,4 +1,5 @@
-/// Probabilistic goals: excess of a run, the relevant quantile, and the verdict on fresh draws.
+/// Probabilistic goals: by how much a run exceeds its limits, the quantile of this excess that the
+/// goal bounds, and the verdict on new draws.
 #include "awmr/tune/goals.h"
 
 #include <gmock/gmock.h>

@@ -109,7 +109,8 @@ TEST(Open, GainsSuitEveryVariationAndTheFileListsIt) {
   const TuneOptions options = short_search();
   const Result<Tuning> tuning = tune(model, options);
   ASSERT_TRUE(tuning) << to_text(tuning.error());
-  // s^2 + q (lambda + k) s + q lambda k with q = 1/3.1, to first order, before hold and servo.
+  // Characteristic polynomial with the mass 3.1 times as large (q = 1/3.1), without the delays of
+  // sampling and servo: s^2 + q (lambda + k) s + q lambda k, k = mu/epsilon.
   const double lambda = tuning->gains.heading.lambda;
   const double k = tuning->gains.heading.mu / tuning->gains.heading.epsilon;
   EXPECT_GT((lambda + k) / (2.0 * std::sqrt(3.1 * lambda * k)), 0.6);

@@ -252,7 +252,7 @@ TEST(Tune, NamesTheActiveConstraintAndItsCost) {
   const auto held = std::ranges::find(tuning.active, "T2 < T1 (strict)", &ActiveConstraint::name);
   ASSERT_NE(held, tuning.active.end());
   EXPECT_GT(held->wider_gains, 0.0);
-  // A limit that may be exceeded by a tenth of the larger side is 0.3/0.9.
+  // Exceeding the constraint by a tenth of its larger side is the same as a margin of 0.3/0.9.
   options.margin = 0.3 / 0.9;
   const Tuning wider = tune(paper_model(), options).value();
   const double objective = mean_objective(options, wider.gains, tuning.baseline.gains);
@@ -284,7 +284,7 @@ TEST(Tune, RefusesAMarginThatNoGainsWithinTheBoundsMeet) {
 }
 
 TEST(Tune, RefusesBoundsThatExcludeEveryFeasibleGain) {
-  // mu <= 1 rad/s^2 against 0.2 g3(60 deg/s)/I'z = 4.9
+  // The bounds allow mu <= 1 rad/s^2, but a constraint needs mu >= 0.2 g3(60 deg/s)/I'z = 4.9.
   TuneOptions options = short_options();
   options.bounds.mu = Interval{0.5, 1.0};
   const Result<Tuning> tuning = tune(paper_model(), options);
@@ -367,7 +367,7 @@ TEST(DefaultScenario, IsThePapersForThePapersVehicle) {
 }
 
 TEST(DefaultScenario, IsNoFasterThanTheVehicleReachesAndWasMeasured) {
-  // g1 = 5 u: 4 F'max hold 0.8 m/s; a third of the thrust gives 0.27.
+  // With g1 = 5 u, the largest thrust of 4 holds 0.8 m/s; a third of it gives 0.27 m/s.
   Model model = paper_model();
   model[ParameterId::kSurgeAlpha].value = 5.0;
   model[ParameterId::kSurgeBeta].value = 1.0;
@@ -383,7 +383,7 @@ TEST(DefaultScenario, IsNoFasterThanTheVehicleReachesAndWasMeasured) {
 
 TEST(DefaultScenario, TurnsLessWhereTheVehicleTurnsSlowly) {
   Model model = paper_model();
-  model.vehicle.yaw_rate_max_degps = 2.0;  // 60 deg take 30 s
+  model.vehicle.yaw_rate_max_degps = 2.0;  // deg/s: a step of 60 deg takes 30 s
   const Scenario scenario = default_tuning_scenario(model).value();
   const auto& steps = std::get<HeadingSteps>(scenario.guidance).steps;
   EXPECT_LT(steps[0].psi_rad, radians(15.5));
@@ -436,7 +436,8 @@ TEST(Tune, ReportsAMissingParameterOfTheModel) {
 
 TEST(MeanAndTail, IsTheMeanOfAllAndOfTheWorst) {
   EXPECT_EQ(mean_and_tail({3.0}, 0.2), 3.0);
-  // The worst fifth of five is the 10: (4 + 10)/2; of six it is the two worst, (10 + 5)/2.
+  // Half of the mean plus half of the mean of the worst fifth: of five values the 10, (4 + 10)/2;
+  // of six the two worst, (10 + 5)/2.
   EXPECT_EQ(mean_and_tail({1.0, 10.0, 2.0, 3.0, 4.0}, 0.2), 7.0);
   EXPECT_EQ(mean_and_tail({1.0, 10.0, 2.0, 3.0, 3.0, 5.0}, 0.2), 0.5 * (4.0 + 7.5));
   EXPECT_EQ(mean_and_tail({1.0, 3.0}, 1.0), 2.0);
@@ -518,7 +519,8 @@ TEST(Observed, AnObserverCompensatesAConstantDisturbance) {
   ASSERT_TRUE(tuning) << to_text(tuning.error());
   const ObserverGains<double>& observer = tuning->gains.observer;
   EXPECT_TRUE(options.observer->bandwidth_radps.contains(observer.bandwidth_radps));
-  // Half of l_f g1(1 m/s) tan(10 deg), and of the remaining force of four wheels at F_max.
+  // Half of the moment l_f g1(1 m/s) tan(10 deg), and half of the force that four wheels at F_max
+  // have left at 1 m/s.
   EXPECT_NEAR(observer.yaw_max_m, 0.5 * 0.35 * 1.3268 * std::tan(radians(10.0)), 1e-12);
   EXPECT_NEAR(observer.surge_max, 0.5 * (4.0 - 1.3268), 1e-12);
   EXPECT_FALSE(tuning->baseline.gains.observer.is_on());

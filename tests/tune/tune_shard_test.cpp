@@ -19,7 +19,8 @@ using ::testing::HasSubstr;
 
 const Provenance kProvenance{"tune", {{"draws", "1"}}, {{"model.json", std::string(64, 'a')}}};
 
-/// 7 fresh draws in two scenarios, with a goal of each kind and an observer.
+/// Options for an evaluation on 7 new draws in two scenarios, with a hard and a soft goal and an
+/// observer.
 TuneOptions options_of(std::optional<Shard> shard) {
   TuneOptions options;
   options.draws = 1;

@@ -1,5 +1,6 @@
-/// Nine vehicles from 2 kg to 300 kg: steered and differential, servos of 0.02 to 0.15 s, 20 to 100
-/// Hz, power-law, linear, quadratic and Coulomb friction. The fifth is the paper's.
+/// Nine vehicles from 2 kg to 300 kg: with steering and with differential drive, servo time
+/// constants of 0.02 to 0.15 s, control at 20 to 100 Hz, power-law, linear, quadratic and Coulomb
+/// friction. The fifth is the paper's.
 #pragma once
 
 #include <cmath>
@@ -20,7 +21,7 @@ struct TestVehicle {
   double motor_force_n;           ///< F_max of one motor
   Resistance<double> surge, yaw;  ///< over F_max
   double sway_alpha;
-  double measured_mps, measured_degps;  ///< the fastest trials; 0: unknown
+  double measured_mps, measured_degps;  ///< speed and yaw rate of the fastest trials; 0: unknown
 };
 
 inline std::ostream& operator<<(std::ostream& out, const TestVehicle& vehicle) {

@@ -1,5 +1,5 @@
-/// A drive under the controller compared with its prediction: the predicted vehicle is accepted at
-/// the stated rate, another one is rejected, and the change is named.
+/// A drive under the controller compared with the model's prediction: the modelled vehicle is
+/// accepted in 95 % of the drives, a changed vehicle is rejected, and the change is named.
 #include "awmr/validate/acceptance.h"
 
 #include <gmock/gmock.h>
@@ -80,8 +80,8 @@ const FaultHypothesis* hypothesis(const Acceptance& acceptance, std::string_view
 }
 
 TEST(Acceptance, AcceptsTheVehicleOfThePredictionAtTheStatedRate) {
-  // 40 vehicles from the model's uncertainty: on average 2 are rejected by chance, more than 6 in 1
-  // % of all series (binomial).
+  // 40 vehicles are drawn from the model's uncertainty. On average 2 are rejected by chance; in 1 %
+  // of such series, more than 6 (binomial).
   const auto sampler = PlantSampler::make(uncertain_model());
   ASSERT_TRUE(sampler);
   int rejected = 0;

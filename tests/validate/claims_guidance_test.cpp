@@ -1,4 +1,4 @@
-/// C8 to C12, and the files of the same runs.
+/// The paper's claims C8 to C12 on guidance, and the files of the runs that evaluate them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

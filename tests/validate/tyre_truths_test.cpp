@@ -41,7 +41,8 @@ TEST(TyreTruths, AreFoundWithinTheirIntervals) {
   RecordProperty("held", held);
   RecordProperty("shown", shown);
   EXPECT_GE(shown, 34);
-  // 95 % of 36: fewer than 30 have a chance of 1 in 250.
+  // Each of 36 intervals contains the truth with 95 %: fewer than 30 do with a probability of 1 in
+  // 250.
   EXPECT_GE(held, 30) << "of " << shown;
   EXPECT_GE(four_wheel, 16);
 }

@@ -1,4 +1,5 @@
-/// A vehicle on four tyres whose simulator shares no code with the library, and logs of it.
+/// Simulator of a vehicle on four tyres that shares no code with the library, and logs of the
+/// vehicle.
 #pragma once
 
 #include <algorithm>
@@ -86,9 +87,9 @@ struct LogDrive {
   double duration_s = 60.0;
   bool by_sides = true;
   bool by_steering = true;
-  double force = 0.45;         ///< the largest mean force
-  double apart = 0.5;          ///< the largest left/right force difference
-  double steering_deg = 20.0;  ///< the largest
+  double force = 0.45;         ///< largest mean of the left and right forces, over F_max
+  double apart = 0.5;          ///< largest difference of the right and left forces, over F_max
+  double steering_deg = 20.0;  ///< largest steering angle
   unsigned seed = 1;
 };
 
@@ -155,7 +156,8 @@ inline DrivingLog driven(const LogDrive& drive) {
   return log;
 }
 
-/// As tables would identify the vehicle: m', g1 and I'z = m' Iz/m; g3 from steered turns.
+/// Model of the vehicle as identified from tables: m', g1, I'z = m' Iz/m, and g3 from steered
+/// turns.
 inline Model identified() {
   Model model;
   model.vehicle = paper_vehicle();

@@ -17,21 +17,23 @@ namespace pil {
 constexpr uint8_t kFrameStart = 0xA5;
 constexpr uint8_t kHeadBytes = 3;  // type, sequence, length
 constexpr uint8_t kMaxPayload = 140;
-constexpr uint8_t kMaxFrame = kHeadBytes + kMaxPayload + 2;  // after the start
+constexpr uint8_t kMaxFrame = kHeadBytes + kMaxPayload + 2;  // bytes after the start byte
 
 // Requests and their payloads -> payloads of the answers, which have the same type.
-constexpr uint8_t kHello = 'H';   // nothing -> awmr_init()'s fault, AWMR_PARAMETERS_CRC32 xor
-                                  // kPilMission
-constexpr uint8_t kFollow = 'F';  // acceptance_m, points as x_m, y_m -> nothing
-constexpr uint8_t kStep = 'S';    // awmr_input -> awmr_output, cycles (16 bit)
+// Start: nothing -> awmr_init()'s fault, AWMR_PARAMETERS_CRC32 xor kPilMission.
+constexpr uint8_t kHello = 'H';
+// Follow points: acceptance_m, points as x_m, y_m -> nothing.
+constexpr uint8_t kFollow = 'F';
+// Control step: awmr_input -> awmr_output, clock cycles of the step (16 bit).
+constexpr uint8_t kStep = 'S';
 
 /// Reads frames byte by byte. take() returns true when its byte completes a valid frame, which can
-/// be read until the next call. When a frame is damaged, the reader searches its bytes for the next
-/// start.
+/// be read until the next call. When a frame is damaged, the reader searches the bytes received so
+/// far for the start byte of the next frame.
 struct FrameReader {
-  uint8_t bytes[kMaxFrame];  // of this frame, after its start
-  uint8_t count;             // bytes received
-  bool is_inside;            // a start was seen
+  uint8_t bytes[kMaxFrame];  // of this frame, after its start byte
+  uint8_t count;             // number of these bytes received
+  bool is_inside;            // true: a start byte was received, the frame is not complete
 
   uint8_t type() const { return bytes[0]; }
   uint8_t sequence() const { return bytes[1]; }

@@ -19,7 +19,7 @@ volatile uint8_t pil_steps;  // steps executed, modulo 256
 
 namespace {
 
-// Timer 1 counts at F_CPU/8 to the sample time, at most 32 ms.
+// Sample time in counts of timer 1, which has 16 bits and counts at F_CPU/8 (so at most 32 ms).
 const uint32_t kTimerCounts = static_cast<uint32_t>(AWMR_SAMPLE_TIME_S * (F_CPU / 8) + 0.5f);
 static_assert(kTimerCounts >= 2 && kTimerCounts <= 65536,
               "the sample time has to be between 1 us and 32 ms");

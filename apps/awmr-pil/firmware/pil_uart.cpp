@@ -16,13 +16,13 @@
 namespace {
 
 const uint8_t kRingMask = 31;
-volatile uint8_t ring[kRingMask + 1];  // the main loop takes each byte before 32 more arrive
+volatile uint8_t ring[kRingMask + 1];  // received bytes; main() takes each before 32 more arrive
 volatile uint8_t ring_head;
 uint8_t ring_tail;
 
-// Pause after which an incomplete frame is discarded: 20 ms plus the time of 20 bytes, in counts of
-// timer 3 (F_CPU/64). Pauses inside a frame, from USB, are shorter. The host repeats a request only
-// later.
+// Pause on the line after which an incomplete frame is discarded: 20 ms plus the time of 20 bytes,
+// in counts of timer 3 (F_CPU/64). USB makes shorter pauses inside a frame; the host waits longer
+// before it repeats a request.
 const uint16_t kPause =
     static_cast<uint16_t>(F_CPU / 64UL / 50UL + 20UL * 10UL * (F_CPU / 64UL) / PIL_BAUD);
 
@@ -87,7 +87,8 @@ void follow() {
   answer(points, 0);
 }
 
-// Timer 1 counts clock cycles, so a step of up to 65535 cycles can be measured.
+// Executes a control step. Timer 1 (16 bits) counts its clock cycles; the count of a step of more
+// than 65535 cycles is wrong by multiples of 65536.
 void step() {
   awmr_input input;
   struct {

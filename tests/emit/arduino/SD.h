@@ -1,4 +1,5 @@
-// Stands in for Arduino's SD library, which Debian does not package: what the sketches use of it.
+// Declares the part of Arduino's SD library that the sketches use, because Debian does not package
+// it.
 #pragma once
 #include <Arduino.h>
 #define FILE_WRITE 1

@@ -64,7 +64,7 @@ class Stream : public Print {
   std::deque<char> received;  // in the receive buffer
   std::string outgoing;
   double characters_per_ms = 0, due = 0;
-  int lost = 0;  // characters that found the buffer full
+  int lost = 0;  // characters lost because the buffer was full
   void begin(unsigned long baud) { characters_per_ms = static_cast<double>(baud) / 1e4; }
   int available() { return static_cast<int>(received.size()); }
   int read() {
@@ -73,7 +73,8 @@ class Stream : public Print {
     received.pop_front();
     return static_cast<unsigned char>(c);
   }
-  // The line moves on. A full buffer loses the characters that arrive, as Arduino's does.
+  // Receives the characters that arrive in `ms` milliseconds. A full buffer loses them, as
+  // Arduino's does.
   void pass(double ms) {
     for (due += ms * characters_per_ms; due >= 1; due -= 1) {
       if (incoming.empty()) {
@@ -109,5 +110,5 @@ enum {
   CS31 = 1,
   OCIE3A = 1
 };
-// Weak: the case includes the board's header, too.
+// Weak, because sketch and test case both define the interrupt: both include the board's header.
 #define ISR(vector) extern "C" __attribute__((weak)) void vector()

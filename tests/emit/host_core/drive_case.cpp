@@ -10,7 +10,7 @@ namespace {
 /// Sends the command that starts the drive.
 const char* start_command = "S 1.0\n";
 
-/// Command that is sent after an injected failure, and duration of the drive that follows.
+/// Commands that are sent after the failure begins, and duration of the drive that follows.
 struct Drive {
   const char* commands = "";
   double watch_s = 15;
@@ -92,8 +92,9 @@ void hold_still(double pushed_mps, double noise_mps) {
          before, fastest, w.u, hypot(w.x - x0, w.y - y0), driven_s, safety.is_armed());
 }
 
-/// On a slope, armed at speed 0, after a drive of 10 s or from rest. Prints the speed that the
-/// vehicle reaches in a minute, and the direction in which the motors drive it meanwhile.
+/// Stands on a slope, armed at speed 0, after a drive of 10 s or from rest. Prints the speed that
+/// the vehicle reaches in a minute, and for how long the motors drive it in its direction of
+/// motion.
 void stand_on_slope(double pull, bool drives_first) {
   World& w = world;
   start_and_arm(0.2);
@@ -187,8 +188,8 @@ void drive_and_stop(double seconds) {
       static_cast<int>(safety.reason()), w.is_driven());
 }
 
-/// Arms, drives, and stops on a full line by the last of 14 commands in one packet, with fixes
-/// `phase_ms` late.
+/// Arms, drives, and stops by the last of 14 commands that arrive in one packet on a line that is
+/// already full. The GPS sentences are `phase_ms` late.
 void fill_the_lines(uint32_t phase_ms) {
   World& w = world;
   w.gps_delay_ms = phase_ms;

@@ -19,12 +19,12 @@ inline std::string frame(int sequence, const std::string& text) {
   return line;
 }
 
-/// True during the last fraction `share` of each period.
+/// True during the last fraction `share` of each period of time, for failures in bursts.
 inline bool is_in_burst(const World& w, uint32_t period_ms, double share) {
   return w.elapsed_ms % period_ms >= (1 - share) * period_ms;
 }
 
-/// Failures of the hazard table in SAFETY.md.
+/// Failures that the table of hazards in SAFETY.md lists.
 inline const std::vector<Failure>& hazards() {
   static const std::vector<Failure> all = {
       {"compass-silent", [](World& w) { w.compass_answers = false; },
@@ -80,7 +80,7 @@ inline const std::vector<Failure>& hazards() {
   return all;
 }
 
-/// Further failures of a part during the drive.
+/// Further failures of sensors, actuators and operator that begin during the drive.
 inline const std::vector<Failure>& further_failures() {
   static const std::vector<Failure> all = {
       {"left-motor-dead", [](World& w) { w.left_gain = 0; }},

@@ -177,7 +177,7 @@ void run_healthy(int seed, double wander_m, Setting setting) {
       w.say(text_of("M %.0f\n", setting.mode));
     }
     const double chance = uniform(0, 1), speed_mps = uniform(0.25, 1) * setting.speed_mps;
-    // When driving backward, steering alone cannot turn the vehicle.
+    // Not in steering mode, because steering alone cannot turn a vehicle that drives backward.
     const bool is_backward = chance < 0.2 && setting.mode != 1;
     w.say(text_of("S %.3f\n", chance < 0.1 ? 0.0 : is_backward ? -speed_mps : speed_mps));
     if (uniform(0, 1) < 0.8) w.say(text_of("H %.1f\n", uniform(-180, 180)));

@@ -1,5 +1,6 @@
-// The objects of the sketch that a case reads; HeadingHold or WaypointFollowing, compiled by itself:
-// `g++ -x c++ SKETCH.ino`. Programs are named after their sketch.
+// Declares the sketch's objects that a test case reads. The sketch, HeadingHold or
+// WaypointFollowing, is compiled separately (`g++ -x c++ SKETCH.ino`). Programs are named after
+// their sketch.
 #pragma once
 #include <Arduino.h>
 #include <awmr_paper_board.h>

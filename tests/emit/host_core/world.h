@@ -1,4 +1,5 @@
-// Simulated vehicle, sensors and operator. Every quantity that a case modifies is a member.
+// Simulated vehicle, sensors and operator for the sketches. Every quantity that a test case
+// modifies is a member.
 #pragma once
 #include <Arduino.h>
 #include <SD.h>
@@ -12,7 +13,7 @@
 #include <random>
 #include <vector>
 
-// The header of a power law lacks the terms of other friction models.
+// awmr_params.h of a power law lacks the terms of the other resistance families.
 #ifndef AWMR_SURGE_COULOMB
 #define AWMR_SURGE_COULOMB 0.0
 #endif
@@ -36,36 +37,36 @@ void setup();
 void loop();
 
 struct World {
-  // Time. The step runs every sample time.
+  // Time, ms: of millis() at the start, since the start, and between two control steps.
   uint32_t start_ms = 1000, elapsed_ms = 0;
   const uint32_t step_ms = static_cast<uint32_t>(lround(1000.0 * AWMR_SAMPLE_TIME_S));
   uint32_t timer_ms = 0;  // when the timer started
-  // Motion, and how the vehicle differs from the model.
+  // Motion in m, rad, s, and differences of the vehicle from the model.
   double x = 0, y = 0, psi = 0.3, u = 0, r = 0;
   double mass_factor = 1, drag_factor = 1, motor_sign = 1, slope = 0;
   bool sides_swapped = false;
   double left_gain = 1, right_gain = 1;
-  double left_stuck = NAN;  // force of the left motor, whatever is commanded
+  double left_stuck = NAN;  // constant force of a defective left motor; NAN: it works
   double motor_lag_s = 0, left_force = 0, right_force = 0;
   double servo_sign = 1, servo_offset = 0, servo_lag_s = 0, servo_stuck = NAN, servo_rad = 0;
-  double forced_turn = 0;  // rad/s: turned by hand
-  bool is_held = false;    // held by hand: u is 0
+  double forced_turn = 0;  // rad/s: somebody turns the vehicle by hand
+  bool is_held = false;    // somebody holds the vehicle: u is 0
   std::map<int, int> duty, level;
   // Sensors.
   std::mt19937 random{7};
   double gyro_bias = 0.02, gyro_gain = 1, gyro_noise = 5, compass_offset = 0, compass_noise = 3;
-  double compass_rate = 0;  // rad/s: the compass turns away
+  double compass_rate = 0;  // rad/s: the compass offset grows, as if the compass turned
   double compass_ahead_sign = 1, compass_left_sign = 1, compass_distortion = 0;
   bool compass_axes_swapped = false;
   bool gyro_answers = true, gyro_frozen = false, compass_answers = true, compass_frozen = false;
   bool compass_stuck = false;
   double stuck_psi = 0;
-  double hard_iron = 0;  // counts of the field to the left, from iron near the compass
+  double hard_iron = 0;  // counts that iron near the compass adds to the field to the left
   std::map<int, int> registers;
   int gyro_word = 0, field[3] = {0, 0, 0};
   double gps_noise_m = 0.1, gps_speed_noise = 0.05, gps_jump_m = 0, gps_speed_gain = 1;
   double gps_wander_m = 0, wander_x = 0, wander_y = 0;
-  double gps_speed_stuck = NAN;                 // m/s that it gives, whatever the vehicle does
+  double gps_speed_stuck = NAN;                 // constant speed of all fixes, m/s; NAN: true
   uint32_t gps_period_ms = 200, utc_s = 43200;  // between two fixes; time of day at the start
   uint32_t gps_delay_ms = 0, gps_latency_ms = 0;
   bool gps_answers = true, gps_repeats = false, gps_empty = false, gps_void = false,
@@ -86,8 +87,8 @@ struct World {
   double force(int pwm, int direction) {
     return motor_sign * duty[pwm] / 255.0 * (level[direction] ? -1 : 1);
   }
-  // Reversed, left and right are exchanged as well: it drives the wrong way and turns the right
-  // one.
+  // True if the left wheels get the force of the right motor. Reversed motors are mounted on
+  // exchanged sides, so that the vehicle drives the wrong way but turns as commanded.
   bool is_exchanged() const { return (motor_sign < 0) != sides_swapped; }
   double left() {
     if (!std::isnan(left_stuck)) return left_stuck;
@@ -99,7 +100,7 @@ struct World {
     return std::isnan(servo_stuck) ? servo_sign * (OCR4A / 2.0 - 1500) / 573.0 + servo_offset
                                    : servo_stuck;
   }
-  // First-order lag; none for a time constant of 0.
+  // Moves `from` towards `to` over `dt` by a first-order lag; at once for a time constant of 0.
   static double lagged(double from, double to, double dt, double time_constant_s) {
     return time_constant_s > 0 ? from + dt / time_constant_s * (to - from) : to;
   }
@@ -160,7 +161,7 @@ struct World {
   }
   std::string sentence() {
     if (gps_wander_m > 0) {
-      // Errors of the position, with a correlation time of a minute.
+      // Slowly varying errors of the GPS position, with a correlation time of a minute.
       for (double* wander : {&wander_x, &wander_y}) {
         *wander += noise(gps_wander_m * sqrt(2 * 0.2 / 60)) - 0.2 / 60 * *wander;
       }
@@ -197,7 +198,8 @@ struct World {
   void say(const std::string& text) {
     for (const char c : text) Serial.incoming.push_back(c);
   }
-  // The lines and the timer, which counts halves of a microsecond, in the ms that ends now.
+  // Simulates the serial lines and timer 3 (2 counts per us) over the millisecond that ends now:
+  // calls the timer's interrupt at its times.
   void pass_time() {
     const uint32_t period = OCR3A + 1U;
     const uint64_t end = 2000ULL * (elapsed_ms - timer_ms);

@@ -11,7 +11,8 @@
 namespace awmr::peers {
 namespace {
 
-/// ln of lambda, mu/epsilon, mu, mu_s/epsilon_s, mu_s, and of the friction width where there is dry friction.
+/// ln of lambda, mu/epsilon, mu, mu_s/epsilon_s, mu_s, and of the friction width where there is dry
+/// friction.
 using Vector = std::array<double, 6>;
 constexpr double kMinWidth_radps = 0.02;
 
@@ -88,7 +89,8 @@ LawGains least_settling(const Case& one, const std::vector<Trial>& trials, const
   const auto look = [&](const Vector& x) -> Member {
     const Controls c{one.model, gains_at(x), fed_forward};
     const Means m = means_of(one, trials, c);
-    // Points that violate the limits rank behind all that meet them, in their own order.
+    // Gains that exceed the activity or the overshoot rank behind all that do not, ordered by the
+    // excess.
     const double over =
         std::max(m.variation / most_variation, m.overshoot_deg / most_overshoot_deg);
     return {x, over > 1.0 ? 1e3 * over : m.settling_s};

@@ -1,4 +1,5 @@
-/// Independent trade-off front of settling time against command activity.
+/// Trade-off front of settling time against command activity, by a simulator and a search that
+/// share no code with lib/awmr.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 namespace awmr::peers {
 
 /// Inputs of the search: the model that the controller knows, the vehicle, its sensors and limits,
-/// and the courses.
+/// and the courses (sequences of heading commands).
 struct Case {
   Body model;
   Geometry vehicle;
@@ -19,7 +20,7 @@ struct Case {
   std::vector<Course> courses;
   Limits limits;
   Examined examined;
-  std::vector<Body> limit_bodies;  ///< for which the limits have to hold, in addition to the model
+  std::vector<Body> limit_bodies;  ///< bodies that must meet the limits in addition to the model
 };
 
 /// A body (masses and resistances of a vehicle), with the sensor noise of its run on each course.

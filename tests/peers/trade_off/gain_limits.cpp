@@ -151,7 +151,7 @@ double steering_rate_degps(const Controls& c, const Geometry& g, const SensorErr
          std::numbers::pi;
 }
 
-/// Largest moment of the weaker way to turn, m.
+/// Largest yaw moment over F_max of the weaker of differential forces and steering, m.
 double authority(const Geometry& g, const Body& body, double speed_mps) {
   const double thrust = body.surge.of_magnitude(speed_mps);
   const double by_forces =

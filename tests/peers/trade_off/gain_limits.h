@@ -1,5 +1,5 @@
-/// Limits that the README of tune states for gains, in code of its own: the independent admissible
-/// set of the cross-check.
+/// Independent implementation of the limits that the README of tune states for gains: which gains
+/// are admissible, for the cross-check of `tune`.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ struct Limits {
   double steering_rate_degps = 0.0;  ///< largest RMS rate of the steering command, deg/s
 };
 
-/// Speed and largest yaw rate at which the limits are checked.
+/// Speed and largest yaw rate at which the limits are checked, m/s and rad/s.
 struct Examined {
   double speed_mps = 0.0, fastest_radps = 0.0;
 };

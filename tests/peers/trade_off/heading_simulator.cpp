@@ -234,7 +234,7 @@ RunFigures drive(const Body& body, const Geometry& vehicle, const SensorErrors& 
   const std::size_t readings = readings_of(course, vehicle);
   std::vector<State> past;
   past.reserve(readings);
-  // The readings of `late` seconds before the k-th sample.
+  // Returns a quantity as it was `late` seconds before the k-th sample.
   const auto read = [&](std::size_t k, double late, double State::*quantity) {
     const double time = std::max(0.0, static_cast<double>(k) - late / ts) + 1e-9;
     const auto before = static_cast<std::size_t>(time);

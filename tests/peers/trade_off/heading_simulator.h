@@ -1,5 +1,5 @@
-/// Simulator of headings that shares no code with lib/awmr: its own integrator, laws, allocation,
-/// sensors and metrics, written from the equations of the READMEs. The cross-check of `tune`.
+/// Simulator of the heading control for the cross-check of `tune`. It shares no code with lib/awmr:
+/// integrator, laws, allocation, sensors and metrics are written from the equations of the READMEs.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ struct Friction {
   double slope(double w) const;         ///< g'(w), w > 0
 };
 
-/// Masses and resistances, over F_max.
+/// Masses and resistances of a vehicle, over F_max.
 struct Body {
   double mass = 0.0;     ///< m', s^2/m
   double inertia = 0.0;  ///< I'z, s^2 m
@@ -41,7 +41,7 @@ struct LawGains {
   double lambda = 0.0, mu = 0.0, epsilon = 0.0;
   double speed_mu = 0.0, speed_epsilon = 0.0;
   double friction_width_radps =
-      0.02;  ///< dry friction in yaw is fed forward in proportion below it
+      0.02;  ///< below this yaw rate, dry friction is fed forward in proportion to the rate
 };
 
 /// Yaw rate at which the heading law feeds g3 forward: the measured one (as in the paper) or the
@@ -49,7 +49,7 @@ struct LawGains {
 enum class FedForward { kMeasured, kReference };
 
 struct Controls {
-  Body known;  ///< the model that the laws know
+  Body known;  ///< the model on which the control laws are based
   LawGains gains;
   FedForward fed_forward = FedForward::kMeasured;
 };
@@ -68,8 +68,8 @@ struct Course {
 using Noise = std::array<std::vector<double>, 3>;
 
 struct RunFigures {
-  double settling_s = 0.0;     ///< longest of the steps; the whole hold where it does not settle
-  double overshoot_deg = 0.0;  ///< largest travel beyond a step
+  double settling_s = 0.0;     ///< longest of all steps; hold_s for a step that does not settle
+  double overshoot_deg = 0.0;  ///< largest travel beyond a commanded heading
   double variation = 0.0;      ///< total variation of the commands over their limits, 1/s
   double steering_rms_degps = 0.0;  ///< RMS rate of the steering command
 };
@@ -80,7 +80,7 @@ RunFigures drive(const Body& body, const Geometry& vehicle, const SensorErrors& 
                  const Controls& controls, Mode mode, const Course& course, const Noise& noise,
                  double step_s = 2e-3);
 
-/// Number of sensor readings on a course.
+/// Number of readings of each sensor on a course.
 std::size_t readings_of(const Course& course, const Geometry& vehicle);
 
 }  // namespace awmr::peers

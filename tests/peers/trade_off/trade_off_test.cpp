@@ -15,7 +15,7 @@ namespace {
 
 class TradeOff : public ::testing::TestWithParam<testing::TestVehicle> {};
 
-/// Distance of two sets of gains: the largest |ln| of the ratio of two gains.
+/// Distance of two sets of gains: the largest |ln| of the ratio of corresponding gains.
 double distance_of(const LawGains& a, const LawGains& b) {
   double most = 0.0;
   for (const double ratio : {a.lambda / b.lambda, a.mu / b.mu, a.epsilon / b.epsilon,
@@ -76,7 +76,8 @@ TEST_P(TradeOff, TunedGainsAreOnTheIndependentFront) {
 
 INSTANTIATE_TEST_SUITE_P(FromToyToTractor, TradeOff, ::testing::ValuesIn(testing::test_vehicles()));
 
-/// The paper's vehicle, whose figures the library and the independent simulator have to agree on.
+/// For the paper's vehicle, settling time and activity by the library and by the independent
+/// simulator have to agree.
 TEST(IndependentSimulator, AgreesWithTheLibraryOnSettlingAndActivity) {
   const Model model = testing::model_of(testing::test_vehicles()[4]);
   TuneOptions options;
@@ -96,7 +97,7 @@ TEST(IndependentSimulator, AgreesWithTheLibraryOnSettlingAndActivity) {
     // Activity scatters by less than 1 %.
     EXPECT_NEAR(means.settling_s / named.point.settling_time_s, 1.0, 0.07) << named.gains;
     EXPECT_NEAR(means.variation / named.point.control_variation, 1.0, 0.03) << named.gains;
-    // Half the step: the integrator's own error.
+    // With half the integration step, the difference is the integrator's error.
     const Means finer = means_of(one, trials, controls, 1e-3);
     EXPECT_NEAR(finer.settling_s / means.settling_s, 1.0, 0.01);
     EXPECT_NEAR(finer.variation / means.variation, 1.0, 0.01);

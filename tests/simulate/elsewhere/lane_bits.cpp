@@ -1,7 +1,7 @@
 // Prints the bits of results of batches and of the inner loops of log fits, for processors on which
 // the tests do not run. other_processor.py builds this program for such a processor, runs it in an
-// emulator, and compares the output with this machine's. It has headings and open loop only, for
-// which no number comes from a C library.
+// emulator, and compares the output with this machine's. Its scenarios are heading commands and
+// open loop only, because these use no function of the C library, whose results may differ.
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
