@@ -109,7 +109,7 @@ Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending,
       m.completed = !(sums.strayed > 0.0);
     } else {
       m.completed = ending.end == RunEnd::kFinished && ending.missed_waypoints == 0;
-      if (m.completed) m.finish_time_s = ending.t_s;
+      m.finish_time_s = ending.t_s;
     }
   }
   const bool reached = sums.speed_reached > 0.0 && scenario.speed_mps > 0.0;
@@ -121,6 +121,7 @@ Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending,
     m.completed = m.completed && *m.clearance_min_m > 0.0;
   }
   m.completed = m.completed && ending.end != RunEnd::kFailed;
+  if (!m.completed) m.finish_time_s.reset();
   return m;
 }
 

@@ -40,7 +40,7 @@ struct Metrics {
   /// without obstacles.
   std::optional<double> clearance_min_m;
   /// Time, s, at which the last waypoint or the end of the line was reached; absent if it was not
-  /// reached or a waypoint was missed.
+  /// reached, a waypoint was missed, or the vehicle overlapped an obstacle.
   std::optional<double> finish_time_s;
 
   /// Positive mechanical work of the applied wheel forces (RunRow::acting), over F_max, m; braking
