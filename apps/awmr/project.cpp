@@ -126,7 +126,8 @@ void read_identify(JsonObject json, Project& project) {
 /// Reads `heading_rate_limit`: a rate in deg/s, "measured" or "none".
 void read_heading_rate(JsonObject& json, Project& project) {
   const auto rate = json.optional_number_or_string(
-      "heading_rate_limit", {.min = kHeadingRateLimits_degps.lo, .max = kLeadRates_degps.hi});
+      "heading_rate_limit",
+      {.min = kHeadingRateLimits_degps.lo, .max = kHeadingRateLimits_degps.hi});
   if (!rate) return;
   project.heading_rate_limit = *rate;
   if (const std::string why = fault_of_rate(*rate); !why.empty()) {

@@ -3,6 +3,7 @@
 #include "awmr/core/input_file.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/model/ranges.h"
 #include "awmr/model/vehicle_file.h"
 #include "bindings.h"
 
@@ -150,12 +151,18 @@ void bind_model_class(py::module_& module) {
 }
 
 Gains<double> gains_from(double lambda, double mu, double epsilon, double speed_mu,
-                         double speed_epsilon, double bandwidth_radps, double yaw_max_m,
-                         double surge_max) {
+                         double speed_epsilon, double friction_width_radps, double bandwidth_radps,
+                         double yaw_max_m, double surge_max) {
   for (const double gain : {lambda, mu, epsilon, speed_mu, speed_epsilon}) {
     if (gain > 0.0 && gain < 1e9) continue;
     throw Raised(input_error(ErrorCode::kOutOfRange, "gains",
                              fmt::format("expected numbers above 0, found {}", gain))
+                     .value());
+  }
+  if (!allows(kFrictionWidth_radps, friction_width_radps)) {
+    throw Raised(input_error(ErrorCode::kOutOfRange, "friction_width_radps",
+                             fmt::format("expected {}, found {}", describe(kFrictionWidth_radps),
+                                         friction_width_radps))
                      .value());
   }
   const ObserverGains<double> observer{bandwidth_radps, yaw_max_m, surge_max};
@@ -166,7 +173,7 @@ Gains<double> gains_from(double lambda, double mu, double epsilon, double speed_
                              "observer_surge_max all above 0, or all 0")
                      .value());
   }
-  return {{lambda, mu, epsilon}, {speed_mu, speed_epsilon}, observer};
+  return {{lambda, mu, epsilon, friction_width_radps}, {speed_mu, speed_epsilon}, observer};
 }
 
 void bind_gains(py::module_& module) {
@@ -175,11 +182,13 @@ void bind_gains(py::module_& module) {
       module, "Gains",
       "The controller's gains, all > 0. Heading law: slope lambda_ of the sliding surface (1/s), "
       "largest corrective yaw acceleration mu (rad/s^2), half width epsilon of the boundary layer "
-      "(rad/s). Speed law: speed_mu (m/s^2) and speed_epsilon (m/s), likewise. Disturbance "
+      "(rad/s), and friction_width_radps, the yaw rate below which Coulomb friction is fed forward "
+      "in part. Speed law: speed_mu (m/s^2) and speed_epsilon (m/s), likewise. Disturbance "
       "observer (three zeros: none): observer_bandwidth_radps, and the largest compensated yaw "
       "moment observer_yaw_max_m (m) and force observer_surge_max, both over F_max.")
       .def(py::init(&gains_from), py::kw_only(), py::arg("lambda_"), py::arg("mu"),
            py::arg("epsilon"), py::arg("speed_mu"), py::arg("speed_epsilon"),
+           py::arg("friction_width_radps") = kFrictionWidth_radps.min,
            py::arg("observer_bandwidth_radps") = 0.0, py::arg("observer_yaw_max_m") = 0.0,
            py::arg("observer_surge_max") = 0.0)
       .def_property_readonly(
@@ -188,6 +197,9 @@ void bind_gains(py::module_& module) {
           "mu", [](const G& g) { return g.heading.mu; }, "rad/s^2")
       .def_property_readonly(
           "epsilon", [](const G& g) { return g.heading.epsilon; }, "rad/s")
+      .def_property_readonly(
+          "friction_width_radps", [](const G& g) { return g.heading.friction_width_radps; },
+          "rad/s")
       .def_property_readonly(
           "speed_mu", [](const G& g) { return g.speed.mu; }, "m/s^2")
       .def_property_readonly(

@@ -196,9 +196,10 @@ class Module(unittest.TestCase):
     def test_models_and_gains_are_written_and_read_back(self):
         awmr.write_model(self.model, self.path / "again.json")
         self.assertEqual(awmr.read_model(self.path / "again.json").text(), self.model.text())
-        gains = awmr.Gains(lambda_=3, mu=50, epsilon=12, speed_mu=5, speed_epsilon=1.2)
+        gains = awmr.Gains(lambda_=3, mu=50, epsilon=12, speed_mu=5, speed_epsilon=1.2, friction_width_radps=0.1)
         awmr.write_gains(gains, self.path / "own.json")
         self.assertEqual(awmr.read_gains(self.path / "own.json").epsilon, 12)
+        self.assertEqual(awmr.read_gains(self.path / "own.json").friction_width_radps, 0.1)
 
     def test_the_next_trial_is_suggested(self):
         made = command("suggest", "--model", self.path / "model.json", "--json")

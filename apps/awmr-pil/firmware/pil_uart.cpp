@@ -87,8 +87,8 @@ void follow() {
   answer(points, 0);
 }
 
-// Executes a control step. Timer 1 (16 bits) counts its clock cycles; the count of a step of more
-// than 65535 cycles is wrong by multiples of 65536.
+// Executes a control step. Timer 1 (16 bits) counts its clock cycles; 65535 stands for more cycles,
+// too.
 void step() {
   awmr_input input;
   struct {
@@ -97,9 +97,11 @@ void step() {
   } done;
   if (reader.length() != sizeof input) return;
   memcpy(&input, reader.payload(), sizeof input);
-  const uint16_t start = TCNT1;
+  TCNT1 = 0;
+  TIFR1 = _BV(TOV1);  // clears the flag of an overflow
   awmr_step(&input, &done.output);
-  done.cycles = static_cast<uint16_t>(TCNT1 - start);
+  const uint16_t counted = TCNT1;
+  done.cycles = (TIFR1 & _BV(TOV1)) != 0 ? 65535U : counted;
   answer(&done, sizeof done);
 }
 

@@ -147,7 +147,8 @@ std::string fault_of_rate(const HeadingRateChoice& choice) {
   const auto rate_degps = number_from_text(choice);
   if (rate_degps && kHeadingRateLimits_degps.contains(*rate_degps)) return {};
   return fmt::format("must be {}, {}, or deg/s from {:g} to {:g}, found {}", kMeasuredRate, kNoRate,
-                     kHeadingRateLimits_degps.lo, kLeadRates_degps.hi, choice.empty() ? "nothing" : choice);
+                     kHeadingRateLimits_degps.lo, kHeadingRateLimits_degps.hi,
+                     choice.empty() ? "nothing" : choice);
 }
 
 HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& choice, const Model& model) {
