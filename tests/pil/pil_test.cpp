@@ -248,6 +248,7 @@ constexpr const char* kGuidedElsewhere[] = {"scenarios/double_lane_change",
                                             "scenarios/slippery_patch",
                                             "scenarios/wheel_failure",
                                             "scenarios/worst_corner",
+                                            "paper/scenarios/experiment_waypoints",
                                             "baselines/double_lane_change_ilos",
                                             "baselines/side_slope_pure_pursuit"};
 
