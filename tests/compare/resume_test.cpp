@@ -16,11 +16,11 @@ using ::testing::HasSubstr;
 
 const std::vector<Scenario> kScenarios = {short_heading("a"),
                                           short_heading("=b, \"quoted\"\nline")};
-const Provenance kProvenance{
+const Provenance kResumeProvenance{
     "compare", {{"samples", "39"}, {"seed", "3"}}, {{"model.json", "abc"}}};
 
-Comparison compared(const CompareOptions& options,
-                    const std::vector<NamedGains>& gains = {{"", kPaperGains}}) {
+Comparison compared_scenarios(const CompareOptions& options,
+                              const std::vector<NamedGains>& gains = {{"", kPaperGains}}) {
   const auto c = compare(uncertain_model(), gains, kScenarios, options);
   EXPECT_TRUE(c) << (c ? "" : to_text(c.error()));
   return c.value_or(Comparison{});
@@ -32,7 +32,7 @@ Comparison stopped_after(std::size_t runs) {
   CompareOptions options{.samples = 39, .seed = 3, .threads = 1};
   options.stop = &stop;
   options.progress = [&](std::size_t done, std::size_t) { stop = done >= runs; };
-  return compared(options);
+  return compared_scenarios(options);
 }
 
 const CompareOptions kWhole{.samples = 39, .seed = 3, .threads = 2};
@@ -43,7 +43,7 @@ TEST(Resume, AStoppedComparisonIsASmallerOne) {
   EXPECT_TRUE(c.stopped);
   EXPECT_EQ(c.rows.size(), 128U);
   EXPECT_EQ(c.whole_samples, 16);
-  const Json json = Json::parse(comparison_text(c, kWhole, kProvenance));
+  const Json json = Json::parse(comparison_text(c, kWhole, kResumeProvenance));
   EXPECT_EQ(json["stopped"]["finished_runs"], 128);
   EXPECT_EQ(json["stopped"]["judged_samples"], 15);
   EXPECT_EQ(json["scenarios"][0]["modes"]["steering"]["completed"]["of"], 15);
@@ -52,7 +52,7 @@ TEST(Resume, AStoppedComparisonIsASmallerOne) {
 TEST(Resume, StoppedBeforeTheFirstSampleNothingIsEvaluated) {
   const Comparison c = stopped_after(2);
   EXPECT_EQ(c.whole_samples, 0);
-  EXPECT_TRUE(Json::parse(comparison_text(c, kWhole, kProvenance))["scenarios"].empty());
+  EXPECT_TRUE(Json::parse(comparison_text(c, kWhole, kResumeProvenance))["scenarios"].empty());
   EXPECT_EQ(comparison_table(c), "");
 }
 
@@ -60,29 +60,29 @@ TEST(Resume, ContinuationGivesTheSameBytes) {
   const TemporaryDirectory directory;
   const Comparison part = stopped_after(16 * 6 + 20);
   write_all(directory.path() / "comparison.csv", comparison_csv(part));
-  write_all(directory.path() / "comparison.json", comparison_text(part, kWhole, kProvenance));
-  const auto finished = read_finished(directory.path(), kProvenance);
+  write_all(directory.path() / "comparison.json", comparison_text(part, kWhole, kResumeProvenance));
+  const auto finished = read_finished(directory.path(), kResumeProvenance);
   ASSERT_TRUE(finished) << to_text(finished.error());
   EXPECT_EQ(finished->size(), 128U);
   CompareOptions options = kWhole;
   options.finished = *finished;
-  const Comparison resumed = compared(options);
-  const Comparison whole = compared(kWhole);
+  const Comparison resumed = compared_scenarios(options);
+  const Comparison whole = compared_scenarios(kWhole);
   EXPECT_EQ(comparison_csv(resumed), comparison_csv(whole));
-  EXPECT_EQ(comparison_text(resumed, kWhole, kProvenance),
-            comparison_text(whole, kWhole, kProvenance));
+  EXPECT_EQ(comparison_text(resumed, kWhole, kResumeProvenance),
+            comparison_text(whole, kWhole, kResumeProvenance));
 }
 
 TEST(Resume, RefusesAnotherComparisonsFiles) {
   const TemporaryDirectory directory;
-  const Comparison c = compared({.samples = 1, .seed = 3, .threads = 1});
+  const Comparison c = compared_scenarios({.samples = 1, .seed = 3, .threads = 1});
   write_all(directory.path() / "comparison.csv", comparison_csv(c));
-  write_all(directory.path() / "comparison.json", comparison_text(c, kWhole, kProvenance));
-  Provenance other_seed = kProvenance;
+  write_all(directory.path() / "comparison.json", comparison_text(c, kWhole, kResumeProvenance));
+  Provenance other_seed = kResumeProvenance;
   other_seed.options[1].second = "4";
-  Provenance other_model = kProvenance;
+  Provenance other_model = kResumeProvenance;
   other_model.inputs[0].sha256 = "abd";
-  Provenance more_samples = kProvenance;
+  Provenance more_samples = kResumeProvenance;
   more_samples.options[0].second = "60";
   EXPECT_THAT(to_text(read_finished(directory.path(), other_seed).error()),
               HasSubstr("other options (seed)"));
@@ -90,28 +90,28 @@ TEST(Resume, RefusesAnotherComparisonsFiles) {
               HasSubstr("other inputs"));
   EXPECT_TRUE(read_finished(directory.path(), more_samples));
   write_all(directory.path() / "comparison.csv", "scenario,mode\nbroken\n");
-  EXPECT_THAT(to_text(read_finished(directory.path(), kProvenance).error()),
+  EXPECT_THAT(to_text(read_finished(directory.path(), kResumeProvenance).error()),
               HasSubstr("[stale-result]"));
-  Json of_version_1 = Json::parse(comparison_text(c, kWhole, kProvenance));
+  Json of_version_1 = Json::parse(comparison_text(c, kWhole, kResumeProvenance));
   of_version_1.erase("csv_sha256");
   write_all(directory.path() / "comparison.json", to_text(of_version_1));
-  EXPECT_THAT(to_text(read_finished(directory.path(), kProvenance).error()),
+  EXPECT_THAT(to_text(read_finished(directory.path(), kResumeProvenance).error()),
               HasSubstr("comparison.csv:1:1: the file does not have the columns"));
   const std::string csv = comparison_csv(c);
   write_all(directory.path() / "comparison.csv", csv.substr(0, csv.find('\n') + 1) + "broken\n");
-  EXPECT_THAT(to_text(read_finished(directory.path(), kProvenance).error()),
+  EXPECT_THAT(to_text(read_finished(directory.path(), kResumeProvenance).error()),
               HasSubstr("comparison.csv:2:1"));
 }
 
 TEST(Resume, RefusesRowsOfAnotherVersion) {
   const TemporaryDirectory directory;
-  const Comparison c = compared({.samples = 1, .seed = 3, .threads = 1});
+  const Comparison c = compared_scenarios({.samples = 1, .seed = 3, .threads = 1});
   write_all(directory.path() / "comparison.csv", comparison_csv(c));
-  Json json = Json::parse(comparison_text(c, kWhole, kProvenance));
+  Json json = Json::parse(comparison_text(c, kWhole, kResumeProvenance));
   for (const char* other : {"0.0.1", ""}) {
     json["version"] = other;
     write_all(directory.path() / "comparison.json", to_text(json));
-    const auto finished = read_finished(directory.path(), kProvenance);
+    const auto finished = read_finished(directory.path(), kResumeProvenance);
     ASSERT_FALSE(finished) << other;
     EXPECT_THAT(to_text(finished.error()), HasSubstr("written by version"));
   }
@@ -119,13 +119,13 @@ TEST(Resume, RefusesRowsOfAnotherVersion) {
 
 TEST(Resume, RowsOfAnotherArithmeticAreRefused) {
   const TemporaryDirectory directory;
-  const Comparison c = compared({.samples = 1, .seed = 3, .threads = 1});
+  const Comparison c = compared_scenarios({.samples = 1, .seed = 3, .threads = 1});
   write_all(directory.path() / "comparison.csv", comparison_csv(c));
-  Json json = Json::parse(comparison_text(c, kWhole, kProvenance));
+  Json json = Json::parse(comparison_text(c, kWhole, kResumeProvenance));
   for (const char* other : {"rounded otherwise", ""}) {
     json["arithmetic"] = other;
     write_all(directory.path() / "comparison.json", to_text(json));
-    const auto finished = read_finished(directory.path(), kProvenance);
+    const auto finished = read_finished(directory.path(), kResumeProvenance);
     ASSERT_FALSE(finished) << other;
     EXPECT_THAT(to_text(finished.error()), HasSubstr("arithmetic"));
   }
@@ -133,25 +133,26 @@ TEST(Resume, RowsOfAnotherArithmeticAreRefused) {
 
 TEST(Resume, RefusesEditedRows) {
   const TemporaryDirectory directory;
-  const Comparison c = compared({.samples = 1, .seed = 3, .threads = 1});
+  const Comparison c = compared_scenarios({.samples = 1, .seed = 3, .threads = 1});
   std::string csv = comparison_csv(c);
-  write_all(directory.path() / "comparison.json", comparison_text(c, kWhole, kProvenance));
+  write_all(directory.path() / "comparison.json", comparison_text(c, kWhole, kResumeProvenance));
   write_all(directory.path() / "comparison.csv", csv);
-  ASSERT_TRUE(read_finished(directory.path(), kProvenance));
+  ASSERT_TRUE(read_finished(directory.path(), kResumeProvenance));
   csv[csv.find_last_of("0123456789")] ^= 1;
   write_all(directory.path() / "comparison.csv", csv);
-  EXPECT_THAT(to_text(read_finished(directory.path(), kProvenance).error()),
+  EXPECT_THAT(to_text(read_finished(directory.path(), kResumeProvenance).error()),
               HasSubstr("[stale-result]"));
 }
 
 TEST(ComparisonCsv, EscapesNamesThatASpreadsheetWouldRun) {
-  const std::string csv = comparison_csv(compared({.samples = 0, .seed = 3, .threads = 1}));
+  const std::string csv =
+      comparison_csv(compared_scenarios({.samples = 0, .seed = 3, .threads = 1}));
   EXPECT_THAT(csv, HasSubstr("\n\"'=b, \"\"quoted\"\"\nline\",differential,"));
 }
 
 TEST(Resume, RefusesRowsOfAnUnknownScenario) {
   CompareOptions options = kWhole;
-  options.finished = compared({.samples = 0, .seed = 3, .threads = 1}).rows;
+  options.finished = compared_scenarios({.samples = 0, .seed = 3, .threads = 1}).rows;
   options.finished.front().scenario = "c";
   const auto c = compare(uncertain_model(), kPaperGains, kScenarios, options);
   ASSERT_FALSE(c);
@@ -162,10 +163,11 @@ TEST(SeveralGains, AreComparedWithEachOtherAndByMode) {
   Gains<double> slow = kPaperGains;
   slow.heading.mu = 10.0;
   const CompareOptions options{.samples = 4, .seed = 1, .threads = 2};
-  const Comparison c = compared(options, {{"paper.json", kPaperGains}, {"slow.json", slow}});
+  const Comparison c =
+      compared_scenarios(options, {{"paper.json", kPaperGains}, {"slow.json", slow}});
   EXPECT_EQ(c.rows.size(), 2U * 6U * 5U);
   EXPECT_THAT(comparison_csv(c), HasSubstr(",tyre_work,electric_work_j,gains\n"));
-  const Json json = Json::parse(comparison_text(c, options, kProvenance));
+  const Json json = Json::parse(comparison_text(c, options, kResumeProvenance));
   const Json& scenario = json["scenarios"][0];
   EXPECT_EQ(scenario["modes"].size(), 6U);
   EXPECT_TRUE(scenario["modes"].contains("combined with slow.json"));

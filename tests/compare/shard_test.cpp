@@ -18,7 +18,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const Provenance kProvenance{"compare", {{"samples", "6"}, {"seed", "3"}}, {{"model.json", "ab"}}};
+const Provenance kShardProvenance{
+    "compare", {{"samples", "6"}, {"seed", "3"}}, {{"model.json", "ab"}}};
 
 class Shards : public ::testing::Test {
  protected:
@@ -37,7 +38,7 @@ class Shards : public ::testing::Test {
         .value();
   }
   std::filesystem::path write(Shard shard, const Comparison& part,
-                              const Provenance& provenance = kProvenance) {
+                              const Provenance& provenance = kShardProvenance) {
     const auto path = directory_.path() / ("part" + std::to_string(directories_++));
     EXPECT_TRUE(
         write_part(comparison_shards(), path, comparison_part(part, options(shard), provenance)));
@@ -70,7 +71,7 @@ TEST_F(Shards, MergeInAnyOrderToTheBytesOfASingleRun) {
     ASSERT_TRUE(merged) << to_text(merged.error());
     EXPECT_EQ(comparison_csv(merged->comparison), comparison_csv(whole)) << count;
     EXPECT_EQ(comparison_text(merged->comparison, merged->options, merged->provenance),
-              comparison_text(whole, options(), kProvenance))
+              comparison_text(whole, options(), kShardProvenance))
         << count;
   }
 }
@@ -87,10 +88,10 @@ TEST_F(Shards, NamesMissingAndDuplicateParts) {
 
 TEST_F(Shards, PartsOfDifferentComparisonsAreRefused) {
   const auto first = write({1, 2});
-  Provenance other = kProvenance;
+  Provenance other = kShardProvenance;
   other.inputs[0].sha256 = "cd";
   EXPECT_THAT(fault({first, write({2, 2}, run({2, 2}), other)}), HasSubstr("other inputs"));
-  other = kProvenance;
+  other = kShardProvenance;
   other.options[1].second = "4";
   EXPECT_THAT(fault({first, write({2, 2}, run({2, 2}), other)}), HasSubstr("other options"));
   EXPECT_THAT(fault({first, write({2, 3})}), HasSubstr("one of 3 parts"));
@@ -133,10 +134,10 @@ TEST_F(Shards, PartWithoutSamplesIsRefused) {
   Comparison first = run({1, 2});
   std::erase_if(first.rows, [](const ComparisonRow& row) { return row.sample != 0; });
   ASSERT_TRUE(
-      write_part(comparison_shards(), a, comparison_part(first, nominal_only, kProvenance)));
+      write_part(comparison_shards(), a, comparison_part(first, nominal_only, kShardProvenance)));
   nominal_only.shard = {2, 2};
-  ASSERT_TRUE(
-      write_part(comparison_shards(), b, comparison_part(run({2, 2}), nominal_only, kProvenance)));
+  ASSERT_TRUE(write_part(comparison_shards(), b,
+                         comparison_part(run({2, 2}), nominal_only, kShardProvenance)));
   EXPECT_THAT(fault({a, b}), HasSubstr("/2; expected I/N"));
 }
 

@@ -24,15 +24,6 @@ ComparisonRow row(YawMode mode, int sample, double iae_degs, bool completed = tr
   return r;
 }
 
-TEST(Quantile, IsLinearBetweenOrderStatistics) {
-  const std::vector<double> values = {1.0, 2.0, 4.0};
-  EXPECT_EQ(quantile_of_sorted(values, 0.0), 1.0);
-  EXPECT_EQ(quantile_of_sorted(values, 0.5), 2.0);
-  EXPECT_EQ(quantile_of_sorted(values, 0.75), 3.0);
-  EXPECT_EQ(quantile_of_sorted(values, 1.0), 4.0);
-  EXPECT_EQ(quantile_of_sorted(std::vector<double>{7.0}, 0.3), 7.0);
-}
-
 TEST(Summary, LeavesTheNominalRunOutOfTheSamples) {
   Comparison c;
   for (int i = 0; i <= 4; ++i) {

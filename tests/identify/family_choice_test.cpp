@@ -88,7 +88,7 @@ TEST(NearestCurve, StaysCloseOverTheSpeedsDrivenInEveryFamily) {
 /// command: slow ramps from rest in both directions, and two steps. `noise_mps`: standard deviation
 /// of the speed.
 DrivingLog ramps_with_friction(double noise_mps, std::uint64_t seed) {
-  constexpr double kMass = 0.09, kCoulomb = 0.12, kAlpha = 0.35, kStep_s = 0.02;
+  constexpr double kMass = 0.09, kCoulomb = 0.12, kAlpha = 0.35, kRow_s = 0.02;
   std::mt19937_64 chance(seed);
   std::normal_distribution<double> noise;
   DrivingLog log;
@@ -96,8 +96,8 @@ DrivingLog ramps_with_friction(double noise_mps, std::uint64_t seed) {
   log.steering_command_rad.emplace();
   Measured speed;
   double u = 0.0;
-  for (int i = 0; i * kStep_s < 52.0; ++i) {
-    const double t = i * kStep_s;
+  for (int i = 0; i * kRow_s < 52.0; ++i) {
+    const double t = i * kRow_s;
     const double thrust = t < 2.0    ? 0.0
                           : t < 16.0 ? 0.04 * (t - 2.0)
                           : t < 20.0 ? 0.0
@@ -116,7 +116,7 @@ DrivingLog ramps_with_friction(double noise_mps, std::uint64_t seed) {
     speed.fresh.push_back(true);
     // Speed over a step with motion in the direction s:
     //   u(t) = u_end + (u - u_end) exp(-a t/m'),   u_end = (thrust - s c)/a
-    double left_s = kStep_s;
+    double left_s = kRow_s;
     while (left_s > 0.0) {
       if (u == 0.0 && std::abs(thrust) <= kCoulomb) break;
       const double way = u != 0.0 ? std::copysign(1.0, u) : std::copysign(1.0, thrust);
@@ -137,7 +137,7 @@ DrivingLog ramps_with_friction(double noise_mps, std::uint64_t seed) {
 /// Log of straight driving with thrust steps of 0.5 to 2 s, m' = 0.5, resistance 2.2 u and motors
 /// with the lag `lag_s`; only the speed is measured.
 DrivingLog steps_behind_lag(double lag_s, std::uint64_t seed) {
-  constexpr double kMass = 0.5, kAlpha = 2.2, kStep_s = 0.02, kFine_s = 1e-4, kNoise_mps = 0.005;
+  constexpr double kMass = 0.5, kAlpha = 2.2, kRow_s = 0.02, kFine_s = 1e-4, kNoise_mps = 0.005;
   std::mt19937_64 chance(seed);
   std::normal_distribution<double> noise;
   std::uniform_real_distribution<double> part(0.0, 1.0);
@@ -146,8 +146,8 @@ DrivingLog steps_behind_lag(double lag_s, std::uint64_t seed) {
   log.steering_command_rad.emplace();
   Measured speed;
   double u = 0.0, force = 0.0, command = 0.0, until_s = 0.0;
-  for (int i = 0; i * kStep_s < 60.0; ++i) {
-    const double t = i * kStep_s;
+  for (int i = 0; i * kRow_s < 60.0; ++i) {
+    const double t = i * kRow_s;
     if (t >= until_s) {
       until_s = t + 0.5 + 1.5 * part(chance);
       command = 0.2 + 1.6 * part(chance);
@@ -159,7 +159,7 @@ DrivingLog steps_behind_lag(double lag_s, std::uint64_t seed) {
     log.steering_command_rad->push_back(0.0);
     speed.value.push_back(u + kNoise_mps * noise(chance));
     speed.fresh.push_back(true);
-    for (double at_s = 0.0; at_s < kStep_s - 0.5 * kFine_s; at_s += kFine_s) {
+    for (double at_s = 0.0; at_s < kRow_s - 0.5 * kFine_s; at_s += kFine_s) {
       const double next = command + (force - command) * std::exp(-kFine_s / lag_s);
       const double end = 0.5 * (force + next) / kAlpha;
       u = end + (u - end) * std::exp(-kAlpha * kFine_s / kMass);

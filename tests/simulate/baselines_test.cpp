@@ -7,6 +7,7 @@
 #include "awmr/core/units.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/simulate/metrics.h"
+#include "simulate/disturbances.h"
 #include "simulate/paper_plant.h"
 
 namespace awmr::testing {
@@ -36,15 +37,10 @@ Scenario line_scenario(std::vector<Position<double>> points_m, AnyLineLaw law, d
   return s;
 }
 
-awmr::Run run_of(const Scenario& scenario, YawMode mode, const Vehicle& vehicle = paper_vehicle()) {
+awmr::Run paper_run(const Scenario& scenario, YawMode mode,
+                    const Vehicle& vehicle = paper_vehicle()) {
   const Plant<double> plant = paper_plant();
   return simulate(plant, make_controller(plant, vehicle, kPaperGains), scenario, mode, {});
-}
-
-DisturbanceTerm constant(double value) {
-  DisturbanceTerm term;
-  term.value = value;
-  return term;
 }
 
 double overshoot_rad(const awmr::Run& run, double psi_rad) {
@@ -60,9 +56,10 @@ TEST(LqiInTheLoop, LeavesNoHeadingErrorUnderAConstantYawMoment) {
   s.disturbance.yaw = {constant(0.01)};
   for (const YawMode mode : kYawModes) {
     s.control.lqi.reset();
-    EXPECT_GT(std::abs(run_of(s, mode).rows.back().state.psi_rad), radians(2.0)) << name_of(mode);
+    EXPECT_GT(std::abs(paper_run(s, mode).rows.back().state.psi_rad), radians(2.0))
+        << name_of(mode);
     s.control.lqi = kWeights;
-    EXPECT_LT(std::abs(run_of(s, mode).rows.back().state.psi_rad), 1e-6) << name_of(mode);
+    EXPECT_LT(std::abs(paper_run(s, mode).rows.back().state.psi_rad), 1e-6) << name_of(mode);
   }
 }
 
@@ -77,8 +74,8 @@ TEST(LqiInTheLoop, DoesNotWindUpInALargeTurnAtTheLimitsOfTheForces) {
   s.initial.u_mps = 0.2;
   Vehicle weak = paper_vehicle();
   weak.wheel_force = {-0.2, 0.2};
-  const awmr::Run free = run_of(s, YawMode::kDifferential);
-  const awmr::Run limited = run_of(s, YawMode::kDifferential, weak);
+  const awmr::Run free = paper_run(s, YawMode::kDifferential);
+  const awmr::Run limited = paper_run(s, YawMode::kDifferential, weak);
   EXPECT_NEAR(limited.rows.back().state.psi_rad, psi_rad, radians(0.1));
   EXPECT_LT(overshoot_rad(limited, psi_rad), overshoot_rad(free, psi_rad) + radians(1.0));
 }
@@ -92,7 +89,7 @@ Scenario on_a_side_slope(const AnyLineLaw& law) {
 }
 
 double last_cross_track_m(const Scenario& scenario, YawMode mode) {
-  const awmr::Run run = run_of(scenario, mode);
+  const awmr::Run run = paper_run(scenario, mode);
   return run.rows[run.rows.size() - 2].path.cross_track_m;
 }
 
@@ -112,7 +109,7 @@ TEST(PurePursuitInTheLoop, ReachesALineFromTheSide) {
   for (const YawMode mode : kYawModes) {
     const Scenario s =
         line_scenario({{0.0, 0.0}, {80.0, 0.0}}, PurePursuit<double>{3.0, true}, 6.0);
-    const awmr::Run run = run_of(s, mode);
+    const awmr::Run run = paper_run(s, mode);
     EXPECT_EQ(run.end, RunEnd::kFinished);
     EXPECT_NEAR(run.rows[run.rows.size() - 2].path.cross_track_m, 0.0, 1e-3) << name_of(mode);
   }
@@ -125,7 +122,7 @@ TEST(StanleyInTheLoop, ApproachesTheLineInTheSameTimeAtAnySpeed) {
     s.speed_mps = s.initial.u_mps = speed_mps;
     s.duration_s = std::log(10.0) / 0.2;
     for (const YawMode mode : kYawModes) {
-      EXPECT_NEAR(run_of(s, mode).rows.back().path.cross_track_m, 0.03, 0.01) << name_of(mode);
+      EXPECT_NEAR(paper_run(s, mode).rows.back().path.cross_track_m, 0.03, 0.01) << name_of(mode);
     }
   }
 }
@@ -137,7 +134,7 @@ TEST(PurePursuitInTheLoop, RoundsACornerOnItsInside) {
   const Scenario s =
       line_scenario({{0.0, 0.0}, {30.0, 0.0}, {30.0, 40.0}}, PurePursuit<double>{4.0, true});
   for (const YawMode mode : {YawMode::kDifferential, YawMode::kCombined}) {
-    const awmr::Run run = run_of(s, mode);
+    const awmr::Run run = paper_run(s, mode);
     EXPECT_EQ(run.end, RunEnd::kFinished);
     for (const RunRow& row : run.rows) {
       EXPECT_LT(std::abs(row.path.cross_track_m), 2.0) << name_of(mode) << row.t_s;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "awmr/simulate/physics.h"
+#include "simulate/disturbances.h"
 #include "simulate/paper_plant.h"
 #include "support/any_robot.h"
 
@@ -14,13 +15,6 @@ namespace awmr::testing {
 namespace {
 
 using ::testing::HasSubstr;
-
-DisturbanceTerm constant(double value, double from_s = 0.0) {
-  DisturbanceTerm term;
-  term.value = value;
-  term.window.from_s = from_s;
-  return term;
-}
 
 Guidance any_guidance(double beyond) {
   switch (*rc::gen::inRange(0, 6)) {

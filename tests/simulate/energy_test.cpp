@@ -7,16 +7,14 @@
 #include "awmr/model/rest.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/physics.h"
+#include "simulate/energy.h"
 #include "simulate/paper_plant.h"
+#include "support/any_robot.h"
 
 namespace awmr::testing {
 namespace {
 
-double between(double lo, double hi) {
-  return lo + (hi - lo) * *rc::gen::inRange(0, 1000001) / 1e6;
-}
-
-Plant<double> any_plant() {
+Plant<double> plant_near_the_papers() {
   Plant<double> plant = paper_plant();
   plant.surge = {between(0.5, 3.0), between(0.5, 1.5)};
   plant.yaw = {between(0.1, 0.6), between(0.5, 1.5)};
@@ -49,11 +47,6 @@ Scenario any_open_loop() {
   return s;
 }
 
-double kinetic(const Plant<double>& p, const State<double>& s) {
-  return 0.5 * p.mass_norm * (s.u_mps * s.u_mps + s.v_mps * s.v_mps) +
-         0.5 * p.inertia_norm * s.r_radps * s.r_radps;
-}
-
 /// Input power minus resistance: u X + v Y + r N - u g1 - v g2 - r g3. The terms m' r v u and -m' r
 /// u v of surge and sway cancel.
 double net_power(const Plant<double>& p, const State<double>& s, const RunRow& row) {
@@ -67,7 +60,7 @@ double net_power(const Plant<double>& p, const State<double>& s, const RunRow& r
 }
 
 RC_GTEST_PROP(Energy, WorkDoneIsKineticEnergyPlusDissipation, ()) {
-  const Plant<double> plant = any_plant();
+  const Plant<double> plant = plant_near_the_papers();
   const Scenario scenario = any_open_loop();
   constexpr double kStep_s = 1e-3;
   const auto controller = make_controller(plant, paper_vehicle(), {});
@@ -92,7 +85,7 @@ RC_GTEST_PROP(Energy, WorkDoneIsKineticEnergyPlusDissipation, ()) {
 /// Scenario with a wheel fault that has no effect, which makes the simulator use the four-wheel
 /// form.
 RC_GTEST_PROP(FourWheels, AgreeWithTheReducedForm, ()) {
-  const Plant<double> plant = any_plant();
+  const Plant<double> plant = plant_near_the_papers();
   const Scenario reduced = any_open_loop();
   Scenario four = reduced;
   four.faults = {{.wheels = {Wheel::kFrontLeft}, .window = {}, .share = 1.0}};

@@ -9,7 +9,9 @@
 #include "awmr/model/paper_gains.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/physics.h"
+#include "simulate/energy.h"
 #include "simulate/paper_plant.h"
+#include "support/any_robot.h"
 
 namespace awmr::testing {
 namespace {
@@ -65,11 +67,6 @@ TEST(FourWheelRuns, StiffTyresTurnAsTheWheelsPoint) {
   EXPECT_NEAR(last.state.r_radps, expected, 0.03 * expected);
 }
 
-double kinetic(const Plant<double>& p, const State<double>& s) {
-  return 0.5 * p.mass_norm * (s.u_mps * s.u_mps + s.v_mps * s.v_mps) +
-         0.5 * p.inertia_norm * s.r_radps * s.r_radps;
-}
-
 /// Power of the wheels along their rolling direction minus tyre losses, over F_max.
 double net_power(const FourWheels<double>& vehicle, const RunRow& now, const RunRow& commanded) {
   const Plant<double>& p = vehicle.body;
@@ -78,10 +75,6 @@ double net_power(const FourWheels<double>& vehicle, const RunRow& now, const Run
   const WheelSpeeds<double> w = wheel_speeds(p.front_axle_m, p.half_track_m, now.state);
   return x.front_left * w.front_left + x.front_right * w.front_right + x.rear_left * w.rear_left +
          x.rear_right * w.rear_right - tyre_power_mps(vehicle, now.state, force);
-}
-
-double between(double lo, double hi) {
-  return lo + (hi - lo) * *rc::gen::inRange(0, 1000001) / 1e6;
 }
 
 RC_GTEST_PROP(FourWheelRuns, WorkDoneIsKineticEnergyPlusWhatTheTyresTake, ()) {

@@ -132,9 +132,9 @@ TEST(Scrub, IsDrawnWithItsErrorAndLeavesOtherDrawsAsTheyAre) {
   const auto plain = PlantSampler::make(uncertain_model());
   const auto sampler = PlantSampler::make(scrubbing_model(0.01));
   ASSERT_TRUE(plain && sampler);
-  constexpr int kDraws = 2000;
+  constexpr int kSamples = 2000;
   double sum = 0.0, squares = 0.0;
-  for (int i = 1; i <= kDraws; ++i) {
+  for (int i = 1; i <= kSamples; ++i) {
     const auto drawn = sampler->draw(5, i);
     ASSERT_TRUE(drawn);
     EXPECT_EQ(drawn->yaw.alpha, plain->draw(5, i)->yaw.alpha);
@@ -143,9 +143,9 @@ TEST(Scrub, IsDrawnWithItsErrorAndLeavesOtherDrawsAsTheyAre) {
   }
   // The standard error of the mean of 2,000 draws is 0.002/sqrt(2000) = 4.5e-5, that of their
   // standard deviation 0.002/sqrt(4000) = 3.2e-5; 5 standard errors are allowed.
-  const double mean = sum / kDraws;
+  const double mean = sum / kSamples;
   EXPECT_NEAR(mean, 0.01, 2.3e-4);
-  EXPECT_NEAR(std::sqrt(squares / kDraws - mean * mean), 0.002, 1.6e-4);
+  EXPECT_NEAR(std::sqrt(squares / kSamples - mean * mean), 0.002, 1.6e-4);
   const auto evenly = sampler->draw_evenly(5, 16);
   const auto plainly = plain->draw_evenly(5, 16);
   ASSERT_TRUE(evenly && plainly);

@@ -6,6 +6,7 @@
 #include "awmr/core/units.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/simulate/simulate.h"
+#include "simulate/disturbances.h"
 #include "simulate/paper_model_ci.h"
 
 namespace awmr::testing {
@@ -37,12 +38,6 @@ WaypointPath through(std::vector<Position<double>> points_m) {
   path.points_m = std::move(points_m);
   path.acceptance_m = 0.5;
   return path;
-}
-
-DisturbanceTerm constant(double value) {
-  DisturbanceTerm term;
-  term.value = value;
-  return term;
 }
 
 /// Straight motion with different laws and disturbances.

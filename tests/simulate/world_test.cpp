@@ -8,6 +8,7 @@
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/sensing.h"
+#include "simulate/disturbances.h"
 #include "simulate/paper_plant.h"
 #include "support/paper_vehicle.h"
 
@@ -31,13 +32,6 @@ awmr::Run run_of(const Scenario& scenario, YawMode mode = YawMode::kCombined,
   options.sample = sample;
   return simulate(plant, make_controller(plant, paper_vehicle(), kPaperGains), scenario, mode,
                   options);
-}
-
-DisturbanceTerm constant(double value, double from_s = 0.0) {
-  DisturbanceTerm term;
-  term.value = value;
-  term.window.from_s = from_s;
-  return term;
 }
 
 TEST(Disturbances, AConstantYawMomentLeavesTheLawsSteadyError) {
