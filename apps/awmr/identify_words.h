@@ -1,4 +1,5 @@
-/// Command-line options of a fit, shared by `identify` and `live`.
+/// Command-line options of a fit, shared by `identify` and `live`; `validate` shares
+/// add_end_options().
 #pragma once
 
 #include <string>
@@ -22,8 +23,10 @@ struct IdentifyWords {
   std::vector<std::string> excluded;
 };
 
-/// Parses the options that are text. Errors: a malformed column mapping or span of time; an unknown
-/// parameter or family.
+/// Parses the options that are text, and checks that `--until` is after `--from`. Errors: a
+/// malformed column mapping or `--exclude` span; a file of columns that cannot be read; `--until`
+/// not after `--from`; an unknown parameter; a family that is unknown, given twice, or not possible
+/// for its resistance.
 Result<IdentifyCommand> command_of(const IdentifyWords& words);
 
 /// Adds `--vehicle`, `--surge`, `--coastdown` and `--turning`.

@@ -79,7 +79,7 @@ inline Result<Tyres<double>> tyres_of(const PlantChoice& choice, std::vector<Fin
        fmt::format("the four-wheel plant has fitted tyres (friction {:.3g}, {:.3g} per rad); on "
                    "held-out parts of their logs {}",
                    fit.tyres.friction, fit.tyres.cornering_per_rad,
-                   fit.better ? fmt::format("the {} plant predicts better: rely on its verdict",
+                   fit.better ? fmt::format("the {} plant predicts better: rely on results of it",
                                             name_in(kPlantKindNames, *fit.better))
                               : "neither plant predicts better")});
   return fit.tyres;

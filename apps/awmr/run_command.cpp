@@ -244,7 +244,7 @@ void add_run(CLI::App& app, Session& session) {
   add_file(*sub, "PROJECT", command->project, "project.json")->required();
   add_output_directory(*sub, command->output, "Directory for all results");
   sub->add_flag("--figures", command->figures,
-                "Also write the main figures to DIR/figures: one CSV per figure, and plot.py, "
+                "Also write all figures to DIR/figures: one CSV per figure, and plot.py, "
                 "which draws them as SVG and PDF by matplotlib");
 }
 

@@ -123,7 +123,8 @@ void add_suggest(CLI::App& app, Session& session) {
              "Yaw-control mode of the scenario "
              "(default combined)");
   sub->add_option("--repeats", command.repeats,
-                  "Number of runs of each suggested trial (default 3)")
+                  "Number of runs of each suggested surge, turning or coast-down trial (default "
+                  "3); a log is driven once")
       ->check(within(1, 1000));
   sub->add_option("--most", command.most,
                   "Number of trials on the sheet (default 8; the file has "

@@ -3,7 +3,7 @@
 //   and the CRC (low byte first)
 // The chip answers each request of the host once, with the same type and sequence number. If the
 // host repeats a request because the answer was lost, the chip repeats the answer but does not
-// execute the request again. Damaged frames are not answered: the host repeats the request after a
+// execute the request again, except kHello. Damaged frames are not answered: the host repeats the request after a
 // silence.
 #pragma once
 
@@ -20,7 +20,9 @@ constexpr uint8_t kMaxPayload = 140;
 constexpr uint8_t kMaxFrame = kHeadBytes + kMaxPayload + 2;  // bytes after the start byte
 
 // Requests and their payloads -> payloads of the answers, which have the same type.
-// Start: nothing -> awmr_init()'s fault, AWMR_PARAMETERS_CRC32 xor kPilMission.
+// Hello: starts the controller anew. nothing -> awmr_init()'s fault (8 bit), AWMR_PARAMETERS_CRC32
+// xor kPilMission (32 bit), by which the host detects firmware made for other inputs. kPilMission is
+// the checksum of the generated mission.h, 0 if the mission adds nothing.
 constexpr uint8_t kHello = 'H';
 // Follow points: acceptance_m, points as x_m, y_m -> nothing.
 constexpr uint8_t kFollow = 'F';

@@ -21,7 +21,8 @@ std::string option_text(std::string_view name);
 /// Replaces each marked name by `prefix` and the name. With the prefix "--", '_' becomes '-'.
 std::string spell_options(std::string_view message, std::string_view prefix);
 
-/// Removes the marks and keeps the names.
+/// Removes the marks of option_text() from a message; the option names stay, spelt as in
+/// model.json.
 std::string plain_text(std::string_view message);
 
 /// The faults to show to a user. If more than three faults of a file have the same cause, only the

@@ -18,8 +18,8 @@ struct HeadingGains {
   /// is proportional to S. Larger: less chattering, a softer response.
   T epsilon;
   /// w0, rad/s, >= 0.02; used only with Coulomb friction in yaw. At yaw rates below w0, the
-  /// friction is fed forward in proportion to the rate (fed_forward()). Larger: less heading noise
-  /// in the command, and a larger heading error at rest.
+  /// resistance is fed forward as g3(w0) sat((psi_d_dot + lambda e)/w0) (fed_forward()). Larger:
+  /// less heading noise in the command, and a larger heading error at rest.
   T friction_width_radps = feed_forward_rest_speed<T>();
 
   /// T1, s: on the surface S = 0 the error falls as exp(-t/T1).

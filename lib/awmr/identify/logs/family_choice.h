@@ -65,7 +65,8 @@ struct BestFamily {
 std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference);
 
-/// Smallest number of other families that best_family() fits, unless it reaches a limit.
+/// Number of other families that best_family() fits at least once each; close losers may be fitted
+/// again. It fits fewer if the limit of effort or time is reached (FamilyContest).
 std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
                             const FamilyContest& contest);
 

@@ -275,9 +275,9 @@ ScrubPlan scrub_plan(const Model& model) {
   const std::optional<double> fastest_degps = measured_yaw_rate_degps(model);
   if (!yaw || !surge || !fastest_degps) {
     return {{},
-            "the forces of differential turns can be suggested only with the surge and yaw "
-            "resistance and the highest yaw rate; record turning trials, or set "
-            "yaw_rate_max_degps in the vehicle file"};
+            "the forces of differential turns can be suggested only with the surge resistance "
+            "(record surge trials or a log), the yaw resistance (turning trials or a log) and the "
+            "highest yaw rate (of these, or yaw_rate_max_degps in the vehicle file)"};
   }
   const std::optional<double> fastest_mps = fastest_surge_mps(model);
   const double straight = fastest_mps ? surge->surge(0.5 * *fastest_mps) / vehicle.driven_wheels()
@@ -331,11 +331,11 @@ std::vector<std::string> assumptions_of(const Model& model, const SuggestOptions
                       "model's trials, else 0.05)",
                       relative_scatter(model, TrialKind::kSurge),
                       relative_scatter(model, TrialKind::kTurning)),
-          fmt::format("sensor noise of logs and curves {:g} m/s, {:.2g} rad/s, {:.2g} rad at 100 "
-                      "Hz; position {:g} m at {:g} Hz",
-                      sensors.speed_mps, sensors.yaw_rate_radps, sensors.heading_rad,
-                      sensors.position_m, sensors.position_rate_hz),
-          fmt::format("{} runs of each trial", options.repeats)};
+          fmt::format("standard deviation of the sensor noise in logs and coast-down curves {:g} "
+                      "m/s, {:.2g} rad/s, {:.2g} rad at 100 Hz; positions are not used",
+                      sensors.speed_mps, sensors.yaw_rate_radps, sensors.heading_rad),
+          fmt::format("{} runs of each surge, turning or coast-down trial; a log is driven once",
+                      options.repeats)};
 }
 
 }  // namespace awmr
