@@ -53,8 +53,14 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
       const bool any_servo = std::ranges::any_of(
           logs, [](const DrivingLog& log) { return log.steering_command_rad.has_value(); });
       if (!any_servo) return "the logs contain the measured steering angle, not its command";
-      return std::ranges::any_of(logs, has_steering_changes) ? ""
-                                                             : "the steering command never changes";
+      if (!std::ranges::any_of(logs, has_steering_changes)) {
+        return "the steering command never changes";
+      }
+      return any_has(logs, {LogChannel::kSteering, LogChannel::kYawRate, LogChannel::kHeading,
+                            LogChannel::kX, LogChannel::kY})
+                 ? ""
+                 : "no channel shows the vehicle turn or its steering angle (yaw_rate_radps, "
+                   "heading_deg, a position or steering_deg)";
     }
     case ParameterId::kSurgeAlpha:
     case ParameterId::kSurgeBeta:
