@@ -349,6 +349,19 @@ TEST(Log, RefusesTheServoLagWithoutASteeringCommand) {
   EXPECT_TRUE(refused(*result, ParameterId::kSteeringTimeConstant));
 }
 
+TEST(Log, RefusesTheServoLagIfOnlyTheSpeedIsMeasured) {
+  TrialData data;
+  data.logs = {drive(kTruths[1], 23, {.duration_s = 8.0})};
+  for (const LogChannel channel :
+       {LogChannel::kX, LogChannel::kY, LogChannel::kHeading, LogChannel::kYawRate,
+        LogChannel::kSway, LogChannel::kSteering}) {
+    data.logs[0][channel].reset();
+  }
+  const auto result = identify(robot(), data, power_law(), {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(refused(*result, ParameterId::kSteeringTimeConstant));
+}
+
 TEST(Log, OfSkidTurnsWithASteeringColumnShowsTheInertia) {
   const Truth& t = kTruths[1];
   const std::map<LogChannel, double> noise{{LogChannel::kX, 0.02},
