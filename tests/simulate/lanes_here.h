@@ -12,7 +12,6 @@
 #else
 #error "lanes need AVX2 or AVX-512"
 #endif
-#define AWMR_LANES_REGISTERS 2
 
 #include "awmr/simulate/lanes/lane_math.h"
 

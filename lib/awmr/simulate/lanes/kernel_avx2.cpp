@@ -1,4 +1,3 @@
 #define AWMR_LANES avx2
 #define AWMR_LANES_ARCH fma3<xsimd::avx2>
-#define AWMR_LANES_REGISTERS 1
 #include "awmr/simulate/lanes/kernel.inc"

@@ -62,17 +62,12 @@ struct Split {
 AWMR_LANE_INLINE Split split(const Lanes& x) {
   constexpr std::uint64_t kRootHalf = 0x3FE6A09E667F3BCDULL;
   constexpr std::uint64_t kOne = 0x3FF0000000000000ULL;
-  Split result;
-  for (int i = 0; i < kRegisters; ++i) {
-    const Bits bits = to_bits(x.part[i]);
-    // The biased exponent of x/sqrt(1/2).
-    const Bits biased = (bits + Bits(kOne - kRootHalf)) >> 52;
-    // An integer n < 2^52 in the mantissa of 2^52 gives 2^52 + n.
-    result.k.part[i] =
-        to_register(biased | Bits(0x4330000000000000ULL)) - Register(0x1p52 + 1023.0);
-    result.m.part[i] = to_register(bits - ((biased << 52) - Bits(kOne)));
-  }
-  return result;
+  const Bits bits = to_bits(x.value);
+  // The biased exponent of x/sqrt(1/2).
+  const Bits biased = (bits + Bits(kOne - kRootHalf)) >> 52;
+  // An integer n < 2^52 in the mantissa of 2^52 gives 2^52 + n.
+  const Register k = to_register(biased | Bits(0x4330000000000000ULL)) - Register(0x1p52 + 1023.0);
+  return {to_register(bits - ((biased << 52) - Bits(kOne))), k};
 }
 
 /// log2(x) for positive normal numbers x = m 2^k (see Split). With s = (m - 1)/(m + 1),
@@ -98,11 +93,7 @@ AWMR_LANE_INLINE Lanes exp2_of_normal(const Lanes& y) {
   const Lanes rounded = y + Lanes(kRounder);
   const Lanes fraction = y - (rounded - Lanes(kRounder));
   const Lanes p = polynomial(kSeries, fraction);
-  return by_register(
-      [](const Register& value, const Register& power) {
-        return to_register(to_bits(value) + (to_bits(power) << 52));
-      },
-      p, rounded);
+  return to_register(to_bits(p.value) + (to_bits(rounded.value) << 52));
 }
 
 /// x^y for x >= 2^-1022, the smallest normal number, else NaN. Results below 2^-1000 are returned
@@ -139,20 +130,11 @@ AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
   // Odd quadrants swap sine and cosine. To test this, the last bit of the quadrant is shifted to
   // where it makes the number 2.0. The second bit of the quadrant is the sign of the sine, that of
   // quadrant + 1 the sign of the cosine. To set the sign, this bit is shifted to the sign bit.
-  const LaneMask swapped = by_register<LaneMask>(
-      [](const Register& whole) {
-        const Bits odd = (to_bits(whole) & Bits(std::uint64_t{1})) << 62;
-        return to_register(odd) > Register(1.0);
-      },
-      rounded);
-  const auto with_sign = [&rounded](const Lanes& value, std::uint64_t quadrants_on) {
-    return by_register(
-        [quadrants_on](const Register& one, const Register& whole) {
-          const Bits at = to_bits(whole) + Bits(quadrants_on);
-          const Bits sign = (at & Bits(std::uint64_t{2})) << 62;
-          return to_register(to_bits(one) ^ sign);
-        },
-        value, rounded);
+  const Bits whole = to_bits(rounded.value);
+  const LaneMask swapped = to_register((whole & Bits(std::uint64_t{1})) << 62) > Register(1.0);
+  const auto with_sign = [&whole](const Lanes& value, std::uint64_t quadrants_on) -> Lanes {
+    const Bits sign = ((whole + Bits(quadrants_on)) & Bits(std::uint64_t{2})) << 62;
+    return to_register(to_bits(value.value) ^ sign);
   };
   return {with_sign(select(swapped, c, s), 0), with_sign(select(swapped, s, c), 1)};
 }

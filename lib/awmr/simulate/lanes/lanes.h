@@ -24,47 +24,26 @@ namespace AWMR_LANES {
 using Register = xsimd::batch<double, xsimd::AWMR_LANES_ARCH>;
 using RegisterMask = xsimd::batch_bool<double, xsimd::AWMR_LANES_ARCH>;
 
-/// Vector registers per `Lanes`. With two, the processor computes in one register while it waits
-/// for the result in the other; this needs a processor with 32 vector registers.
-constexpr int kRegisters = AWMR_LANES_REGISTERS;
-
 /// One bool per lane: the result of comparing two `Lanes`.
 struct LaneMask {
-  RegisterMask part[kRegisters];
+  RegisterMask mask;
   LaneMask() = default;
-  AWMR_LANE_INLINE explicit LaneMask(bool everywhere) {
-    for (RegisterMask& one : part) one = Register(everywhere ? 1.0 : 0.0) > Register(0.0);
-  }
+  AWMR_LANE_INLINE LaneMask(const RegisterMask& of) : mask(of) {}
+  AWMR_LANE_INLINE explicit LaneMask(bool everywhere)
+      : mask(Register(everywhere ? 1.0 : 0.0) > Register(0.0)) {}
 };
 
 /// One double per lane. Converts from double, so that templates can write T(1.0).
 struct Lanes {
-  Register part[kRegisters];
+  Register value;
   Lanes() = default;
-  AWMR_LANE_INLINE Lanes(double everywhere) {
-    for (Register& one : part) one = Register(everywhere);
-  }
+  AWMR_LANE_INLINE Lanes(const Register& of) : value(of) {}
+  AWMR_LANE_INLINE Lanes(double everywhere) : value(everywhere) {}
 
-  static constexpr int kWidth = static_cast<int>(Register::size);
-  static constexpr int kCount = kRegisters * kWidth;
-  static AWMR_LANE_INLINE Lanes load(const double* from) {
-    Lanes lanes;
-    for (int i = 0; i < kRegisters; ++i)
-      lanes.part[i] = Register::load_unaligned(from + i * kWidth);
-    return lanes;
-  }
-  AWMR_LANE_INLINE void store(double* to) const {
-    for (int i = 0; i < kRegisters; ++i) part[i].store_unaligned(to + i * kWidth);
-  }
+  static constexpr int kCount = static_cast<int>(Register::size);
+  static AWMR_LANE_INLINE Lanes load(const double* from) { return Register::load_unaligned(from); }
+  AWMR_LANE_INLINE void store(double* to) const { value.store_unaligned(to); }
 };
-
-/// Calls f with the i-th register of each operand, for each i.
-template <class Result = Lanes, class F, class... Operands>
-AWMR_LANE_INLINE Result by_register(const F& f, const Operands&... operands) {
-  Result result;
-  for (int i = 0; i < kRegisters; ++i) result.part[i] = f(operands.part[i]...);
-  return result;
-}
 
 }  // namespace AWMR_LANES
 }  // namespace lanes
@@ -78,47 +57,32 @@ struct MaskOf<lanes::AWMR_LANES::Lanes> {
 namespace lanes {
 namespace AWMR_LANES {
 
-#define AWMR_LANES_OPERATOR(Result, Operand, op, part_op)                                       \
-  AWMR_LANE_INLINE Result operator op(const Operand& a, const Operand& b) {                     \
-    return by_register<Result>([](const auto& x, const auto& y) { return x part_op y; }, a, b); \
-  }
-AWMR_LANES_OPERATOR(Lanes, Lanes, +, +)
-AWMR_LANES_OPERATOR(Lanes, Lanes, -, -)
-AWMR_LANES_OPERATOR(Lanes, Lanes, *, *)
-AWMR_LANES_OPERATOR(Lanes, Lanes, /, /)
-AWMR_LANES_OPERATOR(LaneMask, Lanes, <, <)
-AWMR_LANES_OPERATOR(LaneMask, Lanes, <=, <=)
-AWMR_LANES_OPERATOR(LaneMask, Lanes, >, >)
-AWMR_LANES_OPERATOR(LaneMask, Lanes, >=, >=)
-AWMR_LANES_OPERATOR(LaneMask, LaneMask, &&, &)
-AWMR_LANES_OPERATOR(LaneMask, LaneMask, ||, |)
-#undef AWMR_LANES_OPERATOR
+AWMR_LANE_INLINE Lanes operator+(const Lanes& a, const Lanes& b) { return a.value + b.value; }
+AWMR_LANE_INLINE Lanes operator-(const Lanes& a, const Lanes& b) { return a.value - b.value; }
+AWMR_LANE_INLINE Lanes operator*(const Lanes& a, const Lanes& b) { return a.value * b.value; }
+AWMR_LANE_INLINE Lanes operator/(const Lanes& a, const Lanes& b) { return a.value / b.value; }
+AWMR_LANE_INLINE LaneMask operator<(const Lanes& a, const Lanes& b) { return a.value < b.value; }
+AWMR_LANE_INLINE LaneMask operator<=(const Lanes& a, const Lanes& b) { return a.value <= b.value; }
+AWMR_LANE_INLINE LaneMask operator>(const Lanes& a, const Lanes& b) { return a.value > b.value; }
+AWMR_LANE_INLINE LaneMask operator>=(const Lanes& a, const Lanes& b) { return a.value >= b.value; }
+AWMR_LANE_INLINE LaneMask operator&&(const LaneMask& a, const LaneMask& b) {
+  return a.mask & b.mask;
+}
+AWMR_LANE_INLINE LaneMask operator||(const LaneMask& a, const LaneMask& b) {
+  return a.mask | b.mask;
+}
 
 /// Flips the sign bit. For AVX-512, xsimd 8 would compute 0 - x, which is 0 and not -0 for x = 0.
-AWMR_LANE_INLINE Lanes operator-(const Lanes& a) {
-  return by_register([](const Register& x) { return x ^ Register(-0.0); }, a);
-}
+AWMR_LANE_INLINE Lanes operator-(const Lanes& a) { return a.value ^ Register(-0.0); }
 AWMR_LANE_INLINE Lanes& operator+=(Lanes& a, const Lanes& b) { return a = a + b; }
 AWMR_LANE_INLINE Lanes& operator-=(Lanes& a, const Lanes& b) { return a = a - b; }
 
-AWMR_LANE_INLINE LaneMask operator!(const LaneMask& a) {
-  return by_register<LaneMask>([](const RegisterMask& x) { return !x; }, a);
-}
-AWMR_LANE_INLINE bool any(const LaneMask& a) {
-  RegisterMask joined = a.part[0];
-  for (int i = 1; i < kRegisters; ++i) joined = joined | a.part[i];
-  return xsimd::any(joined);
-}
-AWMR_LANE_INLINE bool all(const LaneMask& a) {
-  RegisterMask joined = a.part[0];
-  for (int i = 1; i < kRegisters; ++i) joined = joined & a.part[i];
-  return xsimd::all(joined);
-}
+AWMR_LANE_INLINE LaneMask operator!(const LaneMask& a) { return !a.mask; }
+AWMR_LANE_INLINE bool any(const LaneMask& a) { return xsimd::any(a.mask); }
+AWMR_LANE_INLINE bool all(const LaneMask& a) { return xsimd::all(a.mask); }
 
 AWMR_LANE_INLINE Lanes select(const LaneMask& m, const Lanes& a, const Lanes& b) {
-  return by_register([](const auto& mask, const Register& x,
-                        const Register& y) { return xsimd::select(mask, x, y); },
-                     m, a, b);
+  return xsimd::select(m.mask, a.value, b.value);
 }
 AWMR_LANE_INLINE LaneMask select(const LaneMask& m, const LaneMask& a, const LaneMask& b) {
   return (m && a) || (!m && b);
@@ -126,25 +90,17 @@ AWMR_LANE_INLINE LaneMask select(const LaneMask& m, const LaneMask& a, const Lan
 
 /// a b + c, rounded once. (For AVX-512, xsimd 8 rounds twice.)
 AWMR_LANE_INLINE Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
-  return by_register(
-      [](const Register& x, const Register& y, const Register& z) {
 #ifdef __AVX512F__
-        return Register(_mm512_fmadd_pd(x, y, z));
+  return Register(_mm512_fmadd_pd(a.value, b.value, c.value));
 #else
-        return xsimd::fma(x, y, z);
+  return xsimd::fma(a.value, b.value, c.value);
 #endif
-      },
-      a, b, c);
 }
-AWMR_LANE_INLINE Lanes abs(const Lanes& a) {
-  return by_register([](const Register& x) { return xsimd::abs(x); }, a);
-}
+AWMR_LANE_INLINE Lanes abs(const Lanes& a) { return xsimd::abs(a.value); }
 AWMR_LANE_INLINE Lanes larger(const Lanes& a, const Lanes& b) {
-  return by_register([](const Register& x, const Register& y) { return xsimd::max(y, x); }, a, b);
+  return xsimd::max(b.value, a.value);
 }
-AWMR_LANE_INLINE Lanes sqrt(const Lanes& a) {
-  return by_register([](const Register& x) { return xsimd::sqrt(x); }, a);
-}
+AWMR_LANE_INLINE Lanes sqrt(const Lanes& a) { return xsimd::sqrt(a.value); }
 
 }  // namespace AWMR_LANES
 }  // namespace lanes
