@@ -24,23 +24,41 @@ ErrorModel error_of(const IdentifyOptions& options) {
   return options.noise.value_or(ErrorModel::kTime);
 }
 
-/// Residual standard deviation of the fit of the model's surge or yaw resistance under this error
-/// model, in the unit of the error. Errors (input): the model has no such fit.
-Result<double> scatter(const Model& model, FitSubject subject, ErrorModel error) {
+/// Error model with this name in /estimates; empty for other names.
+std::optional<ErrorModel> error_model_named(std::string_view name) {
+  for (const ErrorModel model :
+       {ErrorModel::kForce, ErrorModel::kSpeed, ErrorModel::kTime, ErrorModel::kLogForce}) {
+    if (name_of(model) == name) return model;
+  }
+  return std::nullopt;
+}
+
+/// Error of the simulated rows: the scatter of the fit of the model's surge or yaw resistance, under
+/// the requested error model. Without a request, under that of the estimator under test, or if the
+/// model has no such fit, under that of the first fit of the model's family. Errors (input): the
+/// model has no fit to take the scatter from.
+Result<RowError> row_error(const Model& model, FitSubject subject, const RecoverOptions& options) {
   const bool is_surge = subject == FitSubject::kSurge;
   const std::string_view family = name_of(is_surge ? model.surge_family : model.yaw_family);
+  const ErrorModel preferred = options.error.value_or(error_of(options.identify));
+  std::optional<RowError> other;
   for (const EstimatorReport& report : model.record.reports) {
     const std::string_view fitted = report.family.empty() ? name_of(Family::kPower) : report.family;
-    if (report.subject == subject && report.noise == name_of(error) && fitted == family &&
-        std::isfinite(report.residual_std)) {
-      return report.residual_std;
-    }
+    const std::optional<ErrorModel> error = error_model_named(report.noise);
+    if (report.subject != subject || fitted != family || !error) continue;
+    if (!std::isfinite(report.residual_std)) continue;
+    if (*error == preferred) return RowError{preferred, report.residual_std};
+    if (!other) other = RowError{*error, report.residual_std};
   }
+  if (other && !options.error) return *other;
   return input_error(
       ErrorCode::kMissing, model.file + ":/estimates",
-      fmt::format("there is no fit of the {} resistance with errors on {}, whose residuals the "
-                  "simulated trials need; choose another error with {}",
-                  is_surge ? "surge" : "yaw", name_of(error), option_text("error")));
+      fmt::format("there is no fit of the {} resistance{}, whose residuals the simulated trials "
+                  "need; {}",
+                  is_surge ? "surge" : "yaw",
+                  options.error ? fmt::format(" with errors on {}", name_of(preferred)) : "",
+                  other ? "choose another error with " + option_text("error")
+                        : "identify from tables, or use " + option_text("plan log")));
 }
 
 /// Left and right wheel forces that give a yaw moment, m, without steering. The forces are
@@ -93,20 +111,17 @@ double top_speed_mps(const Model& model) {
   return top;
 }
 
-/// Errors (input): as scatter(), for tables with rows to simulate.
+/// Errors of the rows of the tables that are simulated. Errors (input): as row_error().
 Result<RowNoise> noise_of(const Model& model, const TablePlan& plan,
                           const RecoverOptions& options) {
   constexpr double kStopWatch_s = 0.02;
-  RowNoise noise{.error = options.error.value_or(error_of(options.identify)),
-                 .surge = 0.0,
-                 .turning = 0.0,
-                 .stop_time_s = kStopWatch_s};
+  RowNoise noise{.surge = {}, .turning = {}, .stop_time_s = kStopWatch_s};
   if (options.plan == RecoverPlan::kLog) return noise;
   if (!plan.surge_tau_speed.empty()) {
-    AWMR_ASSIGN_OR_RETURN(noise.surge, scatter(model, FitSubject::kSurge, noise.error));
+    AWMR_ASSIGN_OR_RETURN(noise.surge, row_error(model, FitSubject::kSurge, options));
   }
   if (!plan.turning_steering_rad.empty() || !plan.turning_sides.empty()) {
-    AWMR_ASSIGN_OR_RETURN(noise.turning, scatter(model, FitSubject::kYaw, noise.error));
+    AWMR_ASSIGN_OR_RETURN(noise.turning, row_error(model, FitSubject::kYaw, options));
   }
   return noise;
 }
@@ -246,8 +261,9 @@ std::string noise_in_words(const RowNoise& rows, const RecoverOptions& options) 
         s.speed_mps, s.yaw_rate_radps, s.heading_rad, s.position_m, s.position_rate_hz,
         s.correlation_s);
   }
-  return fmt::format("on {}: surge {:.3g}, turning {:.3g}; stop time {:g} s; curve {:g} m/s",
-                     name_of(rows.error), rows.surge, rows.turning, rows.stop_time_s, s.speed_mps);
+  return fmt::format("surge {:.3g} on {}, turning {:.3g} on {}; stop time {:g} s; curve {:g} m/s",
+                     rows.surge.deviation, name_of(rows.surge.model), rows.turning.deviation,
+                     name_of(rows.turning.model), rows.stop_time_s, s.speed_mps);
 }
 
 /// Checks the simulated log. Errors (input): too few or too many rows.

@@ -42,11 +42,10 @@ struct NoisyRow {
   double elapsed_s;
 };
 
-NoisyRow noisy(double force, double rate, double travel, ErrorModel error, double std,
-               Random& random) {
-  const double e = std * random.normal();
+NoisyRow noisy(double force, double rate, double travel, const RowError& error, Random& random) {
+  const double e = error.deviation * random.normal();
   NoisyRow row{force, rate, travel / rate};
-  switch (error) {
+  switch (error.model) {
     case ErrorModel::kLogForce:
       row.force = force * std::exp(e);
       break;
@@ -73,8 +72,7 @@ TrialSet<SurgeRow> surge_rows(const Plant<double>& plant, const TablePlan& plan,
   for (const double tau : plan.surge_tau_speed) {
     const auto speed = steady_rate(plant.surge, tau - driven_wheels(plant) * plant.wheel_dead_zone);
     if (!speed) continue;
-    const NoisyRow row =
-        noisy(tau, *speed, plan.surge_distance_m, noise.error, noise.surge, random);
+    const NoisyRow row = noisy(tau, *speed, plan.surge_distance_m, noise.surge, random);
     set.rows.push_back({line++, row.force, row.rate, plan.surge_distance_m, row.elapsed_s});
   }
   return set;
@@ -91,8 +89,7 @@ TrialSet<TurningRow> turning_rows(const Plant<double>& plant, const TablePlan& p
     const double tau = steering_moment_m(plant.front_axle_m, effective, angle);
     const auto rate = steady_rate(plant.yaw, tau);
     if (!rate) continue;
-    const NoisyRow row =
-        noisy(tau, *rate, 2.0 * std::numbers::pi, noise.error, noise.turning, random);
+    const NoisyRow row = noisy(tau, *rate, 2.0 * std::numbers::pi, noise.turning, random);
     set.rows.push_back({.line = line++,
                         .steering_rad = angle,
                         .wheel_force = plan.turning_wheel_force,
@@ -117,8 +114,7 @@ TrialSet<TurningRow> sides_turning_rows(const Plant<double>& plant, const TableP
     const double tau = differential_moment_m(plant.half_track_m, effective);
     const auto rate = steady_rate(plant.yaw, tau);
     if (!rate) continue;
-    const NoisyRow row =
-        noisy(tau, *rate, 2.0 * std::numbers::pi, noise.error, noise.turning, random);
+    const NoisyRow row = noisy(tau, *rate, 2.0 * std::numbers::pi, noise.turning, random);
     set.rows.push_back({.line = line++,
                         .tau_turn_m = row.force * commanded / effective,
                         .yaw_rate_radps = row.rate,

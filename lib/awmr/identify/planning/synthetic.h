@@ -30,12 +30,16 @@ struct TablePlan {
   std::vector<double> stop_from_mps;  ///< initial speeds of the coast-downs, > 0
 };
 
-/// Errors of the rows of tables. Standard deviations, all >= 0.
+/// Error of one kind of rows.
+struct RowError {
+  ErrorModel model = ErrorModel::kLogForce;  ///< quantity that has the error
+  double deviation = 0.0;  ///< standard deviation, >= 0, in the unit of the quantity: 1 (force of
+                           ///< surge rows), m (moment of turning rows), m/s, rad/s or s
+};
+/// Errors of the rows of tables.
 struct RowNoise {
-  ErrorModel error = ErrorModel::kLogForce;  ///< quantity that has the error
-  double surge = 0.0;        ///< of surge rows, in the unit of `error`: 1 (force), m/s or s
-  double turning = 0.0;      ///< of turning rows, in the unit of `error`: 1, m, rad/s or s
-  double stop_time_s = 0.0;  ///< error of the stop watch in coast-downs, whatever `error` is
+  RowError surge, turning;
+  double stop_time_s = 0.0;  ///< standard deviation of the stop watch in coast-downs, >= 0
 };
 
 /// Simulates the tables: rows at the steady speeds and yaw rates of the plant, with noise. Omits
