@@ -206,10 +206,10 @@ TEST_F(RecoverShards, DamagedTablesAreNamed) {
   const auto with = [&](const std::string& cell) {
     return table.substr(0, value) + cell + table.substr(table.find(',', value));
   };
-  expect(last, "has 2 runs, part 2 of 2 of 7 runs has 3");
+  expect(last, "has 2 runs, but part 2 of 2 (of 7 runs in all) needs 3");
   expect(table + table.substr(row, table.find('\n', row) + 1 - row),
-         "has 4 runs, part 2 of 2 of 7 runs has 3");
-  expect(table + table.substr(row), "has 6 runs, part 2 of 2 of 7 runs has 3");
+         "has 4 runs, but part 2 of 2 (of 7 runs in all) needs 3");
+  expect(table + table.substr(row), "has 6 runs, but part 2 of 2 (of 7 runs in all) needs 3");
   const auto first_run = [&](const std::string& run) {
     return table.substr(0, row) + run + table.substr(row + 1);
   };

@@ -78,7 +78,7 @@ TEST(JoinedLog, RowsBeforeEveryCommandIsKnownAreLeftOut) {
   const auto read = accepted(read_log, text);
   EXPECT_EQ(read.set.rows(), 40U);
   EXPECT_DOUBLE_EQ(read.set.t_s.front(), 2.0);
-  EXPECT_THAT(read.findings.front().message, HasSubstr("20 rows without any"));
+  EXPECT_THAT(read.findings.front().message, HasSubstr("20 rows without a value"));
 }
 
 TEST(JoinedLog, AStrayEmptyCellIsAFaultAsBefore) {
