@@ -38,7 +38,12 @@ void add_step(Steps& steps, const char* title, Outcome step) {
   steps.documents.emplace_back(step.written.front().stem().string(), std::move(step.document));
   add_written(total, step.written);
   total.summary += fmt::format("{}\n{}", title, step.brief);
-  total.findings.insert(total.findings.end(), step.findings.begin(), step.findings.end());
+  for (Finding& finding : step.findings) {
+    const bool is_known = std::ranges::any_of(total.findings, [&](const Finding& other) {
+      return other.code == finding.code && other.message == finding.message;
+    });
+    if (!is_known) total.findings.push_back(std::move(finding));
+  }
   total.refused = total.refused || step.refused;
 }
 

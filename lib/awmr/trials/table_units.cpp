@@ -122,6 +122,10 @@ Smaller unit_below(double speed_mps, double top_mps) {
   constexpr Smaller kUnits[] = {{1.0 / 3.6, "the speed looks like km/h"},
                                 {1e-2, "the speed looks like cm/s"},
                                 {1e-3, "the speed looks like mm/s"}};
+  constexpr double kMph = 0.44704;
+  if (speed_mps * kMph <= top_mps) {
+    return {kUnits[0].factor, "the speed looks like km/h, or like mph (factor 0.44704)"};
+  }
   for (const Smaller& unit : kUnits) {
     if (speed_mps * unit.factor <= top_mps) return unit;
   }
@@ -265,7 +269,7 @@ std::optional<WrongUnit> wrong_unit(const std::vector<CoastCurve>& curves,
   Interval deceleration_mps2{std::numeric_limits<double>::infinity(), 0.0};
   for (const CoastCurve& curve : curves) {
     const auto [least, most] = std::ranges::minmax(curve.speed_mps);
-    fastest_mps = std::max(fastest_mps, most);
+    fastest_mps = std::max(fastest_mps, curve.speed_mps.front());
     include((most - least) / (curve.t_s.back() - curve.t_s.front()), deceleration_mps2);
   }
   // The fit does not use curves whose speed does not fall.

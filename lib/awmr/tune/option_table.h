@@ -17,6 +17,9 @@ inline constexpr NumberRule kEvaluationDraws{.min = 0.0, .max = 100'000.0};
 inline constexpr NumberRule kShareAboveZero{.min = 0.0, .max = 1.0, .min_excluded = true};
 inline constexpr NumberRule kBetweenZeroAndOne{
     .min = 0.0, .max = 1.0, .min_excluded = true, .max_excluded = true};
+/// Damping ratios and the share of the yaw moment; a smaller limit would be none.
+inline constexpr NumberRule kLimitShare{.min = 1e-6, .max = 1.0};
+inline constexpr NumberRule kWeight{.min = 0.0, .max = 1e6};
 inline constexpr NumberRule kUpToAMillion{.min = 0.0, .max = 1e6, .min_excluded = true};
 
 template <class Options, class Field>
@@ -34,17 +37,17 @@ void search_options(Options& options, const Field& field) {
 template <class Limits, class Field>
 void limit_options(Limits& limits, const Field& field) {
   field("steering_rate_rms_degps", limits.steering_rate_rms_degps, kUpToAMillion);
-  field("damping", limits.damping, kShareAboveZero);
-  field("late_damping", limits.late_damping, kShareAboveZero);
-  field("delayed_damping", limits.delayed_damping, kShareAboveZero);
-  field("noise_share", limits.noise_share, kShareAboveZero);
+  field("damping", limits.damping, kLimitShare);
+  field("late_damping", limits.late_damping, kLimitShare);
+  field("delayed_damping", limits.delayed_damping, kLimitShare);
+  field("noise_share", limits.noise_share, kLimitShare);
 }
 
 /// Keys of /weights.
 template <class Weights, class Field>
 void weight_options(Weights& weights, const Field& field) {
   for (const ObjectiveTerm& term : kObjectiveTerms) {
-    field(term.name, weights.*term.weight, kNonNegative);
+    field(term.name, weights.*term.weight, kWeight);
   }
 }
 

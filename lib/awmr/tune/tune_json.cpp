@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-constexpr NumberRule kGoalLimit{.min = 0.0, .max = 1e9, .min_excluded = true};
+constexpr NumberRule kGoalLimit{.min = 1e-9, .max = 1e9};
 
 /// Adds the quantiles of one set of gains in one mode to `json`, at /MODE/GAINS.
 void put_quantiles(const EvaluatedGains& evaluated, Json& json) {

@@ -111,18 +111,24 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
   return findings;
 }
 
-/// `steering-delay`, if the steering reacts later than the forces, beyond the servo's lag;
+/// `steering-delay`, if the steering reacts later than the forces, beyond the servo's lag, or if
+/// its commands are stamped later;
 /// `steering-trim` and `force-imbalance` for constant errors of the commands.
 std::vector<Finding> steering_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& latency : found_terms(fit, FreeQuantity::Kind::kSteeringDelay)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "steering-delay",
-         fmt::format(
-             "the steering begins to move {:.3f} +- {:.3f} s after its command, in addition to the "
-             "servo's time constant. The fit compensates this; shorten the servo's frame or bus "
-             "cycle, or add the delay to latency_s of the sensors in the vehicle file",
-             latency.value, latency.error)});
+         latency.value > 0.0
+             ? fmt::format("the steering begins to move {:.3f} +- {:.3f} s after its command, in "
+                           "addition to the servo's time constant. The fit compensates this; "
+                           "shorten the servo's frame or bus cycle, or add the delay to latency_s "
+                           "of the sensors in the vehicle file",
+                           latency.value, latency.error)
+             : fmt::format("the steering moves {:.3f} +- {:.3f} s before its command relative to "
+                           "the forces: the time stamps of the steering command are late. The fit "
+                           "compensates this; log each command when it is sent",
+                           -latency.value, latency.error)});
   }
   // If the commands cannot separate trim and imbalance, only one of them is in the fit.
   for (const FoundTerm& trim : found_terms(fit, FreeQuantity::Kind::kSteeringTrim)) {

@@ -14,11 +14,13 @@
 namespace awmr {
 namespace {
 
+/// I'z/m' of real vehicles over that of a uniform box.
+constexpr Interval kUsual{0.3, 2.0};
+
 /// Names a unit of the speed that would explain I'z/m'. Empty if I'z/m' is not too large, or if the
 /// logs have positions, with which the speed was compared before. (A speed that reads k times the
 /// true speed makes m' 1/k of the true m', and I'z/m' k times the true ratio.)
 std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_over_box) {
-  constexpr Interval kUsual{0.3, 2.0};  // I'z/m' of real vehicles over that of a uniform box
   const bool is_compared = std::ranges::all_of(
       logs, [](const DrivingLog& log) { return log[LogChannel::kX] || !log[LogChannel::kSpeed]; });
   if (is_compared || inertia_over_box < kInertiaOverBox.hi) return "";
@@ -34,17 +36,51 @@ std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_
   return " (speed_mps may be a rate of rotation of the wheels: multiply it by their radius)";
 }
 
+/// Estimate of the log fit, or of other trials; null without a value.
+const Estimate* estimate_of(const Model& model, const LogStage& stage, ParameterId id) {
+  const auto found = std::ranges::find(stage.main, id, &LogStage::Main::id);
+  if (found != stage.main.end()) return &found->estimate;
+  return model[id].value ? &model[id] : nullptr;
+}
+
+double box_inertia_over_mass(const Vehicle& vehicle) {
+  return vehicle.inertia_kgm2() / vehicle.mass_kg;
+}
+
+/// Range of I'z/m' over that of a uniform box, from the 95 % intervals; without intervals, a factor
+/// of 2 around the value.
+Interval inertia_over_box(const Vehicle& vehicle, const Estimate& inertia, const Estimate& mass) {
+  const double box = box_inertia_over_mass(vehicle);
+  if (inertia.ci95 && mass.ci95) {
+    return {inertia.ci95->lo / mass.ci95->hi / box, inertia.ci95->hi / mass.ci95->lo / box};
+  }
+  const double times = *inertia.value / *mass.value / box;
+  return {0.5 * times, 2.0 * times};
+}
+
+/// Warns of an I'z/m' that is possible, but unusual: a unit or a size may be wrong.
+void note_unusual_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
+                          const Model& model, LogStage& stage) {
+  const Estimate* inertia = estimate_of(model, stage, ParameterId::kInertiaNorm);
+  const Estimate* mass = estimate_of(model, stage, ParameterId::kMassNorm);
+  if (inertia == nullptr || mass == nullptr) return;
+  const Interval range = inertia_over_box(vehicle, *inertia, *mass);
+  if (range.lo < kUsual.hi && range.hi > kUsual.lo) return;
+  stage.findings.push_back(
+      {logs.front().file, 0, Severity::kWarning, "inertia-mismatch",
+       fmt::format("the fitted I'z/m' is {:.3g} times Iz/m of the vehicle; usual are {:g} to {:g} "
+                   "times. Check the units of the speed and the yaw rate, and the size of the "
+                   "vehicle",
+                   *inertia->value / *mass->value / box_inertia_over_mass(vehicle), kUsual.lo,
+                   kUsual.hi)});
+}
+
 /// Reason why the fitted I'z is impossible or not determined; empty if it is plausible.
 std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                            const Model& model, const LogStage& stage) {
-  const auto estimate_of = [&](ParameterId id) -> const Estimate* {
-    const auto found = std::ranges::find(stage.main, id, &LogStage::Main::id);
-    if (found != stage.main.end()) return &found->estimate;
-    return model[id].value ? &model[id] : nullptr;
-  };
-  const Estimate* inertia = estimate_of(ParameterId::kInertiaNorm);
+  const Estimate* inertia = estimate_of(model, stage, ParameterId::kInertiaNorm);
   if (inertia == nullptr) return {};
-  const Estimate* mass = estimate_of(ParameterId::kMassNorm);
+  const Estimate* mass = estimate_of(model, stage, ParameterId::kMassNorm);
   if (mass == nullptr) {
     return stage.reasons.contains(ParameterId::kMassNorm) &&
                    std::ranges::none_of(logs, has_force_difference)
@@ -52,12 +88,9 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
                  "determined either"
                : "";
   }
-  if (!inertia->ci95 || !mass->ci95) return {};
-  const double box = vehicle.inertia_kgm2() / vehicle.mass_kg;
-  const double least = inertia->ci95->lo / mass->ci95->hi / box;
-  const double most = inertia->ci95->hi / mass->ci95->lo / box;
-  if (most > kInertiaOverBox.lo && least < kInertiaOverBox.hi) return {};
-  const double times = *inertia->value / *mass->value / box;
+  const Interval range = inertia_over_box(vehicle, *inertia, *mass);
+  if (range.hi > kInertiaOverBox.lo && range.lo < kInertiaOverBox.hi) return {};
+  const double times = *inertia->value / *mass->value / box_inertia_over_mass(vehicle);
   return fmt::format(
       "the fitted I'z/m' is {:.3g} times Iz/m of the vehicle, which no distribution of its mass "
       "can "
@@ -88,7 +121,7 @@ bool is_turned(const std::vector<DrivingLog>& logs) {
 void check_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, const Model& model,
                    LogStage& stage) {
   std::string why = why_no_inertia(vehicle, logs, model, stage);
-  if (why.empty()) return;
+  if (why.empty()) return note_unusual_inertia(vehicle, logs, model, stage);
   // If no command makes a yaw moment, the yaw motion contains no information about m'.
   const bool turned = is_turned(logs);
   if (!turned) why = "no command turns the vehicle";

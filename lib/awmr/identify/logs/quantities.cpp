@@ -16,7 +16,10 @@ Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& 
   constexpr double kLongest_s = 1.0;
   constexpr double kLargestTrim_rad = 0.35;
   constexpr double kLargestImbalance = 0.5;
-  if (quantity.kind == FreeQuantity::Kind::kDelay) return {-kLongest_s, kLongest_s};
+  if (quantity.kind == FreeQuantity::Kind::kDelay ||
+      quantity.kind == FreeQuantity::Kind::kSteeringDelay) {
+    return {-kLongest_s, kLongest_s};
+  }
   if (quantity.kind == FreeQuantity::Kind::kSteeringTrim) {
     return {-kLargestTrim_rad, kLargestTrim_rad};
   }

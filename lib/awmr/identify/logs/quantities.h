@@ -42,8 +42,7 @@ struct FreeQuantity {
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
   /// True for delays and lags that cannot be negative, so that 0 is an end of their range.
   bool may_be_zero() const {
-    return kind == Kind::kSteeringDelay || kind == Kind::kMotorLag || kind == Kind::kSensorDelay ||
-           kind == Kind::kSensorLag;
+    return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag;
   }
   std::string name() const;
   double value(double coordinate) const;
@@ -57,7 +56,7 @@ FreeQuantity free_parameter(ParameterId id);
 FreeQuantity input_delay();
 
 /// Additional delay of the steering command relative to the forces, s, e.g. by the period of the
-/// servo's pulses.
+/// servo's pulses; negative if the time stamps of the steering command are late.
 FreeQuantity steering_delay();
 
 /// Time constant of the motors, s.

@@ -18,9 +18,13 @@
 namespace awmr {
 namespace {
 
-/// Quantity that has the error by the assumption of the estimator under test.
-ErrorModel error_of(const IdentifyOptions& options) {
-  if (options.method != Method::kNonlinear) return ErrorModel::kLogForce;
+/// Quantity that has the error by the assumption of the estimator under test: of the log-linear
+/// one, the logarithm of the force; of the nonlinear one, which also fits every family other than
+/// the power law, the one that is requested.
+ErrorModel error_of(const IdentifyOptions& options, Family family) {
+  if (options.method != Method::kNonlinear && family == Family::kPower) {
+    return ErrorModel::kLogForce;
+  }
   return options.noise.value_or(ErrorModel::kTime);
 }
 
@@ -39,25 +43,38 @@ std::optional<ErrorModel> error_model_named(std::string_view name) {
 /// model has no fit to take the scatter from.
 Result<RowError> row_error(const Model& model, FitSubject subject, const RecoverOptions& options) {
   const bool is_surge = subject == FitSubject::kSurge;
-  const std::string_view family = name_of(is_surge ? model.surge_family : model.yaw_family);
-  const ErrorModel preferred = options.error.value_or(error_of(options.identify));
+  const Family family = is_surge ? model.surge_family : model.yaw_family;
+  const ErrorModel preferred = options.error.value_or(error_of(options.identify, family));
   std::optional<RowError> other;
+  bool has_scatter = true;
+  std::string available;
   for (const EstimatorReport& report : model.record.reports) {
     const std::string_view fitted = report.family.empty() ? name_of(Family::kPower) : report.family;
     const std::optional<ErrorModel> error = error_model_named(report.noise);
-    if (report.subject != subject || fitted != family || !error) continue;
-    if (!std::isfinite(report.residual_std)) continue;
+    if (report.subject != subject || fitted != name_of(family) || !error) continue;
+    has_scatter = std::isfinite(report.residual_std);
+    if (!has_scatter) continue;
     if (*error == preferred) return RowError{preferred, report.residual_std};
     if (!other) other = RowError{*error, report.residual_std};
+    available += fmt::format("{}{}", available.empty() ? "" : ", ",
+                             *error == ErrorModel::kLogForce ? "log-force" : name_of(*error));
   }
   if (other && !options.error) return *other;
+  const char* const resistance = is_surge ? "surge" : "yaw";
+  if (!has_scatter) {
+    return input_error(
+        ErrorCode::kTooFewData, model.file + ":/estimates",
+        fmt::format("the {} resistance was fitted to as many runs as it has parameters, so the "
+                    "scatter of the runs is unknown; record more runs, or use {}",
+                    resistance, option_text("plan log")));
+  }
   return input_error(
       ErrorCode::kMissing, model.file + ":/estimates",
       fmt::format("there is no fit of the {} resistance{}, whose residuals the simulated trials "
                   "need; {}",
-                  is_surge ? "surge" : "yaw",
+                  resistance,
                   options.error ? fmt::format(" with errors on {}", name_of(preferred)) : "",
-                  other ? "choose another error with " + option_text("error")
+                  other ? fmt::format("choose one of {} with {}", available, option_text("error"))
                         : "identify from tables, or use " + option_text("plan log")));
 }
 
