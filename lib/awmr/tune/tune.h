@@ -34,7 +34,7 @@ enum class ReachingForm {
 inline constexpr NameTable<ReachingForm, 2> kReachingFormNames{
     {{"paper", ReachingForm::kPaper}, {"strict", ReachingForm::kStrict}}};
 
-/// Weights of the objective's terms, >= 0 and not all 0. Each term is the ratio of a metric to its
+/// Weights of the objective's terms, 0 to 1e6 and not all 0. Each term is the ratio of a metric to its
 /// value with the baseline gains in the same mode and scenario (see objective.h).
 struct ObjectiveWeights {
   double settling = 1.0;           ///< heading: settling time; for a run that does not settle, its
@@ -69,12 +69,12 @@ struct TuningLimits {
   ///   - 1.25 times the rate that the feed-forward g3(r) of a noisy yaw rate causes by itself.
   std::optional<double> steering_rate_rms_degps = {};
   double damping = 0.7;           ///< smallest damping ratio of the heading loop without latency
-                                  ///< and motor lag, (0, 1]
-  double late_damping = 0.25;     ///< smallest damping ratio with latency and motor lag, (0, 1]
+                                  ///< and motor lag, [1e-6, 1]
+  double late_damping = 0.25;     ///< smallest damping ratio with latency and motor lag, [1e-6, 1]
   double delayed_damping = 0.05;  ///< smallest damping ratio with motor lag and twice the latency
-                                  ///< plus one sample, (0, 1]
+                                  ///< plus one sample, [1e-6, 1]
   /// Largest share of the largest yaw moment of the weaker mode (turning_authority_m()) that
-  /// heading noise of one standard deviation may request, (0, 1]. A nominal search assumes a noise
+  /// heading noise of one standard deviation may request, [1e-6, 1]. A nominal search assumes a noise
   /// of 1 deg.
   double noise_share = 0.25;
 };
@@ -129,7 +129,7 @@ struct UnmodelledVariation {
 inline constexpr double kMinMassFactor = 0.1, kMaxMassFactor = 10.0;
 inline constexpr std::size_t kMaxOpenValues = 20;  ///< largest number of entries in each list
 
-/// Upper limit, > 0, of a run's metric (run_figure_names()), in the metric's unit.
+/// Upper limit, 1e-9 to 1e9, of a run's metric (run_figure_names()), in the metric's unit.
 struct GoalLimit {
   std::string figure;
   double most = 0.0;
