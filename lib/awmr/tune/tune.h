@@ -34,8 +34,8 @@ enum class ReachingForm {
 inline constexpr NameTable<ReachingForm, 2> kReachingFormNames{
     {{"paper", ReachingForm::kPaper}, {"strict", ReachingForm::kStrict}}};
 
-/// Weights of the objective's terms, 0 to 1e6 and not all 0. Each term is the ratio of a metric to its
-/// value with the baseline gains in the same mode and scenario (see objective.h).
+/// Weights of the objective's terms, 0 to 1e6 and not all 0. Each term is the ratio of a metric to
+/// its value with the baseline gains in the same mode and scenario (see objective.h).
 struct ObjectiveWeights {
   double settling = 1.0;           ///< heading: settling time; for a run that does not settle, its
                                    ///< substitute unsettled_s() (objective.h)
@@ -74,8 +74,8 @@ struct TuningLimits {
   double delayed_damping = 0.05;  ///< smallest damping ratio with motor lag and twice the latency
                                   ///< plus one sample, [1e-6, 1]
   /// Largest share of the largest yaw moment of the weaker mode (turning_authority_m()) that
-  /// heading noise of one standard deviation may request, [1e-6, 1]. A nominal search assumes a noise
-  /// of 1 deg.
+  /// heading noise of one standard deviation may request, [1e-6, 1]. A nominal search assumes a
+  /// noise of 1 deg.
   double noise_share = 0.25;
 };
 
