@@ -267,8 +267,8 @@ std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs) {
 }
 
 /// True if the column of steering commands contains measured angles: the servo's time constant in
-/// the fit `first` is below half a row, and a fit that uses the column as the angle is
-/// significantly better.
+/// the fit `first`, less late time stamps of the steering, is below half a row, and a fit that uses
+/// the column as the angle is significantly better.
 bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                           const FamilyFit& first, const IdentifyOptions& options) {
   constexpr double kOfRow = 0.5;
@@ -280,8 +280,12 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
     return q.is(ParameterId::kSteeringTimeConstant);
   });
   if (place == first.fit.quantities.end()) return false;
-  const auto i = at(place - first.fit.quantities.begin());
-  if (place->value(first.fit.coordinates[i]) > kOfRow * logs.front().median_step_s()) return false;
+  double lag_s = place->value(first.fit.coordinates[at(place - first.fit.quantities.begin())]);
+  for (std::size_t i = 0; i < first.fit.quantities.size(); ++i) {
+    if (first.fit.quantities[i].kind != FreeQuantity::Kind::kSteeringDelay) continue;
+    lag_s += std::min(0.0, first.fit.coordinates[i]);
+  }
+  if (lag_s > kOfRow * logs.front().median_step_s()) return false;
   LogFitOptions from = from_optimum(std::move(power_law), first);
   std::erase(from.free, ParameterId::kSteeringTimeConstant);
   std::erase_if(from.terms, [](const FreeTerm& term) {
