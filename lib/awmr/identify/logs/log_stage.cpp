@@ -280,19 +280,23 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
     return q.is(ParameterId::kSteeringTimeConstant);
   });
   if (place == first.fit.quantities.end()) return false;
-  double lag_s = place->value(first.fit.coordinates[at(place - first.fit.quantities.begin())]);
+  const double lag_s =
+      place->value(first.fit.coordinates[at(place - first.fit.quantities.begin())]);
+  double late_stamps_s = 0.0;
   for (std::size_t i = 0; i < first.fit.quantities.size(); ++i) {
     if (first.fit.quantities[i].kind != FreeQuantity::Kind::kSteeringDelay) continue;
-    lag_s += std::min(0.0, first.fit.coordinates[i]);
+    late_stamps_s = std::max(0.0, -first.fit.coordinates[i]);
   }
-  if (lag_s > kOfRow * logs.front().median_step_s()) return false;
+  if (lag_s - late_stamps_s > kOfRow * logs.front().median_step_s()) return false;
   LogFitOptions from = from_optimum(std::move(power_law), first);
   std::erase(from.free, ParameterId::kSteeringTimeConstant);
   std::erase_if(from.terms, [](const FreeTerm& term) {
     return term.quantity.kind == FreeQuantity::Kind::kSteeringDelay;
   });
   const FamilyFit follows = fit_first_family(with_measured_steering(logs), from, options);
-  return follows.fit.usable && aic_lead(follows.fit, first.fit) > kFamilyAicThreshold;
+  // A lag with equally late time stamps describes measured angles as well, with two terms more.
+  const double threshold = late_stamps_s > 0.0 ? 0.0 : kFamilyAicThreshold;
+  return follows.fit.usable && aic_lead(follows.fit, first.fit) > threshold;
 }
 
 Finding measured_steering_finding(const std::string& file) {
