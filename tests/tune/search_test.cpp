@@ -571,7 +571,8 @@ TEST(Observed, NamesOptionsThatContradictAnObserver) {
   const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_FALSE(tuning);
   const std::string text = to_text(tuning.error());
-  for (const char* words : {"bandwidth_radps", "surge_max: found -1", "sets a disturbance_observer"}) {
+  for (const char* words :
+       {"bandwidth_radps", "surge_max: found -1", "sets a disturbance_observer"}) {
     EXPECT_THAT(text, ::testing::HasSubstr(words));
   }
 }
