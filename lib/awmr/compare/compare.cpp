@@ -132,7 +132,14 @@ Status take_finished(const std::vector<Scenario>& scenarios, const std::vector<N
                                      "this comparison; compare into another directory",
                                      row.scenario, row.sample));
     }
-    if (at(row.sample) >= layout.samples) continue;  // fewer samples are requested now
+    if (at(row.sample) >= layout.samples) {
+      return input_error(
+          ErrorCode::kConflict, option_text("samples"),
+          fmt::format("the finished comparison has sample {}, which {} samples would "
+                      "remove; give at least as many samples, or compare into "
+                      "another directory",
+                      row.sample, layout.samples - 1));
+    }
     slots[layout.row({*scenario, *set, *mode, at(row.sample)})] = row;
   }
   return {};

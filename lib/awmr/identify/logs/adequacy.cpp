@@ -78,7 +78,11 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
     if (!noise.of_the_model()) continue;
     std::string advice =
         "an unmodelled effect acts on the vehicle (a motor driver that brakes at a command of 0, a "
-        "slope, sliding tyres), or the sensor drifts";
+        "slope, sliding tyres), a size in the vehicle file is wrong (half_track_m, front_axle_m), "
+        "or the sensor has a bias or drifts";
+    if (channel == LogChannel::kYawRate) {
+      advice += " (" + option_text("fit bias.yaw_rate_radps") + " estimates a bias)";
+    }
     if (channel == LogChannel::kSpeed && try_families) {
       advice = try_alternatives(best_family(logs, power_law, chosen, {.only_candidates = false}),
                                 chosen, adequacy)
