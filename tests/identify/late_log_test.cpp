@@ -53,21 +53,20 @@ DrivingLog with_late_steering_stamps(DrivingLog log, std::size_t rows) {
 }
 
 TEST(LateLog, FindsLateStampsOfTheSteeringAlone) {
-  for (const std::size_t rows : {6, 14}) {
-    TrialData data;
-    data.logs = {with_late_steering_stamps(drive(kTruths[1], 8, {.duration_s = 40.0}), rows)};
-    const auto result = identify(robot(), data, {}, {});
-    ASSERT_TRUE(result);
-    const auto delay = estimated(*result, "steering.delay_s");
-    ASSERT_TRUE(delay && delay->std_error);
-    EXPECT_NEAR(delay->value, -kStep_s * static_cast<double>(rows), 4.5 * *delay->std_error);
-    EXPECT_TRUE(has_finding(*result, "steering-delay"));
-    EXPECT_FALSE(has_finding(*result, "actuator-lag", ""));
-    expect_recovered(*result, ParameterId::kSteeringTimeConstant,
-                     plant(kTruths[1]).steering_time_constant_s, 4.5);
-    expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
-    expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
-  }
+  constexpr std::size_t kRows = 14;
+  TrialData data;
+  data.logs = {with_late_steering_stamps(drive(kTruths[1], 8, {.duration_s = 40.0}), kRows)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto delay = estimated(*result, "steering.delay_s");
+  ASSERT_TRUE(delay && delay->std_error);
+  EXPECT_NEAR(delay->value, -kStep_s * kRows, 4.5 * *delay->std_error);
+  EXPECT_TRUE(has_finding(*result, "steering-delay"));
+  EXPECT_FALSE(has_finding(*result, "actuator-lag", ""));
+  expect_recovered(*result, ParameterId::kSteeringTimeConstant,
+                   plant(kTruths[1]).steering_time_constant_s, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
 }
 
 /// Every `every`-th row of a log whose commands act `rows_later` rows (of the original log) after
