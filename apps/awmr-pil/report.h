@@ -1,6 +1,7 @@
 /// Acceptance checks of a run on the chip, and their report.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
