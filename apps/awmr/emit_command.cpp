@@ -30,8 +30,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Writes each file to `DIR/PATH` and creates directories as needed. Writes all files or none. Errors:
-/// as make_directory(), check_output() and write_files().
+/// Writes each file to `DIR/PATH` and creates directories as needed. Writes all files or none.
+/// Errors: as make_directory(), check_output() and write_files().
 Status write_emitted(const EmitCommand& command, const std::vector<EmittedFile>& files,
                      const std::string& manifest) {
   const fs::path inputs[] = {command.model, command.gains};
@@ -151,8 +151,8 @@ Status check_vehicle(const EmitCommand& command, const Vehicle& vehicle) {
       "Correct vehicle.json and identify again, or give " + option_text("as-is"));
 }
 
-/// Warns of weak gains, and reports the accuracy of the resistance tables (not with powf, which needs
-/// none).
+/// Warns of weak gains, and reports the accuracy of the resistance tables (not with powf, which
+/// needs none).
 Status add_parameters(const Model& model, const Gains<double>& gains, const EmitInputs& inputs,
                       const EmitCommand& command, Outcome& outcome) {
   AWMR_ASSIGN_OR_RETURN(const auto parameters,
@@ -210,9 +210,8 @@ Result<Outcome> execute(const EmitCommand& command) {
   std::ranges::move(unstable_gains(gains, sample_time_s, command),
                     std::back_inserter(outcome.findings));
   if (const auto plant = model.plant(Motion::kStraight)) {
-    const double tau_speed_max = model.vehicle.driven_wheels() * model.vehicle.wheel_force.hi;
     if (auto finding =
-            unsigned_speed_finding(*plant, gains, tau_speed_max, command.gains.string())) {
+            unsigned_speed_finding(*plant, model.vehicle, gains, command.gains.string())) {
       outcome.findings.push_back(std::move(*finding));
     }
   }

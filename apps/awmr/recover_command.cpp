@@ -20,10 +20,6 @@ namespace {
 
 constexpr NameTable<RecoverPlan, 3> kPlans{
     {{"tables", RecoverPlan::kTables}, {"curve", RecoverPlan::kCurve}, {"log", RecoverPlan::kLog}}};
-constexpr NameTable<ErrorModel, 4> kErrors{{{"log-force", ErrorModel::kLogForce},
-                                            {"force", ErrorModel::kForce},
-                                            {"speed", ErrorModel::kSpeed},
-                                            {"time", ErrorModel::kTime}}};
 
 Provenance provenance_of(const RecoverOptions& options, const std::vector<InputFile>& inputs) {
   Provenance provenance{"recover", described(options.identify), inputs};
@@ -31,7 +27,8 @@ Provenance provenance_of(const RecoverOptions& options, const std::vector<InputF
   words.emplace_back("plan", name_in(kPlans, options.plan));
   words.emplace_back("runs", std::to_string(options.runs));
   words.emplace_back("recover_seed", std::to_string(options.seed));
-  words.emplace_back("error", options.error ? name_in(kErrors, *options.error) : "as assumed");
+  words.emplace_back("error",
+                     options.error ? name_in(kRecoverErrorNames, *options.error) : "as assumed");
   words.emplace_back("speed_noise_mps", fmt::format("{}", options.sensors.speed_mps));
   words.emplace_back("correlation_s", fmt::format("{}", options.sensors.correlation_s));
   words.emplace_back("duration_s", fmt::format("{}", options.drive.duration_s));
@@ -83,7 +80,7 @@ Result<RecoverCommand> command_of(const RecoverWords& words) {
   options.plan = *value_in(kPlans, words.plan);
   if (!words.method.empty()) options.identify.method = value_in(kMethodNames, words.method);
   if (!words.noise.empty()) options.identify.noise = value_in(kErrorModelNames, words.noise);
-  if (!words.error.empty()) options.error = value_in(kErrors, words.error);
+  if (!words.error.empty()) options.error = value_in(kRecoverErrorNames, words.error);
   for (const std::string& name : words.requested) {
     AWMR_RETURN_IF_ERROR(add_requested(name, options.identify));
   }
@@ -114,7 +111,7 @@ void add_estimator(CLI::App& sub, RecoverWords& words) {
   sub.add_option("--error", words.error,
                  "Quantity with the simulated error of table rows: log-force, force, speed or time "
                  "(default: as the estimator assumes)")
-      ->check(one_of(names_in(kErrors)));
+      ->check(one_of(names_in(kRecoverErrorNames)));
   sub.add_option("--fit", words.requested, "Parameters to fit, as in identify")->delimiter(',');
   sub.add_flag("--joint", words.command.recover.identify.joint,
                "Fit surge and coast-down together, as in identify");

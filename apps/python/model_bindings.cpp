@@ -176,21 +176,9 @@ Gains<double> gains_from(double lambda, double mu, double epsilon, double speed_
   return {{lambda, mu, epsilon, friction_width_radps}, {speed_mu, speed_epsilon}, observer};
 }
 
-void bind_gains(py::module_& module) {
+void bind_gain_values(py::class_<Gains<double>>& gains) {
   using G = Gains<double>;
-  py::class_<G>(
-      module, "Gains",
-      "The controller's gains, all > 0. Heading law: slope lambda_ of the sliding surface (1/s), "
-      "largest corrective yaw acceleration mu (rad/s^2), half width epsilon of the boundary layer "
-      "(rad/s), and friction_width_radps, the yaw rate below which Coulomb friction is fed forward "
-      "in part. Speed law: speed_mu (m/s^2) and speed_epsilon (m/s), likewise. Disturbance "
-      "observer (three zeros: none): observer_bandwidth_radps, and the largest compensated yaw "
-      "moment observer_yaw_max_m (m) and force observer_surge_max, both over F_max.")
-      .def(py::init(&gains_from), py::kw_only(), py::arg("lambda_"), py::arg("mu"),
-           py::arg("epsilon"), py::arg("speed_mu"), py::arg("speed_epsilon"),
-           py::arg("friction_width_radps") = kFrictionWidth_radps.min,
-           py::arg("observer_bandwidth_radps") = 0.0, py::arg("observer_yaw_max_m") = 0.0,
-           py::arg("observer_surge_max") = 0.0)
+  gains
       .def_property_readonly(
           "lambda_", [](const G& g) { return g.heading.lambda; }, "1/s")
       .def_property_readonly(
@@ -210,6 +198,24 @@ void bind_gains(py::module_& module) {
       .def_property_readonly(
           "observer_yaw_max_m", [](const G& g) { return g.observer.yaw_max_m; }, "m")
       .def_property_readonly("observer_surge_max", [](const G& g) { return g.observer.surge_max; });
+}
+
+void bind_gains(py::module_& module) {
+  using G = Gains<double>;
+  py::class_<G> bound(
+      module, "Gains",
+      "The controller's gains, all > 0. Heading law: slope lambda_ of the sliding surface (1/s), "
+      "largest corrective yaw acceleration mu (rad/s^2), half width epsilon of the boundary layer "
+      "(rad/s), and friction_width_radps, the yaw rate below which Coulomb friction is fed forward "
+      "in part. Speed law: speed_mu (m/s^2) and speed_epsilon (m/s), likewise. Disturbance "
+      "observer (three zeros: none): observer_bandwidth_radps, and the largest compensated yaw "
+      "moment observer_yaw_max_m (m) and force observer_surge_max, both over F_max.");
+  bound.def(py::init(&gains_from), py::kw_only(), py::arg("lambda_"), py::arg("mu"),
+            py::arg("epsilon"), py::arg("speed_mu"), py::arg("speed_epsilon"),
+            py::arg("friction_width_radps") = kFrictionWidth_radps.min,
+            py::arg("observer_bandwidth_radps") = 0.0, py::arg("observer_yaw_max_m") = 0.0,
+            py::arg("observer_surge_max") = 0.0);
+  bind_gain_values(bound);
   bind_read(
       module, "read_gains", [](const auto& path) { return read_gains(path); },
       "Reads a gains.json. Raises InputError.");

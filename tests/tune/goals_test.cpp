@@ -1,4 +1,4 @@
-/// Probabilistic goals: by how much a run exceeds its limits, the quantile of this excess that the
+/// Probabilistic goals: the excess of a run over its limits, the quantile of this excess that the
 /// goal bounds, and the verdict on new draws.
 #include "awmr/tune/goals.h"
 

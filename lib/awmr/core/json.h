@@ -30,14 +30,14 @@ class JsonShape;
 
 /// A strict view of one JSON object. Each function that reads a key marks the key as known. A value
 /// of the wrong type or out of range, and a missing key (except in the optional_ functions), is a
-/// fault. On a fault the function adds to the shared list of faults and returns a placeholder: NaN,
-/// `min` of an integer, the first of several choices, false or empty. So reading continues and
+/// fault. On a fault the function adds to the shared list of faults and returns a neutral value:
+/// NaN, `min` of an integer, the first of several choices, false or empty. So reading continues and
 /// finds all faults. Call `reject_unknown_keys()` after all keys were read.
 class JsonObject {
  public:
   JsonObject(const Json& value, std::string file, std::string pointer, std::vector<Fault>& faults);
   /// A view without a document, for json_schema_text(): records the requested keys in `shape` and
-  /// returns placeholders.
+  /// returns neutral values.
   JsonObject(JsonShape& shape, std::vector<Fault>& ignored) : faults_(&ignored), shape_(&shape) {}
 
   /// True if the object has the key, even with the value null. Marks the key as known.

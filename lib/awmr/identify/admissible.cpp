@@ -32,7 +32,7 @@ void take_out(ParameterId id, std::string why, Model& model,
 /// Reason why a model file cannot hold this value; empty if it can.
 std::string refusal_reason(double value, const NumberRule& rule) {
   if (!std::isfinite(value)) return "the fitted value is not finite";
-  if (value >= rule.min && value <= rule.max) return {};
+  if (allows(rule, value)) return {};
   return fmt::format("the fit gives {:.4g}, outside the allowed range [{:g}, {:g}]", value,
                      rule.min, rule.max);
 }

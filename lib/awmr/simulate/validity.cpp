@@ -212,9 +212,9 @@ void note_extrapolation(const Model& model, double fastest_degps, const std::str
   }
 }
 
-std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,
-                                              const Gains<double>& gains, double tau_speed_max,
-                                              const std::string& file) {
+std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const Vehicle& vehicle,
+                                              const Gains<double>& gains, const std::string& file) {
+  const double tau_speed_max = vehicle.driven_wheels() * vehicle.wheel_force.hi;
   const double top_mps = steady_rate(plant.surge, tau_speed_max).value_or(0.0);
   constexpr int kSpeeds = 100;
   for (int i = 1; i <= kSpeeds; ++i) {

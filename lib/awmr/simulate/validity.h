@@ -32,12 +32,10 @@ std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model
 
 /// Warning `unsigned-speed-runs-away`: with a speed sensor without a sign, such as a GPS, the speed
 /// law would accelerate a vehicle that rolls backward. This is so if m' mu_s sat(u/eps_s) > g1(u)
-/// at a speed that the vehicle can reach. `tau_speed_max`: number of driven wheels times the
-/// upper end of Vehicle::wheel_force. `file`: name of the file of the gains. Absent if there is no
-/// such speed.
-std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,
-                                              const Gains<double>& gains, double tau_speed_max,
-                                              const std::string& file);
+/// at a speed that the vehicle can reach. `file`: name of the file of the gains. Absent if there is
+/// no such speed.
+std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const Vehicle& vehicle,
+                                              const Gains<double>& gains, const std::string& file);
 
 /// Limits the rate of heading commands to `limit_degps`, > 0, by a filter with the bandwidth
 /// kShapingBandwidth_radps (control/guidance/heading_shaping.h). A filter that the scenario already
@@ -57,8 +55,8 @@ inline constexpr const char* kRateName = "heading_rate_limit";
 /// The message for an invalid choice; empty if the choice is valid.
 std::string fault_of_rate(const HeadingRateChoice& choice);
 
-/// The choice that a comparison uses: `choice`, the value of the option, if it is not empty. Default:
-/// "measured" if the model has a highest measured yaw rate, because the yaw resistance is
+/// The choice that a comparison uses: `choice`, the value of the option, if it is not empty.
+/// Default: "measured" if the model has a highest measured yaw rate, because the yaw resistance is
 /// extrapolated in faster turns; else "none".
 HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& choice, const Model& model);
 

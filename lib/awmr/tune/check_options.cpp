@@ -94,10 +94,10 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
     return;
   }
   for (const double factor : open.mass_factors) {
-    if (factor >= kMinMassFactor && factor <= kMaxMassFactor) continue;
+    if (allows(kMassFactor, factor)) continue;
     faults.push_back({ErrorCode::kOutOfRange, "",
                       fmt::format("open: a mass factor of {} is not in {} ... {}", factor,
-                                  kMinMassFactor, kMaxMassFactor)});
+                                  kMassFactor.min, kMassFactor.max)});
   }
   for (const Interval& force : open.wheel_forces) {
     if (force.lo >= -1.0 && force.lo < force.hi && force.hi > 0.0 && force.hi <= 1.0) continue;
@@ -142,9 +142,10 @@ void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
                         fmt::format("goals: {} is unknown or given twice; available: {}", figure,
                                     fmt::join(run_figure_names(), ", "))});
     }
-    if (!(most > 0.0) || !std::isfinite(most)) {
+    if (!allows(kGoalLimit, most)) {
       faults.push_back({ErrorCode::kOutOfRange, "",
-                        fmt::format("goals: {} at most {} is not above 0", figure, most)});
+                        fmt::format("goals: {} at most {} is not above 0 or outside of {} ... {}",
+                                    figure, most, kGoalLimit.min, kGoalLimit.max)});
     }
   }
   if (figures.empty()) {

@@ -146,7 +146,7 @@ void describe_goals(JsonObject& json) {
     JsonObject limits = goal.object("at_most");
     for (const std::string& figure : run_figure_names()) limits.optional_number(figure, kPositive);
     limits.reject_unknown_keys();
-    goal.number("share", {.min = kMinGoalShare, .max = kMaxGoalShare});
+    goal.number("share", kGoalShare);
     goal.boolean("soft");
     goal.choice("mode", kYawModeNames);
     goal.string("gains");

@@ -19,6 +19,10 @@ inline constexpr NumberRule kBetweenZeroAndOne{
     .min = 0.0, .max = 1.0, .min_excluded = true, .max_excluded = true};
 /// Damping ratios and the share of the yaw moment; a smaller limit would be none.
 inline constexpr NumberRule kLimitShare{.min = 1e-6, .max = 1.0};
+/// Limit of a metric in a goal, and the share of the draws that must meet it.
+inline constexpr NumberRule kGoalLimit{.min = 1e-9, .max = 1e9};
+inline constexpr NumberRule kGoalShare{.min = kMinGoalShare, .max = kMaxGoalShare};
+inline constexpr NumberRule kMassFactor{.min = kMinMassFactor, .max = kMaxMassFactor};
 inline constexpr NumberRule kWeight{.min = 0.0, .max = 1e6};
 inline constexpr NumberRule kUpToAMillion{.min = 0.0, .max = 1e6, .min_excluded = true};
 

@@ -143,8 +143,7 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
   for (const ModeCertificate& one : tuning.certificate->modes) note_certificate(one, findings);
   note_observer(options, findings);
   if (const auto plant = model.plant()) {
-    const double tau_speed_max = model.vehicle.driven_wheels() * model.vehicle.wheel_force.hi;
-    auto finding = unsigned_speed_finding(*plant, tuning.gains, tau_speed_max, "");
+    auto finding = unsigned_speed_finding(*plant, model.vehicle, tuning.gains, "");
     if (finding) findings.push_back(*std::move(finding));
   }
   note_scenarios(model, options, tuning, findings);

@@ -14,8 +14,6 @@
 namespace awmr {
 namespace {
 
-constexpr NumberRule kGoalLimit{.min = 1e-9, .max = 1e9};
-
 /// Adds the quantiles of one set of gains in one mode to `json`, at /MODE/GAINS.
 void put_quantiles(const EvaluatedGains& evaluated, Json& json) {
   Json& entry = json[std::string(name_of(evaluated.mode))][evaluated.gains];
@@ -77,8 +75,7 @@ TuningGoal read_goal(JsonObject json) {
     json.fault(ErrorCode::kMissing, "at_most",
                "contains no metric; give at least one with its limit");
   }
-  goal.share = json.optional_number("share", {.min = kMinGoalShare, .max = kMaxGoalShare})
-                   .value_or(goal.share);
+  goal.share = json.optional_number("share", kGoalShare).value_or(goal.share);
   if (json.has("mode")) goal.mode = json.choice("mode", kYawModeNames);
   goal.is_soft = json.optional_boolean("soft").value_or(false);
   json.reject_unknown_keys();
@@ -95,8 +92,7 @@ Json goal_json(const TuningGoal& goal) {
 UnmodelledVariation read_open(JsonObject json) {
   UnmodelledVariation open;
   if (json.has("mass_factors")) {
-    open.mass_factors =
-        json.numbers("mass_factors", {.min = kMinMassFactor, .max = kMaxMassFactor});
+    open.mass_factors = json.numbers("mass_factors", kMassFactor);
     if (open.mass_factors.empty()) {
       json.fault(ErrorCode::kMissing, "mass_factors", "an empty list; leave the key out");
     }

@@ -11,6 +11,7 @@
 #include "awmr/model/findings_json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/batch.h"
+#include "awmr/tune/option_table.h"
 #include "awmr/tune/robust.h"
 #include "awmr/tune/tune_findings.h"
 #include "awmr/tune/tune_json.h"
@@ -48,7 +49,7 @@ Payload read_payload(JsonObject& json) {
   if (payload.by.scenarios.empty()) {
     json.fault(ErrorCode::kMissing, "scenarios", "contains no scenario");
   }
-  payload.by.tail_share = json.number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true});
+  payload.by.tail_share = json.number("tail_share", kShareAboveZero);
   for (JsonObject& goal : json.objects("goals")) {
     payload.by.goals.push_back(read_goal(std::move(goal)));
   }

@@ -43,18 +43,19 @@ const Estimate* estimate_of(const Model& model, const LogStage& stage, Parameter
   return model[id].value ? &model[id] : nullptr;
 }
 
-double box_inertia_over_mass(const Vehicle& vehicle) {
-  return vehicle.inertia_kgm2() / vehicle.mass_kg;
+/// Fitted I'z/m' over that of the vehicle's mass and size.
+double times_box(const Vehicle& vehicle, double inertia_norm, double mass_norm) {
+  return inertia_norm / mass_norm / (vehicle.inertia_kgm2() / vehicle.mass_kg);
 }
 
 /// Range of I'z/m' over that of a uniform box, from the 95 % intervals; without intervals, a factor
 /// of 2 around the value.
 Interval inertia_over_box(const Vehicle& vehicle, const Estimate& inertia, const Estimate& mass) {
-  const double box = box_inertia_over_mass(vehicle);
   if (inertia.ci95 && mass.ci95) {
-    return {inertia.ci95->lo / mass.ci95->hi / box, inertia.ci95->hi / mass.ci95->lo / box};
+    return {times_box(vehicle, inertia.ci95->lo, mass.ci95->hi),
+            times_box(vehicle, inertia.ci95->hi, mass.ci95->lo)};
   }
-  const double times = *inertia.value / *mass.value / box;
+  const double times = times_box(vehicle, *inertia.value, *mass.value);
   return {0.5 * times, 2.0 * times};
 }
 
@@ -71,8 +72,7 @@ void note_unusual_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>&
        fmt::format("the fitted I'z/m' is {:.3g} times Iz/m of the vehicle; usual are {:g} to {:g} "
                    "times. Check the units of the speed and the yaw rate, and the size of the "
                    "vehicle",
-                   *inertia->value / *mass->value / box_inertia_over_mass(vehicle), kUsual.lo,
-                   kUsual.hi)});
+                   times_box(vehicle, *inertia->value, *mass->value), kUsual.lo, kUsual.hi)});
 }
 
 /// Reason why the fitted I'z is impossible or not determined; empty if it is plausible.
@@ -90,7 +90,7 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
   }
   const Interval range = inertia_over_box(vehicle, *inertia, *mass);
   if (range.hi > kInertiaOverBox.lo && range.lo < kInertiaOverBox.hi) return {};
-  const double times = *inertia->value / *mass->value / box_inertia_over_mass(vehicle);
+  const double times = times_box(vehicle, *inertia->value, *mass->value);
   return fmt::format(
       "the fitted I'z/m' is {:.3g} times Iz/m of the vehicle, which no distribution of its mass "
       "can "

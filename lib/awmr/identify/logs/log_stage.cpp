@@ -276,18 +276,15 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
     return log.steering_command_rad && !log[LogChannel::kSteering];
   };
   if (!std::ranges::all_of(logs, is_command)) return false;
-  const auto place = std::ranges::find_if(first.fit.quantities, [](const FreeQuantity& q) {
-    return q.is(ParameterId::kSteeringTimeConstant);
-  });
-  if (place == first.fit.quantities.end()) return false;
-  const double lag_s =
-      place->value(first.fit.coordinates[at(place - first.fit.quantities.begin())]);
+  std::optional<double> lag_s;
   double late_stamps_s = 0.0;
   for (std::size_t i = 0; i < first.fit.quantities.size(); ++i) {
-    if (first.fit.quantities[i].kind != FreeQuantity::Kind::kSteeringDelay) continue;
-    late_stamps_s = std::max(0.0, -first.fit.coordinates[i]);
+    const FreeQuantity& q = first.fit.quantities[i];
+    const double value = q.value(first.fit.coordinates[i]);
+    if (q.is(ParameterId::kSteeringTimeConstant)) lag_s = value;
+    if (q.kind == FreeQuantity::Kind::kSteeringDelay) late_stamps_s = std::max(0.0, -value);
   }
-  if (lag_s - late_stamps_s > kOfRow * logs.front().median_step_s()) return false;
+  if (!lag_s || *lag_s - late_stamps_s > kOfRow * logs.front().median_step_s()) return false;
   LogFitOptions from = from_optimum(std::move(power_law), first);
   std::erase(from.free, ParameterId::kSteeringTimeConstant);
   std::erase_if(from.terms, [](const FreeTerm& term) {

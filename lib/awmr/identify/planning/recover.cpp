@@ -1,5 +1,6 @@
 // Runs of `awmr recover`: simulates trials at the model's values and identifies them.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -30,52 +31,51 @@ ErrorModel error_of(const IdentifyOptions& options, Family family) {
 
 /// Error model with this name in /estimates; empty for other names.
 std::optional<ErrorModel> error_model_named(std::string_view name) {
-  for (const ErrorModel model :
-       {ErrorModel::kForce, ErrorModel::kSpeed, ErrorModel::kTime, ErrorModel::kLogForce}) {
+  for (const auto& [option, model] : kRecoverErrorNames) {
     if (name_of(model) == name) return model;
   }
   return std::nullopt;
 }
 
-/// Error of the simulated rows: the scatter of the fit of the model's surge or yaw resistance, under
-/// the requested error model. Without a request, under that of the estimator under test, or if the
-/// model has no such fit, under that of the first fit of the model's family. Errors (input): the
-/// model has no fit to take the scatter from.
+/// Error of the simulated rows: the scatter of the fit of the model's surge or yaw resistance,
+/// under the requested error model. Without a request, under that of the estimator under test, or
+/// if the model has no such fit, under that of the first fit of the model's family. Errors (input):
+/// the model has no fit to take the scatter from.
 Result<RowError> row_error(const Model& model, FitSubject subject, const RecoverOptions& options) {
   const bool is_surge = subject == FitSubject::kSurge;
   const Family family = is_surge ? model.surge_family : model.yaw_family;
   const ErrorModel preferred = options.error.value_or(error_of(options.identify, family));
-  std::optional<RowError> other;
-  bool has_scatter = true;
-  std::string available;
+  bool has_fit = false;
+  std::vector<RowError> available;
   for (const EstimatorReport& report : model.record.reports) {
     const std::string_view fitted = report.family.empty() ? name_of(Family::kPower) : report.family;
     const std::optional<ErrorModel> error = error_model_named(report.noise);
     if (report.subject != subject || fitted != name_of(family) || !error) continue;
-    has_scatter = std::isfinite(report.residual_std);
-    if (!has_scatter) continue;
+    has_fit = true;
+    if (!std::isfinite(report.residual_std)) continue;
     if (*error == preferred) return RowError{preferred, report.residual_std};
-    if (!other) other = RowError{*error, report.residual_std};
-    available += fmt::format("{}{}", available.empty() ? "" : ", ",
-                             *error == ErrorModel::kLogForce ? "log-force" : name_of(*error));
+    available.push_back({*error, report.residual_std});
   }
-  if (other && !options.error) return *other;
+  if (!available.empty() && !options.error) return available.front();
   const char* const resistance = is_surge ? "surge" : "yaw";
-  if (!has_scatter) {
+  if (has_fit && available.empty()) {
     return input_error(
         ErrorCode::kTooFewData, model.file + ":/estimates",
         fmt::format("the {} resistance was fitted to as many runs as it has parameters, so the "
                     "scatter of the runs is unknown; record more runs, or use {}",
                     resistance, option_text("plan log")));
   }
+  std::vector<std::string_view> names;
+  for (const RowError& one : available) names.push_back(name_in(kRecoverErrorNames, one.model));
   return input_error(
       ErrorCode::kMissing, model.file + ":/estimates",
       fmt::format("there is no fit of the {} resistance{}, whose residuals the simulated trials "
                   "need; {}",
                   resistance,
                   options.error ? fmt::format(" with errors on {}", name_of(preferred)) : "",
-                  other ? fmt::format("choose one of {} with {}", available, option_text("error"))
-                        : "identify from tables, or use " + option_text("plan log")));
+                  names.empty() ? "identify from tables, or use " + option_text("plan log")
+                                : fmt::format("choose one of {} with {}", fmt::join(names, ", "),
+                                              option_text("error"))));
 }
 
 /// Left and right wheel forces that give a yaw moment, m, without steering. The forces are

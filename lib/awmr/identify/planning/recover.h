@@ -18,6 +18,12 @@ enum class RecoverPlan {
   kLog,     ///< only a driving log
 };
 
+/// Values of `--error`.
+inline constexpr NameTable<ErrorModel, 4> kRecoverErrorNames{{{"log-force", ErrorModel::kLogForce},
+                                                              {"force", ErrorModel::kForce},
+                                                              {"speed", ErrorModel::kSpeed},
+                                                              {"time", ErrorModel::kTime}}};
+
 struct RecoverOptions {
   RecoverPlan plan = RecoverPlan::kTables;
   /// Number of simulated sets, >= 2. The standard error of the coverage is 0.22/sqrt(runs): 1.5 %

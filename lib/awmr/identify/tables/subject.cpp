@@ -1,9 +1,10 @@
 #include "awmr/identify/tables/subject.h"
-#include "awmr/core/distributions.h"
 
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "awmr/core/distributions.h"
 
 namespace awmr {
 namespace {
