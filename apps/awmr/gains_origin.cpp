@@ -2,25 +2,35 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+#include <vector>
+
 #include "awmr/core/input_file.h"
 #include "awmr/core/json.h"
+#include "awmr/core/json_document.h"
 #include "awmr/simulate/scenario.h"
 
 namespace awmr::cli {
 
 namespace {
 
-void note_other_mode(const Json& json, const std::filesystem::path& gains,
-                     std::optional<YawMode> mode, std::vector<Finding>& findings) {
-  if (!json.is_object() || !json.contains("mode") || !json["mode"].is_string()) return;
-  const std::string tuned = json["mode"].get<std::string>();
-  if (mode && name_of(*mode) == tuned) return;
-  findings.push_back(
-      {gains.string(), 0, Severity::kWarning, "gains-of-another-mode",
-       fmt::format("these gains were tuned for mode {} only and are used in {}: their "
-                   "constraints and margins are not valid there. Tune for {} (awmr tune)",
-                   tuned, mode ? std::string(name_of(*mode)) : "other modes as well",
-                   mode ? "this mode, or for all of them" : "all modes")});
+/// The mode that the gains were tuned for; empty: all modes. Errors (input): no name of a mode.
+Result<std::optional<YawMode>> tuned_mode(const Json& json, const std::filesystem::path& gains) {
+  std::vector<Fault> faults;
+  JsonObject root(json, gains.string(), "", faults);
+  std::optional<YawMode> mode;
+  if (root.has("mode")) mode = root.choice("mode", kYawModeNames);
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return mode;
+}
+
+Finding of_another_mode(const std::filesystem::path& gains, YawMode tuned,
+                        std::optional<YawMode> mode) {
+  return {gains.string(), 0, Severity::kWarning, "gains-of-another-mode",
+          fmt::format("these gains were tuned for mode {} only and are used in {}: their "
+                      "constraints and margins are not valid there. Tune for {} (awmr tune)",
+                      name_of(tuned), mode ? name_of(*mode) : "other modes as well",
+                      mode ? "this mode, or for all of them" : "all modes")};
 }
 
 }  // namespace
@@ -30,7 +40,8 @@ Status note_other_model(const std::filesystem::path& gains, const std::filesyste
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(gains, ignored)) return {};
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(gains));
-  note_other_mode(json, gains, mode, findings);
+  AWMR_ASSIGN_OR_RETURN(const std::optional<YawMode> tuned, tuned_mode(json, gains));
+  if (tuned && mode != tuned) findings.push_back(of_another_mode(gains, *tuned, mode));
   AWMR_ASSIGN_OR_RETURN(const InputFile own, input_file(model));
   if (is_made_from(json, own.sha256).value_or(true)) return {};
   findings.push_back(

@@ -618,6 +618,42 @@ TEST(Robust, DrawsOnlyNoiseWithoutACovariance) {
   EXPECT_THAT(text, ::testing::HasSubstr("noise alone"));
 }
 
+/// Message of a search that finds no gains.
+std::string refusal_of(const TuneOptions& options) {
+  const Result<Tuning> tuning = tune(paper_model(), options);
+  EXPECT_FALSE(tuning);
+  return tuning ? std::string() : to_text(tuning.error());
+}
+
+TEST(Refusal, NamesTheBoundAtFaultInsteadOfTheLimitThatItViolates) {
+  TuneOptions options = short_options();
+  options.bounds.lambda = Interval{20.0, 30.0};
+  const std::string message = refusal_of(options);
+  EXPECT_THAT(message, ::testing::HasSubstr("no-gains"));
+  EXPECT_THAT(message, ::testing::HasSubstr("bounds/lambda"));
+  options.bounds.lambda = std::nullopt;
+  EXPECT_TRUE(tune(paper_model(), options));
+}
+
+TEST(Refusal, NamesANumberOfTheLimitWithWhichGainsExist) {
+  TuneOptions options = short_options();
+  options.bounds.lambda = Interval{12.0, 12.5};
+  const std::string message = refusal_of(options);
+  const std::string key = "`limits/noise_share` ";
+  const std::size_t place = message.find(key);
+  ASSERT_NE(place, std::string::npos) << message;
+  options.limits.noise_share = std::stod(message.substr(place + key.size()));
+  EXPECT_TRUE(tune(paper_model(), options));
+  options.limits.noise_share *= 0.9;
+  EXPECT_THAT(refusal_of(options), ::testing::HasSubstr("no-gains"));
+}
+
+TEST(Refusal, LimitsOfLateLoopsConflictWithANominalSearch) {
+  TuneOptions options = short_options();
+  options.limits.late_damping = 0.3;
+  EXPECT_THAT(refusal_of(options), ::testing::HasSubstr("conflict"));
+}
+
 TEST(TradeOff, KeepsTheParetoFront) {
   const auto front = front_of({{2.0, 1.0}, {1.0, 3.0}, {1.0, 2.0}, {3.0, 1.0}, {1.5, 2.5}});
   ASSERT_EQ(front.size(), 2U);

@@ -173,6 +173,19 @@ void check_sensitivity(const TuneOptions& options, std::vector<Fault>& faults) {
   }
 }
 
+/// A nominal search has neither latency nor motor lag.
+void check_late_limits(const TuneOptions& options, std::vector<Fault>& faults) {
+  const TuningLimits unchanged;
+  for (const auto& [key, limit] : {std::pair("late_damping", &TuningLimits::late_damping),
+                                   std::pair("delayed_damping", &TuningLimits::delayed_damping)}) {
+    if (!options.nominal || options.limits.*limit == unchanged.*limit) continue;
+    faults.push_back({ErrorCode::kConflict, "",
+                      fmt::format("limits: {} is for loops with latency or motor lag, which "
+                                  "nominal disables; remove one of the two",
+                                  key)});
+  }
+}
+
 void check_mode(const TuneOptions& options, const Vehicle& vehicle, std::vector<Fault>& faults) {
   if (!options.mode) return;
   const std::span<const YawMode> modes = yaw_modes(vehicle);
@@ -227,6 +240,7 @@ Status check_options(const TuneOptions& options, const Vehicle& vehicle) {
   check_sensitivity(options, faults);
   search_options(options, CheckOption{faults});
   limit_options(options.limits, CheckOption{faults, "limits: "});
+  check_late_limits(options, faults);
   weight_options(options.weights, CheckOption{faults, "weights: "});
   bound_options(options.bounds, CheckOption{faults, "bounds: "});
   if (options.observer) observer_options(*options.observer, CheckOption{faults, "observer: "});

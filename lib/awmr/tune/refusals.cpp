@@ -1,15 +1,17 @@
 #include "awmr/tune/refusals.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "awmr/core/option_text.h"
 #include "awmr/tune/goals.h"
+#include "awmr/tune/relaxation.h"
 
 namespace awmr {
 namespace {
@@ -19,35 +21,6 @@ std::string in_words(const Gains<double>& g) {
       "lambda {:.4g}, mu {:.4g}, epsilon {:.4g}, mu_s {:.4g}, epsilon_s {:.4g}{}", g.heading.lambda,
       g.heading.mu, g.heading.epsilon, g.speed.mu, g.speed.epsilon,
       g.observer.is_on() ? fmt::format(", observer {:.4g} rad/s", g.observer.bandwidth_radps) : "");
-}
-
-/// Advice for a constraint that no gains meet: the limit to relax, and the cause in the vehicle.
-std::string advice_on(std::string_view constraint) {
-  struct Advice {
-    std::string_view constraint, limit, cause;
-  };
-  static constexpr Advice kAdvice[] = {
-      {"late damping", "limits/late_damping",
-       "the sensor latency is large (latency_s of "
-       "vehicle.json)"},
-      {"delay margin", "limits/delayed_damping",
-       "the sensor latency is large (latency_s of vehicle.json)"},
-      {"noise gain", "limits/noise_share",
-       "heading noise uses much of the available yaw moment (noise of vehicle.json)"},
-      {"steering rate", "limits/steering_rate_rms_degps",
-       "the sensor noise is large for this servo (noise of vehicle.json)"},
-      {"heading damping", "limits/damping",
-       "the sample time or servo lag is long, or the yaw resistance is uncertain"},
-      {"speed lag", "bounds of speed_mu and speed_epsilon",
-       "the lag of servo, motors or sensors "
-       "is long"},
-      {"speed gain", "bounds of speed_mu and speed_epsilon", "the sample time is long"},
-      {"mu dominates", "bounds of mu", "the yaw resistance requires a larger mu"},
-      {"mu_s dominates", "bounds of speed_mu", "the surge resistance requires a larger mu_s"}};
-  const auto* known = std::ranges::find(kAdvice, constraint, &Advice::constraint);
-  if (known == std::end(kAdvice))
-    return "raise `margin`, set `form` to \"paper\" or widen `bounds` in tune.json";
-  return fmt::format("relax {} of tune.json; {}", known->limit, known->cause);
 }
 
 /// Refusal that names the goal that the nearest gains violate most. Empty if they meet all goals.
@@ -77,25 +50,36 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
                           : ""));
 }
 
+/// Names of the violated constraints.
+std::vector<std::string> violated(const std::vector<ConstraintReport>& all) {
+  std::vector<std::string> names;
+  for (const ConstraintReport& c : all) {
+    if (c.required && c.margin < 0.0) names.push_back("'" + c.name + "'");
+  }
+  return names;
+}
+
 }  // namespace
 
-tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintContext& context) {
+tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintContext& context,
+                                 const TuneOptions& requested,
+                                 std::span<const Gains<double>> poles) {
   const std::vector<ConstraintReport> all = constraints_of(nearest.gains, context);
-  const ConstraintReport* worst = nullptr;
-  double worst_residual = 0.0;
-  for (const ConstraintReport& c : all) {
-    const std::vector<double> residual = residuals({c});
-    if (residual.empty() || residual.front() <= worst_residual) continue;
-    worst = &c;
-    worst_residual = residual.front();
-  }
-  const std::string name = worst ? worst->name : "none";
+  const auto worst = std::ranges::max_element(all, {}, [](const ConstraintReport& c) {
+    return c.required ? residuals({c}).front() : -1.0;
+  });
+  const std::vector<std::string> changes = single_changes(nearest.gains, context, requested, poles);
   return refusal(
       ErrorCode::kNoGains,
       fmt::format("no gains within the bounds meet the constraints: the nearest ({}) violate '{}', "
-                  "{:.4g} against a limit of {:.4g} ({}); {}",
-                  in_words(nearest.gains), name, worst ? worst->value : 0.0,
-                  worst ? worst->limit : 0.0, worst ? worst->meaning : "", advice_on(name)));
+                  "{:.4g} against a limit of {:.4g} ({}). {}",
+                  in_words(nearest.gains), worst->name, worst->value, worst->limit, worst->meaning,
+                  changes.empty()
+                      ? fmt::format("No change of a single limit or bound of tune.json permits "
+                                    "gains. Violated: {}",
+                                    fmt::join(violated(all), ", "))
+                      : fmt::format("Each of these changes of tune.json alone permits gains: {}",
+                                    fmt::join(changes, "; "))));
 }
 
 tl::unexpected<Error> not_found(const SearchResult& found, const Objective& objective,

@@ -2,6 +2,7 @@
 /// to relax. Private to tune/.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "awmr/core/result.h"
@@ -12,8 +13,11 @@
 namespace awmr {
 
 /// Error if no gains meet the constraints that need no simulation: names the constraint that the
-/// gains with the smallest violation, `nearest`, violate most.
-tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintContext& context);
+/// gains with the smallest violation, `nearest`, violate most, and every change of a single limit
+/// or bound in `requested` that alone permits gains. `poles`: the default bounds are around these.
+tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintContext& context,
+                                 const TuneOptions& requested,
+                                 std::span<const Gains<double>> poles);
 
 /// Error if no gains meet the limits that need simulated runs: names the goal, activity limit or
 /// constraint that the gains with the smallest violation violate most.

@@ -156,23 +156,41 @@ nlopt_result search_globally(Problem& problem, const TuneOptions& options, const
   }
 }
 
-/// Data of the callback of feasible_start(), which minimises the largest residual.
+/// Data of the callbacks of feasible_start() and least_relaxed(). The constraints named in `relaxed`
+/// do not count in the violation of a candidate.
 struct Feasibility {
   SearchSpace space;
   const ConstraintContext& context;
-  Candidate best;
+  std::span<const std::string> relaxed = {};
+  Candidate best = {.violation = std::numeric_limits<double>::infinity()};
+  /// Of gains that violate relaxed constraints only: those that violate them least.
+  Candidate least = {.violation = std::numeric_limits<double>::infinity()};
 
-  double look_at(const Point& point) {
-    Candidate c{.gains = with_friction_width(space.gains_at(point), context)};
-    const std::vector<double> r = residuals(constraints_of(c.gains, context));
-    c.violation = *std::max_element(r.begin(), r.end());
-    if (better(c, best)) best = c;
-    return c.violation;
+  /// Largest residual of the constraints that count, and of those in `relaxed`.
+  std::pair<double, double> look_at(const Point& point) {
+    const Gains<double> gains = with_friction_width(space.gains_at(point), context);
+    constexpr double kNone = -std::numeric_limits<double>::infinity();
+    std::pair<double, double> largest{kNone, kNone};
+    for (const ConstraintReport& c : constraints_of(gains, context)) {
+      const bool counts = std::ranges::find(relaxed, c.name) == relaxed.end();
+      double& most = counts ? largest.first : largest.second;
+      for (const double r : residuals({c})) most = r > most || std::isnan(r) ? r : most;
+    }
+    const auto [of_counted, of_relaxed] = largest;
+    if (of_counted < best.violation) best = {.gains = gains, .violation = of_counted};
+    if (of_counted <= 0.0 && of_relaxed < least.violation) {
+      least = {.gains = gains, .violation = of_relaxed};
+    }
+    return largest;
   }
 };
 
 double feasibility_callback(unsigned dimension, const double* x, double*, void* data) {
-  return static_cast<Feasibility*>(data)->look_at(point_at(dimension, x));
+  return static_cast<Feasibility*>(data)->look_at(point_at(dimension, x)).first;
+}
+
+double relaxed_callback(unsigned dimension, const double* x, double*, void* data) {
+  return static_cast<Feasibility*>(data)->look_at(point_at(dimension, x)).second;
 }
 
 /// Start `index` of feasible_start(): 0 the baseline, 1 the middle of the bounds, then random
@@ -227,12 +245,14 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
   return stop;
 }
 
-Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
-                         const Gains<double>& baseline) {
-  Feasibility problem{.space = SearchSpace(options), .context = context, .best = {}};
-  problem.best.violation = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 2 + kRandomStarts && problem.best.violation > 0.0; ++i) {
-    Point x = start_point(i, problem.space, options.seed, baseline);
+namespace {
+
+/// Searches from start_point() 0, 1, ... until the violation of `problem.best` is 0, at most from
+/// `starts` starts.
+void search_feasible(Feasibility& problem, std::uint64_t seed, const Gains<double>& baseline,
+                     int starts) {
+  for (int i = 0; i < starts && problem.best.violation > 0.0; ++i) {
+    Point x = start_point(i, problem.space, seed, baseline);
     Optimizer opt = optimizer(NLOPT_LN_COBYLA, problem.space, kStartEvaluations);
     nlopt_set_min_objective(opt.get(), feasibility_callback, &problem);
     nlopt_set_initial_step1(opt.get(), kFirstStep);
@@ -241,7 +261,35 @@ Candidate feasible_start(const TuneOptions& options, const ConstraintContext& co
     double value = 0.0;
     nlopt_optimize(opt.get(), x.data(), &value);
   }
+}
+
+}  // namespace
+
+Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
+                         const Gains<double>& baseline) {
+  Feasibility problem{.space = SearchSpace(options), .context = context};
+  search_feasible(problem, options.seed, baseline, 2 + kRandomStarts);
   return problem.best;
+}
+
+std::optional<Gains<double>> least_relaxed(const TuneOptions& options,
+                                           const ConstraintContext& context,
+                                           const Gains<double>& baseline,
+                                           std::span<const std::string> relaxed) {
+  Feasibility problem{.space = SearchSpace(options), .context = context, .relaxed = relaxed};
+  constexpr int kStarts = 5;
+  search_feasible(problem, options.seed, baseline, kStarts);
+  if (problem.best.violation > 0.0) return std::nullopt;
+  if (relaxed.empty()) return problem.best.gains;
+  Optimizer opt = optimizer(NLOPT_LN_COBYLA, problem.space, kStartEvaluations);
+  nlopt_set_min_objective(opt.get(), relaxed_callback, &problem);
+  nlopt_add_inequality_constraint(opt.get(), feasibility_callback, &problem, 0.0);
+  nlopt_set_initial_step1(opt.get(), kFirstStep);
+  nlopt_set_xtol_abs1(opt.get(), kLastStep);
+  Point x = problem.space.point_of(problem.least.gains);
+  double value = 0.0;
+  nlopt_optimize(opt.get(), x.data(), &value);
+  return problem.least.gains;
 }
 
 namespace {

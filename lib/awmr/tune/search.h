@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,14 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
 /// with the smallest violation. Searches from `baseline`, then from other points.
 Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
                          const Gains<double>& baseline);
+
+/// Returns gains within the bounds that meet all constraints that need no simulation but those named
+/// in `relaxed`, and that violate these as little as possible. Empty if none are found. Searches
+/// from `baseline`, then from other points.
+std::optional<Gains<double>> least_relaxed(const TuneOptions& options,
+                                           const ConstraintContext& context,
+                                           const Gains<double>& baseline,
+                                           std::span<const std::string> relaxed);
 
 /// Searches the logarithms of the gains with NLopt. `searched` is the objective on the nominal
 /// vehicle and some of the draws, `all` on the nominal vehicle and all draws.

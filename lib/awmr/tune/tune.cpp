@@ -164,16 +164,14 @@ Status check_baseline(const Objective& objective, const Baseline& baseline) {
 /// large.
 constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 
-/// Starts of the search: all gains of `poles`, the first of them slowed down by each of
-/// kSlowerStarts, and the baseline, if given. Each start is replaced by gains that meet the
-/// constraints (feasible_start()), or left out if there are none. Errors (refused): the search from
-/// the first of `poles` finds no such gains.
-Result<std::vector<Gains<double>>> starts_of(const TuneOptions& options,
-                                             const ConstraintContext& context,
-                                             std::span<const Gains<double>> poles) {
-  const Candidate first = feasible_start(options, context, poles.front());
-  if (first.violation > 0.0) return infeasible(first, context);
-  std::vector<Gains<double>> starts{first.gains};
+/// Starts of the search: `first`, which meets the constraints, the other gains of `poles`, the first
+/// of them slowed down by each of kSlowerStarts, and the baseline, if given. Each start but the
+/// first is replaced by gains that meet the constraints (feasible_start()), or left out if there
+/// are none.
+std::vector<Gains<double>> starts_of(const TuneOptions& options, const ConstraintContext& context,
+                                     const Gains<double>& first,
+                                     std::span<const Gains<double>> poles) {
+  std::vector<Gains<double>> starts{first};
   const auto add = [&](const Gains<double>& gains) {
     const Candidate other = feasible_start(options, context, gains);
     if (!(other.violation > 0.0)) starts.push_back(other.gains);
@@ -186,13 +184,15 @@ Result<std::vector<Gains<double>>> starts_of(const TuneOptions& options,
 
 /// Searches the gains on one setting, and evaluates them also in the scenario `held_out`.
 Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
-                            const ConstraintContext& context, TuneOptions options,
+                            const ConstraintContext& context, const TuneOptions& requested,
                             const Scenario& held_out) {
   const Gains<double> narrow = place_poles(context);
   const Gains<double> poles[] = {with_wide_layers(narrow, context), narrow};
+  TuneOptions options = requested;
   bound_around(poles, options.bounds);
-  AWMR_ASSIGN_OR_RETURN(const std::vector<Gains<double>> starts,
-                        starts_of(options, context, poles));
+  const Candidate first = feasible_start(options, context, poles[0]);
+  if (first.violation > 0.0) return infeasible(first, context, requested, poles);
+  const std::vector<Gains<double>> starts = starts_of(options, context, first.gains, poles);
   const Baseline baseline = options.baseline.value_or(Baseline{narrow, kPolePlacement});
   const Objective all(setting, baseline.gains);
   AWMR_RETURN_IF_ERROR(check_baseline(all, baseline));
@@ -368,7 +368,7 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
                            .mode = options.mode};
   ConstraintContext context = context_of(options, plant, model.vehicle, setting.scenarios);
   AWMR_RETURN_IF_ERROR(limit_observer(context, options.observer));
-  if (options.nominal) return search_gains(model, setting, context, std::move(options), held_out);
+  if (options.nominal) return search_gains(model, setting, context, options, held_out);
   return tune_robustly(model, std::move(setting), std::move(context), options, held_out);
 }
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "awmr/core/index.h"
@@ -285,21 +287,34 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
   if (aic_lead(own.fit, best.fit) > 0.0) best = std::move(own);
 }
 
+/// Names of the free delays, lags, command errors and offsets of a fit.
+std::set<std::string> names_of_terms(const LogFit& fit) {
+  std::set<std::string> names;
+  for (const FreeQuantity& q : fit.quantities) {
+    if (q.kind != FreeQuantity::Kind::kParameter) names.insert(q.name());
+  }
+  return names;
+}
+
 /// Returns the families of one axis (yaw if `of_yaw`, else surge) to compare again, and removes
 /// them from `others`. `winner`: the fit first selected on this axis. `best`: the fit after the
 /// other axis and the delays were selected too. A family is compared again if it lost to `winner`
-/// by less than `best` has improved on `winner`.
-std::vector<Contender> close_losers(const LogFit& winner, bool of_yaw, const FamilyFit& best,
-                                    std::vector<FamilyFit>& others) {
+/// by less than `best` has improved on `winner`, or if `best` has other delays, lags or command
+/// errors: without them, the true family can lose by any amount.
+std::vector<Contender> to_compare_again(const LogFit& winner, bool of_yaw, const FamilyFit& best,
+                                        std::vector<FamilyFit>& others) {
   const double improved = aic_lead(best.fit, winner);
-  std::vector<Contender> close;
+  const std::set<std::string> terms = names_of_terms(best.fit);
+  std::vector<Contender> again;
   std::erase_if(others, [&](const FamilyFit& other) {
     const bool is_of_axis = of_yaw ? other.yaw != best.yaw : other.surge != best.surge;
-    if (!is_of_axis || !other.fit.usable || !(aic_lead(winner, other.fit) < improved)) return false;
-    close.push_back(of_yaw ? Contender{best.surge, other.yaw} : Contender{other.surge, best.yaw});
+    if (!is_of_axis || !other.fit.usable) return false;
+    const bool is_close = aic_lead(winner, other.fit) < improved;
+    if (!is_close && names_of_terms(other.fit) == terms) return false;
+    again.push_back(of_yaw ? Contender{best.surge, other.yaw} : Contender{other.surge, best.yaw});
     return true;
   });
-  return close;
+  return again;
 }
 
 /// True if other yaw families (`of_yaw`) or surge families are to be fitted.
@@ -387,12 +402,11 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
   const auto [first_surge, first_yaw] = std::pair(first.surge, first.yaw);
   BestFamily result;
   result.best = std::move(first);
-  // Axis (true: yaw) and best fit of the first comparison, before delays are searched again.
-  std::optional<std::pair<bool, LogFit>> first_winner;
+  std::map<bool, LogFit> winners;  // by axis (true: yaw), before delays are searched again
   const auto contest_axis = [&](bool of_yaw, const std::vector<Contender>& others) {
     const auto before = std::pair(result.best.surge, result.best.yaw);
     LogFit of_first = compete(logs, power_law, others, contest.lead, result);
-    if (!first_winner) first_winner = {of_yaw, result.best.fit};
+    winners.try_emplace(of_yaw, result.best.fit);
     const bool is_other = std::pair(result.best.surge, result.best.yaw) != before;
     if (is_other) search_terms_again(logs, power_law, result);
     if (before == std::pair(first_surge, first_yaw)) power_fit = std::move(of_first);
@@ -402,9 +416,9 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
     if (!is_open || result.is_out_of_time) continue;
     contest_axis(of_yaw, contenders(result.best, of_yaw));
   }
-  if (first_winner && !result.is_out_of_time) {
-    const auto& [of_yaw, winner] = *first_winner;
-    const auto others = close_losers(winner, of_yaw, result.best, result.others);
+  for (const bool of_yaw : {yaw_first, !yaw_first}) {
+    if (!winners.contains(of_yaw) || result.is_out_of_time) continue;
+    const auto others = to_compare_again(winners.at(of_yaw), of_yaw, result.best, result.others);
     if (!others.empty()) contest_axis(of_yaw, others);
   }
   const bool other = result.best.surge != Family::kPower || result.best.yaw != Family::kPower;
