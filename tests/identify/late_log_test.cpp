@@ -181,8 +181,10 @@ TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
                     sensor_delay_of(LogChannel::kX),
                     sensor_lag_of(LogChannel::kSpeed),
                     steering_trim(),
-                    force_imbalance()};
-  fit.coordinates = {0.1, 0.2, 0.3, 0.4, 0.05, -0.1};
+                    force_imbalance(),
+                    force_saturation(0.5),
+                    saturation_sharpness()};
+  fit.coordinates = {0.1, 0.2, 0.3, 0.4, 0.05, -0.1, 0.6, 1.1};
   LogFitOptions before;
   before.terms = {{sensor_lag_of(LogChannel::kYawRate), 0.5}};
   const LogFitOptions options = with_terms_of(fit, before);
@@ -193,7 +195,7 @@ TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
     EXPECT_EQ(terms[i].begin, fit.coordinates[i]);
   }
   // In a fit, the terms of the commands come before those of the sensors.
-  EXPECT_EQ(initial_coordinates(options), (std::vector{0.1, 0.2, 0.05, -0.1, 0.3, 0.4}));
+  EXPECT_EQ(initial_coordinates(options), (std::vector{0.1, 0.2, 0.05, -0.1, 0.6, 1.1, 0.3, 0.4}));
 }
 
 /// Expects that the fit of a log with an error of the motors or the steering estimates the error,
@@ -278,6 +280,28 @@ TEST_P(ForceImbalance, IsFound) {
 INSTANTIATE_TEST_SUITE_P(Short, ForceImbalance, ::testing::Values(0.05));
 /// Also the other sign and a larger value.
 INSTANTIATE_TEST_SUITE_P(Long, ForceImbalance, ::testing::Values(-0.1));
+
+class ForceSaturation : public ::testing::TestWithParam<double> {};
+
+/// Commands F' that push with F'/(1 + (F'/F'm)^n)^(1/n), so that s is 1.
+TEST_P(ForceSaturation, IsFound) {
+  const double n = GetParam();
+  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+  double most = 0.0;  // of the forces after the saturation
+  for (const auto* const forces : {&log.force_left, &log.force_right}) {
+    for (const double force : *forces) most = std::max(most, std::abs(force));
+  }
+  const double full = std::pow(2.0, 1.0 / n) * most;
+  for (auto* const forces : {&log.force_left, &log.force_right}) {
+    for (double& force : *forces) {
+      force *= std::pow(1.0 - std::pow(std::abs(force) / full, n), -1.0 / n);
+    }
+  }
+  expect_found(std::move(log), kTruths[1], "motor.saturation", 1.0, "force-saturation");
+}
+INSTANTIATE_TEST_SUITE_P(Short, ForceSaturation, ::testing::Values(4.0));
+/// Also a softer and a sharper limit.
+INSTANTIATE_TEST_SUITE_P(Long, ForceSaturation, ::testing::Values(2.0, 8.0));
 
 TEST(LateLog, GivesTheSameBytesOnALoadedMachine) {
   TrialData data;

@@ -304,18 +304,25 @@ TEST(LinearReplay, DerivativeByASensorDelayIsTheRateOfTheMotion) {
   EXPECT_LT(apart, here.size() * kStateSize / 20);
 }
 
-/// The motion with a steering trim, rad, and an imbalance of the forces as the only columns.
-std::vector<LinearMotion> with_errors(const DrivingLog& log, double trim_rad, double imbalance) {
+/// Steering trim, rad, force imbalance, saturation and the logarithm of its sharpness.
+constexpr std::size_t kErrors = 4;
+using CommandErrors = std::array<double, kErrors>;
+
+/// The motion with these errors of the commands as the only columns.
+std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors& errors) {
   constexpr double kStep_s = 0.004;
   const LogSignals signals(log);
-  const CommandPath path{.steering_trim = OffsetColumn{trim_rad, 0},
-                         .imbalance = OffsetColumn{imbalance, 1}};
+  const CommandPath path{.steering_trim = OffsetColumn{errors[0], 0},
+                         .imbalance = OffsetColumn{errors[1], 1},
+                         .saturation = OffsetColumn{errors[2], 2},
+                         .full_command = 0.3,
+                         .sharpness = OffsetColumn{std::exp(errors[3]), 3}};
   const Plant<double> plant = plant_by_hand(log.steering_command_rad.has_value(), kStep_s,
                                             Drive::kFourWheel, Friction::kNone);
-  LinearStepper stepper(plant, 2, {}, columns_of(path));
+  LinearStepper stepper(plant, kErrors, {}, columns_of(path));
   std::vector<LinearMotion> motions;
   const LinearMotion first{first_state<double>([](std::size_t, double x) { return x; }),
-                           std::vector<double>(kStateSize * 2, 0.0)};
+                           std::vector<double>(kStateSize * kErrors, 0.0)};
   replay_linear(signals, 0, log.rows(), path, stepper, kStep_s, first,
                 [&](std::size_t, const LinearMotion& motion) { motions.push_back(motion); });
   return motions;
@@ -323,26 +330,27 @@ std::vector<LinearMotion> with_errors(const DrivingLog& log, double trim_rad, do
 
 TEST(LinearReplay, OfErrorsOfTheCommandsHasTheDerivativesOfCentralDifferences) {
   constexpr double kApart = 1e-6;
-  const double trim_rad = 0.03;
-  const double imbalance = -0.08;
+  const CommandErrors errors{0.03, -0.08, 0.4, 1.2};
   for (const bool servo : {true, false}) {
     const DrivingLog log = commands(servo);
-    const std::vector<LinearMotion> here = with_errors(log, trim_rad, imbalance);
-    const std::vector<LinearMotion> more[] = {with_errors(log, trim_rad + kApart, imbalance),
-                                              with_errors(log, trim_rad, imbalance + kApart)};
-    const std::vector<LinearMotion> less[] = {with_errors(log, trim_rad - kApart, imbalance),
-                                              with_errors(log, trim_rad, imbalance - kApart)};
-    for (std::size_t column = 0; column < 2; ++column) {
+    const std::vector<LinearMotion> here = with_errors(log, errors);
+    for (std::size_t column = 0; column < kErrors; ++column) {
+      CommandErrors more = errors;
+      CommandErrors less = errors;
+      more[column] += kApart;
+      less[column] -= kApart;
+      const std::vector<LinearMotion> after = with_errors(log, more);
+      const std::vector<LinearMotion> before = with_errors(log, less);
       for (const LogChannel channel : kChannels) {
         double largest = 1e-9;
         for (const LinearMotion& motion : here) {
-          largest = std::max(largest, std::abs(motion.row(channel, 2)[column]));
+          largest = std::max(largest, std::abs(motion.row(channel, kErrors)[column]));
         }
         for (std::size_t row = 1; row < here.size(); ++row) {
-          const double slope = (channel_of(more[column][row].state, channel) -
-                                channel_of(less[column][row].state, channel)) /
-                               (2.0 * kApart);
-          ASSERT_NEAR(here[row].row(channel, 2)[column], slope, 1e-4 * largest)
+          const double slope =
+              (channel_of(after[row].state, channel) - channel_of(before[row].state, channel)) /
+              (2.0 * kApart);
+          ASSERT_NEAR(here[row].row(channel, kErrors)[column], slope, 1e-4 * largest)
               << info(channel).name << " by column " << column << " at row " << row;
         }
       }

@@ -230,7 +230,8 @@ LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& commo
   }
   LogComparison found{disagreement_on_missing(logs, files, options, common.fit), std::nullopt};
   for (LogDisagreement& one : disagreements_of(files, fits, common)) {
-    one.withdraws = one.name == kSteeringTrimName || one.name == kForceImbalanceName;
+    one.withdraws = one.name == kSteeringTrimName || one.name == kForceImbalanceName ||
+                    one.name == kForceSaturationName;
     found.disagreements.push_back(std::move(one));
   }
   return found;

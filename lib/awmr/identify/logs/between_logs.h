@@ -45,8 +45,8 @@ struct LogComparison {
 /// The common fit may lack a delay or command error that differs between the logs, for example a
 /// steering trim that was changed between two logs. Of these terms, the one whose score tests
 /// differ most between the logs is therefore also fitted to each log, if they differ by more than
-/// three standard errors. If the logs disagree on this term, or on a steering trim or force
-/// imbalance of the common fit, all intervals of the common fit are invalid, because the other
+/// three standard errors. If the logs disagree on this term, or on a steering trim, force imbalance
+/// or saturation of the common fit, all intervals of the common fit are invalid, because the other
 /// quantities absorb the effect.
 ///
 /// A single log of 20 s or more is split: a fit of its first half predicts its second half and its

@@ -10,11 +10,16 @@
 namespace awmr {
 
 /// One finding for each delay, lag or command error that the fit identifies: `sensor-delay`,
-/// `sensor-lag`, `steering-delay`, `steering-trim`, `force-imbalance`, `actuator-lag`,
-/// `late-commands`. Ignores values below two standard errors, 1 ms, 1 mrad (trim) or 0.1 %
-/// (imbalance). `withdrawn`: true if the intervals of the fit are withdrawn, which the messages
-/// then state. `file`: the log that the findings name.
+/// `sensor-lag`, `steering-delay`, `steering-trim`, `force-imbalance`, `force-saturation`,
+/// `actuator-lag`, `late-commands`. Ignores values below two standard errors, 1 ms, 1 mrad (trim),
+/// 0.1 % (imbalance) or 0.001 (saturation). `withdrawn`: true if the intervals of the fit are
+/// withdrawn, which the messages then state. `file`: the log that the findings name.
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
                                                  const std::string& file);
+
+/// True if the fit has found a saturation that takes more than 5 % of the force at the largest
+/// command. The logs do not show the true form of the saturation, and with it the force of small
+/// commands, on which all other values depend: the intervals of the fit are too narrow.
+bool saturates_much(const LogFit& fit);
 
 }  // namespace awmr

@@ -34,6 +34,18 @@ bool any_log(const LogProblem& problem, bool (*has)(const DrivingLog&)) {
                              [&](const FitWindow& window) { return has(*window.rows.log); });
 }
 
+/// Largest force command of the logs, over F_max.
+double largest_command(const LogProblem& problem) {
+  double largest = 0.0;
+  for (const FitWindow& window : problem.windows) {
+    const DrivingLog& log = *window.rows.log;
+    for (std::size_t row = window.rows.begin; row < window.rows.end; ++row) {
+      largest = std::max({largest, std::abs(log.force_left[row]), std::abs(log.force_right[row])});
+    }
+  }
+  return largest;
+}
+
 }  // namespace
 
 std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
@@ -55,6 +67,10 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   }
   if (!has_kind(quantities, Kind::kForceImbalance) && any_log(problem, has_force_difference)) {
     found.push_back(force_imbalance());
+  }
+  const double full_command = largest_command(problem);
+  if (full_command > 0.0 && !has_kind(quantities, Kind::kForceSaturation)) {
+    found.push_back(force_saturation(full_command));
   }
   return found;
 }
@@ -90,12 +106,13 @@ double akaike_of(const NoiseIteration& fit) {
 
 /// Frees the terms `more` and fits one round, starting with white noise in place of drift.
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more, Loss loss) {
-  constexpr double kLargestFirstStep = 0.3;
+  constexpr double kLargestFirstStep = 3.0;  // in large changes
   std::vector<FreeQuantity> quantities;
   std::vector<double> begin;
   for (const FreeTerm& term : more) {
     quantities.push_back(term.quantity);
-    begin.push_back(std::clamp(term.begin, -kLargestFirstStep, kLargestFirstStep));
+    const double most = kLargestFirstStep * term.quantity.large_change;
+    begin.push_back(std::clamp(term.begin, -most, most));
   }
   Extended from = extended(with_white_noise(settled.problem), settled.point, quantities, begin);
   return settle_noise(std::move(from.problem), std::move(from.point), loss, 1);
@@ -141,6 +158,16 @@ void consider_filters(const NoiseIteration& settled,
   }
 }
 
+/// The candidate with the terms that are freed together with it.
+std::vector<FreeTerm> with_companion(const CandidateTerm& candidate) {
+  std::vector<FreeTerm> terms{{candidate.quantity, candidate.value}};
+  if (candidate.quantity.kind == FreeQuantity::Kind::kForceSaturation) {
+    const FreeQuantity sharpness = saturation_sharpness();
+    terms.push_back({sharpness, to_coordinate(sharpness.scale, kDefaultSharpness)});
+  }
+  return terms;
+}
+
 /// Fits each candidate term for one round and returns the fit with the lowest AIC. If no term
 /// lowers AIC, returns the fit of the most significant candidate if its score test exceeds 20
 /// standard errors, else empty.
@@ -161,7 +188,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     const FreeQuantity& more = candidate_term.quantity;
     const bool is_sensor = more.kind == FreeQuantity::Kind::kSensorDelay;
     if (is_sensor && has_sensor) continue;
-    NoiseIteration fit = tried(settled, {{more, candidate_term.value}}, loss);
+    NoiseIteration fit = tried(settled, with_companion(candidate_term), loss);
     const double found_s = fit.point.coordinates.back();
     if (&candidate_term == &terms.front() && candidate_term.significance > kBeyondDoubt) {
       strongest = fit;

@@ -13,7 +13,8 @@ namespace awmr {
 ///     one of these signals has no delay, as the time reference of the others;
 ///   - an additional delay of the steering, if the servo's time constant is free;
 ///   - a steering trim, if the steering moves;
-///   - a force imbalance, if left and right forces differ.
+///   - a force imbalance, if left and right forces differ;
+///   - a saturation of the forces.
 std::vector<FreeQuantity> further_terms(const LogProblem& problem);
 
 /// Adds the terms of further_terms() one at a time to the converged fit `settled`, until none

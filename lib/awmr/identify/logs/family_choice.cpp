@@ -260,8 +260,6 @@ LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_l
   const LogFit of_first = first.fit;
   if (aic_lead(alternatives[best].fit, first.fit) > lead) {
     std::swap(first, alternatives[best]);
-  } else if (const auto finding = undecided(logs.front().file, first, alternatives[best])) {
-    result.findings.push_back(*finding);
   }
   result.best = std::move(first);
   for (FamilyFit& alternative : alternatives) result.others.push_back(std::move(alternative));
@@ -315,6 +313,24 @@ std::vector<Contender> to_compare_again(const LogFit& winner, bool of_yaw, const
     return true;
   });
   return again;
+}
+
+/// The findings of undecided() for the best alternative on each axis.
+std::vector<Finding> undecided_axes(const std::string& file, const BestFamily& result) {
+  std::vector<Finding> findings;
+  for (const bool of_yaw : {false, true}) {
+    const FamilyFit* best = nullptr;
+    for (const FamilyFit& other : result.others) {
+      const bool is_of_axis =
+          of_yaw ? other.yaw != result.best.yaw && other.surge == result.best.surge
+                 : other.surge != result.best.surge && other.yaw == result.best.yaw;
+      if (!is_of_axis) continue;
+      if (!best || aic_lead(other.fit, best->fit) > 0.0) best = &other;
+    }
+    if (!best) continue;
+    if (const auto finding = undecided(file, result.best, *best)) findings.push_back(*finding);
+  }
+  return findings;
 }
 
 /// True if other yaw families (`of_yaw`) or surge families are to be fitted.
@@ -420,6 +436,9 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
     if (!winners.contains(of_yaw) || result.is_out_of_time) continue;
     const auto others = to_compare_again(winners.at(of_yaw), of_yaw, result.best, result.others);
     if (!others.empty()) contest_axis(of_yaw, others);
+  }
+  for (Finding& finding : undecided_axes(logs.front().file, result)) {
+    result.findings.push_back(std::move(finding));
   }
   const bool other = result.best.surge != Family::kPower || result.best.yaw != Family::kPower;
   if (other && aic_lead(result.best.fit, power_fit) > kFamilyAicThreshold) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/logs/quantities.h"
 
 namespace awmr {
 namespace {
@@ -83,8 +84,9 @@ CommandColumns columns_of(const CommandPath& path) {
   const auto column = [](const auto& term) {
     return term ? std::optional(term->column) : std::nullopt;
   };
-  return {column(path.delay), column(path.steering_delay), path.lag_column,
-          column(path.steering_trim), column(path.imbalance)};
+  return {column(path.delay),         column(path.steering_delay), path.lag_column,
+          column(path.steering_trim), column(path.imbalance),      column(path.saturation),
+          column(path.sharpness)};
 }
 
 const double* LinearMotion::row(LogChannel channel, std::size_t columns) const {
@@ -125,6 +127,8 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
   if (c.lag) set_column({command.by_lag, 0.0}, *c.lag, driven);
   if (c.steering_trim) set_column({{}, command.steering_by_trim}, *c.steering_trim, driven);
   if (c.imbalance) set_column({command.by_imbalance, 0.0}, *c.imbalance, driven);
+  if (c.saturation) set_column({command.by_saturation, 0.0}, *c.saturation, driven);
+  if (c.sharpness) set_column({command.by_sharpness, 0.0}, *c.sharpness, driven);
 }
 
 void LinearStepper::set_column(const HeldCommand& by, std::size_t column, double* driven) const {
@@ -270,6 +274,31 @@ HeldCommand logged_command(const DrivingLog& log, const ActingRows& rows) {
           log.driving_steering_rad()[rows.steering]};
 }
 
+/// Applies the saturation s to the forces f and their derivatives. With w = (|f|/F'm)^n:
+///
+///     f_s = f (1 + s w)^(-1/n)
+///     d f_s/d f = (1 + s w)^(-1/n - 1),   d f_s/d s = -f w/n d f_s/d f
+///     d f_s/d ln n = f_s (ln(1 + s w) - s w ln(w)/(1 + s w))/n
+void saturate(const CommandPath& path, DelayedCommand& at) {
+  const double s = path.saturation->value;
+  const double n = path.sharpness ? path.sharpness->value : kDefaultSharpness;
+  for (double SideForces<double>::*const side :
+       {&SideForces<double>::left, &SideForces<double>::right}) {
+    double& force = at.command.force.*side;
+    const double w = std::pow(std::abs(force) / path.full_command, n);
+    const double sum = 1.0 + s * w;
+    const double share = std::pow(sum, -1.0 / n);
+    const double slope = share / sum;
+    const double log_w = w > 0.0 ? std::log(w) : 0.0;
+    at.by_saturation.*side = -force * w / n * slope;
+    at.by_sharpness.*side = force * share * (std::log(sum) - s * w * log_w / sum) / n;
+    at.by_delay.*side *= slope;
+    at.by_lag.*side *= slope;
+    at.by_imbalance.*side *= slope;
+    force *= share;
+  }
+}
+
 DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
   if (path.steering_trim) {
     at.command.steering_rad += path.steering_trim->value;
@@ -282,6 +311,7 @@ DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
       force->right *= 1.0 + path.imbalance->value;
     }
   }
+  if (path.saturation) saturate(path, at);
   return at;
 }
 

@@ -37,7 +37,8 @@ struct DelayColumn {
   std::size_t column;
 };
 
-/// A constant error of the commands (trim in rad, or imbalance) and the column of its derivatives.
+/// A constant error of the commands (trim in rad, imbalance or saturation) and the column of its
+/// derivatives.
 struct OffsetColumn {
   double value;
   std::size_t column;
@@ -50,7 +51,10 @@ struct CommandPath {
   std::optional<LaggedForces> lag = {};            ///< forces after the motors' lag
   std::optional<std::size_t> lag_column = {};      ///< column of the lag; present if it is free
   std::optional<OffsetColumn> steering_trim = {};  ///< rad, added to command or logged angle
-  std::optional<OffsetColumn> imbalance = {};  ///< e: left forces times 1 - e, right times 1 + e
+  std::optional<OffsetColumn> imbalance = {};   ///< e: left forces times 1 - e, right times 1 + e
+  std::optional<OffsetColumn> saturation = {};  ///< s of force_saturation()
+  double full_command = 1.0;                    ///< F'm of force_saturation()
+  std::optional<OffsetColumn> sharpness = {};   ///< n; the derivatives are by ln n
   /// True (motors with back-EMF): a motor is off as soon as its command is 0, whatever its lag.
   bool switches_off = false;
 };
@@ -62,6 +66,8 @@ struct CommandColumns {
   std::optional<std::size_t> lag = {};
   std::optional<std::size_t> steering_trim = {};
   std::optional<std::size_t> imbalance = {};
+  std::optional<std::size_t> saturation = {};
+  std::optional<std::size_t> sharpness = {};
 };
 CommandColumns columns_of(const CommandPath& path);
 
@@ -71,9 +77,11 @@ struct DelayedCommand {
   /// d force / d delay, 1/s, of motors with lag. Without lag, the derivative by a delay is added by
   /// LinearStepper::change_command().
   SideForces<double> by_delay{};
-  SideForces<double> by_lag{};        ///< d force / d time constant of the motors, 1/s
-  SideForces<double> by_imbalance{};  ///< d force / d imbalance
-  double steering_by_trim = 0.0;      ///< d steering / d trim: 1 if there is a trim, else 0
+  SideForces<double> by_lag{};         ///< d force / d time constant of the motors, 1/s
+  SideForces<double> by_imbalance{};   ///< d force / d imbalance
+  SideForces<double> by_saturation{};  ///< d force / d saturation
+  SideForces<double> by_sharpness{};   ///< d force / d ln n
+  double steering_by_trim = 0.0;       ///< d steering / d trim: 1 if there is a trim, else 0
 };
 
 /// Integrates the state and its derivatives step by step.

@@ -419,7 +419,7 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
     if (!fit.refusal_reason[i].empty()) {
       if (parameter) stage.reasons[q.id] = fit.refusal_reason[i];
       if (q.is(ParameterId::kBackEmf)) stage.is_back_emf_open = true;
-      if (!parameter) {
+      if (!parameter && q.kind != FreeQuantity::Kind::kSaturationSharpness) {
         stage.findings.push_back({file, 0, Severity::kWarning, "not-identifiable",
                                   fmt::format("{}: {}", q.name(), fit.refusal_reason[i])});
       }
@@ -496,7 +496,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   report(options, "comparing the logs with each other");
   const LogComparison compared = compare_logs(logs, chosen);
   stage.withdraws_intervals =
-      stage.withdraws_intervals || compared.missed ||
+      stage.withdraws_intervals || compared.missed || saturates_much(chosen.fit) ||
       std::ranges::any_of(compared.disagreements, &LogDisagreement::withdraws);
   append(stage.findings, in_words(compared.disagreements, stage.withdraws_intervals));
   if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));

@@ -16,6 +16,8 @@ Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& 
   constexpr double kLongest_s = 1.0;
   constexpr double kLargestTrim_rad = 0.35;
   constexpr double kLargestImbalance = 0.5;
+  constexpr double kLargestSaturation = 1e3;
+  constexpr Interval kSharpness{1.0, 20.0};
   if (quantity.kind == FreeQuantity::Kind::kDelay ||
       quantity.kind == FreeQuantity::Kind::kSteeringDelay) {
     return {-kLongest_s, kLongest_s};
@@ -25,6 +27,11 @@ Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& 
   }
   if (quantity.kind == FreeQuantity::Kind::kForceImbalance) {
     return {-kLargestImbalance, kLargestImbalance};
+  }
+  if (quantity.kind == FreeQuantity::Kind::kForceSaturation) return {0.0, kLargestSaturation};
+  if (quantity.kind == FreeQuantity::Kind::kSaturationSharpness) {
+    return {to_coordinate(quantity.scale, kSharpness.lo),
+            to_coordinate(quantity.scale, kSharpness.hi)};
   }
   if (quantity.may_be_zero()) return {0.0, kLongest_s};
   if (quantity.kind == FreeQuantity::Kind::kBias) return {-1e6, 1e6};
@@ -59,6 +66,10 @@ std::string FreeQuantity::name() const {
       return std::string(kSteeringTrimName);
     case Kind::kForceImbalance:
       return std::string(kForceImbalanceName);
+    case Kind::kForceSaturation:
+      return std::string(kForceSaturationName);
+    case Kind::kSaturationSharpness:
+      return std::string(kSaturationSharpnessName);
     case Kind::kSensorDelay:
       return fmt::format("{}{}", kSensorDelayPrefix, info(channel).name);
     case Kind::kSensorLag:
@@ -94,6 +105,14 @@ FreeQuantity steering_trim() {
 
 FreeQuantity force_imbalance() {
   return {.kind = FreeQuantity::Kind::kForceImbalance, .large_change = 0.1};
+}
+
+FreeQuantity force_saturation(double full_command) {
+  return {.kind = FreeQuantity::Kind::kForceSaturation, .full_command = full_command};
+}
+
+FreeQuantity saturation_sharpness() {
+  return {.kind = FreeQuantity::Kind::kSaturationSharpness, .scale = Scale::kLogarithmic};
 }
 
 FreeQuantity sensor_delay_of(LogChannel channel) {

@@ -19,15 +19,17 @@ struct LogFitOptions;
 struct FreeQuantity {
   /// Kinds of quantities, in the order of the columns of a fit.
   enum class Kind {
-    kParameter,       ///< a model parameter
-    kDelay,           ///< delay of all commands
-    kSteeringDelay,   ///< additional delay of the steering command
-    kMotorLag,        ///< time constant of the motors
-    kSteeringTrim,    ///< steering angle at a command of 0
-    kForceImbalance,  ///< (right - left)/(right + left) of the forces at equal commands
-    kBias,            ///< constant offset of a channel
-    kSensorDelay,     ///< latency of a channel
-    kSensorLag        ///< time constant of a filter that smooths a channel
+    kParameter,            ///< a model parameter
+    kDelay,                ///< delay of all commands
+    kSteeringDelay,        ///< additional delay of the steering command
+    kMotorLag,             ///< time constant of the motors
+    kSteeringTrim,         ///< steering angle at a command of 0
+    kForceImbalance,       ///< (right - left)/(right + left) of the forces at equal commands
+    kForceSaturation,      ///< s of force_saturation(): large commands push less than in proportion
+    kSaturationSharpness,  ///< n of force_saturation()
+    kBias,                 ///< constant offset of a channel
+    kSensorDelay,          ///< latency of a channel
+    kSensorLag             ///< time constant of a filter that smooths a channel
   };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< of kParameter
@@ -35,14 +37,18 @@ struct FreeQuantity {
       LogChannel::kX;  ///< of kSensorDelay (kX: x and y together), kSensorLag, kBias
   Scale scale = Scale::kLinear;
   /// Change of the coordinate that counts as large: 1 for a logarithm (a factor e), an exponent or
-  /// a bias (SI); 0.2 for a term of a family; 0.1 for a delay or lag (s), trim (rad) or imbalance.
-  /// Standard deviations of priors and limits of identifiability are multiples of this change.
+  /// a bias (SI); 0.2 for a term of a family; 0.1 for a delay or lag (s), trim (rad) or imbalance;
+  /// 1 for the saturation. Standard deviations of priors and limits of identifiability are
+  /// multiples of this change.
   double large_change = 1.0;
+  double full_command = 1.0;  ///< of kForceSaturation: F'm of force_saturation(), > 0
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
-  /// True for delays and lags that cannot be negative, so that 0 is an end of their range.
+  /// True for delays, lags and the saturation, which cannot be negative, so that 0 is an end of
+  /// their range.
   bool may_be_zero() const {
-    return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag;
+    return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag ||
+           kind == Kind::kForceSaturation;
   }
   std::string name() const;
   double value(double coordinate) const;
@@ -68,6 +74,18 @@ FreeQuantity steering_trim();
 /// Force imbalance e: the left motors push with 1 - e times their command, the right with 1 + e
 /// times.
 FreeQuantity force_imbalance();
+
+/// Saturation s >= 0 of the wheel forces: the command F' pushes with
+///
+///     F'/(1 + s (|F'|/F'm)^n)^(1/n)
+///
+/// (times F_max). F'm is the largest command of the logs. Small commands act in proportion; slipping
+/// tyres, current limits or a weak battery reduce large ones.
+FreeQuantity force_saturation(double full_command);
+
+/// Sharpness n of the saturation; a limit that begins at once has a large n.
+FreeQuantity saturation_sharpness();
+inline constexpr double kDefaultSharpness = 4.0;  ///< of a fit without free sharpness
 
 /// Time constant of a first-order filter that smooths a channel, s.
 FreeQuantity sensor_lag_of(LogChannel channel);

@@ -72,6 +72,13 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
       case FreeQuantity::Kind::kForceImbalance:
         u.path.imbalance = {number, i};
         break;
+      case FreeQuantity::Kind::kForceSaturation:
+        u.path.saturation = {number, i};
+        u.path.full_command = quantity.full_command;
+        break;
+      case FreeQuantity::Kind::kSaturationSharpness:
+        u.path.sharpness = {number, i};
+        break;
       case FreeQuantity::Kind::kSensorLag:
         u.sensor_lag[at(quantity.channel)] = {number, i};
         break;
