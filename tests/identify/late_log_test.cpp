@@ -281,23 +281,45 @@ INSTANTIATE_TEST_SUITE_P(Short, ForceImbalance, ::testing::Values(0.05));
 /// Also the other sign and a larger value.
 INSTANTIATE_TEST_SUITE_P(Long, ForceImbalance, ::testing::Values(-0.1));
 
-class ForceSaturation : public ::testing::TestWithParam<double> {};
-
-/// Commands F' that push with F'/(1 + (F'/F'm)^n)^(1/n), so that s is 1.
-TEST_P(ForceSaturation, IsFound) {
-  const double n = GetParam();
-  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+/// The log with commands F' that push with F'/(1 + s (F'/F'm)^n)^(1/n), F'm the largest of them.
+DrivingLog saturated(DrivingLog log, double s, double n) {
   double most = 0.0;  // of the forces after the saturation
   for (const auto* const forces : {&log.force_left, &log.force_right}) {
     for (const double force : *forces) most = std::max(most, std::abs(force));
   }
-  const double full = std::pow(2.0, 1.0 / n) * most;
+  const double full = std::pow(1.0 + s, 1.0 / n) * most;
   for (auto* const forces : {&log.force_left, &log.force_right}) {
     for (double& force : *forces) {
-      force *= std::pow(1.0 - std::pow(std::abs(force) / full, n), -1.0 / n);
+      force *= std::pow(1.0 - s * std::pow(std::abs(force) / full, n), -1.0 / n);
     }
   }
-  expect_found(std::move(log), kTruths[1], "motor.saturation", 1.0, "force-saturation");
+  return log;
+}
+
+TEST(LateLog, FindsASmallSaturationOfTheForces) {
+  constexpr double kSaturation = 0.15;  // 3.4 % less force at the largest command
+  expect_found(saturated(drive(kTruths[1], 8, {.duration_s = 40.0}), kSaturation, 4.0), kTruths[1],
+               "motor.saturation", kSaturation, "force-saturation");
+}
+
+class ForceSaturation : public ::testing::TestWithParam<double> {};
+
+/// A loss of more than 5 % is compensated, but the intervals are withdrawn.
+TEST_P(ForceSaturation, IsCompensatedWithoutIntervals) {
+  const Truth& truth = kTruths[1];
+  TrialData data;
+  data.logs = {saturated(drive(truth, 8, {.duration_s = 40.0}), 1.0, GetParam())};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "force-saturation"));
+  const std::pair<ParameterId, double> truths[] = {
+      {ParameterId::kMassNorm, truth.mass_norm},
+      {ParameterId::kSurgeAlpha, truth.a1},
+      {ParameterId::kInertiaNorm, 0.16 * truth.mass_norm}};
+  for (const auto& [id, value] : truths) {
+    EXPECT_NEAR(result->model[id].value.value_or(0.0), value, 0.05 * value) << info(id).name;
+    EXPECT_FALSE(result->model[id].ci95) << info(id).name;
+  }
 }
 INSTANTIATE_TEST_SUITE_P(Short, ForceSaturation, ::testing::Values(4.0));
 /// Also a softer and a sharper limit.

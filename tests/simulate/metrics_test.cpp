@@ -136,6 +136,19 @@ TEST(Metrics, WorkIsPositiveForceTimesTheWheelsSpeed) {
   EXPECT_NEAR(metrics_of(run, kSteps, real).energy_electric, 0.5 * m.energy_electric, 1e-9);
 }
 
+TEST(Metrics, WorkIsThatOfTheForcesBeyondTheDeadZone) {
+  awmr::Run run = by_hand({0.0, 0.0, 0.0, 0.0, 0.0});
+  for (RunRow& row : run.rows) {
+    row.state.u_mps = 0.8;
+    row.acting = {0.3, 0.6, 0.3, 0.6};
+  }
+  Controller<double> dead = make_controller(paper_plant(), paper_vehicle(), {});
+  dead.limits.dead_zone = 0.1;
+  const Metrics m = metrics_of(run, kSteps, dead);
+  EXPECT_NEAR(m.energy_mech, 4.0 * 2.0 * (0.2 + 0.5) * 0.8, 1e-12);
+  EXPECT_NEAR(m.energy_electric, 4.0 * 2.0 * (0.04 + 0.25), 1e-12);
+}
+
 TEST(Metrics, FrontWheelsRollAlongTheirAngle) {
   awmr::Run run = by_hand({0.0, 0.0, 0.0, 0.0, 0.0});
   for (RunRow& row : run.rows) {

@@ -127,7 +127,8 @@ MotorWork<T> motor_work(const WheelForces<T>& f, const WheelSpeeds<T>& w,
   const auto power = [](const T& force, const T& wheel_mps) {
     return larger(T(0.0), T(force * wheel_mps));
   };
-  if (!any(vehicle.back_emf_s_per_m > T(0.0) || vehicle.rear_driven < T(1.0))) {
+  if (!any(vehicle.back_emf_s_per_m > T(0.0) || vehicle.dead_zone > T(0.0) ||
+           vehicle.rear_driven < T(1.0))) {
     return {(power(f.rear_left, w.rear_left) + power(f.front_left, w.front_left)) +
                 (power(f.rear_right, w.rear_right) + power(f.front_right, w.front_right)),
             T(0.5) * ((f.rear_left * f.rear_left + f.front_left * f.front_left) +

@@ -43,12 +43,13 @@ struct Metrics {
   /// reached, a waypoint was missed, or the vehicle overlapped an obstacle.
   std::optional<double> finish_time_s;
 
-  /// Positive mechanical work of the applied wheel forces (RunRow::acting), over F_max, m; braking
-  /// recovers no energy:
-  ///   integral of sum_i max(0, F'_i w_i), w_i: the speed of wheel i in its rolling direction
+  /// Positive mechanical work of the motors, over F_max, m; braking recovers no energy:
+  ///   integral of sum_i max(0, F'_i w_i)
+  /// F'_i: RunRow::acting of wheel i, less dead zone and back-EMF; w_i: the wheel's speed in its
+  /// rolling direction.
   double energy_mech = 0.0;
   /// Copper loss of the motors, relative to the loss of one motor at F_max, s: integral of sum_i
-  /// F'_i^2.
+  /// F'_i^2, F'_i as in energy_mech.
   double energy_electric = 0.0;
   double saturation_s = 0.0;             ///< time, s, with a command at a limit of F' or of d_r
   double steering_travel_deg = 0.0;      ///< total variation of the actual steering angle d_r

@@ -247,8 +247,8 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
 
 namespace {
 
-/// Searches from start_point() 0, 1, ... until the violation of `problem.best` is 0, at most from
-/// `starts` starts.
+/// Searches from start_point() 0, 1, ... until `problem.best` meets the constraints that count, at
+/// most from `starts` starts.
 void search_feasible(Feasibility& problem, std::uint64_t seed, const Gains<double>& baseline,
                      int starts) {
   for (int i = 0; i < starts && problem.best.violation > 0.0; ++i) {

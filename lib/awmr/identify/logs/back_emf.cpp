@@ -55,12 +55,8 @@ LogFitOptions with_back_emf(LogFitOptions options) {
   constexpr double kShare = 0.1;  // initial back-EMF, as a share of the resistance at 1 m/s
   double& guess = options.initial_guess[at(ParameterId::kBackEmf)];
   if (!(guess > 0.0)) guess = kShare * options.initial_guess[at(ParameterId::kSurgeAlpha)] / 4.0;
-  if (!frees_back_emf(options)) options.free.push_back(ParameterId::kBackEmf);
+  if (!options.frees(ParameterId::kBackEmf)) options.free.push_back(ParameterId::kBackEmf);
   return options;
-}
-
-bool frees_back_emf(const LogFitOptions& options) {
-  return std::ranges::find(options.free, ParameterId::kBackEmf) != options.free.end();
 }
 
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms) {

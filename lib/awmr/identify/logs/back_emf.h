@@ -20,9 +20,6 @@ std::string why_no_back_emf(const std::vector<DrivingLog>& logs);
 /// Returns the options with k_e free, and with an initial guess of k_e if there was none.
 LogFitOptions with_back_emf(LogFitOptions options);
 
-/// True if k_e is free in a fit with these options.
-bool frees_back_emf(const LogFitOptions& options);
-
 /// True if a fit with k_e free should be tried after `fit`: the score test of k_e estimates a
 /// decrease of -2 ln L above 4, a slow drift of a channel may hide k_e, or `fit` did not converge.
 /// False if k_e is not among `candidate_terms`, those of the options of `fit`.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "awmr/identify/logs/family_choice.h"
+#include "awmr/identify/logs/family_fit.h"
 #include "awmr/identify/logs/held_out.h"
 
 namespace awmr {

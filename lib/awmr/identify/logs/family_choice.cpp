@@ -3,120 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
 #include <utility>
 
-#include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/identify/logs/family_score.h"
-#include "awmr/identify/logs/nearest_curve.h"
 #include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
 namespace {
-
-/// Fixes an exponent at 1, for families without a free exponent.
-void hold_exponent(LogFitOptions& options, ParameterId beta) {
-  std::erase(options.free, beta);
-  options.initial_guess[at(beta)] = 1.0;
-}
-
-/// Frees a term. Sets its initial guess to `guess` unless it already has one.
-void free_term(LogFitOptions& options, ParameterId id, double guess) {
-  if (std::find(options.free.begin(), options.free.end(), id) == options.free.end()) {
-    options.free.push_back(id);
-  }
-  double& value = options.initial_guess[at(id)];
-  if (!(value > 0.0)) value = guess;
-}
-
-LogFitOptions with_families(LogFitOptions options, Family surge_family, Family yaw_family) {
-  constexpr double kCoulombShare = 0.1;  // initial guess, relative to alpha, the force at 1 m/s
-  const FamilyTerms surge = terms_of(surge_family);
-  const FamilyTerms yaw = terms_of(yaw_family);
-  const double surge_force = options.initial_guess[at(ParameterId::kSurgeAlpha)];
-  const double yaw_force = options.initial_guess[at(ParameterId::kYawAlpha)];
-  if (!surge.beta) hold_exponent(options, ParameterId::kSurgeBeta);
-  if (!yaw.beta) hold_exponent(options, ParameterId::kYawBeta);
-  if (surge.coulomb) free_term(options, ParameterId::kSurgeCoulomb, kCoulombShare * surge_force);
-  if (surge.quadratic) free_term(options, ParameterId::kSurgeQuadratic, 0.0);
-  if (surge.dead_zone) free_term(options, ParameterId::kWheelDeadZone, 0.05);
-  if (yaw.coulomb) free_term(options, ParameterId::kYawCoulomb, kCoulombShare * yaw_force);
-  if (yaw.quadratic) free_term(options, ParameterId::kYawQuadratic, 0.0);
-  return options;
-}
-
-FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, Family surge,
-                   Family yaw) {
-  FamilyFit result{surge, yaw, std::move(options), {}};
-  result.fit = fit_logs(logs, result.options);
-  result.fit.report.family = families_in_words(surge, yaw);
-  const bool back_emf =
-      std::ranges::find(result.options.free, ParameterId::kBackEmf) != result.options.free.end();
-  if (back_emf) result.fit.report.family += ", back-EMF";
-  if (result.fit.usable) result.fit.report.aicc = aic_under(result.fit.noise, result.fit);
-  return result;
-}
-
-/// Options that start the families `surge` and `yaw` at the optimum of `inner`. Terms that these
-/// families lack, and terms that are 0 in `inner`, get the initial values of `power_law`.
-LogFitOptions without_terms(const LogFitOptions& power_law, const FamilyFit& inner, Family surge,
-                            Family yaw) {
-  LogFitOptions options = from_optimum(power_law, inner);
-  const std::vector<ParameterId> free = with_families(options, surge, yaw).free;
-  for (const ParameterInfo& parameter : parameter_table()) {
-    const bool is_free = std::ranges::find(free, parameter.id) != free.end();
-    double& value = options.initial_guess[at(parameter.id)];
-    if (parameter.term && !(is_free && value > 0.0)) {
-      value = power_law.initial_guess[at(parameter.id)];
-    }
-  }
-  return options;
-}
-
-/// Largest absolute value of a channel in the logs (m/s or rad/s); 1 without measurements.
-double fastest(const std::vector<DrivingLog>& logs, LogChannel channel) {
-  double most = 0.0;
-  for (const DrivingLog& log : logs) {
-    for (std::size_t row = 0; log[channel] && row < log.rows(); ++row) {
-      if (is_measurement(log, channel, row)) {
-        most = std::max(most, std::abs(log[channel]->value[row]));
-      }
-    }
-  }
-  return most > 0.0 ? most : 1.0;
-}
-
-/// Sets the resistance parameters in `values` so that the curves of the families `surge` and `yaw`
-/// are nearest to the curves of `inner`.
-void begin_near(const std::vector<DrivingLog>& logs, const FamilyFit& inner, Family surge,
-                Family yaw, ParameterValues<double>& values) {
-  const Vehicle& vehicle = inner.options.vehicle;
-  const Plant<double> plant = plant_of(vehicle, fitted_values(inner.options, inner.fit));
-  const double wheels = vehicle.driven_wheels();
-  if (surge != inner.surge) {
-    Resistance<double> curve = plant.surge;
-    curve.coulomb += wheels * plant.wheel_dead_zone;
-    const FamilyTerms terms = terms_of(surge);
-    const auto near = nearest_curve(curve, terms, fastest(logs, LogChannel::kSpeed));
-    values[at(ParameterId::kSurgeAlpha)] = near.alpha;
-    values[at(ParameterId::kSurgeBeta)] = near.beta;
-    values[at(ParameterId::kSurgeCoulomb)] = terms.coulomb ? near.coulomb : 0.0;
-    values[at(ParameterId::kWheelDeadZone)] = terms.dead_zone ? near.coulomb / wheels : 0.0;
-    values[at(ParameterId::kSurgeQuadratic)] = near.quadratic;
-  }
-  if (yaw != inner.yaw) {
-    const auto near = nearest_curve(plant.yaw, terms_of(yaw), fastest(logs, LogChannel::kYawRate));
-    values[at(ParameterId::kYawAlpha)] = near.alpha;
-    values[at(ParameterId::kYawBeta)] = near.beta;
-    values[at(ParameterId::kYawCoulomb)] = near.coulomb;
-    values[at(ParameterId::kYawQuadratic)] = near.quadratic;
-  }
-}
 
 bool is_of_yaw(ParameterId term) {
   return term == ParameterId::kYawCoulomb || term == ParameterId::kYawQuadratic;
@@ -341,49 +239,6 @@ bool is_contested(const LogFitOptions& power_law, const FamilyFit& first,
 }
 
 }  // namespace
-
-bool is_over(const LogFitOptions& options) {
-  if (options.effort && options.effort->is_over()) return true;
-  return options.deadline && std::chrono::steady_clock::now() >= *options.deadline;
-}
-
-std::string families_in_words(Family surge, Family yaw) {
-  if (yaw == Family::kPower) return std::string(name_of(surge));
-  return fmt::format("{}, yaw {}", name_of(surge), name_of(yaw));
-}
-
-LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit) {
-  options = with_terms_of(fit.fit, std::move(options));
-  options.initial_guess = fitted_values(fit.options, fit.fit);
-  options.guessed.clear();
-  options.also_from.clear();
-  options.candidate_terms.clear();
-  options.finds_delays = false;
-  return options;
-}
-
-FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                     Family surge, Family yaw) {
-  return fit_with(logs, with_families(power_law, surge, yaw), surge, yaw);
-}
-
-FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                   const FamilyFit& inner, Family surge, Family yaw) {
-  if (!inner.fit.usable) return fit_family(logs, power_law, surge, yaw);
-  const LogFitOptions at_optimum = without_terms(power_law, inner, surge, yaw);
-  LogFitOptions near = at_optimum;
-  begin_near(logs, inner, surge, yaw, near.initial_guess);
-  LogFitOptions options = with_families(std::move(near), surge, yaw);
-  options.also_from = {at_optimum.initial_guess};
-  return fit_with(logs, std::move(options), surge, yaw);
-}
-
-FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                         FamilyFit first, const FamilyFit& alternative) {
-  if (!(aic_lead(alternative.fit, first.fit) > 0.0)) return first;
-  FamilyFit again = fit_from(logs, power_law, alternative, first.surge, first.yaw);
-  return aic_lead(again.fit, first.fit) > 0.0 ? std::move(again) : std::move(first);
-}
 
 std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference) {

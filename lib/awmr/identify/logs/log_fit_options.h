@@ -40,6 +40,7 @@ struct LogFitOptions {
   /// Empty if other trials gave all initial guesses; one search then suffices.
   std::vector<ParameterId> guessed;
   std::vector<ParameterId> free;
+  bool frees(ParameterId id) const { return std::ranges::find(free, id) != free.end(); }
   /// Terms of resistance families, and back-EMF, that are fixed at 0 in this fit. A score test of
   /// each estimates how much it would improve the fit.
   std::vector<ParameterId> candidate_terms;

@@ -3,338 +3,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <initializer_list>
-#include <set>
-#include <string_view>
 #include <utility>
 
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/identify/logs/adequacy.h"
 #include "awmr/identify/logs/agreement.h"
-#include "awmr/identify/logs/back_emf.h"
 #include "awmr/identify/logs/between_logs.h"
 #include "awmr/identify/logs/command_findings.h"
 #include "awmr/identify/logs/cross_validation.h"
-#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/inertia_check.h"
-#include "awmr/identify/logs/initial_guess.h"
 #include "awmr/identify/logs/log_report.h"
-#include "awmr/identify/uncertainty/akaike.h"
-#include "awmr/model/plausibility.h"
-#include "awmr/trials/calibration_checks.h"
+#include "awmr/identify/logs/log_setup.h"
+#include "awmr/identify/logs/model_choice.h"
 #include "awmr/trials/log_consistency.h"
 
 namespace awmr {
 namespace {
 
-bool contains(const std::vector<ParameterId>& ids, ParameterId id) {
-  return std::find(ids.begin(), ids.end(), id) != ids.end();
-}
-
 template <class T>
 void append(std::vector<T>& to, const std::vector<T>& more) {
   to.insert(to.end(), more.begin(), more.end());
-}
-
-bool any_has(const std::vector<DrivingLog>& logs, std::initializer_list<LogChannel> channels) {
-  return std::ranges::any_of(logs, [&](const DrivingLog& log) {
-    return std::ranges::any_of(channels, [&](LogChannel c) { return log[c].has_value(); });
-  });
-}
-
-/// Reason why the channels and commands of the logs cannot identify a parameter; empty if they can.
-/// Checked before any search. Indirect effects, for example of yaw on the speed, do not count.
-std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
-  switch (id) {
-    case ParameterId::kSteeringTimeConstant: {
-      const bool any_servo = std::ranges::any_of(
-          logs, [](const DrivingLog& log) { return log.steering_command_rad.has_value(); });
-      if (!any_servo) return "the logs contain the measured steering angle, not its command";
-      if (!std::ranges::any_of(logs, has_steering_changes)) {
-        return "the steering command never changes";
-      }
-      return any_has(logs, {LogChannel::kSteering, LogChannel::kYawRate, LogChannel::kHeading,
-                            LogChannel::kX, LogChannel::kY})
-                 ? ""
-                 : "no channel shows the vehicle turn or its steering angle (yaw_rate_radps, "
-                   "heading_deg, a position or steering_deg)";
-    }
-    case ParameterId::kSurgeAlpha:
-    case ParameterId::kSurgeBeta:
-    case ParameterId::kMassNorm:
-      return any_has(logs, {LogChannel::kSpeed, LogChannel::kX, LogChannel::kY})
-                 ? ""
-                 : "no channel shows how fast the vehicle drives (speed_mps or a position)";
-    case ParameterId::kYawAlpha:
-    case ParameterId::kYawBeta:
-    case ParameterId::kInertiaNorm:
-      return any_has(logs,
-                     {LogChannel::kYawRate, LogChannel::kHeading, LogChannel::kX, LogChannel::kY})
-                 ? ""
-                 : "no channel shows the vehicle turn (yaw_rate_radps, heading_deg or a position)";
-    case ParameterId::kSwayAlpha:
-      return any_has(logs, {LogChannel::kSway, LogChannel::kX, LogChannel::kY})
-                 ? ""
-                 : "no channel shows the vehicle slide sideways (sway_mps or a position)";
-    case ParameterId::kBackEmf:
-      return why_no_back_emf(logs);
-    default:
-      return {};
-  }
-}
-
-/// True if commands of the logs turn the vehicle: left and right forces differ, or a steering angle
-/// is above kMuch_rad.
-bool turns(const std::vector<DrivingLog>& logs) {
-  constexpr double kMuch_rad = 0.01;
-  return std::ranges::any_of(logs, [](const DrivingLog& log) {
-    return has_force_difference(log) ||
-           std::ranges::any_of(log.driving_steering_rad(),
-                               [](double angle) { return std::abs(angle) > kMuch_rad; });
-  });
-}
-
-/// Channels with a free offset: those that the user requested, the yaw rate if the heading
-/// determines its bias, and the heading if the course over ground determines its offset.
-std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
-                                        std::vector<LogChannel> requested) {
-  const auto add = [&](LogChannel channel, bool is_biased) {
-    const bool known = std::ranges::find(requested, channel) != requested.end();
-    if (is_biased && !known) requested.push_back(channel);
-  };
-  add(LogChannel::kYawRate, std::ranges::any_of(logs, has_gyro_bias));
-  add(LogChannel::kHeading, std::ranges::any_of(logs, [](const DrivingLog& log) {
-        return heading_offset_rad(log).has_value();
-      }));
-  return requested;
-}
-
-/// Limit of the work (Effort) of all searches: about half a minute on a processor of 2023, more for
-/// long logs. A log that the model describes well needs a tenth of this.
-std::int64_t effort_limit(const std::vector<DrivingLog>& logs) {
-  constexpr double kMin = 6e8;
-  constexpr double kPerSecond = 1e6;  // per second of log
-  double duration_s = 0.0;
-  for (const DrivingLog& log : logs) duration_s += log.t_s.back() - log.t_s.front();
-  return std::llround(kMin + kPerSecond * duration_s);
-}
-
-LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
-                          const IdentifyOptions& options) {
-  LogFitOptions fit;
-  fit.vehicle = vehicle;
-  if (options.fit_input_delay) fit.terms = {{input_delay(), 0.0}};
-  fit.candidate_terms = {ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic,
-                         ParameterId::kWheelDeadZone, ParameterId::kYawCoulomb,
-                         ParameterId::kYawQuadratic};
-  fit.biases = biased_channels(logs, options.biases);
-  fit.loss = options.loss;
-  fit.seed = options.seed;
-  fit.multistart = options.starts;
-  fit.bootstrap = options.bootstrap;
-  fit.threads = options.threads;
-  fit.effort = std::make_shared<Effort>(effort_limit(logs));
-  if (options.time_limit_s > 0.0) {
-    fit.deadline = std::chrono::steady_clock::now() +
-                   std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                       std::chrono::duration<double>(options.time_limit_s));
-  }
-  return fit;
-}
-
-/// Frees the parameters that are requested or have no value. Guesses parameters without a value.
-/// Stores the reason for each parameter that the logs cannot identify.
-void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
-                     const std::vector<ParameterId>& requested, const Model& model,
-                     std::map<ParameterId, std::string>& reasons) {
-  const bool turning = turns(logs);
-  for (const ParameterInfo& parameter : parameter_table()) {
-    const Estimate& known = model[parameter.id];
-    if (known.value) fit.initial_guess[at(parameter.id)] = *known.value;
-    const bool wanted = contains(requested, parameter.id) || !known.value;
-    // A servo whose command never changes has no effect. But with its time constant free, the
-    // fitted steering angle at the beginning of each window would act like a trim.
-    const bool never_acts =
-        parameter.id == ParameterId::kBackEmf || parameter.id == ParameterId::kSteeringTimeConstant;
-    if (!can_be_requested(parameter) || !wanted) continue;
-    const std::string why = cannot_show(logs, parameter.id);
-    if (!why.empty()) reasons[parameter.id] = why;
-    // In logs with turns, an unidentifiable parameter affects the others. It therefore stays free,
-    // so that its uncertainty is included, and is refused later.
-    if (!why.empty() && (!turning || never_acts)) continue;
-    fit.free.push_back(parameter.id);
-    if (!known.value) fit.guessed.push_back(parameter.id);
-  }
-  if (frees_back_emf(fit)) fit = with_back_emf(std::move(fit));
-}
-
-/// True if back-EMF is to be tested: it is not given, no parameters were requested, no resistance
-/// comes from a table fit, which would have absorbed it, and the logs contain enough coasting.
-bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
-                        const IdentifyOptions& options, const Model& model) {
-  return options.requested.empty() && !vehicle.back_emf_s_per_m &&
-         !model[ParameterId::kSurgeAlpha].value && !model[ParameterId::kYawAlpha].value &&
-         why_no_back_emf(logs).empty();
-}
-
-bool is_open(const FamilyChoice& choice) {
-  return !choice.family || (!choice.requested && choice.family == Family::kPower);
-}
-
-void report(const IdentifyOptions& options, std::string_view what) {
-  if (options.doing) options.doing(what);
-}
-
-/// Result of choose_families().
-struct Chosen {
-  BestFamily found;
-  bool may_have_back_emf = false;  ///< the fit of the first families indicates back-EMF
-};
-
-/// Calls options.notice if the step `what` may take more than 10 s on one processor. `numbers`:
-/// approximate work of the step (Effort).
-void announce(const IdentifyOptions& options, double numbers, const std::string& what) {
-  constexpr double kNumbersPerSecond = 2e7;  // Effort per second on a processor of 2023
-  constexpr double kLong_s = 10.0;
-  const double about_s = numbers / kNumbersPerSecond;
-  if (!options.notice || about_s <= kLong_s) return;
-  options.notice(fmt::format(
-      "{} may take up to about {:.0f} s of one processor; use a part of the logs ({}) to save time",
-      what, about_s, option_text("from S")));
-}
-
-/// Estimated work of the first fit (Effort). Each evaluation integrates the state and its
-/// derivatives by every free quantity and every component of the initial state.
-double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
-  constexpr double kEvaluations = 40.0;
-  constexpr double kStepsOfRow = 2.0;
-  constexpr double kInitialComponents = 7.0;
-  double rows = 0.0;
-  for (const DrivingLog& log : logs) rows += static_cast<double>(log.rows());
-  const double derivatives = static_cast<double>(options.free.size()) + kInitialComponents;
-  return kEvaluations * kStepsOfRow * rows * (1.0 + derivatives);
-}
-
-/// Fits the families that the options name, by default power laws.
-FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                           const IdentifyOptions& options) {
-  report(options, "fitting the logs");
-  announce(options, numbers_of_first_fit(logs, power_law), "fitting logs of this length");
-  return fit_family(logs, power_law, options.surge_family.family.value_or(Family::kPower),
-                    options.yaw_family.family.value_or(Family::kPower));
-}
-
-/// Selects the families: those that the user requested, or the best ones. `first`: result of
-/// fit_first_family().
-Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                       const IdentifyOptions& options, FamilyFit first) {
-  const FamilyChoice& surge = options.surge_family;
-  const FamilyChoice& yaw = options.yaw_family;
-  const bool surge_open = is_open(surge);
-  const bool yaw_open = is_open(yaw) && contains(power_law.free, ParameterId::kYawAlpha);
-  Chosen chosen{{.best = std::move(first), .others = {}, .findings = {}}};
-  chosen.may_have_back_emf = suspects_back_emf(chosen.found.best.fit, power_law.candidate_terms);
-  if (!surge_open && !yaw_open) return chosen;
-  // Unless the user requests the best family (`--family auto`), another family has to be
-  // significantly better than the power law.
-  report(options, "trying families of resistance");
-  const bool is_family_requested = !surge.family || !yaw.family;
-  const FamilyContest contest{.surge = surge_open,
-                              .yaw = yaw_open,
-                              .lead = is_family_requested ? 0.0 : kFamilyAicThreshold,
-                              .only_candidates = !is_family_requested};
-  const auto contenders =
-      static_cast<double>(contender_count(power_law, chosen.found.best, contest));
-  announce(options,
-           std::min(contenders * static_cast<double>(power_law.effort->spent()),
-                    static_cast<double>(power_law.effort->left())),
-           "comparing other families of resistance, as the first one fits poorly,");
-  chosen.found = best_family(logs, power_law, std::move(chosen.found.best), contest);
-  return chosen;
-}
-
-/// Returns the logs with the steering command as the measured steering angle.
-std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs) {
-  for (DrivingLog& log : logs) {
-    log[LogChannel::kSteering] = Measured{.value = *std::move(log.steering_command_rad),
-                                          .fresh = std::vector<bool>(log.rows(), true)};
-    log.steering_command_rad.reset();
-  }
-  return logs;
-}
-
-/// True if the column of steering commands contains measured angles: the servo's time constant in
-/// the fit `first`, less late time stamps of the steering, is below half a row, and a fit that uses
-/// the column as the angle is significantly better.
-bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
-                          const FamilyFit& first, const IdentifyOptions& options) {
-  constexpr double kOfRow = 0.5;
-  const auto is_command = [](const DrivingLog& log) {
-    return log.steering_command_rad && !log[LogChannel::kSteering];
-  };
-  if (!std::ranges::all_of(logs, is_command)) return false;
-  std::optional<double> lag_s;
-  double late_stamps_s = 0.0;
-  for (std::size_t i = 0; i < first.fit.quantities.size(); ++i) {
-    const FreeQuantity& q = first.fit.quantities[i];
-    const double value = q.value(first.fit.coordinates[i]);
-    if (q.is(ParameterId::kSteeringTimeConstant)) lag_s = value;
-    if (q.kind == FreeQuantity::Kind::kSteeringDelay) late_stamps_s = std::max(0.0, -value);
-  }
-  if (!lag_s || *lag_s - late_stamps_s > kOfRow * logs.front().median_step_s()) return false;
-  LogFitOptions from = from_optimum(std::move(power_law), first);
-  std::erase(from.free, ParameterId::kSteeringTimeConstant);
-  std::erase_if(from.terms, [](const FreeTerm& term) {
-    return term.quantity.kind == FreeQuantity::Kind::kSteeringDelay;
-  });
-  const FamilyFit follows = fit_first_family(with_measured_steering(logs), from, options);
-  // A lag with equally late time stamps describes measured angles as well, with two terms more.
-  const double threshold = late_stamps_s > 0.0 ? 0.0 : kFamilyAicThreshold;
-  return follows.fit.usable && aic_lead(follows.fit, first.fit) > threshold;
-}
-
-Finding measured_steering_finding(const std::string& file) {
-  return {file, 0, Severity::kWarning, "steering-measured",
-          fmt::format("the vehicle follows steering_cmd_deg without a servo lag, so the column is "
-                      "used as the measured angle. Map it by {}, or log the steering command, so "
-                      "that the servo's lag can be identified",
-                      option_text(R"(column 'steering_deg="steering_cmd_deg"')"))};
-}
-
-/// Refits the best families of `ideal`, a result without back-EMF, with back-EMF. Returns the model
-/// with back-EMF if it is significantly better, else `ideal`; the other fit is among its
-/// alternatives. If back-EMF is selected, it becomes free in `power_law`.
-BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
-                            const IdentifyOptions& options, BestFamily ideal) {
-  report(options, "trying back-EMF of the motors");
-  LogFitOptions freed = with_back_emf(power_law);
-  std::erase(freed.candidate_terms, ParameterId::kBackEmf);
-  const FamilyFit same = fit_from(logs, freed, ideal.best, ideal.best.surge, ideal.best.yaw);
-  if (shows_back_emf(same, ideal.best)) {
-    ideal.best = searched_again(logs, power_law, std::move(ideal.best), same);
-  }
-  if (!shows_back_emf(same, ideal.best)) {
-    if (!same.fit.usable) {
-      ideal.is_out_of_time = is_over(power_law);
-      ideal.findings.push_back(
-          {logs.front().file, 0, Severity::kWarning, "families-not-compared",
-           fmt::format("the model with back-EMF could not be fitted to these logs: {}{}",
-                       same.fit.report.stop_reason,
-                       ideal.is_out_of_time ? "; the intervals are withdrawn" : "")});
-    }
-    ideal.others.push_back(same);
-    return ideal;
-  }
-  BestFamily braked =
-      choose_families(logs, freed, options, fit_first_family(logs, freed, options)).found;
-  if (!shows_back_emf(braked.best, ideal.best)) braked.best = same;
-  braked.findings.push_back(back_emf_finding(logs.front().file, braked.best, ideal.best));
-  braked.others.push_back(std::move(ideal.best));
-  power_law = std::move(freed);
-  return braked;
 }
 
 /// Selects the families, and back-EMF if it is significant. Adds the reports of all fits and the
@@ -342,9 +32,7 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                        const IdentifyOptions& options, FamilyFit first, LogStage& stage) {
   const FamilyChoice& surge = options.surge_family;
-  auto [found, may_have_back_emf] = choose_families(logs, power_law, options, std::move(first));
-  if (may_have_back_emf && !found.is_out_of_time)
-    found = or_with_back_emf(logs, power_law, options, std::move(found));
+  BestFamily found = choose_model(logs, power_law, options, std::move(first));
   append(stage.reports, reports_of(found.others, found.best));
   append(stage.findings, found.findings);
   FamilyFit chosen = std::move(found.best);
@@ -353,7 +41,7 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   stage.chosen_report = stage.reports.size();
   stage.reports.push_back(chosen.fit.report);
   append(stage.findings, autocorrelation_findings(chosen.fit, logs.front().file));
-  report(options, "checking the fit");
+  show_step(options, "checking the fit");
   const bool try_families = surge.requested && surge.family == Family::kPower;
   const Adequacy adequacy = check_adequacy(logs, power_law, chosen, try_families);
   append(stage.reports, adequacy.alternatives);
@@ -478,13 +166,8 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
                                const std::vector<ParameterId>& requested, const Model& model,
                                bool overrule) {
   LogStage stage;
-  LogFitOptions power_law = fit_options(vehicle, logs, options);
-  power_law.initial_guess = guess_from_logs(logs, vehicle);
-  free_parameters(power_law, logs, requested, model, stage.reasons);
+  LogFitOptions power_law = log_setup(vehicle, logs, options, requested, model, stage.reasons);
   AWMR_RETURN_IF_ERROR(check_replay(plant_of(vehicle, power_law.initial_guess), logs.front().file));
-  if (looks_for_back_emf(vehicle, logs, options, model)) {
-    power_law.candidate_terms.push_back(ParameterId::kBackEmf);
-  }
   FamilyFit first = fit_first_family(logs, power_law, options);
   if (is_steering_measured(logs, power_law, first, options)) {
     Result<LogStage> measured =
@@ -493,7 +176,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
     return measured;
   }
   FamilyFit chosen = fit_families(logs, power_law, options, std::move(first), stage);
-  report(options, "comparing the logs with each other");
+  show_step(options, "comparing the logs with each other");
   const LogComparison compared = compare_logs(logs, chosen);
   stage.withdraws_intervals =
       stage.withdraws_intervals || compared.missed || saturates_much(chosen.fit) ||
@@ -511,7 +194,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   append(stage.findings, speed_findings(vehicle, logs, stage));
   check_inertia(vehicle, logs, model, stage);
   if (options.cross_validate && logs.size() > 1) {
-    report(options, "predicting each log from the others");
+    show_step(options, "predicting each log from the others");
     const CrossValidation held_out = leave_one_log_out(logs, from_optimum(chosen.options, chosen));
     append(stage.reports[stage.chosen_report].leave_one_out, held_out.leave_one_out);
     append(stage.findings, held_out.findings);

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "awmr/identify/tables/family_choice.h"
+#include "awmr/identify/tables/table_family.h"
 
 namespace awmr {
 

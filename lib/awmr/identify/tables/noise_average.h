@@ -17,7 +17,7 @@
 
 #include <vector>
 
-#include "awmr/identify/tables/family_choice.h"
+#include "awmr/identify/tables/table_family.h"
 #include "awmr/identify/uncertainty/posterior.h"
 
 namespace awmr {

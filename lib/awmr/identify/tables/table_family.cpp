@@ -1,4 +1,4 @@
-#include "awmr/identify/tables/family_choice.h"
+#include "awmr/identify/tables/table_family.h"
 
 #include <fmt/format.h>
 

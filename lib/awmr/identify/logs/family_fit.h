@@ -1,0 +1,51 @@
+/// Log fits under given surge and yaw resistance families. Private to identify/.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "awmr/identify/logs/log_fit.h"
+
+namespace awmr {
+
+/// A log fit under one surge family and one yaw family.
+struct FamilyFit {
+  Family surge = Family::kPower;
+  Family yaw = Family::kPower;
+  LogFitOptions options;  ///< options of the fit; the terms of both families are free
+  LogFit fit;
+};
+
+/// True if the limit of effort or of time is reached, so that no further model is to be fitted.
+bool is_over(const LogFitOptions& options);
+
+/// Returns the options for a fit that starts only at the optimum of `fit`. It has the delays and
+/// command errors of `fit`, searches no others and tests no candidate terms.
+LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
+
+/// Fits the logs with options whose free terms are those of the families `surge` and `yaw`.
+FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, Family surge,
+                   Family yaw);
+
+/// Fits the logs under the families `surge` and `yaw`. `power_law`: options of a fit of power laws.
+FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                     Family surge, Family yaw);
+
+/// Fits the logs under the families `surge` and `yaw`, starting from the optimum of `inner`, a fit
+/// of other families. There are two starts: the curves of the new families nearest to those of
+/// `inner`, and the values of `inner`, with the initial guess of `power_law` for terms that are 0
+/// in `inner`. If `inner` did not converge, as fit_family().
+FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                   const FamilyFit& inner, Family surge, Family yaw);
+
+/// If `alternative` is better than `first`, repeats the search for the families of `first` from the
+/// optimum of `alternative`, so that `first` does not lose only because its search failed. Returns
+/// `first` or, if better, the repeated fit.
+FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                         FamilyFit first, const FamilyFit& alternative);
+
+/// Names the surge family, and the yaw family unless that is the power law: "coulomb-linear",
+/// "power, yaw coulomb-linear".
+std::string families_in_words(Family surge, Family yaw);
+
+}  // namespace awmr

@@ -1,0 +1,176 @@
+#include "awmr/identify/logs/log_setup.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <initializer_list>
+
+#include "awmr/core/index.h"
+#include "awmr/identify/logs/back_emf.h"
+#include "awmr/identify/logs/initial_guess.h"
+#include "awmr/trials/calibration_checks.h"
+#include "awmr/trials/log_consistency.h"
+
+namespace awmr {
+namespace {
+
+bool contains(const std::vector<ParameterId>& ids, ParameterId id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+bool any_has(const std::vector<DrivingLog>& logs, std::initializer_list<LogChannel> channels) {
+  return std::ranges::any_of(logs, [&](const DrivingLog& log) {
+    return std::ranges::any_of(channels, [&](LogChannel c) { return log[c].has_value(); });
+  });
+}
+
+/// Reason why the channels and commands of the logs cannot identify a parameter; empty if they can.
+/// Checked before any search. Indirect effects, for example of yaw on the speed, do not count.
+std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
+  switch (id) {
+    case ParameterId::kSteeringTimeConstant: {
+      const bool any_servo = std::ranges::any_of(
+          logs, [](const DrivingLog& log) { return log.steering_command_rad.has_value(); });
+      if (!any_servo) return "the logs contain the measured steering angle, not its command";
+      if (!std::ranges::any_of(logs, has_steering_changes)) {
+        return "the steering command never changes";
+      }
+      return any_has(logs, {LogChannel::kSteering, LogChannel::kYawRate, LogChannel::kHeading,
+                            LogChannel::kX, LogChannel::kY})
+                 ? ""
+                 : "no channel shows the vehicle turn or its steering angle (yaw_rate_radps, "
+                   "heading_deg, a position or steering_deg)";
+    }
+    case ParameterId::kSurgeAlpha:
+    case ParameterId::kSurgeBeta:
+    case ParameterId::kMassNorm:
+      return any_has(logs, {LogChannel::kSpeed, LogChannel::kX, LogChannel::kY})
+                 ? ""
+                 : "no channel shows how fast the vehicle drives (speed_mps or a position)";
+    case ParameterId::kYawAlpha:
+    case ParameterId::kYawBeta:
+    case ParameterId::kInertiaNorm:
+      return any_has(logs,
+                     {LogChannel::kYawRate, LogChannel::kHeading, LogChannel::kX, LogChannel::kY})
+                 ? ""
+                 : "no channel shows the vehicle turn (yaw_rate_radps, heading_deg or a position)";
+    case ParameterId::kSwayAlpha:
+      return any_has(logs, {LogChannel::kSway, LogChannel::kX, LogChannel::kY})
+                 ? ""
+                 : "no channel shows the vehicle slide sideways (sway_mps or a position)";
+    case ParameterId::kBackEmf:
+      return why_no_back_emf(logs);
+    default:
+      return {};
+  }
+}
+
+/// True if commands of the logs turn the vehicle: left and right forces differ, or a steering angle
+/// is above kMuch_rad.
+bool turns(const std::vector<DrivingLog>& logs) {
+  constexpr double kMuch_rad = 0.01;
+  return std::ranges::any_of(logs, [](const DrivingLog& log) {
+    return has_force_difference(log) ||
+           std::ranges::any_of(log.driving_steering_rad(),
+                               [](double angle) { return std::abs(angle) > kMuch_rad; });
+  });
+}
+
+/// Channels with a free offset: those that the user requested, the yaw rate if the heading
+/// determines its bias, and the heading if the course over ground determines its offset.
+std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
+                                        std::vector<LogChannel> requested) {
+  const auto add = [&](LogChannel channel, bool is_biased) {
+    const bool known = std::ranges::find(requested, channel) != requested.end();
+    if (is_biased && !known) requested.push_back(channel);
+  };
+  add(LogChannel::kYawRate, std::ranges::any_of(logs, has_gyro_bias));
+  add(LogChannel::kHeading, std::ranges::any_of(logs, [](const DrivingLog& log) {
+        return heading_offset_rad(log).has_value();
+      }));
+  return requested;
+}
+
+/// Limit of the work (Effort) of all searches: about half a minute on a processor of 2023, more for
+/// long logs. A log that the model describes well needs a tenth of this.
+std::int64_t effort_limit(const std::vector<DrivingLog>& logs) {
+  constexpr double kMin = 6e8;
+  constexpr double kPerSecond = 1e6;  // per second of log
+  double duration_s = 0.0;
+  for (const DrivingLog& log : logs) duration_s += log.t_s.back() - log.t_s.front();
+  return std::llround(kMin + kPerSecond * duration_s);
+}
+
+LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
+                          const IdentifyOptions& options) {
+  LogFitOptions fit;
+  fit.vehicle = vehicle;
+  if (options.fit_input_delay) fit.terms = {{input_delay(), 0.0}};
+  fit.candidate_terms = {ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic,
+                         ParameterId::kWheelDeadZone, ParameterId::kYawCoulomb,
+                         ParameterId::kYawQuadratic};
+  fit.biases = biased_channels(logs, options.biases);
+  fit.loss = options.loss;
+  fit.seed = options.seed;
+  fit.multistart = options.starts;
+  fit.bootstrap = options.bootstrap;
+  fit.threads = options.threads;
+  fit.effort = std::make_shared<Effort>(effort_limit(logs));
+  if (options.time_limit_s > 0.0) {
+    fit.deadline = std::chrono::steady_clock::now() +
+                   std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                       std::chrono::duration<double>(options.time_limit_s));
+  }
+  return fit;
+}
+
+/// Frees the parameters that are requested or have no value. Guesses parameters without a value.
+/// Stores the reason for each parameter that the logs cannot identify.
+void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
+                     const std::vector<ParameterId>& requested, const Model& model,
+                     std::map<ParameterId, std::string>& reasons) {
+  const bool turning = turns(logs);
+  for (const ParameterInfo& parameter : parameter_table()) {
+    const Estimate& known = model[parameter.id];
+    if (known.value) fit.initial_guess[at(parameter.id)] = *known.value;
+    const bool wanted = contains(requested, parameter.id) || !known.value;
+    // A servo whose command never changes has no effect. But with its time constant free, the
+    // fitted steering angle at the beginning of each window would act like a trim.
+    const bool never_acts =
+        parameter.id == ParameterId::kBackEmf || parameter.id == ParameterId::kSteeringTimeConstant;
+    if (!can_be_requested(parameter) || !wanted) continue;
+    const std::string why = cannot_show(logs, parameter.id);
+    if (!why.empty()) reasons[parameter.id] = why;
+    // In logs with turns, an unidentifiable parameter affects the others. It therefore stays free,
+    // so that its uncertainty is included, and is refused later.
+    if (!why.empty() && (!turning || never_acts)) continue;
+    fit.free.push_back(parameter.id);
+    if (!known.value) fit.guessed.push_back(parameter.id);
+  }
+  if (fit.frees(ParameterId::kBackEmf)) fit = with_back_emf(std::move(fit));
+}
+
+/// True if back-EMF is to be tested: it is not given, no parameters were requested, no resistance
+/// comes from a table fit, which would have absorbed it, and the logs contain enough coasting.
+bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
+                        const IdentifyOptions& options, const Model& model) {
+  return options.requested.empty() && !vehicle.back_emf_s_per_m &&
+         !model[ParameterId::kSurgeAlpha].value && !model[ParameterId::kYawAlpha].value &&
+         why_no_back_emf(logs).empty();
+}
+
+}  // namespace
+
+LogFitOptions log_setup(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
+                        const IdentifyOptions& options, const std::vector<ParameterId>& requested,
+                        const Model& model, std::map<ParameterId, std::string>& reasons) {
+  LogFitOptions fit = fit_options(vehicle, logs, options);
+  fit.initial_guess = guess_from_logs(logs, vehicle);
+  free_parameters(fit, logs, requested, model, reasons);
+  if (looks_for_back_emf(vehicle, logs, options, model)) {
+    fit.candidate_terms.push_back(ParameterId::kBackEmf);
+  }
+  return fit;
+}
+
+}  // namespace awmr

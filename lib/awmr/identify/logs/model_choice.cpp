@@ -1,0 +1,182 @@
+#include "awmr/identify/logs/model_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "awmr/core/option_text.h"
+#include "awmr/identify/logs/back_emf.h"
+#include "awmr/identify/logs/family_score.h"
+#include "awmr/identify/uncertainty/akaike.h"
+
+namespace awmr {
+namespace {
+
+bool is_open(const FamilyChoice& choice) {
+  return !choice.family || (!choice.requested && choice.family == Family::kPower);
+}
+
+/// Calls options.notice if the step `what` may take more than 10 s on one processor. `numbers`:
+/// approximate work of the step (Effort).
+void announce(const IdentifyOptions& options, double numbers, const std::string& what) {
+  constexpr double kNumbersPerSecond = 2e7;  // Effort per second on a processor of 2023
+  constexpr double kLong_s = 10.0;
+  const double about_s = numbers / kNumbersPerSecond;
+  if (!options.notice || about_s <= kLong_s) return;
+  options.notice(fmt::format(
+      "{} may take up to about {:.0f} s of one processor; use a part of the logs ({}) to save time",
+      what, about_s, option_text("from S")));
+}
+
+/// Estimated work of the first fit (Effort). Each evaluation integrates the state and its
+/// derivatives by every free quantity and every component of the initial state.
+double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
+  constexpr double kEvaluations = 40.0;
+  constexpr double kStepsOfRow = 2.0;
+  constexpr double kInitialComponents = 7.0;
+  double rows = 0.0;
+  for (const DrivingLog& log : logs) rows += static_cast<double>(log.rows());
+  const double derivatives = static_cast<double>(options.free.size()) + kInitialComponents;
+  return kEvaluations * kStepsOfRow * rows * (1.0 + derivatives);
+}
+
+}  // namespace
+
+void show_step(const IdentifyOptions& options, std::string_view what) {
+  if (options.doing) options.doing(what);
+}
+
+FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                           const IdentifyOptions& options) {
+  show_step(options, "fitting the logs");
+  announce(options, numbers_of_first_fit(logs, power_law), "fitting logs of this length");
+  return fit_family(logs, power_law, options.surge_family.family.value_or(Family::kPower),
+                    options.yaw_family.family.value_or(Family::kPower));
+}
+
+std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs) {
+  for (DrivingLog& log : logs) {
+    log[LogChannel::kSteering] = Measured{.value = *std::move(log.steering_command_rad),
+                                          .fresh = std::vector<bool>(log.rows(), true)};
+    log.steering_command_rad.reset();
+  }
+  return logs;
+}
+
+bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
+                          const FamilyFit& first, const IdentifyOptions& options) {
+  constexpr double kOfRow = 0.5;
+  const auto is_command = [](const DrivingLog& log) {
+    return log.steering_command_rad && !log[LogChannel::kSteering];
+  };
+  if (!std::ranges::all_of(logs, is_command)) return false;
+  std::optional<double> lag_s;
+  double late_stamps_s = 0.0;
+  for (std::size_t i = 0; i < first.fit.quantities.size(); ++i) {
+    const FreeQuantity& q = first.fit.quantities[i];
+    const double value = q.value(first.fit.coordinates[i]);
+    if (q.is(ParameterId::kSteeringTimeConstant)) lag_s = value;
+    if (q.kind == FreeQuantity::Kind::kSteeringDelay) late_stamps_s = std::max(0.0, -value);
+  }
+  if (!lag_s || *lag_s - late_stamps_s > kOfRow * logs.front().median_step_s()) return false;
+  LogFitOptions from = from_optimum(std::move(power_law), first);
+  std::erase(from.free, ParameterId::kSteeringTimeConstant);
+  std::erase_if(from.terms, [](const FreeTerm& term) {
+    return term.quantity.kind == FreeQuantity::Kind::kSteeringDelay;
+  });
+  const FamilyFit follows = fit_first_family(with_measured_steering(logs), from, options);
+  // A lag with equally late time stamps describes measured angles as well, with two terms more.
+  const double threshold = late_stamps_s > 0.0 ? 0.0 : kFamilyAicThreshold;
+  return follows.fit.usable && aic_lead(follows.fit, first.fit) > threshold;
+}
+
+Finding measured_steering_finding(const std::string& file) {
+  return {file, 0, Severity::kWarning, "steering-measured",
+          fmt::format("the vehicle follows steering_cmd_deg without a servo lag, so the column is "
+                      "used as the measured angle. Map it by {}, or log the steering command, so "
+                      "that the servo's lag can be identified",
+                      option_text(R"(column 'steering_deg="steering_cmd_deg"')"))};
+}
+
+namespace {
+
+/// Result of choose_families().
+struct Chosen {
+  BestFamily found;
+  bool may_have_back_emf = false;  ///< the fit of the first families indicates back-EMF
+};
+
+/// Selects the families: those that the user requested, or the best ones. `first`: result of
+/// fit_first_family().
+Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                       const IdentifyOptions& options, FamilyFit first) {
+  const FamilyChoice& surge = options.surge_family;
+  const FamilyChoice& yaw = options.yaw_family;
+  const bool surge_open = is_open(surge);
+  const bool yaw_open = is_open(yaw) && power_law.frees(ParameterId::kYawAlpha);
+  Chosen chosen{{.best = std::move(first), .others = {}, .findings = {}}};
+  chosen.may_have_back_emf = suspects_back_emf(chosen.found.best.fit, power_law.candidate_terms);
+  if (!surge_open && !yaw_open) return chosen;
+  // Unless the user requests the best family (`--family auto`), another family has to be
+  // significantly better than the power law.
+  show_step(options, "trying families of resistance");
+  const bool is_family_requested = !surge.family || !yaw.family;
+  const FamilyContest contest{.surge = surge_open,
+                              .yaw = yaw_open,
+                              .lead = is_family_requested ? 0.0 : kFamilyAicThreshold,
+                              .only_candidates = !is_family_requested};
+  const auto contenders =
+      static_cast<double>(contender_count(power_law, chosen.found.best, contest));
+  announce(options,
+           std::min(contenders * static_cast<double>(power_law.effort->spent()),
+                    static_cast<double>(power_law.effort->left())),
+           "comparing other families of resistance, as the first one fits poorly,");
+  chosen.found = best_family(logs, power_law, std::move(chosen.found.best), contest);
+  return chosen;
+}
+
+/// Refits the best families of `ideal`, a result without back-EMF, with back-EMF. Returns the model
+/// with back-EMF if it is significantly better, else `ideal`; the other fit is among its
+/// alternatives. If back-EMF is selected, it becomes free in `power_law`.
+BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
+                            const IdentifyOptions& options, BestFamily ideal) {
+  show_step(options, "trying back-EMF of the motors");
+  LogFitOptions freed = with_back_emf(power_law);
+  std::erase(freed.candidate_terms, ParameterId::kBackEmf);
+  const FamilyFit same = fit_from(logs, freed, ideal.best, ideal.best.surge, ideal.best.yaw);
+  if (shows_back_emf(same, ideal.best)) {
+    ideal.best = searched_again(logs, power_law, std::move(ideal.best), same);
+  }
+  if (!shows_back_emf(same, ideal.best)) {
+    if (!same.fit.usable) {
+      ideal.is_out_of_time = is_over(power_law);
+      ideal.findings.push_back(
+          {logs.front().file, 0, Severity::kWarning, "families-not-compared",
+           fmt::format("the model with back-EMF could not be fitted to these logs: {}{}",
+                       same.fit.report.stop_reason,
+                       ideal.is_out_of_time ? "; the intervals are withdrawn" : "")});
+    }
+    ideal.others.push_back(same);
+    return ideal;
+  }
+  BestFamily braked =
+      choose_families(logs, freed, options, fit_first_family(logs, freed, options)).found;
+  if (!shows_back_emf(braked.best, ideal.best)) braked.best = same;
+  braked.findings.push_back(back_emf_finding(logs.front().file, braked.best, ideal.best));
+  braked.others.push_back(std::move(ideal.best));
+  power_law = std::move(freed);
+  return braked;
+}
+
+}  // namespace
+
+BestFamily choose_model(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
+                        const IdentifyOptions& options, FamilyFit first) {
+  auto [found, may_have_back_emf] = choose_families(logs, power_law, options, std::move(first));
+  if (!may_have_back_emf || found.is_out_of_time) return std::move(found);
+  return or_with_back_emf(logs, power_law, options, std::move(found));
+}
+
+}  // namespace awmr

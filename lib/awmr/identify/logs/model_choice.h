@@ -1,0 +1,38 @@
+/// Selection of the model that the logs are fitted with: resistance families, back-EMF, steering
+/// commands that are measured angles. Private to identify/.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "awmr/identify/logs/family_choice.h"
+#include "awmr/identify/options.h"
+
+namespace awmr {
+
+/// Calls options.doing, if there is one, with the step that begins.
+void show_step(const IdentifyOptions& options, std::string_view what);
+
+/// Fits the families that the options name, by default power laws.
+FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                           const IdentifyOptions& options);
+
+/// Returns the logs with the steering command as the measured steering angle.
+std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs);
+
+/// True if the column of steering commands contains measured angles: the servo's time constant in
+/// the fit `first`, less late time stamps of the steering, is below half a row, and a fit that uses
+/// the column as the angle is significantly better.
+bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
+                          const FamilyFit& first, const IdentifyOptions& options);
+
+/// The finding `steering-measured` for logs for which is_steering_measured() is true.
+Finding measured_steering_finding(const std::string& file);
+
+/// Selects the families, and back-EMF if it is significant. `power_law`: result of log_setup();
+/// back-EMF becomes free in it if it is selected. `first`: result of fit_first_family().
+BestFamily choose_model(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
+                        const IdentifyOptions& options, FamilyFit first);
+
+}  // namespace awmr
