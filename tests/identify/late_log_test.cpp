@@ -184,7 +184,7 @@ TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
                     force_imbalance(),
                     force_saturation(0.5),
                     saturation_sharpness()};
-  fit.coordinates = {0.1, 0.2, 0.3, 0.4, 0.05, -0.1, 0.6, 1.1};
+  fit.coordinates = {0.1, 0.2, 0.3, 0.4, 0.05, -0.1, 0.3, 1.1};
   LogFitOptions before;
   before.terms = {{sensor_lag_of(LogChannel::kYawRate), 0.5}};
   const LogFitOptions options = with_terms_of(fit, before);
@@ -195,7 +195,7 @@ TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
     EXPECT_EQ(terms[i].begin, fit.coordinates[i]);
   }
   // In a fit, the terms of the commands come before those of the sensors.
-  EXPECT_EQ(initial_coordinates(options), (std::vector{0.1, 0.2, 0.05, -0.1, 0.6, 1.1, 0.3, 0.4}));
+  EXPECT_EQ(initial_coordinates(options), (std::vector{0.1, 0.2, 0.05, -0.1, 0.3, 1.1, 0.3, 0.4}));
 }
 
 /// Expects that the fit of a log with an error of the motors or the steering estimates the error,
@@ -281,13 +281,15 @@ INSTANTIATE_TEST_SUITE_P(Short, ForceImbalance, ::testing::Values(0.05));
 /// Also the other sign and a larger value.
 INSTANTIATE_TEST_SUITE_P(Long, ForceImbalance, ::testing::Values(-0.1));
 
-/// The log with commands F' that push with F'/(1 + s (F'/F'm)^n)^(1/n), F'm the largest of them.
-DrivingLog saturated(DrivingLog log, double s, double n) {
+/// The log with commands F' that push with F'/(1 + s (F'/F'm)^n)^(1/n), s = (1 - L)^(-n) - 1, F'm the
+/// largest of them.
+DrivingLog saturated(DrivingLog log, double loss, double n) {
   double most = 0.0;  // of the forces after the saturation
   for (const auto* const forces : {&log.force_left, &log.force_right}) {
     for (const double force : *forces) most = std::max(most, std::abs(force));
   }
-  const double full = std::pow(1.0 + s, 1.0 / n) * most;
+  const double full = most / (1.0 - loss);
+  const double s = std::pow(1.0 - loss, -n) - 1.0;
   for (auto* const forces : {&log.force_left, &log.force_right}) {
     for (double& force : *forces) {
       force *= std::pow(1.0 - s * std::pow(std::abs(force) / full, n), -1.0 / n);
@@ -297,9 +299,9 @@ DrivingLog saturated(DrivingLog log, double s, double n) {
 }
 
 TEST(LateLog, FindsASmallSaturationOfTheForces) {
-  constexpr double kSaturation = 0.15;  // 3.4 % less force at the largest command
-  expect_found(saturated(drive(kTruths[1], 8, {.duration_s = 40.0}), kSaturation, 4.0), kTruths[1],
-               "motor.saturation", kSaturation, "force-saturation");
+  constexpr double kLoss = 0.035;
+  expect_found(saturated(drive(kTruths[1], 8, {.duration_s = 40.0}), kLoss, 4.0), kTruths[1],
+               "motor.saturation", kLoss, "force-saturation");
 }
 
 class ForceSaturation : public ::testing::TestWithParam<double> {};
@@ -308,7 +310,7 @@ class ForceSaturation : public ::testing::TestWithParam<double> {};
 TEST_P(ForceSaturation, IsCompensatedWithoutIntervals) {
   const Truth& truth = kTruths[1];
   TrialData data;
-  data.logs = {saturated(drive(truth, 8, {.duration_s = 40.0}), 1.0, GetParam())};
+  data.logs = {saturated(drive(truth, 8, {.duration_s = 40.0}), 0.16, GetParam())};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "force-saturation"));
@@ -322,8 +324,8 @@ TEST_P(ForceSaturation, IsCompensatedWithoutIntervals) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Short, ForceSaturation, ::testing::Values(4.0));
-/// Also a softer and a sharper limit.
-INSTANTIATE_TEST_SUITE_P(Long, ForceSaturation, ::testing::Values(2.0, 8.0));
+/// Also a gradual loss and a hard limit.
+INSTANTIATE_TEST_SUITE_P(Long, ForceSaturation, ::testing::Values(1.0, 2.0, 20.0));
 
 TEST(LateLog, GivesTheSameBytesOnALoadedMachine) {
   TrialData data;

@@ -330,7 +330,7 @@ std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors
 
 TEST(LinearReplay, OfErrorsOfTheCommandsHasTheDerivativesOfCentralDifferences) {
   constexpr double kApart = 1e-6;
-  const CommandErrors errors{0.03, -0.08, 0.4, 1.2};
+  const CommandErrors errors{0.03, -0.08, 0.2, 1.2};
   for (const bool servo : {true, false}) {
     const DrivingLog log = commands(servo);
     const std::vector<LinearMotion> here = with_errors(log, errors);

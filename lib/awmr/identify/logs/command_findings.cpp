@@ -20,7 +20,7 @@ struct FoundTerm {
 };
 
 /// The identified terms of one kind that are larger than two standard errors and than 1 ms (delays
-/// and lags), 1 mrad (trim), 0.1 % (imbalance) or 0.001 (saturation).
+/// and lags), 1 mrad (trim) or 0.1 % (imbalance and saturation).
 std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
   constexpr double kSmallest = 1e-3;
   std::vector<FoundTerm> found;
@@ -175,19 +175,20 @@ double sharpness_of(const LogFit& fit) {
 std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   const double n = sharpness_of(fit);
-  for (const auto& [quantity, s, error] : found_terms(fit, FreeQuantity::Kind::kForceSaturation)) {
+  for (const auto& [quantity, loss, error] :
+       found_terms(fit, FreeQuantity::Kind::kForceSaturation)) {
     const double full = quantity.full_command;
-    const double share = std::pow(1.0 + s, -1.0 / n);
+    const double s = std::pow(1.0 - loss, -n) - 1.0;
     const double linear = full * std::pow((std::pow(1.0 - kLinear, -n) - 1.0) / s, 1.0 / n);
     findings.push_back(
         {file, 0, Severity::kWarning, "force-saturation",
          fmt::format(
-             "at the largest command of the logs, {:.3g}, the wheels push {:.1f} % less than in "
-             "proportion to small commands: tyres slip, or the current or voltage of the motors is "
-             "limited. The fit compensates this, but simulations and gains assume proportional "
-             "forces, which holds within {:.0f} % up to {:.2g}: limit wheel_force in the vehicle "
-             "file to that, and record logs below it",
-             full, 100.0 * (1.0 - share), 100.0 * kLinear, std::min(linear, full))});
+             "at the largest command of the logs, {:.3g}, the wheels push {:.1f} +- {:.1f} % less "
+             "than in proportion to small commands: tyres slip, or the current or voltage of the "
+             "motors is limited. The fit compensates this, but simulations and gains assume "
+             "proportional forces, which holds within {:.0f} % up to {:.2g}: limit wheel_force in "
+             "the vehicle file to that, and record logs below it",
+             full, 100.0 * loss, 100.0 * error, 100.0 * kLinear, std::min(linear, full))});
   }
   return findings;
 }
@@ -195,8 +196,9 @@ std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& f
 }  // namespace
 
 bool saturates_much(const LogFit& fit) {
-  for (const FoundTerm& found : found_terms(fit, FreeQuantity::Kind::kForceSaturation)) {
-    if (std::pow(1.0 + found.value, -1.0 / sharpness_of(fit)) < 1.0 - kLinear) return true;
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    const bool is_loss = fit.quantities[i].kind == FreeQuantity::Kind::kForceSaturation;
+    if (is_loss && fit.coordinates[i] > kLinear) return true;
   }
   return false;
 }

@@ -274,14 +274,17 @@ HeldCommand logged_command(const DrivingLog& log, const ActingRows& rows) {
           log.driving_steering_rad()[rows.steering]};
 }
 
-/// Applies the saturation s to the forces f and their derivatives. With w = (|f|/F'm)^n:
+/// Applies the saturation to the forces f and their derivatives. With w = (|f|/F'm)^n and
+/// s = (1 - L)^(-n) - 1:
 ///
 ///     f_s = f (1 + s w)^(-1/n)
 ///     d f_s/d f = (1 + s w)^(-1/n - 1),   d f_s/d s = -f w/n d f_s/d f
-///     d f_s/d ln n = f_s (ln(1 + s w) - s w ln(w)/(1 + s w))/n
+///     d f_s/d L = d f_s/d s n (1 + s)/(1 - L)
+///     d f_s/d ln n = f_s (ln(1 + s w) - s w ln(w)/(1 + s w))/n - d f_s/d s n (1 + s) ln(1 - L)
 void saturate(const CommandPath& path, DelayedCommand& at) {
-  const double s = path.saturation->value;
+  const double rest = 1.0 - path.saturation->value;  // 1 - L
   const double n = path.sharpness ? path.sharpness->value : kDefaultSharpness;
+  const double s = std::pow(rest, -n) - 1.0;
   for (double SideForces<double>::*const side :
        {&SideForces<double>::left, &SideForces<double>::right}) {
     double& force = at.command.force.*side;
@@ -290,8 +293,10 @@ void saturate(const CommandPath& path, DelayedCommand& at) {
     const double share = std::pow(sum, -1.0 / n);
     const double slope = share / sum;
     const double log_w = w > 0.0 ? std::log(w) : 0.0;
-    at.by_saturation.*side = -force * w / n * slope;
-    at.by_sharpness.*side = force * share * (std::log(sum) - s * w * log_w / sum) / n;
+    const double by_s = -force * w * slope / n;
+    at.by_saturation.*side = by_s * n * (1.0 + s) / rest;
+    at.by_sharpness.*side = force * share * (std::log(sum) - s * w * log_w / sum) / n -
+                            by_s * n * (1.0 + s) * std::log(rest);
     at.by_delay.*side *= slope;
     at.by_lag.*side *= slope;
     at.by_imbalance.*side *= slope;

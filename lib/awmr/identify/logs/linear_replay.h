@@ -52,7 +52,7 @@ struct CommandPath {
   std::optional<std::size_t> lag_column = {};      ///< column of the lag; present if it is free
   std::optional<OffsetColumn> steering_trim = {};  ///< rad, added to command or logged angle
   std::optional<OffsetColumn> imbalance = {};   ///< e: left forces times 1 - e, right times 1 + e
-  std::optional<OffsetColumn> saturation = {};  ///< s of force_saturation()
+  std::optional<OffsetColumn> saturation = {};  ///< L of force_saturation()
   double full_command = 1.0;                    ///< F'm of force_saturation()
   std::optional<OffsetColumn> sharpness = {};   ///< n; the derivatives are by ln n
   /// True (motors with back-EMF): a motor is off as soon as its command is 0, whatever its lag.
@@ -79,7 +79,7 @@ struct DelayedCommand {
   SideForces<double> by_delay{};
   SideForces<double> by_lag{};         ///< d force / d time constant of the motors, 1/s
   SideForces<double> by_imbalance{};   ///< d force / d imbalance
-  SideForces<double> by_saturation{};  ///< d force / d saturation
+  SideForces<double> by_saturation{};  ///< d force / d L
   SideForces<double> by_sharpness{};   ///< d force / d ln n
   double steering_by_trim = 0.0;       ///< d steering / d trim: 1 if there is a trim, else 0
 };

@@ -16,7 +16,7 @@ Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& 
   constexpr double kLongest_s = 1.0;
   constexpr double kLargestTrim_rad = 0.35;
   constexpr double kLargestImbalance = 0.5;
-  constexpr double kLargestSaturation = 1e3;
+  constexpr double kLargestSaturation = 0.95;
   constexpr Interval kSharpness{1.0, 20.0};
   if (quantity.kind == FreeQuantity::Kind::kDelay ||
       quantity.kind == FreeQuantity::Kind::kSteeringDelay) {
@@ -108,7 +108,9 @@ FreeQuantity force_imbalance() {
 }
 
 FreeQuantity force_saturation(double full_command) {
-  return {.kind = FreeQuantity::Kind::kForceSaturation, .full_command = full_command};
+  return {.kind = FreeQuantity::Kind::kForceSaturation,
+          .large_change = 0.1,
+          .full_command = full_command};
 }
 
 FreeQuantity saturation_sharpness() {

@@ -25,7 +25,7 @@ struct FreeQuantity {
     kMotorLag,             ///< time constant of the motors
     kSteeringTrim,         ///< steering angle at a command of 0
     kForceImbalance,       ///< (right - left)/(right + left) of the forces at equal commands
-    kForceSaturation,      ///< s of force_saturation(): large commands push less than in proportion
+    kForceSaturation,      ///< L of force_saturation(): large commands push less than in proportion
     kSaturationSharpness,  ///< n of force_saturation()
     kBias,                 ///< constant offset of a channel
     kSensorDelay,          ///< latency of a channel
@@ -37,8 +37,8 @@ struct FreeQuantity {
       LogChannel::kX;  ///< of kSensorDelay (kX: x and y together), kSensorLag, kBias
   Scale scale = Scale::kLinear;
   /// Change of the coordinate that counts as large: 1 for a logarithm (a factor e), an exponent or
-  /// a bias (SI); 0.2 for a term of a family; 0.1 for a delay or lag (s), trim (rad) or imbalance;
-  /// 1 for the saturation. Standard deviations of priors and limits of identifiability are
+  /// a bias (SI); 0.2 for a term of a family; 0.1 for a delay or lag (s), trim (rad), imbalance or
+  /// saturation. Standard deviations of priors and limits of identifiability are
   /// multiples of this change.
   double large_change = 1.0;
   double full_command = 1.0;  ///< of kForceSaturation: F'm of force_saturation(), > 0
@@ -75,12 +75,13 @@ FreeQuantity steering_trim();
 /// times.
 FreeQuantity force_imbalance();
 
-/// Saturation s >= 0 of the wheel forces: the command F' pushes with
+/// Saturation of the wheel forces: the share L, in [0, 1), of the force that is lost at F'm, the
+/// largest command of the logs. With w = (|F'|/F'm)^n, the command F' pushes with
 ///
-///     F'/(1 + s (|F'|/F'm)^n)^(1/n)
+///     F'/(1 + s w)^(1/n),   s = (1 - L)^(-n) - 1
 ///
-/// (times F_max). F'm is the largest command of the logs. Small commands act in proportion; slipping
-/// tyres, current limits or a weak battery reduce large ones.
+/// (times F_max). Small commands act in proportion; slipping tyres, current limits or a weak battery
+/// reduce large ones.
 FreeQuantity force_saturation(double full_command);
 
 /// Sharpness n of the saturation; a limit that begins at once has a large n.
