@@ -133,6 +133,13 @@ std::vector<Finding> sample_time(double sample_time_s, const EmitCommand& comman
                     "give a longer sample_time_s, or use a faster board",
                     sample_time_s, kLongestStep_s));
   }
+  const std::uint32_t step_ms = command.emit.step_timeout_ms;
+  if (step_ms != 0 && sample_time_s > 1e-3 * step_ms) {
+    add(fmt::format(
+        "sample_time_s is {:g} s, and a step that lasts longer than {} ms is a fault, so "
+        "that every step is one: set {} to at least two sample times",
+        sample_time_s, step_ms, option_text("step-timeout-ms")));
+  }
   if (sample_time_s > 0.5 * oldest_s) {
     add(
         fmt::format("sample_time_s is {:g} s, and a heading older than {:g} s is a fault: set {} "

@@ -162,9 +162,9 @@ void emit_library(const fs::path& model, const fs::path& gains, const fs::path& 
     total.findings.insert(total.findings.end(), emitted->findings.begin(), emitted->findings.end());
     return add_written(total, emitted->written);
   }
-  total.findings.push_back({model.filename().string(), 0, Severity::kWarning, "no-library",
-                            "there is no Arduino library for this vehicle: " +
-                                plain_text(awmr::to_text(emitted.error()))});
+  total.findings.push_back(
+      {model.filename().string(), 0, Severity::kWarning, "no-library",
+       "there is no Arduino library for this vehicle: " + emitted.error().faults.front().message});
 }
 
 /// True if `tune` would refuse the model because it lacks a parameter. A parameter that `identify`

@@ -144,19 +144,25 @@ TEST(LateLog, KeepsAMotorLagOfTheVehicleFileFixed) {
   expect_recovered(*result, ParameterId::kSurgeAlpha, kTruths[1].a1, 4.5);
 }
 
-/// Filters the speed by a first-order lag, dy/dt = (u - y)/T, exactly for ramps between the rows.
-DrivingLog with_smoothed_speed(DrivingLog log, const std::vector<double>& speed, double lag_s) {
+/// Filters the speed by a first-order lag: dy/dt = (u - y)/T, exactly for ramps between the rows, or
+/// with one step for each row (`is_at_rows`).
+DrivingLog with_smoothed_speed(DrivingLog log, const std::vector<double>& speed, double lag_s,
+                               bool is_at_rows) {
   std::vector<double>& shown = log[LogChannel::kSpeed]->value;
+  const double e = std::exp(-kStep_s / lag_s);
   double y = speed.front();
   for (std::size_t i = 1; i < log.rows(); ++i) {
     const double slope = (speed[i] - speed[i - 1]) / kStep_s;
-    y = speed[i] - slope * lag_s + (y - speed[i - 1] + slope * lag_s) * std::exp(-kStep_s / lag_s);
+    y = is_at_rows ? e * y + (1.0 - e) * speed[i]
+                   : speed[i] - slope * lag_s + (y - speed[i - 1] + slope * lag_s) * e;
     shown[i] += y - speed[i];
   }
   return log;
 }
 
-TEST(LateLog, AllowsForASpeedThatAFilterSmooths) {
+class SmoothedSpeed : public ::testing::TestWithParam<bool> {};
+
+TEST_P(SmoothedSpeed, IsAllowedFor) {
   constexpr double kLag_s = 0.2;
   const Truth& t = kTruths[1];
   DrivingLog log = drive(t, 8, {.duration_s = 40.0});
@@ -164,7 +170,7 @@ TEST(LateLog, AllowsForASpeedThatAFilterSmooths) {
   replay<double>(LogSignals(log), 0, log.rows(), plant(t), nullptr, 0.002, {},
                  [&](std::size_t row, const State<double>& state) { speed[row] = state.u_mps; });
   TrialData data;
-  data.logs = {with_smoothed_speed(std::move(log), speed, kLag_s)};
+  data.logs = {with_smoothed_speed(std::move(log), speed, kLag_s, GetParam())};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "lag.speed_mps");
@@ -173,6 +179,7 @@ TEST(LateLog, AllowsForASpeedThatAFilterSmooths) {
   EXPECT_TRUE(has_finding(*result, "sensor-lag"));
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
 }
+INSTANTIATE_TEST_SUITE_P(ByARecursiveFilter, SmoothedSpeed, ::testing::Bool());
 
 TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
   LogFit fit;

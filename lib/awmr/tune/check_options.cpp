@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "awmr/core/option_text.h"
+#include "awmr/model/observer_rate.h"
 #include "awmr/tune/global_sensitivity.h"
 #include "awmr/tune/goals.h"
 #include "awmr/tune/option_table.h"
@@ -243,7 +244,14 @@ Status check_options(const TuneOptions& options, const Vehicle& vehicle) {
   check_late_limits(options, faults);
   weight_options(options.weights, CheckOption{faults, "weights: "});
   bound_options(options.bounds, CheckOption{faults, "bounds: "});
-  if (options.observer) observer_options(*options.observer, CheckOption{faults, "observer: "});
+  if (options.observer) {
+    observer_options(*options.observer, CheckOption{faults, "observer: "});
+    const double slowest = options.observer->bandwidth_radps.lo;
+    if (const Status rate = check_observer_rate(slowest, vehicle.sample_time_s, ""); !rate) {
+      const Fault& fault = rate.error().faults.front();
+      faults.push_back({fault.code, "", "observer: bandwidth_radps: " + fault.message});
+    }
+  }
   if (!has_weight(options.weights)) {
     faults.push_back({ErrorCode::kOutOfRange, "", "weights: at least one has to be above 0"});
   }

@@ -131,4 +131,9 @@ Gains<double> with_wide_layers(Gains<double> gains, const ConstraintContext& con
   return gains;
 }
 
+std::array<Gains<double>, 2> starting_poles(const ConstraintContext& context) {
+  const Gains<double> narrow = place_poles(context);
+  return {with_wide_layers(narrow, context), narrow};
+}
+
 }  // namespace awmr

@@ -2,6 +2,8 @@
 /// and the default baseline of the search. Private to tune/.
 #pragma once
 
+#include <array>
+
 #include "awmr/model/gains.h"
 #include "awmr/tune/constraints.h"
 
@@ -22,6 +24,10 @@ Gains<double> place_poles(const ConstraintContext& context);
 /// (e: the largest heading step) and e_u = u_d, so that only the actuators saturate, not the laws:
 ///   mu >= lambda k e,   mu_s >= k_s u_d
 Gains<double> with_wide_layers(Gains<double> gains, const ConstraintContext& context);
+
+/// Starts of the search: the result of place_poles() with wide boundary layers, and as it is. The
+/// default bounds of the gains are around these.
+std::array<Gains<double>, 2> starting_poles(const ConstraintContext& context);
 
 /// Multiplies lambda, mu/epsilon and epsilon by `share`, so that the heading loop is slower for
 /// `share` < 1. The speed gains are unchanged.

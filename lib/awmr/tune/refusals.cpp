@@ -62,13 +62,12 @@ std::vector<std::string> violated(const std::vector<ConstraintReport>& all) {
 }  // namespace
 
 tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintContext& context,
-                                 const TuneOptions& requested,
-                                 std::span<const Gains<double>> poles) {
+                                 const TuneOptions& requested) {
   const std::vector<ConstraintReport> all = constraints_of(nearest.gains, context);
   const auto worst = std::ranges::max_element(all, {}, [](const ConstraintReport& c) {
     return c.required ? residuals({c}).front() : -1.0;
   });
-  const std::vector<std::string> changes = single_changes(nearest.gains, context, requested, poles);
+  const std::vector<std::string> changes = single_changes(nearest.gains, context, requested);
   return refusal(
       ErrorCode::kNoGains,
       fmt::format("no gains within the bounds meet the constraints: the nearest ({}) violate '{}', "
@@ -78,7 +77,8 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
                       ? fmt::format("No change of a single limit or bound of tune.json permits "
                                     "gains. Violated: {}",
                                     fmt::join(violated(all), ", "))
-                      : fmt::format("Each of these changes of tune.json alone permits gains: {}",
+                      : fmt::format("{} of tune.json alone permits gains: {}",
+                                    changes.size() == 1 ? "This change" : "Each of these changes",
                                     fmt::join(changes, "; "))));
 }
 
@@ -105,10 +105,15 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
 }
 
 tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,
-                                    const std::vector<ActiveConstraint>& active, bool is_held) {
+                                    const std::vector<ActiveConstraint>& active,
+                                    const TuneOptions& requested, bool is_held) {
   const auto costliest = std::ranges::max_element(active, {}, &ActiveConstraint::wider_gains);
+  const std::vector<std::string> strict = stricter_than_default(requested);
   const std::string advice =
-      costliest == active.end()
+      !strict.empty()
+          ? fmt::format("limits stricter than their defaults can be the cause: relax {}",
+                        fmt::join(strict, ", "))
+      : costliest == active.end()
           ? "give the headings of the scenarios more time"
           : fmt::format("'{}' is at its limit: {}", costliest->name, advice_on(costliest->name));
   return refusal(

@@ -2,7 +2,6 @@
 /// to relax. Private to tune/.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "awmr/core/result.h"
@@ -14,20 +13,21 @@ namespace awmr {
 
 /// Error if no gains meet the constraints that need no simulation: names the constraint that the
 /// gains with the smallest violation, `nearest`, violate most, and every change of a single limit
-/// or bound in `requested` that alone permits gains. `poles`: the default bounds are around these.
+/// or bound in `requested` that alone permits gains.
 tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintContext& context,
-                                 const TuneOptions& requested,
-                                 std::span<const Gains<double>> poles);
+                                 const TuneOptions& requested);
 
 /// Error if no gains meet the limits that need simulated runs: names the goal, activity limit or
 /// constraint that the gains with the smallest violation violate most.
 tl::unexpected<Error> not_found(const SearchResult& found, const Objective& objective,
                                 const std::vector<Scenario>& scenarios);
 
-/// Error if gains meet every limit but none of the `runs` runs settles: names the active constraint
-/// with the largest cost. `is_held`: friction at rest holds the vehicle off its heading; the
+/// Error if gains meet every limit but none of the `runs` runs settles: names the limits in
+/// `requested` that are stricter than their defaults, else the active constraint with the largest
+/// cost. `is_held`: friction at rest holds the vehicle off its heading; the
 /// message then suggests --observer.
 tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,
-                                    const std::vector<ActiveConstraint>& active, bool is_held);
+                                    const std::vector<ActiveConstraint>& active,
+                                    const TuneOptions& requested, bool is_held);
 
 }  // namespace awmr

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "awmr/tune/option_table.h"
+#include "awmr/tune/pole_placement.h"
 #include "awmr/tune/problem.h"
 #include "awmr/tune/search.h"
 
@@ -58,8 +61,8 @@ const std::vector<Limit>& limits() {
 }
 
 /// Number of the limit at which gains with these constraints just meet the constraints that it
-/// sets, rounded to two digits towards more permitted gains. The limit of the speed lag is
-/// 1/(4 zeta^2); all others are proportional to their number in tune.json.
+/// sets. The limit of the speed lag is 1/(4 zeta^2); all others are proportional to their number in
+/// tune.json.
 double just_met(const Limit& limit, double number, const std::vector<ConstraintReport>& all) {
   double ratio = 1.0;
   for (const ConstraintReport& c : all) {
@@ -68,9 +71,13 @@ double just_met(const Limit& limit, double number, const std::vector<ConstraintR
     const double its = c.name == "speed lag" ? std::sqrt(c.limit / c.value) : c.value / c.limit;
     ratio = limit.relaxed_by_less ? std::min(ratio, its) : std::max(ratio, its);
   }
-  const double needed = number * ratio;
-  const double digit = std::pow(10.0, std::floor(std::log10(std::abs(needed))) - 1.0);
-  return digit * (limit.relaxed_by_less ? std::floor(needed / digit) : std::ceil(needed / digit));
+  return number * ratio;
+}
+
+/// Rounds to two digits, towards more permitted gains.
+double in_two_digits(const Limit& limit, double number) {
+  const double digit = std::pow(10.0, std::floor(std::log10(std::abs(number))) - 1.0);
+  return digit * (limit.relaxed_by_less ? std::floor(number / digit) : std::ceil(number / digit));
 }
 
 /// A range of the gains in tune.json.
@@ -99,37 +106,87 @@ std::string advice_on(const std::string& constraint) {
                                     : "widen `bounds` of tune.json, or give slower scenarios";
 }
 
+std::vector<std::string> stricter_than_default(const TuneOptions& requested) {
+  ConstraintContext now{.margin = requested.margin, .limits = requested.limits};
+  ConstraintContext before;
+  std::vector<std::string> keys;
+  for (const Limit& limit : limits()) {
+    const bool is_rate = limit.constraints.front() == kSteeringRate;
+    const bool is_stricter = is_rate ? now.limits.steering_rate_rms_degps.has_value()
+                             : limit.relaxed_by_less ? limit.of(now) > limit.of(before)
+                                                     : limit.of(now) < limit.of(before);
+    if (is_stricter) keys.push_back(fmt::format("`{}`", limit.key));
+  }
+  return keys;
+}
+
+namespace {
+
+/// Gains that tune() would start from under the limits of `context`, as in feasible_start() but from
+/// fewer starts. Empty if none are found.
+std::optional<Gains<double>> start_with(TuneOptions options, const ConstraintContext& context) {
+  const std::array<Gains<double>, 2> poles = starting_poles(context);
+  bound_around(poles, options.bounds);
+  return least_relaxed(options, context, poles[0], {});
+}
+
+/// Gains that meet the limits of `context` but `limit`, and violate that as little as possible.
+/// Empty if none are found. `loosest`: the context with no such limit.
+std::optional<Gains<double>> start_without(const Limit& limit, TuneOptions options,
+                                           const ConstraintContext& context,
+                                           const ConstraintContext& loosest,
+                                           const Gains<double>& nearest) {
+  const std::array<Gains<double>, 2> poles = starting_poles(loosest);
+  bound_around(poles, options.bounds);
+  const auto found = least_relaxed(options, context, poles[0], limit.constraints);
+  return found ? found : least_relaxed(options, context, nearest, limit.constraints);
+}
+
+/// The number of the limit, between that of `context` and none, with which gains exist; empty if
+/// there is none. The number at which gains just meet the constraints is made less strict until the
+/// search confirms it, because the default bounds depend on it.
+std::optional<double> number_that_permits(const Limit& limit, const ConstraintContext& context,
+                                          const Gains<double>& nearest,
+                                          const TuneOptions& requested) {
+  constexpr double kSteps[] = {1.0, 1.1, 1.3, 2.0, 5.0, 20.0};
+  ConstraintContext changed = context;
+  double& number = limit.of(changed);
+  const double strict = number;
+  number = limit.relaxed_by_less ? limit.rule.min : 0.999 * limit.rule.max;
+  const auto gains = start_without(limit, requested, context, changed, nearest);
+  if (!gains) return std::nullopt;
+  const double needed = just_met(limit, strict, constraints_of(*gains, context));
+  for (const double step : kSteps) {
+    number = in_two_digits(limit, limit.relaxed_by_less ? needed / step : needed * step);
+    if (!allows(limit.rule, number) || number == strict) continue;
+    if (start_with(requested, changed)) return number;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::vector<std::string> single_changes(const Gains<double>& nearest,
                                         const ConstraintContext& context,
-                                        const TuneOptions& requested,
-                                        std::span<const Gains<double>> poles) {
-  TuneOptions options = requested;
-  bound_around(poles, options.bounds);
+                                        const TuneOptions& requested) {
   std::vector<std::string> changes;
   for (const Limit& limit : limits()) {
-    ConstraintContext changed = context;
-    if (limit.constraints.front() == kSteeringRate && !context.limits.steering_rate_rms_degps) {
-      continue;
+    const bool is_rate = limit.constraints.front() == kSteeringRate;
+    if (is_rate && !context.limits.steering_rate_rms_degps) continue;
+    if (const auto number = number_that_permits(limit, context, nearest, requested)) {
+      changes.push_back(fmt::format("`{}` {:g}", limit.key, *number));
     }
-    const auto gains = least_relaxed(options, context, nearest, limit.constraints);
-    if (!gains) continue;
-    double& number = limit.of(changed);
-    number = just_met(limit, number, constraints_of(*gains, context));
-    if (!allows(limit.rule, number)) continue;
-    if (!least_relaxed(options, changed, *gains, {})) continue;
-    changes.push_back(fmt::format("`{}` {:g}", limit.key, number));
   }
   if (context.form == ReachingForm::kStrict) {
     ConstraintContext changed = context;
     changed.form = ReachingForm::kPaper;
-    if (least_relaxed(options, changed, nearest, {})) changes.push_back("`form` \"paper\"");
+    if (start_with(requested, changed)) changes.push_back("`form` \"paper\"");
   }
   for (const Bound& bound : kBounds) {
     if (!(requested.bounds.*bound.range)) continue;
     TuneOptions wider = requested;
     wider.bounds.*bound.range = std::nullopt;
-    bound_around(poles, wider.bounds);
-    const auto gains = least_relaxed(wider, context, nearest, {});
+    const auto gains = start_with(wider, context);
     if (!gains) continue;
     changes.push_back(
         fmt::format("`bounds/{}` that contain {:.3g}", bound.key, bound.gain(*gains)));

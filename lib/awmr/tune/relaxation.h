@@ -2,7 +2,6 @@
 /// tune/.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -14,13 +13,15 @@ namespace awmr {
 /// Advice for a constraint that no gains meet: the limit to relax, or the cause in the vehicle.
 std::string advice_on(const std::string& constraint);
 
+/// Limits of tune.json that the user made stricter than their defaults: "`margin`".
+std::vector<std::string> stricter_than_default(const TuneOptions& requested);
+
 /// Changes of one limit or one requested bound, each of which alone permits gains that meet the
-/// constraints that need no simulation: "`limits/late_damping` 0.55". Each is confirmed by a search
-/// with the change. `nearest`: gains from which the searches start. `poles`: the default bounds are
-/// around these.
+/// constraints that need no simulation: "`limits/late_damping` 0.55". Each is confirmed by the
+/// search for a start that tune() makes with the change. `nearest`: gains with the smallest
+/// violation, from which the searches start too.
 std::vector<std::string> single_changes(const Gains<double>& nearest,
                                         const ConstraintContext& context,
-                                        const TuneOptions& requested,
-                                        std::span<const Gains<double>> poles);
+                                        const TuneOptions& requested);
 
 }  // namespace awmr

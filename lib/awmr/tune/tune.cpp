@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <tuple>
@@ -186,14 +187,13 @@ std::vector<Gains<double>> starts_of(const TuneOptions& options, const Constrain
 Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
                             const ConstraintContext& context, const TuneOptions& requested,
                             const Scenario& held_out) {
-  const Gains<double> narrow = place_poles(context);
-  const Gains<double> poles[] = {with_wide_layers(narrow, context), narrow};
+  const std::array<Gains<double>, 2> poles = starting_poles(context);
   TuneOptions options = requested;
   bound_around(poles, options.bounds);
   const Candidate first = feasible_start(options, context, poles[0]);
-  if (first.violation > 0.0) return infeasible(first, context, requested, poles);
+  if (first.violation > 0.0) return infeasible(first, context, requested);
   const std::vector<Gains<double>> starts = starts_of(options, context, first.gains, poles);
-  const Baseline baseline = options.baseline.value_or(Baseline{narrow, kPolePlacement});
+  const Baseline baseline = options.baseline.value_or(Baseline{poles[1], kPolePlacement});
   const Objective all(setting, baseline.gains);
   AWMR_RETURN_IF_ERROR(check_baseline(all, baseline));
   const Objective some(searched(setting, options), baseline.gains);
@@ -206,7 +206,7 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
   const auto settles = [](const ModeScore& score) { return score.metrics.completed; };
   if (std::ranges::none_of(tuned.scores, settles)) {
     const bool is_held = context.plant.yaw.coulomb > 0.0 && !options.observer;
-    return never_settles(settled.gains, tuned.scores.size(), active, is_held);
+    return never_settles(settled.gains, tuned.scores.size(), active, requested, is_held);
   }
   AWMR_ASSIGN_OR_RETURN(Certificate certificate,
                         certify(model, context, options.open, settled.gains));

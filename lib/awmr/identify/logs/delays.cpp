@@ -144,7 +144,7 @@ class LowestAic {
   double criterion_;
 };
 
-/// Considers a filter of each channel, with its lag. A filter is kept only if it lowers AIC by more
+/// Considers a filter of each channel, continuous or at the rows of the log, with its lag. A filter is kept only if it lowers AIC by more
 /// than kLikelierFilter.
 void consider_filters(const NoiseIteration& settled,
                       const std::vector<std::pair<LogChannel, double>>& lags_s, Loss loss,
@@ -154,7 +154,10 @@ void consider_filters(const NoiseIteration& settled,
   // more common.
   if (settled.problem.model.noise.size() <= 1) return;
   for (const auto& [channel, lag_s] : lags_s) {
-    lowest.consider(tried(settled, {{sensor_lag_of(channel), lag_s}}, loss), kLikelierFilter);
+    NoiseIteration continuous = tried(settled, {{sensor_lag_of(channel), lag_s}}, loss);
+    NoiseIteration at_rows = tried(settled, {{sensor_lag_of(channel, true), lag_s}}, loss);
+    const bool is_at_rows = akaike_of(at_rows) < akaike_of(continuous);
+    lowest.consider(std::move(is_at_rows ? at_rows : continuous), kLikelierFilter);
   }
 }
 

@@ -121,8 +121,11 @@ FreeQuantity sensor_delay_of(LogChannel channel) {
   return {.kind = FreeQuantity::Kind::kSensorDelay, .channel = channel, .large_change = 0.1};
 }
 
-FreeQuantity sensor_lag_of(LogChannel channel) {
-  return {.kind = FreeQuantity::Kind::kSensorLag, .channel = channel, .large_change = 0.1};
+FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows) {
+  return {.kind = FreeQuantity::Kind::kSensorLag,
+          .channel = channel,
+          .large_change = 0.1,
+          .is_at_rows = is_at_rows};
 }
 
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind) {

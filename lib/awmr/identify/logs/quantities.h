@@ -42,6 +42,7 @@ struct FreeQuantity {
   /// multiples of this change.
   double large_change = 1.0;
   double full_command = 1.0;  ///< of kForceSaturation: F'm of force_saturation(), > 0
+  bool is_at_rows = false;    ///< of kSensorLag: the filter of sensor_lag_of() at the rows of a log
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
   /// True for delays, lags and the saturation, which cannot be negative, so that 0 is an end of
@@ -88,8 +89,10 @@ FreeQuantity force_saturation(double full_command);
 FreeQuantity saturation_sharpness();
 inline constexpr double kDefaultSharpness = 4.0;  ///< of a fit without free sharpness
 
-/// Time constant of a first-order filter that smooths a channel, s.
-FreeQuantity sensor_lag_of(LogChannel channel);
+/// Time constant of a first-order filter that smooths a channel, s. `is_at_rows`: a recursive filter
+/// with one step for each row of the log, y(row) = e y(row - 1) + (1 - e) u(row), in place of a
+/// continuous filter (smoothed_channel.h).
+FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
 
 /// Latency of a channel, s.
 FreeQuantity sensor_delay_of(LogChannel channel);

@@ -25,7 +25,7 @@ struct Unpacked {
   std::array<double, kChannelCount> bias{};
   std::array<std::optional<std::size_t>, kChannelCount> bias_column{};
   std::array<std::optional<DelayColumn>, kChannelCount> sensor_delay{};
-  std::array<std::optional<DelayColumn>, kChannelCount> sensor_lag{};
+  std::array<std::optional<SensorFilter>, kChannelCount> sensor_lag{};
   State<double> initial{};
 
   bool any_late() const {
@@ -80,7 +80,7 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
         u.path.sharpness = {number, i};
         break;
       case FreeQuantity::Kind::kSensorLag:
-        u.sensor_lag[at(quantity.channel)] = {number, i};
+        u.sensor_lag[at(quantity.channel)] = {{number, i}, quantity.is_at_rows};
         break;
       case FreeQuantity::Kind::kSensorDelay:
         u.sensor_delay[at(quantity.channel)] = {number, i};

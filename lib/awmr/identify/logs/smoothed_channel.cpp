@@ -14,17 +14,18 @@ void SmoothedChannel::next(const LinearMotion& now, double h_s, std::size_t colu
 }
 
 void SmoothedChannel::move(double u, const double* by, double h_s, std::size_t columns) {
-  const double lag_s = lag_.delay_s;
+  const double lag_s = filter_.lag.delay_s;
   const double e = lag_s > 0.0 ? std::exp(-h_s / lag_s) : 0.0;
-  const double q = lag_s / h_s * (1.0 - e);
+  const double q = filter_.is_at_rows ? e : lag_s / h_s * (1.0 - e);
   const double behind = y_ - u_before_;
   for (std::size_t c = 0; c < columns; ++c) {
     by_column_[c] = (1.0 - q) * by[c] + (q - e) * by_before_[c] + e * by_column_[c];
   }
   if (columns > 0) {
     const double e_by_lag = lag_s > 0.0 ? e * h_s / (lag_s * lag_s) : 0.0;
-    const double q_by_lag = (1.0 - e) / h_s - (lag_s > 0.0 ? e / lag_s : 0.0);
-    by_column_[lag_.column] += behind * e_by_lag - q_by_lag * (u - u_before_);
+    const double q_by_lag =
+        filter_.is_at_rows ? e_by_lag : (1.0 - e) / h_s - (lag_s > 0.0 ? e / lag_s : 0.0);
+    by_column_[filter_.lag.column] += behind * e_by_lag - q_by_lag * (u - u_before_);
   }
   y_ = u - q * (u - u_before_) + e * behind;
 }

@@ -8,19 +8,26 @@
 
 namespace awmr {
 
-/// Output y of a filter T dy/dt = u - y with the input u and the time constant T, and its
-/// derivatives by the columns of the fit (linear_replay.h). With u linear between rows h apart, e =
-/// exp(-h/T) and q = (T/h)(1 - e),
+/// The filter of a sensor.
+struct SensorFilter {
+  DelayColumn lag;  ///< time constant T, s
+  bool is_at_rows;  ///< true: one step for each row of the log; false: continuous
+};
+
+/// Output y of a filter with the input u and the time constant T, and its derivatives by the columns
+/// of the fit (linear_replay.h). With rows h apart and e = exp(-h/T),
 ///
 ///     y(t + h) = u(t + h) - q (u(t + h) - u(t)) + e (y(t) - u(t))
+///     q = (T/h)(1 - e)   continuous, T dy/dt = u - y, u linear between rows
+///     q = e              at the rows, y(t + h) = e y(t) + (1 - e) u(t + h)
 ///
 /// y starts at the first reading of the window. The effect of that reading's noise decays with the
 /// time constant T.
 class SmoothedChannel {
  public:
   /// `first`: first reading of the window. `columns`: number of derivatives; 0: only y is computed.
-  SmoothedChannel(LogChannel channel, const DelayColumn& lag, double first, std::size_t columns)
-      : channel_(channel), lag_(lag), y_(first), by_column_(columns, 0.0) {}
+  SmoothedChannel(LogChannel channel, const SensorFilter& filter, double first, std::size_t columns)
+      : channel_(channel), filter_(filter), y_(first), by_column_(columns, 0.0) {}
 
   /// Advances the filter to the motion `now`, h_s seconds after the motion of the previous call.
   void next(const LinearMotion& now, double h_s, std::size_t columns);
@@ -31,7 +38,7 @@ class SmoothedChannel {
   void move(double u, const double* by, double h_s, std::size_t columns);
 
   LogChannel channel_;
-  DelayColumn lag_;
+  SensorFilter filter_;
   double y_;
   double u_before_ = 0.0;
   bool has_before_ = false;
