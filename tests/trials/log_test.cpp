@@ -275,5 +275,51 @@ TEST(SteadyRunsOfALog, AreDifferentialTurnsWithoutSteering) {
   EXPECT_THAT(findings.back().message, HasSubstr("F'L = 0.2, F'R = -0.2"));
 }
 
+/// A log at 50 Hz of a vehicle that drives straight at `speed_mps` with the heading psi; its position
+/// is the only measurement, with an error of +-e in turn.
+DrivingLog straight_log(double speed_mps, double psi, double error_m) {
+  constexpr std::size_t kRows = 100;
+  constexpr double kStep_s = 0.02;
+  DrivingLog log;
+  Measured x;
+  Measured y;
+  for (std::size_t row = 0; row < kRows; ++row) {
+    const double t_s = kStep_s * static_cast<double>(row);
+    log.t_s.push_back(t_s);
+    const double e = row % 2 == 0 ? error_m : -error_m;
+    x.value.push_back(1.0 + speed_mps * t_s * std::cos(psi) + e);
+    y.value.push_back(2.0 + speed_mps * t_s * std::sin(psi) - e);
+  }
+  x.fresh = y.fresh = std::vector<bool>(kRows, true);
+  log[LogChannel::kX] = x;
+  log[LogChannel::kY] = y;
+  log.force_left = log.force_right = std::vector<double>(kRows, speed_mps < 0.0 ? -0.3 : 0.3);
+  log.steering_command_rad = std::vector<double>(kRows, 0.0);
+  return log;
+}
+
+TEST(InitialState, OfPositionsHasTheHeadingAndTheSignedSpeed) {
+  constexpr double kPsi = 0.5;
+  for (const double speed_mps : {0.8, -0.8}) {
+    const DrivingLog log = straight_log(speed_mps, kPsi, 0.02);
+    const State<double> state = measured_initial_state({&log, 0, log.rows()});
+    EXPECT_NEAR(state.u_mps, speed_mps, 0.03) << speed_mps;
+    EXPECT_NEAR(state.psi_rad, kPsi, 0.05) << speed_mps;
+  }
+}
+
+TEST(InitialState, OfPositionsAndHeadingHasTheSpeedAlongTheHeading) {
+  constexpr double kPsi = 0.5;
+  DrivingLog log = straight_log(-0.8, kPsi, 0.0);
+  log[LogChannel::kHeading] = Measured{.value = std::vector<double>(log.rows(), kPsi),
+                                       .fresh = std::vector<bool>(log.rows(), true)};
+  for (auto* const forces : {&log.force_left, &log.force_right}) {
+    forces->assign(log.rows(), 0.3);  // brakes, still driving backward
+  }
+  const State<double> state = measured_initial_state({&log, 0, log.rows()});
+  EXPECT_NEAR(state.u_mps, -0.8, 1e-9);
+  EXPECT_EQ(state.psi_rad, kPsi);
+}
+
 }  // namespace
 }  // namespace awmr::testing::log_test

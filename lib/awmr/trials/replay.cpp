@@ -23,20 +23,53 @@ std::optional<std::size_t> first_fresh(const LogWindow& window, LogChannel chann
   return std::nullopt;
 }
 
-/// Slope of a channel, 1/s, between its first measurement in the window and the first one 0.2 s or
-/// more later. Empty if there is none.
+/// Slope of a channel, 1/s, at the begin of the window: of the straight line by least squares through
+/// its measurements in the 0.5 s from the first one, or through the first two. Empty if there are
+/// fewer.
 std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
+  constexpr double kSpan_s = 0.5;
   const auto first = first_fresh(window, channel, window.begin);
   if (!first) return std::nullopt;
   const DrivingLog& log = *window.log;
-  constexpr double kSpan_s = 0.2;
+  const double t0_s = log.t_s[*first];
+  const double value0 = log[channel]->value[*first];
+  double n = 1.0;
+  double t = 0.0;
+  double tt = 0.0;
+  double y = 0.0;
+  double ty = 0.0;
   for (auto row = first_fresh(window, channel, *first + 1); row;
        row = first_fresh(window, channel, *row + 1)) {
-    if (log.t_s[*row] - log.t_s[*first] < kSpan_s && *row + 1 < window.end) continue;
-    return (log[channel]->value[*row] - log[channel]->value[*first]) /
-           (log.t_s[*row] - log.t_s[*first]);
+    const double dt_s = log.t_s[*row] - t0_s;
+    if (n > 1.0 && dt_s > kSpan_s) break;
+    const double change = log[channel]->value[*row] - value0;
+    n += 1.0;
+    t += dt_s;
+    tt += dt_s * dt_s;
+    y += change;
+    ty += dt_s * change;
   }
-  return std::nullopt;
+  if (n < 2.0) return std::nullopt;
+  return (n * ty - t * y) / (n * tt - t * t);
+}
+
+/// True if the vehicle probably moves backward at the begin of the window: the mean force of the
+/// second before it is negative, or at the begin of the log that of the first half second.
+bool moves_backward(const LogWindow& window) {
+  constexpr double kBefore_s = 1.0;
+  constexpr double kAfter_s = 0.5;
+  const DrivingLog& log = *window.log;
+  const double now_s = log.t_s[window.begin];
+  const bool is_first = window.begin == 0;
+  double force = 0.0;
+  for (std::size_t row = window.begin; row > 0 && log.t_s[row - 1] >= now_s - kBefore_s; --row) {
+    force += log.force_left[row - 1] + log.force_right[row - 1];
+  }
+  for (std::size_t row = 0; is_first && row < window.end && log.t_s[row] <= now_s + kAfter_s;
+       ++row) {
+    force += log.force_left[row] + log.force_right[row];
+  }
+  return force < 0.0;
 }
 
 }  // namespace
@@ -108,11 +141,16 @@ State<double> measured_initial_state(const LogWindow& window) {
   const auto x_rate = first_slope(window, LogChannel::kX);
   const auto y_rate = first_slope(window, LogChannel::kY);
   const bool course = x_rate && y_rate;
+  const auto speed = first(LogChannel::kSpeed);
+  const bool backward = speed ? *speed < 0.0 : moves_backward(window);
+  const double sign = backward ? -1.0 : 1.0;
   State<double> s{};
   s.x_m = first(LogChannel::kX).value_or(0.0);
   s.y_m = first(LogChannel::kY).value_or(0.0);
-  s.psi_rad = first(LogChannel::kHeading).value_or(course ? std::atan2(*y_rate, *x_rate) : 0.0);
-  s.u_mps = first(LogChannel::kSpeed).value_or(course ? std::hypot(*x_rate, *y_rate) : 0.0);
+  s.psi_rad = first(LogChannel::kHeading)
+                  .value_or(course ? std::atan2(sign * *y_rate, sign * *x_rate) : 0.0);
+  s.u_mps =
+      speed.value_or(course ? *x_rate * std::cos(s.psi_rad) + *y_rate * std::sin(s.psi_rad) : 0.0);
   s.v_mps = first(LogChannel::kSway).value_or(0.0);
   s.r_radps =
       first(LogChannel::kYawRate).value_or(first_slope(window, LogChannel::kHeading).value_or(0.0));

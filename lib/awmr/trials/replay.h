@@ -267,7 +267,8 @@ void each_measurement(const DrivingLog& log, std::size_t row, Visit visit) {
 
 /// Initial state of a window: the first measurement of each channel in it. A channel without one is
 /// derived from others (yaw rate from heading, heading and speed from position), else it is 0. The
-/// steering angle is then the command at the first row.
+/// steering angle is then the command at the first row. A heading from positions is that of the
+/// course, or opposite to it if the vehicle moves backward, by its speed or else by its commands.
 State<double> measured_initial_state(const LogWindow& window);
 
 /// Longest step of replay() that is accurate for this plant, s: a quarter of the shortest time
