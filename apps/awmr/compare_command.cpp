@@ -207,8 +207,10 @@ Result<std::vector<Finding>> findings_of(const CompareCommand& command,
                                          const ComparedInputs& inputs,
                                          const Comparison& comparison) {
   std::vector<Finding> findings = inputs.findings;
-  for (const fs::path& gains : command.gains) {
-    AWMR_RETURN_IF_ERROR(note_other_model(gains, command.model, findings));
+  for (std::size_t i = 0; i < command.gains.size(); ++i) {
+    AWMR_RETURN_IF_ERROR(note_other_model(command.gains[i], command.model, findings));
+    note_unstable(inputs.gains[i].gains, inputs.model.vehicle.sample_time_s, command.gains[i],
+                  findings);
   }
   std::ranges::move(compare_findings(inputs.model, inputs.scenarios, command.compare, comparison,
                                      command.heading_rate_limit),

@@ -84,25 +84,6 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
                    name, 100.0 * table.largest_relative_error(), 100.0 * kTableError)});
 }
 
-/// Returns a warning for each loop (heading, speed) that is unstable at this sample time with any
-/// vehicle.
-std::vector<Finding> unstable_gains(const Gains<double>& gains, double sample_time_s,
-                                    const EmitCommand& command) {
-  constexpr double kMax = 2.0;  // stability limit of a sampled integrator
-  const double heading = gains.heading.lambda + gains.heading.mu / gains.heading.epsilon;
-  const double speed = gains.speed.mu / gains.speed.epsilon;
-  std::vector<Finding> findings;
-  for (const auto& [name, rate] : {std::pair("lambda + mu/epsilon of the heading", heading),
-                                   std::pair("mu/epsilon of the speed", speed)}) {
-    if (rate * sample_time_s < kMax) continue;
-    findings.push_back({command.gains.string(), 0, Severity::kWarning, "unstable-gains",
-                        fmt::format("{} is {:.3g} 1/s: at a sample time of {:g} s the loop is "
-                                    "unstable from {:.3g} 1/s on. Tune again for this model",
-                                    name, rate, sample_time_s, kMax / sample_time_s)});
-  }
-  return findings;
-}
-
 /// Warns if motors that differ by 16 % cause a steady heading error of more than half of
 /// kMaxOnCourse_rad, beyond which the sketches report a failure (fault 17).
 void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& command,
@@ -214,8 +195,7 @@ Result<Outcome> execute(const EmitCommand& command) {
   if (auto finding = missing_intervals(model)) outcome.findings.push_back(*std::move(finding));
   const double sample_time_s = model.vehicle.sample_time_s;
   std::ranges::move(sample_time(sample_time_s, command), std::back_inserter(outcome.findings));
-  std::ranges::move(unstable_gains(gains, sample_time_s, command),
-                    std::back_inserter(outcome.findings));
+  note_unstable(gains, sample_time_s, command.gains, outcome.findings);
   if (const auto plant = model.plant(Motion::kStraight)) {
     if (auto finding =
             unsigned_speed_finding(*plant, model.vehicle, gains, command.gains.string())) {

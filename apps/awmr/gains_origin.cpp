@@ -53,4 +53,19 @@ Status note_other_model(const std::filesystem::path& gains, const std::filesyste
   return {};
 }
 
+void note_unstable(const Gains<double>& gains, double sample_time_s,
+                   const std::filesystem::path& gains_file, std::vector<Finding>& findings) {
+  constexpr double kMax = 2.0;  // stability limit of a sampled integrator
+  const double heading = gains.heading.lambda + gains.heading.mu / gains.heading.epsilon;
+  const double speed = gains.speed.mu / gains.speed.epsilon;
+  for (const auto& [name, rate] : {std::pair("lambda + mu/epsilon of the heading", heading),
+                                   std::pair("mu/epsilon of the speed", speed)}) {
+    if (rate * sample_time_s < kMax) continue;
+    findings.push_back({gains_file.string(), 0, Severity::kWarning, "unstable-gains",
+                        fmt::format("{} is {:.3g} 1/s: at a sample time of {:g} s the loop is "
+                                    "unstable from {:.3g} 1/s on. Tune again for this model",
+                                    name, rate, sample_time_s, kMax / sample_time_s)});
+  }
+}
+
 }  // namespace awmr::cli

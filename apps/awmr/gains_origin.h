@@ -1,4 +1,5 @@
-/// Warnings about gains that are used with another model or mode than they were tuned for.
+/// Warnings about gains that are used with another model or mode than they were tuned for, or that
+/// are unstable at the model's sample time.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +8,7 @@
 
 #include "awmr/control/yaw_mode.h"
 #include "awmr/core/result.h"
+#include "awmr/model/gains.h"
 #include "awmr/model/record.h"
 
 namespace awmr::cli {
@@ -19,5 +21,10 @@ namespace awmr::cli {
 /// read_json_file().
 Status note_other_model(const std::filesystem::path& gains, const std::filesystem::path& model,
                         std::vector<Finding>& findings, std::optional<YawMode> mode = {});
+
+/// Adds the warning `unstable-gains` for each loop (heading, speed) that is unstable at this sample
+/// time with any vehicle. `gains_file`: the file that the warnings name.
+void note_unstable(const Gains<double>& gains, double sample_time_s,
+                   const std::filesystem::path& gains_file, std::vector<Finding>& findings);
 
 }  // namespace awmr::cli

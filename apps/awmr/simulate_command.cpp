@@ -149,9 +149,11 @@ Result<Gains<double>> gains_for(const SimulateCommand& command, const Scenario& 
 
 /// Adds the findings about the run, as far as they do not come from the choice of the plant.
 Status note_run(const SimulateCommand& command, const Scenario& scenario, const Model& model,
-                const Metrics& metrics, std::vector<Finding>& findings) {
+                const Gains<double>& gains, const Metrics& metrics,
+                std::vector<Finding>& findings) {
   if (command.gains) {
     AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings, command.mode));
+    note_unstable(gains, model.vehicle.sample_time_s, *command.gains, findings);
   }
   std::ranges::move(unattainable_requests(scenario, model), std::back_inserter(findings));
   if (auto finding = tyres_differ(scenario, model)) findings.push_back(*finding);
@@ -188,7 +190,7 @@ Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
   Metrics metrics = metrics_of(run, scenario, controller);
   metrics.electric_work_j = electric_work_j(metrics, model.vehicle, controller.mass_norm);
-  AWMR_RETURN_IF_ERROR(note_run(command, scenario, model, metrics, findings));
+  AWMR_RETURN_IF_ERROR(note_run(command, scenario, model, gains, metrics, findings));
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, scenario, inputs));
   const std::string csv = run_csv(run, scenario);
   Outcome outcome{.summary = summary_of(run, scenario, command) + figures_of(metrics) +

@@ -34,11 +34,11 @@ void note_scrub(const Model& model, std::vector<Finding>& findings) {
   if (!model.yaw_scrub || !(model.yaw_scrub->moment_m > 0.0)) return;
   findings.push_back(
       {model.file, 0, Severity::kNote, "scrub-simulated",
-       fmt::format("the simulated 3-DOF model adds the measured tyre scrub, {:.3g} m (95 %: {:.3g} to "
-                   "{:.3g}), to differential and combined turns; the controller does not "
-                   "compensate it. Add --break-even to see which scrub changes each ranking",
-                   model.yaw_scrub->moment_m, model.yaw_scrub->ci95_m.lo,
-                   model.yaw_scrub->ci95_m.hi)});
+       fmt::format(
+           "the simulated 3-DOF model adds the measured tyre scrub, {:.3g} m (95 %: {:.3g} to "
+           "{:.3g}), to differential and combined turns; the controller does not "
+           "compensate it. Add --break-even to see which scrub changes each ranking",
+           model.yaw_scrub->moment_m, model.yaw_scrub->ci95_m.lo, model.yaw_scrub->ci95_m.hi)});
 }
 
 }  // namespace
