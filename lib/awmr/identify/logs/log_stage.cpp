@@ -17,6 +17,7 @@
 #include "awmr/identify/logs/log_report.h"
 #include "awmr/identify/logs/log_setup.h"
 #include "awmr/identify/logs/model_choice.h"
+#include "awmr/model/plausibility.h"
 #include "awmr/trials/log_consistency.h"
 
 namespace awmr {
@@ -93,6 +94,26 @@ Finding in_words(const HeldOut& missed, const std::string& file) {
                       "withdrawn. Identify a part under constant conditions ({}, {})",
                       missed.rows, missed.p_value, missed.quantity, missed.by_fit, missed.by_rows,
                       option_text("from S"), option_text("until S"))};
+}
+
+/// True if the search ended with the servo's time constant at its upper limit, which no servo
+/// reaches: the optimum is probably a wrong one.
+bool has_impossible_servo(const LogFit& fit) {
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    const FreeQuantity& q = fit.quantities[i];
+    if (!q.is(ParameterId::kSteeringTimeConstant)) continue;
+    constexpr double kAtLimit = 1.0 - 1e-6;
+    if (q.value(fit.coordinates[i]) >= kAtLimit * kSlowestServo_s) return true;
+  }
+  return false;
+}
+
+Finding impossible_servo_finding(const std::string& file) {
+  return {file, 0, Severity::kWarning, "model-inadequate",
+          fmt::format("the search ended with a servo time constant at its limit of {:g} s, so that "
+                      "it has probably found a wrong optimum; the intervals are withdrawn. Log the "
+                      "yaw rate or the heading as well, or search from more initial guesses ({})",
+                      kSlowestServo_s, option_text("starts"))};
 }
 
 /// Takes the parameters that the fit identifies into `stage`. Parameters with a value from other
@@ -181,6 +202,10 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   stage.withdraws_intervals =
       stage.withdraws_intervals || compared.missed || saturates_much(chosen.fit) ||
       std::ranges::any_of(compared.disagreements, &LogDisagreement::withdraws);
+  if (chosen.fit.usable && has_impossible_servo(chosen.fit)) {
+    stage.withdraws_intervals = true;
+    stage.findings.push_back(impossible_servo_finding(logs.front().file));
+  }
   append(stage.findings, in_words(compared.disagreements, stage.withdraws_intervals));
   if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
   if (stage.withdraws_intervals) withdraw_intervals(chosen.fit.report);
