@@ -144,8 +144,8 @@ TEST(LateLog, KeepsAMotorLagOfTheVehicleFileFixed) {
   expect_recovered(*result, ParameterId::kSurgeAlpha, kTruths[1].a1, 4.5);
 }
 
-/// Filters the speed by a first-order lag: dy/dt = (u - y)/T, exactly for ramps between the rows, or
-/// with one step for each row (`is_at_rows`).
+/// Filters the speed by a first-order lag: dy/dt = (u - y)/T, exactly for ramps between the rows,
+/// or with one step for each row (`is_at_rows`).
 DrivingLog with_smoothed_speed(DrivingLog log, const std::vector<double>& speed, double lag_s,
                                bool is_at_rows) {
   std::vector<double>& shown = log[LogChannel::kSpeed]->value;
@@ -288,8 +288,8 @@ INSTANTIATE_TEST_SUITE_P(Short, ForceImbalance, ::testing::Values(0.05));
 /// Also the other sign and a larger value.
 INSTANTIATE_TEST_SUITE_P(Long, ForceImbalance, ::testing::Values(-0.1));
 
-/// The log with commands F' that push with F'/(1 + s (F'/F'm)^n)^(1/n), s = (1 - L)^(-n) - 1, F'm the
-/// largest of them.
+/// The log with commands F' that push with F'/(1 + s (F'/F'm)^n)^(1/n), s = (1 - L)^(-n) - 1, F'm
+/// the largest of them.
 DrivingLog saturated(DrivingLog log, double loss, double n) {
   double most = 0.0;  // of the forces after the saturation
   for (const auto* const forces : {&log.force_left, &log.force_right}) {

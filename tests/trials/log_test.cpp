@@ -275,8 +275,8 @@ TEST(SteadyRunsOfALog, AreDifferentialTurnsWithoutSteering) {
   EXPECT_THAT(findings.back().message, HasSubstr("F'L = 0.2, F'R = -0.2"));
 }
 
-/// A log at 50 Hz of a vehicle that drives straight at `speed_mps` with the heading psi; its position
-/// is the only measurement, with an error of +-e in turn.
+/// A log at 50 Hz of a vehicle that drives straight at `speed_mps` with the heading psi; its
+/// position is the only measurement, with an error of +-e in turn.
 DrivingLog straight_log(double speed_mps, double psi, double error_m) {
   constexpr std::size_t kRows = 100;
   constexpr double kStep_s = 0.02;

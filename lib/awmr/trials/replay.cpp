@@ -23,9 +23,9 @@ std::optional<std::size_t> first_fresh(const LogWindow& window, LogChannel chann
   return std::nullopt;
 }
 
-/// Slope of a channel, 1/s, at the begin of the window: of the straight line by least squares through
-/// its measurements in the 0.5 s from the first one, or through the first two. Empty if there are
-/// fewer.
+/// Slope of a channel, 1/s, at the begin of the window: of the straight line by least squares
+/// through its measurements in the 0.5 s from the first one, or through the first two. Empty if
+/// there are fewer.
 std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
   constexpr double kSpan_s = 0.5;
   const auto first = first_fresh(window, channel, window.begin);

@@ -153,10 +153,10 @@ void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
     faults.push_back({ErrorCode::kMissing, "",
                       "goals: a goal is without a limit; give at_most at least one metric"});
   }
-  if (!(goal.share >= kMinGoalShare && goal.share <= kMaxGoalShare)) {
+  if (!allows(kGoalShare, goal.share)) {
     faults.push_back({ErrorCode::kOutOfRange, "",
                       fmt::format("goals: a share of {} is not in {} ... {}", goal.share,
-                                  kMinGoalShare, kMaxGoalShare)});
+                                  kGoalShare.min, kGoalShare.max)});
   }
 }
 

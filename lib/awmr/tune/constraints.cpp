@@ -130,13 +130,12 @@ Moments moments_m(const DrawnVehicle& vehicle, double speed_mps) {
                           std::min(vehicle.wheel_force.hi - held, held - vehicle.wheel_force.lo)};
 }
 
-/// Residual of a constraint, -margin/max(|value|, |limit|); > 0: the constraint is violated.
+}  // namespace
+
 double residual(const ConstraintReport& c) {
   const double scale = std::max({std::abs(c.value), std::abs(c.limit), 1e-12});
   return -c.margin / scale;
 }
-
-}  // namespace
 
 double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps,
                            std::optional<YawMode> mode) {

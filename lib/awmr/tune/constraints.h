@@ -145,8 +145,11 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider = 0.0);
 
-/// The residual of each required constraint, -margin/max(|value|, |limit|). It is <= 0 exactly if
-/// the constraint is met.
+/// Residual of a constraint, -margin/max(|value|, |limit|). It is <= 0 exactly if the constraint is
+/// met.
+double residual(const ConstraintReport& constraint);
+
+/// The residual of each required constraint.
 std::vector<double> residuals(const std::vector<ConstraintReport>& constraints);
 
 }  // namespace awmr

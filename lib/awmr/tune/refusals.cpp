@@ -64,9 +64,8 @@ std::vector<std::string> violated(const std::vector<ConstraintReport>& all) {
 tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintContext& context,
                                  const TuneOptions& requested) {
   const std::vector<ConstraintReport> all = constraints_of(nearest.gains, context);
-  const auto worst = std::ranges::max_element(all, {}, [](const ConstraintReport& c) {
-    return c.required ? residuals({c}).front() : -1.0;
-  });
+  const auto worst = std::ranges::max_element(
+      all, {}, [](const ConstraintReport& c) { return c.required ? residual(c) : -1.0; });
   const std::vector<std::string> changes = single_changes(nearest.gains, context, requested);
   return refusal(
       ErrorCode::kNoGains,

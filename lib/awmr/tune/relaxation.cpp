@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "awmr/tune/option_table.h"
 #include "awmr/tune/pole_placement.h"
@@ -60,14 +61,18 @@ const std::vector<Limit>& limits() {
   return table;
 }
 
+/// True if the constraint is one of those that the limit sets.
+bool sets(const Limit& limit, std::string_view constraint) {
+  return std::ranges::find(limit.constraints, constraint) != limit.constraints.end();
+}
+
 /// Number of the limit at which gains with these constraints just meet the constraints that it
 /// sets. The limit of the speed lag is 1/(4 zeta^2); all others are proportional to their number in
 /// tune.json.
 double just_met(const Limit& limit, double number, const std::vector<ConstraintReport>& all) {
   double ratio = 1.0;
   for (const ConstraintReport& c : all) {
-    const bool is_set_by = std::ranges::find(limit.constraints, c.name) != limit.constraints.end();
-    if (!c.required || !is_set_by) continue;
+    if (!c.required || !sets(limit, c.name)) continue;
     const double its = c.name == "speed lag" ? std::sqrt(c.limit / c.value) : c.value / c.limit;
     ratio = limit.relaxed_by_less ? std::min(ratio, its) : std::max(ratio, its);
   }
@@ -98,7 +103,7 @@ constexpr Bound kBounds[] = {
 
 std::string advice_on(const std::string& constraint) {
   for (const Limit& limit : limits()) {
-    if (std::ranges::find(limit.constraints, constraint) != limit.constraints.end()) {
+    if (sets(limit, constraint)) {
       return fmt::format("relax `{}` of tune.json", limit.key);
     }
   }
@@ -111,7 +116,7 @@ std::vector<std::string> stricter_than_default(const TuneOptions& requested) {
   ConstraintContext before;
   std::vector<std::string> keys;
   for (const Limit& limit : limits()) {
-    const bool is_rate = limit.constraints.front() == kSteeringRate;
+    const bool is_rate = sets(limit, kSteeringRate);
     const bool is_stricter = is_rate ? now.limits.steering_rate_rms_degps.has_value()
                              : limit.relaxed_by_less ? limit.of(now) > limit.of(before)
                                                      : limit.of(now) < limit.of(before);
@@ -122,8 +127,8 @@ std::vector<std::string> stricter_than_default(const TuneOptions& requested) {
 
 namespace {
 
-/// Gains that tune() would start from under the limits of `context`, as in feasible_start() but from
-/// fewer starts. Empty if none are found.
+/// Gains that tune() would start from under the limits of `context`, as in feasible_start() but
+/// from fewer starts. Empty if none are found.
 std::optional<Gains<double>> start_with(TuneOptions options, const ConstraintContext& context) {
   const std::array<Gains<double>, 2> poles = starting_poles(context);
   bound_around(poles, options.bounds);
@@ -171,7 +176,7 @@ std::vector<std::string> single_changes(const Gains<double>& nearest,
                                         const TuneOptions& requested) {
   std::vector<std::string> changes;
   for (const Limit& limit : limits()) {
-    const bool is_rate = limit.constraints.front() == kSteeringRate;
+    const bool is_rate = sets(limit, kSteeringRate);
     if (is_rate && !context.limits.steering_rate_rms_degps) continue;
     if (const auto number = number_that_permits(limit, context, nearest, requested)) {
       changes.push_back(fmt::format("`{}` {:g}", limit.key, *number));

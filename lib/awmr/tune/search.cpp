@@ -156,8 +156,8 @@ nlopt_result search_globally(Problem& problem, const TuneOptions& options, const
   }
 }
 
-/// Data of the callbacks of feasible_start() and least_relaxed(). The constraints named in `relaxed`
-/// do not count in the violation of a candidate.
+/// Data of the callbacks of feasible_start() and least_relaxed(). The constraints named in
+/// `relaxed` do not count in the violation of a candidate.
 struct Feasibility {
   SearchSpace space;
   const ConstraintContext& context;
@@ -174,7 +174,8 @@ struct Feasibility {
     for (const ConstraintReport& c : constraints_of(gains, context)) {
       const bool counts = std::ranges::find(relaxed, c.name) == relaxed.end();
       double& most = counts ? largest.first : largest.second;
-      for (const double r : residuals({c})) most = r > most || std::isnan(r) ? r : most;
+      const double r = residual(c);
+      if (c.required && (r > most || std::isnan(r))) most = r;
     }
     const auto [of_counted, of_relaxed] = largest;
     if (of_counted < best.violation) best = {.gains = gains, .violation = of_counted};

@@ -165,10 +165,10 @@ Status check_baseline(const Objective& objective, const Baseline& baseline) {
 /// large.
 constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 
-/// Starts of the search: `first`, which meets the constraints, the other gains of `poles`, the first
-/// of them slowed down by each of kSlowerStarts, and the baseline, if given. Each start but the
-/// first is replaced by gains that meet the constraints (feasible_start()), or left out if there
-/// are none.
+/// Starts of the search: `first`, which meets the constraints, the other gains of `poles`, the
+/// first of them slowed down by each of kSlowerStarts, and the baseline, if given. Each start but
+/// the first is replaced by gains that meet the constraints (feasible_start()), or left out if
+/// there are none.
 std::vector<Gains<double>> starts_of(const TuneOptions& options, const ConstraintContext& context,
                                      const Gains<double>& first,
                                      std::span<const Gains<double>> poles) {

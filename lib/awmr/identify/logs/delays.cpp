@@ -144,8 +144,8 @@ class LowestAic {
   double criterion_;
 };
 
-/// Considers a filter of each channel, continuous or at the rows of the log, with its lag. A filter is kept only if it lowers AIC by more
-/// than kLikelierFilter.
+/// Considers a filter of each channel, continuous or at the rows of the log, with its lag. A filter
+/// is kept only if it lowers AIC by more than kLikelierFilter.
 void consider_filters(const NoiseIteration& settled,
                       const std::vector<std::pair<LogChannel, double>>& lags_s, Loss loss,
                       LowestAic& lowest) {

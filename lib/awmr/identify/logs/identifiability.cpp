@@ -112,8 +112,8 @@ void widen(const Scores& scores, Identifiability& found) {
   found.covariance = factor.asDiagonal() * found.covariance * factor.asDiagonal();
 }
 
-/// Refuses all quantities correlated (by more than kDependent) with quantity number `stopped`, whose
-/// search ended at a bound.
+/// Refuses all quantities correlated (by more than kDependent) with quantity number `stopped`,
+/// whose search ended at a bound.
 void refuse_dependent(Eigen::Index stopped, const std::vector<FreeQuantity>& quantities,
                       Identifiability& found) {
   constexpr double kDependent = 0.3;  // smallest correlation that counts

@@ -1,5 +1,5 @@
-/// Options of the first fit of the logs: free parameters, initial guesses, limits of the work. Private
-/// to identify/.
+/// Options of the first fit of the logs: free parameters, initial guesses, limits of the work.
+/// Private to identify/.
 #pragma once
 
 #include <map>
@@ -12,9 +12,9 @@
 
 namespace awmr {
 
-/// Returns the options of a fit of power laws. Free are the `requested` parameters and those without
-/// a value in `model`, with initial guesses from the logs. Adds to `reasons`, by parameter, why the
-/// channels and commands of the logs cannot identify it.
+/// Returns the options of a fit of power laws. Free are the `requested` parameters and those
+/// without a value in `model`, with initial guesses from the logs. Adds to `reasons`, by parameter,
+/// why the channels and commands of the logs cannot identify it.
 LogFitOptions log_setup(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                         const IdentifyOptions& options, const std::vector<ParameterId>& requested,
                         const Model& model, std::map<ParameterId, std::string>& reasons);

@@ -81,17 +81,17 @@ FreeQuantity force_imbalance();
 ///
 ///     F'/(1 + s w)^(1/n),   s = (1 - L)^(-n) - 1
 ///
-/// (times F_max). Small commands act in proportion; slipping tyres, current limits or a weak battery
-/// reduce large ones.
+/// (times F_max). Small commands act in proportion; slipping tyres, current limits or a weak
+/// battery reduce large ones.
 FreeQuantity force_saturation(double full_command);
 
 /// Sharpness n of the saturation; a limit that begins at once has a large n.
 FreeQuantity saturation_sharpness();
 inline constexpr double kDefaultSharpness = 4.0;  ///< of a fit without free sharpness
 
-/// Time constant of a first-order filter that smooths a channel, s. `is_at_rows`: a recursive filter
-/// with one step for each row of the log, y(row) = e y(row - 1) + (1 - e) u(row), in place of a
-/// continuous filter (smoothed_channel.h).
+/// Time constant of a first-order filter that smooths a channel, s. `is_at_rows`: a recursive
+/// filter with one step for each row of the log, y(row) = e y(row - 1) + (1 - e) u(row), in place
+/// of a continuous filter (smoothed_channel.h).
 FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
 
 /// Latency of a channel, s.

@@ -14,8 +14,8 @@ struct SensorFilter {
   bool is_at_rows;  ///< true: one step for each row of the log; false: continuous
 };
 
-/// Output y of a filter with the input u and the time constant T, and its derivatives by the columns
-/// of the fit (linear_replay.h). With rows h apart and e = exp(-h/T),
+/// Output y of a filter with the input u and the time constant T, and its derivatives by the
+/// columns of the fit (linear_replay.h). With rows h apart and e = exp(-h/T),
 ///
 ///     y(t + h) = u(t + h) - q (u(t + h) - u(t)) + e (y(t) - u(t))
 ///     q = (T/h)(1 - e)   continuous, T dy/dt = u - y, u linear between rows
