@@ -99,8 +99,8 @@ std::string summary_of(const MapCommand& command, const std::vector<ColumnGuess>
   const std::vector<std::string> open = open_columns(likely_columns(guesses), command.trial);
   for (const std::string& name : open) {
     text += fmt::format(
-        "  open   {:<17} no column is a good match; to identify, give --column {}=EXPRESSION\n",
-        name, name);
+        "  open   {:<17} no column is a good match; to identify, give --column {}=EXPRESSION{}\n",
+        name, name, name == "steering_cmd_deg" ? " (only if the vehicle steers)" : "");
   }
   if (command.output) {
     text += fmt::format("wrote {}: correct it, then give it to identify as --columns-file\n",

@@ -44,7 +44,7 @@ Comparison drawn(std::uint64_t number) {
 
 std::vector<Contender> first_with(const ScenarioRows& rows, const Preferences& preferences) {
   std::vector<Contender> first;
-  for (const RankedMode& mode : rank(rows, paired_differences(rows, preferences, 1), preferences)) {
+  for (const RankedMode& mode : rank(rows, statistics_of(rows, preferences, 1), preferences)) {
     if (mode.rank == 1) first.push_back(mode.contender);
   }
   return first;
@@ -75,8 +75,8 @@ TEST(Decision, OfWeightsIsThatOfAllCornersOfTheirRange) {
   for (std::uint64_t number = 0; number < 60; ++number) {
     const Comparison comparison = drawn(number);
     const ScenarioRows rows = group(comparison).front();
-    const auto differences = paired_differences(rows, {}, 1);
-    const Decision decision = decide(rows, differences, rank(rows, differences), {}, {}, 1);
+    const ScenarioStatistics statistics = statistics_of(rows, {}, 1);
+    const Decision decision = decide(rows, statistics, rank(rows, statistics), {}, {}, 1);
     ASSERT_THAT(decision.changes, SizeIs(1));
     EXPECT_EQ(decision.changes[0].kind, ChangeKind::kWeights);
     EXPECT_THAT(decision.changes[0].first,

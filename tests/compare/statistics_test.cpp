@@ -72,7 +72,7 @@ Comparison paired(int samples, double difference_spread) {
 }
 
 PairedDifference iae_difference(const Comparison& c, std::uint64_t seed) {
-  for (const PairedDifference& d : paired_differences(group(c)[0], {}, seed)) {
+  for (const PairedDifference& d : statistics_of(group(c)[0], {}, seed).differences) {
     if (d.metric == MetricId::kHeadingIae) return d;
   }
   return {};
@@ -124,7 +124,7 @@ TEST(Bootstrap, CoversAMeanOfTenAtItsRate) {
     }
     const std::vector<ScenarioRows> scenarios = group(c);
     for (const PairedDifference& d :
-         paired_differences(scenarios.front(), {}, static_cast<std::uint64_t>(trial))) {
+         statistics_of(scenarios.front(), {}, static_cast<std::uint64_t>(trial)).differences) {
       if (d.metric == MetricId::kSettlingTime) held += d.ci95->contains(0.0) ? 1 : 0;
     }
   }
@@ -177,7 +177,7 @@ TEST(PairedDifferences, PairOnlySamplesThatBothModesHave) {
 
 std::vector<RankedMode> ranking_of(const Comparison& c, const Preferences& preferences = {}) {
   const ScenarioRows scenario = group(c)[0];
-  return rank(scenario, paired_differences(scenario, preferences, 1), preferences);
+  return rank(scenario, statistics_of(scenario, preferences, 1), preferences);
 }
 
 std::vector<int> ranks(const std::vector<RankedMode>& ranking) {
@@ -308,7 +308,7 @@ TEST(Preferences, RefuseInvalidWeights) {
 
 TEST(PairedDifferences, AreRelevantEquivalentOrUndecided) {
   const auto conclusion = [](const Comparison& c) {
-    for (const PairedDifference& d : paired_differences(group(c)[0], {}, 1)) {
+    for (const PairedDifference& d : statistics_of(group(c)[0], {}, 1).differences) {
       if (d.metric == MetricId::kSettlingTime && d.second.mode == YawMode::kSteering) {
         return d.conclusion;
       }

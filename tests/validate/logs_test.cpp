@@ -61,6 +61,11 @@ TEST(LogValidation, TheTrueModelPredictsExactly) {
   }
 }
 
+TEST(LogValidation, HorizonIsAtMostTheLengthOfTheLog) {
+  EXPECT_EQ(validate_log(exact_log(), plant(1.0), 5.0, 0.1).horizon_s, 5.0);
+  EXPECT_NEAR(validate_log(exact_log(), plant(1.0), 100.0, 0.1).horizon_s, 999 * 0.02, 1e-9);
+}
+
 TEST(LogValidation, AWrongModelShowsOverAWindowWhatOneStepHides) {
   const LogValidation validation = validate_log(exact_log(), plant(1.5), 5.0, 0.05);
   EXPECT_FALSE(validation.passed);

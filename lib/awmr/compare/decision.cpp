@@ -56,8 +56,7 @@ Preferences worst_weights(const ModeRows& own, const ModeRows& other,
 
 /// Finds the contenders that have rank 1 with every weight between 1/kWeightFactor and
 /// kWeightFactor times its value.
-Change change_of_weights(const ScenarioRows& scenario,
-                         const std::vector<PairedDifference>& differences,
+Change change_of_weights(const ScenarioRows& scenario, const ScenarioStatistics& statistics,
                          const Preferences& preferences, std::uint64_t seed) {
   const std::vector<ScoredMetric> scoring = scoring_of(scenario, preferences);
   Change change{.scenario = scenario.scenario,
@@ -69,7 +68,7 @@ Change change_of_weights(const ScenarioRows& scenario,
         std::all_of(scenario.modes.begin(), scenario.modes.end(), [&](const ModeRows& other) {
           if (&other == &own) return true;
           const Preferences worst = worst_weights(own, other, scoring, preferences);
-          return has(first_of(rank(scenario, differences, worst, seed)), own.contender);
+          return has(first_of(rank(scenario, statistics, worst, seed)), own.contender);
         });
     if (stays) change.first.push_back(own.contender);
   }
@@ -81,8 +80,8 @@ void evaluate(const std::vector<ComparisonRow>& rows, const CompareOptions& opti
               Change& change) {
   const Comparison comparison{.rows = rows};
   const ScenarioRows scenario = group(comparison).front();
-  const auto differences = paired_differences(scenario, options.preferences, options.seed);
-  change.first = first_of(rank(scenario, differences, options.preferences, options.seed));
+  const auto statistics = statistics_of(scenario, options.preferences, options.seed);
+  change.first = first_of(rank(scenario, statistics, options.preferences, options.seed));
   for (const ModeRows& mode : scenario.modes) {
     change.completed.push_back({mode.contender, mode.completed_count(), mode.counted().size()});
   }
@@ -277,11 +276,11 @@ std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedG
   return changes;
 }
 
-Decision decide(const ScenarioRows& scenario, const std::vector<PairedDifference>& differences,
+Decision decide(const ScenarioRows& scenario, const ScenarioStatistics& statistics,
                 const std::vector<RankedMode>& ranking, const std::vector<Change>& changes,
                 const Preferences& preferences, std::uint64_t seed) {
   Decision decision{first_of(ranking), {}};
-  decision.changes.push_back(change_of_weights(scenario, differences, preferences, seed));
+  decision.changes.push_back(change_of_weights(scenario, statistics, preferences, seed));
   std::copy_if(changes.begin(), changes.end(), std::back_inserter(decision.changes),
                [&](const Change& change) {
                  return change.scenario == scenario.scenario && change.not_run.empty();

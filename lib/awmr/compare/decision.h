@@ -64,7 +64,7 @@ std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedG
 
 /// Makes the Decision on a scenario. `ranking`: result of rank() for this scenario, not empty.
 /// `changes` can contain changes of other scenarios, which are ignored.
-Decision decide(const ScenarioRows& scenario, const std::vector<PairedDifference>& differences,
+Decision decide(const ScenarioRows& scenario, const ScenarioStatistics& statistics,
                 const std::vector<RankedMode>& ranking, const std::vector<Change>& changes,
                 const Preferences& preferences, std::uint64_t seed);
 

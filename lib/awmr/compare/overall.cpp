@@ -43,14 +43,15 @@ std::vector<EvaluatedScenario> evaluate_scenarios(const Comparison& comparison,
                                                   std::uint64_t seed) {
   std::vector<EvaluatedScenario> all;
   for (ScenarioRows& scenario : group(comparison)) {
-    auto differences = paired_differences(scenario, preferences, seed);
-    auto ranking = rank(scenario, differences, preferences, seed);
+    ScenarioStatistics statistics = statistics_of(scenario, preferences, seed);
+    auto ranking = rank(scenario, statistics, preferences, seed);
     std::optional<Decision> decision;
     if (ranking.size() > 1) {
-      decision = decide(scenario, differences, ranking, comparison.changes, preferences, seed);
+      decision = decide(scenario, statistics, ranking, comparison.changes, preferences, seed);
     }
-    std::string verdict = verdict_of(scenario, ranking, decision, differences, preferences);
-    all.push_back({std::move(scenario), std::move(differences), std::move(ranking),
+    std::string verdict =
+        verdict_of(scenario, ranking, decision, statistics.differences, preferences);
+    all.push_back({std::move(scenario), std::move(statistics.differences), std::move(ranking),
                    std::move(decision), std::move(verdict)});
   }
   return all;

@@ -14,15 +14,14 @@
 namespace awmr {
 namespace {
 
-/// Random streams of the bootstrap of scores and of the random weightings. They differ from each
-/// other, from the streams of the samples, and from that of the bootstrap of differences
-/// (statistics.cpp).
-constexpr std::uint64_t kScoreStream = std::uint64_t{3} << 62U;
+/// Random stream of the weightings. It differs from the streams of the samples, and from that of
+/// the bootstrap (statistics.cpp).
 constexpr std::uint64_t kWeightStream = std::uint64_t{5} << 61U;
 constexpr int kWeightings = 1000;
 
 /// A mode with the logarithms that its score is computed from.
 struct Entry {
+  std::size_t mode = 0;  ///< index in ScenarioRows::modes
   const ModeRows* rows = nullptr;
   std::vector<double> log_scores;   ///< log_score() of each counted run
   std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() of the counted runs
@@ -35,8 +34,11 @@ struct Entry {
   }
 };
 
-Entry entry_of(const ModeRows& rows, const std::vector<ScoredMetric>& scoring) {
-  Entry entry{.rows = &rows, .log_scores = log_scores(rows, scoring), .mean_losses = {}};
+Entry entry_of(const ScenarioRows& scenario, std::size_t mode,
+               const std::vector<ScoredMetric>& scoring) {
+  const ModeRows& rows = scenario.modes[mode];
+  Entry entry{
+      .mode = mode, .rows = &rows, .log_scores = log_scores(rows, scoring), .mean_losses = {}};
   for (const ScoredMetric& scored : scoring) {
     double sum = 0.0;
     for (const ComparisonRow& row : rows.counted()) sum += log_loss(row.metrics, scored);
@@ -75,7 +77,9 @@ bool is_before(const ModeRows& a, const ModeRows& b) {
 std::vector<Entry> sorted_entries(const ScenarioRows& scenario,
                                   const std::vector<ScoredMetric>& scoring) {
   std::vector<Entry> entries;
-  for (const ModeRows& rows : scenario.modes) entries.push_back(entry_of(rows, scoring));
+  for (std::size_t mode = 0; mode < scenario.modes.size(); ++mode) {
+    entries.push_back(entry_of(scenario, mode, scoring));
+  }
   const auto most = std::max_element(
       scenario.modes.begin(), scenario.modes.end(), [](const ModeRows& a, const ModeRows& b) {
         const std::size_t first = a.completed_count();
@@ -95,21 +99,21 @@ std::vector<Entry> sorted_entries(const ScenarioRows& scenario,
   return entries;
 }
 
-/// Bootstrap of the mean difference of log scores, `own` minus `leader`: the means of the
-/// resamples, ascending.
-std::vector<double> resampled_differences(const Entry& own, const Entry& leader, Random random) {
-  const std::size_t n = own.log_scores.size();
-  std::vector<double> means;
-  for (int resample = 0; resample < kResamples; ++resample) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto k = static_cast<std::size_t>(random.uniform() * static_cast<double>(n));
-      sum += own.log_scores[k] - leader.log_scores[k];
-    }
-    means.push_back(sum / static_cast<double>(n));
+/// Mean difference of log scores, `own` minus `leader`, in each resample, ascending:
+///   sum over the scored metrics k of w_k (mean loss of own - mean loss of leader)
+std::vector<double> resampled_differences(const Entry& own, const Entry& leader,
+                                          const std::vector<ScoredMetric>& scoring,
+                                          const ScenarioStatistics& statistics) {
+  const Eigen::ArrayXXd& losses = statistics.resampled_losses;
+  Eigen::ArrayXd means = Eigen::ArrayXd::Zero(losses.cols());
+  for (const ScoredMetric& scored : scoring) {
+    const MetricId metric = scored.metric->id;
+    means += scored.weight *
+             (losses.row(loss_row(own.mode, metric)) - losses.row(loss_row(leader.mode, metric)))
+                 .transpose();
   }
   std::sort(means.begin(), means.end());
-  return means;
+  return {means.begin(), means.end()};
 }
 
 /// Interval of the ratio of a mode's score to the leader's, and the conclusion from it.
@@ -118,13 +122,14 @@ struct Behind {
   Conclusion conclusion{};
 };
 
-Behind behind(const Entry& own, const Entry& leader, double relevance, Random random) {
+Behind behind(const Entry& own, const Entry& leader, double relevance,
+              const std::vector<ScoredMetric>& scoring, const ScenarioStatistics& statistics) {
   const double margin = std::log1p(relevance);
   if (own.log_scores.size() < 2) {
     const bool beyond = own.log_score() - leader.log_score() > margin;
     return {{}, beyond ? Conclusion::kRelevant : Conclusion::kEquivalent};
   }
-  const std::vector<double> means = resampled_differences(own, leader, random);
+  const std::vector<double> means = resampled_differences(own, leader, scoring, statistics);
   const double tail = bootstrap_tail(own.log_scores.size(), 0.025);
   const Interval ci95{quantile_of_sorted(means, tail), quantile_of_sorted(means, 1.0 - tail)};
   const Interval ratio{std::exp(ci95.lo), std::exp(ci95.hi)};
@@ -262,8 +267,7 @@ bool has_a_goal(const ScenarioRows& scenario) {
   });
 }
 
-std::vector<RankedMode> rank(const ScenarioRows& scenario,
-                             const std::vector<PairedDifference>& differences,
+std::vector<RankedMode> rank(const ScenarioRows& scenario, const ScenarioStatistics& statistics,
                              const Preferences& preferences, std::uint64_t seed) {
   const std::vector<ScoredMetric> scoring = scoring_of(scenario, preferences);
   if (!has_a_goal(scenario) || scoring.empty()) return {};
@@ -283,15 +287,16 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario,
     ranked.first_by_weights = by_weights[i];
     if (own.log_scores.size() >= 2) ranked.first_by_samples = by_samples[i];
     if (i > 0) {
-      const Random random(seed, kScoreStream | i);
-      const Behind first = behind(own, entries.front(), preferences.relevance, random);
+      const auto behind_entry = [&](const Entry& other) {
+        return behind(own, other, preferences.relevance, scoring, statistics);
+      };
+      const Behind first = behind_entry(entries.front());
       ranked.behind_ci95 = first.ratio_ci95;
       ranked.towards_leader =
-          leader == 0 ? first.conclusion
-                      : behind(own, entries[leader], preferences.relevance, random).conclusion;
+          leader == 0 ? first.conclusion : behind_entry(entries[leader]).conclusion;
       const bool alike = complete_alike(*own.rows, *entries[leader].rows);
       if (alike && equivalent_in_all(own.rows->contender, entries[leader].rows->contender, scoring,
-                                     differences)) {
+                                     statistics.differences)) {
         ranked.towards_leader = Conclusion::kEquivalent;
       }
       if (!alike || ranked.towards_leader == Conclusion::kRelevant) leader = i;
@@ -300,7 +305,7 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario,
     ranking.push_back(std::move(ranked));
   }
   share_firsts_of_ties(ranking);
-  name_ties_and_dominance(ranking, scoring, differences);
+  name_ties_and_dominance(ranking, scoring, statistics.differences);
   return ranking;
 }
 

@@ -56,11 +56,9 @@ inline constexpr std::string_view kNotRanked =
 bool has_a_goal(const ScenarioRows& scenario);
 
 /// Ranks the modes, best first. Empty if no metric with a weight applies, or if the scenario has no
-/// target (open loop), because lower metrics are not better there. `differences`: the
-/// paired_differences() of this scenario. `seed`: seed of the bootstrap and of the random
-/// weightings.
-std::vector<RankedMode> rank(const ScenarioRows& scenario,
-                             const std::vector<PairedDifference>& differences,
+/// target (open loop), because lower metrics are not better there. `statistics`: statistics_of()
+/// this scenario, with preferences of the same relevance. `seed`: seed of the random weightings.
+std::vector<RankedMode> rank(const ScenarioRows& scenario, const ScenarioStatistics& statistics,
                              const Preferences& preferences = {}, std::uint64_t seed = 1);
 
 }  // namespace awmr

@@ -24,19 +24,25 @@ double weight_of(const MetricColumn& metric, const Preferences& preferences) {
   return given == preferences.weights.end() ? metric.default_weight : given->second;
 }
 
-std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Preferences& preferences) {
-  std::vector<ScoredMetric> scoring;
-  double sum = 0.0;
+std::vector<ScoredMetric> rankable_metrics(const ScenarioRows& scenario,
+                                           const Preferences& preferences) {
+  const double share = preferences.relevance > 0.0 ? preferences.relevance : 1.0;
+  std::vector<ScoredMetric> rankable;
   for (const MetricColumn& metric : kMetricColumns) {
-    const double weight = weight_of(metric, preferences);
-    if (!(weight > 0.0) || !any_has(scenario, metric)) continue;
-    const double share = preferences.relevance > 0.0 ? preferences.relevance : 1.0;
-    scoring.push_back({.metric = &metric,
-                       .weight = weight,
-                       .offset = metric.ranking_floor / share,
-                       .missing = worst_of(scenario, metric)});
-    sum += weight;
+    if (!metric.can_rank() || !any_has(scenario, metric)) continue;
+    rankable.push_back({.metric = &metric,
+                        .weight = weight_of(metric, preferences),
+                        .offset = metric.ranking_floor / share,
+                        .missing = worst_of(scenario, metric)});
   }
+  return rankable;
+}
+
+std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Preferences& preferences) {
+  std::vector<ScoredMetric> scoring = rankable_metrics(scenario, preferences);
+  std::erase_if(scoring, [](const ScoredMetric& scored) { return !(scored.weight > 0.0); });
+  double sum = 0.0;
+  for (const ScoredMetric& scored : scoring) sum += scored.weight;
   for (ScoredMetric& scored : scoring) scored.weight /= sum;
   return scoring;
 }

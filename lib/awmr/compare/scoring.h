@@ -14,12 +14,17 @@ double weight_of(const MetricColumn& metric, const Preferences& preferences);
 /// A metric in the score of one scenario.
 struct ScoredMetric {
   const MetricColumn* metric = nullptr;
-  double weight = 0.0;   ///< w, in (0, 1]; the weights of a scenario sum to 1
+  double weight = 0.0;   ///< w, >= 0
   double offset = 0.0;   ///< f of log_loss(), in the metric's unit, > 0
   double missing = 0.0;  ///< value for a run without the metric: the largest of all counted runs
 };
 
-/// Returns the metrics with a weight above 0 that any run of the scenario has.
+/// Returns the metrics that can rank and that any run of the scenario has. Their weights are those
+/// of weight_of(), which can be 0.
+std::vector<ScoredMetric> rankable_metrics(const ScenarioRows& scenario,
+                                           const Preferences& preferences);
+
+/// Returns the rankable metrics with a weight above 0, their weights divided by the sum.
 std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Preferences& preferences);
 
 /// Loss of one metric: ln(x + f). x: value of the metric, 0 if negative. f: the metric's floor

@@ -1,11 +1,11 @@
 #include "awmr/compare/statistics.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "awmr/compare/scoring.h"
 #include "awmr/core/binomial.h"
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
@@ -124,23 +124,51 @@ Differences all_differences(const ScenarioRows& scenario, double relevance) {
   return all;
 }
 
-/// Bootstrap: the mean difference of each metric and pair (rows) in each resample (columns). NaN if
-/// a resample has no value.
-Eigen::ArrayXXd resampled_means(const Differences& all, Random random) {
+/// log_loss() of every metric that can rank, in the counted runs of every mode. Rows as in
+/// ScenarioStatistics::resampled_losses, a column is a sample.
+Eigen::ArrayXXd all_losses(const ScenarioRows& scenario, const Preferences& preferences) {
+  const auto runs = [](const ModeRows& mode) { return mode.counted(); };
+  Eigen::ArrayXXd losses =
+      Eigen::ArrayXXd::Zero(eigen_index(scenario.modes.size() * std::size(kMetricColumns)),
+                            eigen_index(runs(scenario.modes.front()).size()));
+  for (const ScoredMetric& scored : rankable_metrics(scenario, preferences)) {
+    for (std::size_t mode = 0; mode < scenario.modes.size(); ++mode) {
+      auto row = losses.row(loss_row(mode, scored.metric->id));
+      Eigen::Index sample = 0;
+      for (const ComparisonRow& run : runs(scenario.modes[mode])) {
+        row[sample++] = log_loss(run.metrics, scored);
+      }
+    }
+  }
+  return losses;
+}
+
+/// Means over the samples of each resample, a column each.
+struct ResampledMeans {
+  Eigen::ArrayXXd differences;  ///< rows as in Differences; NaN if a resample has no value
+  Eigen::ArrayXXd losses;       ///< rows as in all_losses()
+};
+
+ResampledMeans resampled_means(const Differences& all, const Eigen::ArrayXXd& losses,
+                               Random random) {
   const Eigen::Index samples = all.values.cols();
-  Eigen::ArrayXXd means(all.values.rows(), kResamples);
+  ResampledMeans means{Eigen::ArrayXXd::Zero(all.values.rows(), kResamples),
+                       Eigen::ArrayXXd::Zero(losses.rows(), kResamples)};
   Eigen::ArrayXd counts(all.values.rows());
-  for (auto mean : means.colwise()) {
-    mean.setZero();
+  for (Eigen::Index resample = 0; resample < kResamples; ++resample) {
+    auto difference = means.differences.col(resample);
+    auto loss = means.losses.col(resample);
     counts.setZero();
     for (Eigen::Index i = 0; i < samples; ++i) {
       const auto chosen =
           static_cast<Eigen::Index>(random.uniform() * static_cast<double>(samples));
-      mean += all.values.col(chosen);
+      difference += all.values.col(chosen);
       counts += all.counts.col(chosen);
+      loss += losses.col(chosen);
     }
-    mean /= counts;
+    difference /= counts;
   }
+  means.losses /= static_cast<double>(samples);
   return means;
 }
 
@@ -264,21 +292,23 @@ Summary summarise(const ModeRows& rows, const MetricColumn& metric) {
   return summary;
 }
 
-std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario,
-                                                 const Preferences& preferences,
-                                                 std::uint64_t seed) {
+ScenarioStatistics statistics_of(const ScenarioRows& scenario, const Preferences& preferences,
+                                 std::uint64_t seed) {
   Differences all = all_differences(scenario, preferences.relevance);
-  std::vector<PairedDifference>& differences = all.results;
+  ScenarioStatistics statistics{std::move(all.results), {}};
+  std::vector<PairedDifference>& differences = statistics.differences;
   if (all.values.cols() >= 2) {
-    const Eigen::ArrayXXd means = resampled_means(all, Random(seed, kBootstrapStream));
+    ResampledMeans means =
+        resampled_means(all, all_losses(scenario, preferences), Random(seed, kBootstrapStream));
     for (std::size_t i = 0; i < differences.size(); ++i) {
       PairedDifference& d = differences[i];
-      if (d.count >= 2) d.ci95 = interval_of(means.row(eigen_index(i)), d.count);
+      if (d.count >= 2) d.ci95 = interval_of(means.differences.row(eigen_index(i)), d.count);
     }
+    statistics.resampled_losses = std::move(means.losses);
   }
   correct(differences);
   for (PairedDifference& d : differences) d.conclusion = conclusion_of(d);
-  return std::move(all.results);
+  return statistics;
 }
 
 }  // namespace awmr

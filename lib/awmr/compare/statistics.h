@@ -2,7 +2,9 @@
 /// compare/.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +13,7 @@
 #include "awmr/compare/compare.h"
 #include "awmr/compare/metric_columns.h"
 #include "awmr/compare/preferences.h"
+#include "awmr/core/index.h"
 #include "awmr/core/interval.h"
 #include "awmr/core/name_table.h"
 
@@ -105,12 +108,25 @@ inline constexpr double kSignificance = 0.05;
 std::vector<double> holm(std::span<const double> p);
 
 inline constexpr int kResamples = 1000;  ///< number of bootstrap resamples
-/// Computes the differences of every metric between every pair of contenders with the same gains or
-/// the same mode. Intervals are by the bootstrap: samples are drawn with replacement, each with all
-/// its metrics and contenders. Every metric, pair and scenario uses the same resamples, so no
-/// interval depends on the order of the scenarios.
-std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario,
-                                                 const Preferences& preferences,
-                                                 std::uint64_t seed);
+
+/// Statistics of one scenario. Intervals are by one bootstrap: samples are drawn with replacement,
+/// each with all its metrics and contenders. Every metric, pair and scenario uses the same
+/// resamples, so no interval depends on the order of the scenarios.
+struct ScenarioStatistics {
+  /// Of every metric between every pair of contenders with the same gains or the same mode.
+  std::vector<PairedDifference> differences;
+  /// Mean log_loss() (scoring.h) of each mode and metric in each resample. Row loss_row(), column
+  /// resample; 0 for metrics that cannot rank. Empty below 2 samples. The mean score with any
+  /// weights is a weighted sum of its rows.
+  Eigen::ArrayXXd resampled_losses;
+};
+
+/// Row of a mode (index in ScenarioRows::modes) and a metric in the resampled losses.
+inline Eigen::Index loss_row(std::size_t mode, MetricId metric) {
+  return eigen_index(mode * std::size(kMetricColumns) + at(metric));
+}
+
+ScenarioStatistics statistics_of(const ScenarioRows& scenario, const Preferences& preferences,
+                                 std::uint64_t seed);
 
 }  // namespace awmr

@@ -156,8 +156,13 @@ Status add_emitted(const std::filesystem::path& directory, const Origin& origin,
 
 Result<ReportData> read_report_data(const std::filesystem::path& directory) {
   ReportData data;
+  AWMR_ASSIGN_OR_RETURN(const bool has_model, regular_file_exists(directory / "model.json"));
+  if (!has_model) {
+    return input_error(ErrorCode::kCannotRead, (directory / "model.json").string(),
+                       "there is no such file; a report needs a directory that awmr run filled, or "
+                       "the model.json of awmr identify");
+  }
   // The strict reader comes first: its error has the position of the fault in the file.
-  AWMR_RETURN_IF_ERROR(check_regular_file(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(data.model, read_model(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(data.json["model"], read_json_file(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(directory / "model.json"));

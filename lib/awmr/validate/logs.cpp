@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -80,7 +81,8 @@ Status check_finite(const LogValidation& validation) {
 
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
                            double tolerance, double motor_lag_s) {
-  LogValidation validation{log.file, horizon_s, {}, true};
+  const double duration_s = log.t_s.back() - log.t_s.front();
+  LogValidation validation{log.file, std::min(horizon_s, duration_s), {}, true};
   const PredictionOptions options{
       .horizon_s = horizon_s, .motor_lag_s = motor_lag_s, .most_in_series = kMaxInSeries};
   for (const ChannelPrediction& prediction : predict_log(log, plant, options)) {

@@ -147,12 +147,16 @@ void take_into_verdict(Validation& validation, bool passed, const std::string& s
 void add_logs(Validation& validation, std::vector<LogValidation> logs, double tolerance) {
   if (logs.empty()) return;
   std::size_t predicted = 0;
-  for (const LogValidation& log : logs) predicted += log.passed ? 1 : 0;
+  double horizon_s = 0.0;
+  for (const LogValidation& log : logs) {
+    predicted += log.passed ? 1 : 0;
+    horizon_s = std::max(horizon_s, log.horizon_s);
+  }
   const bool all = predicted == logs.size();
   const std::string sentence = fmt::format(
-      "{} of {} logs are predicted over {:g} s with an NRMSE of at most {:g} in every "
+      "{} of {} logs are predicted over up to {:.4g} s with an NRMSE of at most {:g} in every "
       "channel",
-      predicted, logs.size(), logs.front().horizon_s, tolerance);
+      predicted, logs.size(), horizon_s, tolerance);
   take_into_verdict(validation, all, sentence);
   validation.logs = std::move(logs);
 }

@@ -270,7 +270,7 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
   const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
                          largest_gain(first.fit, power_law.candidate_terms, false);
   LogFit power_fit = first.fit;
-  const auto [first_surge, first_yaw] = std::pair(first.surge, first.yaw);
+  const auto families_of_first = std::pair(first.surge, first.yaw);
   BestFamily result;
   result.best = std::move(first);
   std::map<bool, LogFit> winners;  // by axis (true: yaw), before delays are searched again
@@ -280,7 +280,7 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
     winners.try_emplace(of_yaw, result.best.fit);
     const bool is_other = std::pair(result.best.surge, result.best.yaw) != before;
     if (is_other) search_terms_again(logs, power_law, result);
-    if (before == std::pair(first_surge, first_yaw)) power_fit = std::move(of_first);
+    if (before == families_of_first) power_fit = std::move(of_first);
   };
   for (const bool of_yaw : {yaw_first, !yaw_first}) {
     const bool is_open = of_yaw ? yaw : surge;
