@@ -174,7 +174,8 @@ void add_line_law(CLI::App& command, EmitOptions& options) {
 }  // namespace
 
 Result<Outcome> execute(const EmitCommand& command) {
-  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
+  AWMR_ASSIGN_OR_RETURN(const Model model, command.as_is ? read_model_as_is(command.model)
+                                                         : read_model(command.model));
   AWMR_RETURN_IF_ERROR(check_vehicle(command, model.vehicle));
   AWMR_ASSIGN_OR_RETURN(const Gains<double> gains,
                         read_gains_for(command.gains, model.vehicle.sample_time_s));
