@@ -14,6 +14,7 @@
 #include "awmr/simulate/simulate.h"
 #include "awmr/tune/robust.h"
 #include "awmr/tune/trade_off.h"
+#include "awmr/tune/turning.h"
 #include "support/uncertain_model.h"
 #include "tune/paper_model.h"
 
@@ -598,7 +599,64 @@ TEST(Search, RefusesGainsWithWhichNoRunSettles) {
   const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
+  EXPECT_EQ(tuning.error().faults.front().place, "tune.json:/scenarios");
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("no run settles"));
+  // The advice has a number, with which runs settle. This vehicle has no friction at rest.
+  const std::string message = tuning.error().faults.front().message;
+  const std::string key = "scenarios of ";
+  const std::size_t place = message.find(key);
+  ASSERT_NE(place, std::string::npos) << message;
+  options.scenarios[0].duration_s = std::stod(message.substr(place + key.size()));
+  EXPECT_TRUE(tune(paper_model(), options)) << message;
+  EXPECT_THAT(message, ::testing::Not(::testing::HasSubstr("steering_rate")));
+}
+
+/// The paper's vehicle with Coulomb friction in yaw, m.
+Model with_friction(double coulomb_m) {
+  Model model = paper_model();
+  model[ParameterId::kYawCoulomb] = given(coulomb_m);
+  return model;
+}
+
+TEST(Turning, RefusesAVehicleThatItsMotorsCannotTurnBeforeTheSearch) {
+  TuneOptions options = short_options();
+  options.progress = [](std::size_t, std::size_t) { FAIL() << "searched"; };
+  const Result<Tuning> tuning = tune(with_friction(3.0), options);
+  ASSERT_FALSE(tuning);
+  EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
+  ASSERT_EQ(tuning.error().faults.size(), 3U);  // one per mode
+  EXPECT_EQ(tuning.error().faults[0].place, "model.json:/vehicle/wheel_force");
+  EXPECT_THAT(tuning.error().faults[0].message,
+              ::testing::AllOf(::testing::HasSubstr("is 1.44 m"),  // 4 d, with F' of -1 to 1
+                               ::testing::HasSubstr("at 1 deg/s is 3.01 m")));
+}
+
+TEST(Turning, NamesTheNumbersWithWhichTheSteeringTurnsTheVehicle) {
+  TuneOptions options = short_options();
+  options.mode = YawMode::kSteering;
+  Model model = with_friction(0.2);
+  const Result<Tuning> tuning = tune(model, options);
+  ASSERT_FALSE(tuning);
+  const std::string message = tuning.error().faults.front().message;
+  const auto number_after = [&](const std::string& key) {
+    const std::size_t place = message.find(key);
+    EXPECT_NE(place, std::string::npos) << message;
+    return place == std::string::npos ? 0.0 : std::stod(message.substr(place + key.size()));
+  };
+  const double angle_deg = number_after("(`max_deg`) above ");
+  const double speed_mps = number_after("a speed above ");
+  const double given_mps = options.scenarios[0].speed_mps;
+  for (const double factor : {0.98, 1.02}) {
+    Model steeper = model;
+    steeper.vehicle.steering_max_deg = factor * angle_deg;
+    const auto turns = [](const Model& vehicle, double mps) {
+      return turning_moment({*vehicle.plant(), vehicle.vehicle.wheel_force}, mps,
+                            YawMode::kSteering)
+          .turns();
+    };
+    EXPECT_EQ(turns(steeper, given_mps), factor > 1.0) << message;
+    EXPECT_EQ(turns(model, factor * speed_mps), factor > 1.0) << message;
+  }
 }
 
 TEST(Robust, DrawsOnlyNoiseWithoutACovariance) {
@@ -629,6 +687,7 @@ TEST(Refusal, NamesTheBoundAtFaultInsteadOfTheLimitThatItViolates) {
   TuneOptions options = short_options();
   options.bounds.lambda = Interval{20.0, 30.0};
   const std::string message = refusal_of(options);
+  EXPECT_THAT(message, ::testing::StartsWith("error: tune.json:/"));
   EXPECT_THAT(message, ::testing::HasSubstr("no-gains"));
   EXPECT_THAT(message, ::testing::HasSubstr("bounds/lambda"));
   options.bounds.lambda = std::nullopt;

@@ -180,7 +180,8 @@ Status check_faults(const Scenario& scenario, const Model& model) {
     const auto is_driven = [](Wheel wheel) {
       return wheel == Wheel::kFrontLeft || wheel == Wheel::kFrontRight;
     };
-    if (std::ranges::any_of(scenario.faults[i].wheels, is_driven)) continue;
+    const std::vector<Wheel>& wheels = scenario.faults[i].wheels;
+    if (std::any_of(wheels.begin(), wheels.end(), is_driven)) continue;
     errors.push_back({ErrorCode::kConflict,
                       fmt::format("scenario '{}':/faults/{}/wheel", scenario.name, i),
                       fmt::format("this wheel has no motor that could fail, because the drive of "
