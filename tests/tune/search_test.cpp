@@ -12,6 +12,7 @@
 #include "awmr/core/units.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/simulate.h"
+#include "awmr/tune/pole_placement.h"
 #include "awmr/tune/robust.h"
 #include "awmr/tune/trade_off.h"
 #include "awmr/tune/turning.h"
@@ -588,6 +589,19 @@ TEST(Robust, RefusesALatencyOfManySamples) {
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kInput);
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("100 samples"));
+}
+
+TEST(Search, ExaminesNoDrawIfNoGainsMeetTheConstraintsOnTheNominalVehicle) {
+  ConstraintContext context{.plant = paper_plant(), .latency_s = 0.05};
+  TuneOptions options;
+  options.bounds.mu = Interval{1e-4, 1e-3};  // below 0.2 g3/I'z
+  bound_around(starting_poles(context), options.bounds);
+  const Candidate alone = feasible_start(options, context, kPaperGains);
+  EXPECT_GT(alone.violation, 0.0);
+  DrawnVehicle drawn = context.own();
+  drawn.plant.yaw.alpha *= 5.0;  // would be violated more
+  context.draws = {drawn};
+  EXPECT_EQ(feasible_start(options, context, kPaperGains).violation, alone.violation);
 }
 
 TEST(Search, RefusesGainsWithWhichNoRunSettles) {

@@ -119,26 +119,26 @@ tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs
   const std::vector<std::string> strict = stricter_than_default(requested);
   std::vector<std::string> texts;
   for (const SettlingChange& change : changes) texts.push_back(change.text);
-  std::string advice;
-  if (!strict.empty()) {
-    advice = fmt::format("Limits stricter than their defaults can be the cause: relax {}",
-                         fmt::join(strict, ", "));
-  }
+  std::vector<std::string> advice;
   if (!texts.empty()) {
-    advice += fmt::format("{}{} lets runs settle: {}", advice.empty() ? "" : "; ",
-                          texts.size() == 1 ? "this change" : "each of these changes",
-                          fmt::join(texts, "; "));
+    advice.push_back(fmt::format("{} lets runs settle: {}",
+                                 texts.size() == 1 ? "This change" : "Each of these changes",
+                                 fmt::join(texts, "; ")));
+  }
+  if (!strict.empty()) {
+    advice.push_back(fmt::format("Limits stricter than their defaults can be the cause: relax {}",
+                                 fmt::join(strict, ", ")));
   }
   if (advice.empty()) {
-    advice =
+    advice.emplace_back(
         "Runs do not settle with 4 times the time or with an observer either: give scenarios "
-        "with less noise and disturbance";
+        "with less noise and disturbance");
   }
   return refused_at(
       requested, changes.empty() ? "/scenarios" : changes.front().pointer, ErrorCode::kNoGains,
       fmt::format("no run settles with gains within the limits: none of {} runs settles with the "
                   "best gains ({}). {}",
-                  runs, in_words(gains), advice));
+                  runs, in_words(gains), fmt::join(advice, ". ")));
 }
 
 }  // namespace awmr

@@ -404,8 +404,11 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
   if (scenarios.empty()) {
     AWMR_ASSIGN_OR_RETURN(scenarios, default_tuning_scenarios(model, options));
   }
+  const DrawnVehicle nominal{plant, model.vehicle.wheel_force};
+  AWMR_RETURN_IF_ERROR(
+      check_turning(nominal, tuned_modes(model.vehicle, options.mode), scenarios, model.file));
   AWMR_RETURN_IF_ERROR(check_work(options, scenarios, plant, model));
-  ObjectiveSetting setting{.vehicles = {{plant, model.vehicle.wheel_force}},
+  ObjectiveSetting setting{.vehicles = {nominal},
                            .vehicle = model.vehicle,
                            .weights = options.weights,
                            .scenarios = std::move(scenarios),
@@ -414,8 +417,6 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
                            .arithmetic = arithmetic,
                            .mode = options.mode};
   ConstraintContext context = context_of(options, plant, model.vehicle, setting.scenarios);
-  AWMR_RETURN_IF_ERROR(
-      check_turning(context.own(), setting.modes(), setting.scenarios, model.file));
   AWMR_RETURN_IF_ERROR(limit_observer(context, options.observer));
   if (options.nominal) {
     AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(model, setting, context, options, held_out));
