@@ -94,7 +94,7 @@ void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& 
        fmt::format(
            "lambda mu/epsilon holds the heading so weakly that motors of 16 % unequal force turn "
            "the vehicle by {:.0f} deg; the sketches take more than 45 deg for a failure (fault 17) "
-           "and disarm. Use faster gains, or awmr tune --observer",
+           "and disarm. Use faster gains, or those of awmr tune --observer",
            degrees(parameters.steady_error_rad))});
 }
 
