@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -14,6 +15,7 @@
 #include "awmr/simulate/simulate.h"
 #include "awmr/tune/pole_placement.h"
 #include "awmr/tune/robust.h"
+#include "awmr/tune/settling.h"
 #include "awmr/tune/trade_off.h"
 #include "awmr/tune/turning.h"
 #include "support/uncertain_model.h"
@@ -623,6 +625,29 @@ TEST(Search, RefusesGainsWithWhichNoRunSettles) {
   options.scenarios[0].duration_s = std::stod(message.substr(place + key.size()));
   EXPECT_TRUE(tune(paper_model(), options)) << message;
   EXPECT_THAT(message, ::testing::Not(::testing::HasSubstr("steering_rate")));
+}
+
+TEST(Settling, ProposesChangesThatHelpAndNoObserverIfOneIsOn) {
+  const Model model = paper_model();
+  const Plant<double> plant = model.plant().value();
+  ObjectiveSetting setting{.vehicles = {{plant, model.vehicle.wheel_force}},
+                           .vehicle = model.vehicle,
+                           .weights = {},
+                           .scenarios = short_options().scenarios,
+                           .arithmetic = batch_arithmetic().value(),
+                           .mode = YawMode::kDifferential};
+  DisturbanceTerm push;
+  push.value = 0.1;  // m, more than the gains below hold without an observer
+  setting.scenarios[0].disturbance.yaw = {push};
+  ConstraintContext context{.plant = plant, .mode = YawMode::kDifferential};
+  const std::array<Gains<double>, 2> poles = starting_poles(context);
+  Gains<double> weak = slowed(poles[0], 0.25);
+  const auto changes = changes_that_settle(setting, context, weak, 1.0);
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0].pointer, "/observer");
+  EXPECT_THAT(changes[0].text, ::testing::HasSubstr("rad/s"));
+  weak.observer = {1e-3, 0.1, 0.1};  // on, but too slow
+  EXPECT_TRUE(changes_that_settle(setting, context, weak, 1.0).empty());
 }
 
 /// The paper's vehicle with Coulomb friction in yaw, m.

@@ -131,8 +131,8 @@ tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs
   }
   if (advice.empty()) {
     advice.emplace_back(
-        "Runs do not settle with 4 times the time or with an observer either: give scenarios "
-        "with less noise and disturbance");
+        "None of these changes lets a run settle: 4 times the time, no heading-rate limit, an "
+        "observer, gains for one mode only");
   }
   return refused_at(
       requested, changes.empty() ? "/scenarios" : changes.front().pointer, ErrorCode::kNoGains,

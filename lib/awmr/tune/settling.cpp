@@ -8,6 +8,7 @@
 #include <span>
 
 #include "awmr/core/option_text.h"
+#include "awmr/tune/pole_placement.h"
 
 namespace awmr {
 namespace {
@@ -80,6 +81,24 @@ std::optional<SettlingChange> an_observer(const ObjectiveSetting& setting,
   return std::nullopt;
 }
 
+std::optional<SettlingChange> one_mode(const ObjectiveSetting& setting,
+                                       const ConstraintContext& context, double share) {
+  if (context.mode || !context.has_steering) return std::nullopt;
+  for (const YawMode mode : setting.modes()) {
+    ConstraintContext alone = context;
+    alone.mode = mode;
+    ObjectiveSetting runs = setting;
+    runs.mode = mode;
+    for (const Gains<double>& gains : starting_poles(alone)) {
+      if (!meets_constraints(gains, alone) || settled_share(runs, gains) < share) continue;
+      return SettlingChange{"/mode",
+                            fmt::format("{}, gains for this mode only",
+                                        option_text("mode " + std::string(name_of(mode))))};
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<SettlingChange> a_higher_steering_rate(const ObjectiveSetting& setting,
                                                      const ConstraintContext& context,
                                                      const Gains<double>& gains, double share) {
@@ -104,9 +123,10 @@ std::vector<SettlingChange> changes_that_settle(const ObjectiveSetting& setting,
                                                 const ConstraintContext& context,
                                                 const Gains<double>& gains, double share) {
   std::vector<SettlingChange> changes;
-  for (auto& change : {more_time(setting, gains, share), no_rate_limit(setting, gains, share),
-                       an_observer(setting, context, gains, share),
-                       a_higher_steering_rate(setting, context, gains, share)}) {
+  for (auto& change :
+       {more_time(setting, gains, share), no_rate_limit(setting, gains, share),
+        an_observer(setting, context, gains, share), one_mode(setting, context, share),
+        a_higher_steering_rate(setting, context, gains, share)}) {
     if (change) changes.push_back(*change);
   }
   return changes;

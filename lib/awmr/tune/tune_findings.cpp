@@ -38,15 +38,17 @@ std::string advice_for(const std::string& scenario, YawMode mode,
   const auto found = std::ranges::find_if(unsettled, [&](const UnsettledRuns& runs) {
     return runs.scenario == scenario && runs.mode == mode;
   });
-  if (found == unsettled.end()) return "The settling times are in /robust/quantiles";
-  if (!found->why.empty()) return found->why;
+  if (found == unsettled.end()) return ". The settling times are in /robust/quantiles";
+  if (!found->why.empty()) return ": " + found->why;
   if (found->changes.empty()) {
-    return "They do not settle with 4 times the time, without heading-rate limit, or with an "
-           "observer either: reduce disturbances and noise";
+    return fmt::format(
+        ". None of these changes lets {:g} % settle: 4 times the time, no heading-rate limit, an "
+        "observer, gains for one mode only",
+        100.0 * kSettledShare);
   }
   std::vector<std::string> texts;
   for (const SettlingChange& change : found->changes) texts.push_back(change.text);
-  return fmt::format("{} lets {:g} % settle: {}",
+  return fmt::format(". {} lets {:g} % settle: {}",
                      texts.size() == 1 ? "This change" : "Each of these changes",
                      100.0 * kSettledShare, fmt::join(texts, "; "));
 }
@@ -58,7 +60,7 @@ void note_unsettled(const std::string& scenario, YawMode mode, double completed_
       {"", 0, Severity::kWarning, "unsettled",
        fmt::format(
            "{}{}: only {:.0f} % of the runs with the tuned gains settle after every heading "
-           "step. {}",
+           "step{}",
            scenario.empty() ? "" : scenario + ", ", name_of(mode), 100.0 * completed_share,
            advice_for(scenario, mode, unsettled))});
 }
