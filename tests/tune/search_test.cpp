@@ -636,7 +636,7 @@ TEST(Settling, ProposesChangesThatHelpAndNoObserverIfOneIsOn) {
                            .arithmetic = batch_arithmetic().value(),
                            .mode = YawMode::kDifferential};
   DisturbanceTerm push;
-  push.value = 0.1;  // m, more than the gains below hold without an observer
+  push.value = 0.03;  // m, less than an observer may compensate
   setting.scenarios[0].disturbance.yaw = {push};
   ConstraintContext context{.plant = plant, .mode = YawMode::kDifferential};
   Gains<double> weak = starting_poles(context)[0];
