@@ -20,6 +20,7 @@
 #include "commands.h"
 #include "paths.h"
 #include "project.h"
+#include "project_options.h"
 
 namespace awmr::cli {
 namespace {
@@ -253,13 +254,14 @@ Result<Outcome> execute(const CheckCommand& command) {
   const fs::path path = is_folder ? command.project / "project.json" : command.project;
   if (is_folder) AWMR_RETURN_IF_ERROR(check_regular_file(path));
   AWMR_ASSIGN_OR_RETURN(const Project project, read_project(path));
-  AWMR_ASSIGN_OR_RETURN(const Check check, check_project(project));
-  Outcome outcome{.summary = summary_of(path, check), .document = document_of(check)};
-  for (const auto* findings : {&check.missing, &check.implausible, &check.notes}) {
+  const Result<Check> check = check_project(project);
+  if (!check) return for_project("identify", tl::unexpected(check.error()));
+  Outcome outcome{.summary = summary_of(path, *check), .document = document_of(*check)};
+  for (const auto* findings : {&check->missing, &check->implausible, &check->notes}) {
     outcome.findings.insert(outcome.findings.end(), findings->begin(), findings->end());
   }
-  outcome.refused = !check.missing.empty() || !check.implausible.empty();
-  return outcome;
+  outcome.refused = !check->missing.empty() || !check->implausible.empty();
+  return for_project("identify", std::move(outcome));
 }
 
 void add_check(CLI::App& app, Session& session) {

@@ -14,6 +14,7 @@
 #include "awmr/compare/resume.h"
 #include "awmr/compare/shard.h"
 #include "awmr/core/file.h"
+#include "awmr/core/option_text.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/scenario_file.h"
@@ -135,15 +136,15 @@ Result<Comparison> compare_until_interrupted(const ComparedInputs& inputs, Compa
   return compare(inputs.model, inputs.gains, inputs.scenarios, options);
 }
 
-/// Prints how to resume, then ends the program by SIGINT, so that the caller sees the usual exit
-/// status.
+/// Prints how to resume (not with --json), then ends the program by SIGINT, so that the caller sees
+/// the usual exit status.
 void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
   const std::string file = (command.output / kComparisonTable).string();
   const std::string text =
-      command.shard ? "stopped: run the whole part of the comparison again\n"
-                    : fmt::format("stopped: {} finished runs are in {}; continue with --resume\n",
-                                  comparison.rows.size(), file);
-  std::fputs(text.c_str(), stderr);
+      command.shard ? "stopped: run the whole part of the comparison again"
+                    : fmt::format("stopped: {} finished runs are in {}; continue with {}",
+                                  comparison.rows.size(), file, option_text("resume"));
+  print_notice(text);
   std::signal(SIGINT, SIG_DFL);
   std::raise(SIGINT);
 }

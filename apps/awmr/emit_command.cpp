@@ -94,7 +94,7 @@ void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& 
        fmt::format(
            "lambda mu/epsilon holds the heading so weakly that motors of 16 % unequal force turn "
            "the vehicle by {:.0f} deg; the sketches take more than 45 deg for a failure (fault 17) "
-           "and disarm. Use faster gains, or tune with --observer",
+           "and disarm. Use faster gains, or those of awmr tune --observer",
            degrees(parameters.steady_error_rad))});
 }
 
@@ -174,7 +174,8 @@ void add_line_law(CLI::App& command, EmitOptions& options) {
 }  // namespace
 
 Result<Outcome> execute(const EmitCommand& command) {
-  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
+  AWMR_ASSIGN_OR_RETURN(const Model model, command.as_is ? read_model_as_is(command.model)
+                                                         : read_model(command.model));
   AWMR_RETURN_IF_ERROR(check_vehicle(command, model.vehicle));
   AWMR_ASSIGN_OR_RETURN(const Gains<double> gains,
                         read_gains_for(command.gains, model.vehicle.sample_time_s));

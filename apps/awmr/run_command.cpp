@@ -17,6 +17,7 @@
 #include "json_output.h"
 #include "paths.h"
 #include "project.h"
+#include "project_options.h"
 #include "run_files.h"
 
 namespace awmr::cli {
@@ -50,28 +51,29 @@ void add_step(Steps& steps, const char* title, Outcome step) {
 
 Result<Outcome> identify_step(const Project& project, const InputNames& names,
                               const fs::path& model) {
-  return execute(IdentifyCommand{.vehicle = project.vehicle,
-                                 .surge = project.surge,
-                                 .coastdowns = project.coastdowns,
-                                 .turning = project.turning,
-                                 .logs = project.logs,
-                                 .steady_from_logs = project.steady_from_logs,
-                                 .identify = project.identify,
-                                 .trials = project.trials,
-                                 .output = model,
-                                 .names = names});
+  return for_project("identify",
+                     execute(IdentifyCommand{.vehicle = project.vehicle,
+                                             .surge = project.surge,
+                                             .coastdowns = project.coastdowns,
+                                             .turning = project.turning,
+                                             .logs = project.logs,
+                                             .steady_from_logs = project.steady_from_logs,
+                                             .identify = project.identify,
+                                             .trials = project.trials,
+                                             .output = model,
+                                             .names = names}));
 }
 
 Result<Outcome> validate_step(const Project& project, const InputNames& names,
                               const fs::path& directory) {
-  return execute(ValidateCommand{.model = directory / "model.json",
-                                 .gains = directory / "gains.json",
-                                 .validate = {},
-                                 .output = directory / "validation.json",
-                                 .logs = project.logs,
-                                 .trials = project.trials,
-                                 .other_columns = true,
-                                 .names = names});
+  return for_project("validate", execute(ValidateCommand{.model = directory / "model.json",
+                                                         .gains = directory / "gains.json",
+                                                         .validate = {},
+                                                         .output = directory / "validation.json",
+                                                         .logs = project.logs,
+                                                         .trials = project.trials,
+                                                         .other_columns = true,
+                                                         .names = names}));
 }
 
 /// Returns every file that the project names, and the project file itself.
@@ -156,8 +158,9 @@ Status report_step(const RunCommand& command, Outcome& total) {
 /// vehicle, adds the warning `no-library` instead of an error.
 void emit_library(const fs::path& model, const fs::path& gains, const fs::path& output, bool as_is,
                   Outcome& total) {
-  const Result<Outcome> emitted =
-      execute(EmitCommand{.model = model, .gains = gains, .output = output, .as_is = as_is});
+  const Result<Outcome> emitted = for_project(
+      "emit",
+      execute(EmitCommand{.model = model, .gains = gains, .output = output, .as_is = as_is}));
   if (emitted) {
     total.findings.insert(total.findings.end(), emitted->findings.begin(), emitted->findings.end());
     return add_written(total, emitted->written);
@@ -181,26 +184,30 @@ Status steps_after_identify(const RunCommand& command, const Project& project,
   const fs::path model = command.output / "model.json";
   const fs::path gains = command.output / "gains.json";
   AWMR_ASSIGN_OR_RETURN(
-      Outcome tuned, execute(TuneCommand{
-                         .model = model, .config = project.tune, .output = gains, .names = names}));
+      Outcome tuned,
+      for_project("tune",
+                  execute(TuneCommand{
+                      .model = model, .config = project.tune, .output = gains, .names = names})));
   add_step(steps, "tune", std::move(tuned));
   AWMR_ASSIGN_OR_RETURN(Outcome validated, validate_step(project, names, command.output));
   add_step(steps, "validate", std::move(validated));
-  AWMR_ASSIGN_OR_RETURN(const Outcome emitted, execute(EmitCommand{.model = model,
-                                                                   .gains = gains,
-                                                                   .output = command.output,
-                                                                   .header_only = true,
-                                                                   .as_is = project.trials.as_is}));
+  AWMR_ASSIGN_OR_RETURN(const Outcome emitted,
+                        for_project("emit", execute(EmitCommand{.model = model,
+                                                                .gains = gains,
+                                                                .output = command.output,
+                                                                .header_only = true,
+                                                                .as_is = project.trials.as_is})));
   add_written(steps.total, emitted.written);
   emit_library(model, gains, command.output / kLibrary, project.trials.as_is, steps.total);
   AWMR_ASSIGN_OR_RETURN(Outcome compared,
-                        execute(CompareCommand{.model = model,
-                                               .gains = {gains},
-                                               .scenarios = project.scenarios,
-                                               .compare = project.compare,
-                                               .output = command.output,
-                                               .heading_rate_limit = project.heading_rate_limit,
-                                               .names = names}));
+                        for_project("compare", execute(CompareCommand{
+                                                   .model = model,
+                                                   .gains = {gains},
+                                                   .scenarios = project.scenarios,
+                                                   .compare = project.compare,
+                                                   .output = command.output,
+                                                   .heading_rate_limit = project.heading_rate_limit,
+                                                   .names = names})));
   add_step(steps, "compare", std::move(compared));
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> runs,
                         write_runs(project, names, command.output));
@@ -212,7 +219,9 @@ Status steps_after_identify(const RunCommand& command, const Project& project,
 
 Result<Outcome> execute(const RunCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Project project, read_project(command.project));
-  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> inputs, checked_inputs(command, project));
+  const auto checked = checked_inputs(command, project);
+  if (!checked) return for_project("identify", tl::unexpected(checked.error()));
+  const std::vector<fs::path>& inputs = *checked;
   AWMR_RETURN_IF_ERROR(
       make_directory(command.figures ? command.output / kFigures : command.output));
   const fs::path model = command.output / "model.json";

@@ -12,6 +12,7 @@
 #include "awmr/tune/tune_shard.h"
 #include "choices.h"
 #include "commands.h"
+#include "gains_origin.h"
 #include "inputs.h"
 #include "numbers.h"
 #include "paths.h"
@@ -155,6 +156,10 @@ Result<Outcome> execute(const TuneCommand& command) {
   }
   AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune_with_progress(model, config.options));
   std::vector<Finding> findings = tune_findings(model, config.options, tuning);
+  if (config.baseline_file) {
+    AWMR_RETURN_IF_ERROR(
+        note_other_model(*config.baseline_file, command.model, findings, config.options.mode));
+  }
   if (command.shard) {
     return part_outcome(command, tuning, config.options, provenance, std::move(findings));
   }

@@ -232,7 +232,8 @@ TEST_F(Check, ContradictionsOfTheTrialsNameTheUnitFix) {
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_THAT(result.err,
               AllOf(HasSubstr("surge.csv:2: tau_speed is"), HasSubstr("8-bit PWM counts"),
-                    HasSubstr("--column 'wheel_force="), HasSubstr("[contradiction]")));
+                    HasSubstr("`columns` 'wheel_force="), HasSubstr("[contradiction]")));
+  EXPECT_THAT(result.err, Not(HasSubstr("--column")));  // an option that check does not have
 }
 
 TEST_F(Check, MillisecondsOfEveryTrialAreNamed) {
@@ -244,7 +245,7 @@ TEST_F(Check, MillisecondsOfEveryTrialAreNamed) {
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_THAT(result.out, HasSubstr("3 implausible"));
   EXPECT_THAT(result.err, AllOf(HasSubstr("surge.csv:2:"), HasSubstr("turning.csv:2:"),
-                                HasSubstr("--column 'stop_time_s=\"stop_time_s\"*0.001'")));
+                                HasSubstr("`columns` 'stop_time_s=\"stop_time_s\"*0.001'")));
 }
 
 TEST_F(Check, AnUnreadableFileIsBadInput) {

@@ -100,6 +100,17 @@ TEST_F(Honesty, GainsOfAnotherModelAreNamedByEveryCommandThatTakesThem) {
   }
 }
 
+TEST_F(Honesty, TuneWarnsOfABaselineOfAnotherModel) {
+  const auto tune = [&](const char* model) {
+    return fmt::format("tune --nominal --config {} --model {} --baseline {} -o {}",
+                       kept("short.json"), kept(model), kept("gains.json"), path("tuned.json"));
+  };
+  EXPECT_THAT(codes_in(result_of(tune("other.json")).at("findings")), Contains(kForeignGains));
+  EXPECT_THAT(codes_in(Json::parse(read_all(path("tuned.json"))).at("findings")),
+              Contains(kForeignGains));
+  EXPECT_THAT(codes_in(result_of(tune("model.json")).at("findings")), Not(Contains(kForeignGains)));
+}
+
 TEST_F(Honesty, OwnGainsAndGainsWrittenByHandHaveNoFinding) {
   const Json own = result_of(simulate_line("model.json", "run.csv"));
   EXPECT_THAT(codes_in(own.at("findings")), Not(Contains(kForeignGains)));

@@ -38,6 +38,10 @@ TEST(Interrupt, LeavesValidFilesAndResumeEndsInTheSameBytes) {
   }
   EXPECT_NE(stopped.exit_code, 0);
   EXPECT_NE(stopped.err.find("--resume"), std::string::npos) << stopped.err;
+  // With --json, stdout and stderr have nothing but JSON.
+  const auto json = in_source("timeout --signal=INT 1 " + compare("200000", "as_json") + " --json");
+  EXPECT_NE(json.exit_code, 0);
+  EXPECT_EQ(json.out + json.err, "");
   // Fewer samples in total: existing ones are kept, missing ones are run.
   const auto resumed = in_source(compare("12", "part") + " --resume");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;

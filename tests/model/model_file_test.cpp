@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +9,7 @@
 #include "awmr/core/units.h"
 #include "awmr/model/model.h"
 #include "awmr/model/model_file.h"
+#include "awmr/model/ranges.h"
 #include "json_edit.h"
 #include "support/paper_vehicle.h"
 
@@ -41,6 +43,9 @@ Model some_model() {
     model[parameter.id] = {value, value / 7.0, Interval{value / 3.0, value * 3.0}, Source::kFitted,
                            "log-linear"};
   }
+  // A dead zone below the largest force, 0.7.
+  model[ParameterId::kWheelDeadZone] = {1.0 / 17.0, 1.0 / 70.0, Interval{1.0 / 30.0, 1.0 / 11.0},
+                                        Source::kFitted, "log-linear"};
   // Standard errors that are consistent with the covariance below.
   model[ParameterId::kSurgeAlpha].std_error = std::sqrt(1e-4);
   model[ParameterId::kSurgeBeta].std_error = std::sqrt(2.5e-4);
@@ -128,11 +133,21 @@ TEST(ModelFile, RoundTripsArbitraryNumbersAndGaps) {
       const bool exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
       const bool time = id == ParameterId::kSteeringTimeConstant;
       const double decades = time ? 9.0 * random.uniform() - 6.0 : 18.0 * random.uniform() - 9.0;
-      const double value = exponent ? 20.0 * random.uniform() : std::pow(10.0, decades);
+      const bool zone = id == ParameterId::kWheelDeadZone;
+      const double value = exponent ? 20.0 * random.uniform()
+                           : zone   ? 0.7 * random.uniform()
+                                    : std::pow(10.0, decades);
       estimate.value = random.uniform() < 0.33 ? std::nullopt : std::optional(value);
       estimate.std_error = random.uniform() < 0.5 ? std::nullopt : std::optional(value * 0.1);
       estimate.ci95 =
           random.uniform() < 0.5 ? std::nullopt : std::optional(Interval{-value, value * 1.1});
+    }
+    // I'z/m' must be that of the vehicle, up to the distribution of its mass.
+    Estimate& inertia = model[ParameterId::kInertiaNorm];
+    if (const auto mass = model[ParameterId::kMassNorm].value; mass && inertia.value) {
+      const double share = model.vehicle.inertia_kgm2() / model.vehicle.mass_kg;
+      inertia.value = std::clamp(*mass * share, kCoefficient.min, kCoefficient.max);
+      inertia.ci95.reset();
     }
     const std::string text = model_text(model);
     const auto back = reread(text);
@@ -248,6 +263,49 @@ TEST(ModelFile, RefusesImpossibleValues) {
   }
   EXPECT_THAT(faults_after({"/covariance/parameters", {"surge.alpha", "surge.alpha"}}),
               ::testing::Contains(HasSubstr("twice")));
+}
+
+TEST(ModelFile, RefusesSizesThatContradictEachOtherUnlessIdentifyAcceptedThem) {
+  // The vehicle of the paper: 1.32 m x 0.78 m, l_f 0.35 m, d 0.36 m, 37 kg.
+  const std::vector<Edit> edits{
+      {"/vehicle/half_track_m", 36.0},     // 100 times the size of the vehicle
+      {"/vehicle/half_track_m", 0.001},    // wheels in the middle
+      {"/vehicle/front_axle_m", 0.7},      // front axle ahead of the body
+      {"/vehicle/length_m", 90.0},         // 100 times longer than wide
+      {"/vehicle/mass_kg", 37000.0},       // g
+      {"/vehicle/steering/max_deg", 0.35}  // rad
+  };
+  for (const Edit& edit : edits) {
+    EXPECT_THAT(faults_after(edit), ElementsAre(StartsWith(edit.pointer)))
+        << edit.pointer << " = " << edit.value.dump();
+    Model accepted = some_model();
+    accepted.record.findings.push_back({"", 0, Severity::kWarning, "implausible-vehicle", ""});
+    EXPECT_THAT(faults_of(read_model, edited(model_text(accepted), edit)), IsEmpty());
+    EXPECT_THAT(faults_of(read_model_as_is, edited(model_text(some_model()), edit)), IsEmpty());
+  }
+}
+
+TEST(ModelFile, RefusesQuantitiesThatTheVehicleCannotHave) {
+  EXPECT_THAT(faults_after({"/wheel/dead_zone/ci95", nullptr}), IsEmpty());
+  Model model = some_model();
+  for (Estimate& estimate : model.estimates) estimate.ci95.reset();
+  model[ParameterId::kMassNorm].value = 0.1;
+  const double share = model.vehicle.inertia_kgm2() / model.vehicle.mass_kg;
+  // Without intervals, a factor of 2 is added to 0.05 to 3 times Iz/m of the vehicle.
+  for (const double times : {0.03, 1.0, 5.9}) {
+    model[ParameterId::kInertiaNorm].value = 0.1 * share * times;
+    EXPECT_TRUE(reread(model_text(model))) << times;
+  }
+  for (const double times : {1e-3, 6.1, 1e4}) {
+    model[ParameterId::kInertiaNorm].value = 0.1 * share * times;
+    EXPECT_THAT(faults_of(read_model, model_text(model)),
+                ElementsAre(StartsWith("/inertia_norm/value: I'z/m' is ")))
+        << times;
+  }
+  model[ParameterId::kInertiaNorm].value = 0.1 * share;
+  model[ParameterId::kWheelDeadZone].value = 0.7;  // wheel_force.max
+  EXPECT_THAT(faults_of(read_model, model_text(model)),
+              ElementsAre(StartsWith("/wheel/dead_zone/value: a dead zone of 0.7 ")));
 }
 
 TEST(Model, BecomesAPlantInRadians) {

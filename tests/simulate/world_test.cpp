@@ -11,6 +11,7 @@
 #include "simulate/disturbances.h"
 #include "simulate/paper_plant.h"
 #include "support/paper_vehicle.h"
+#include "support/uncertain_model.h"
 
 namespace awmr::testing {
 namespace {
@@ -439,6 +440,19 @@ TEST(Observer, WithAntiWindupASaturatedTurnIsNotTakenForADisturbance) {
   // Steering is at its stop through most of a 90 deg turn.
   EXPECT_LT(overshoot_deg(true), 2.0);
   EXPECT_GT(overshoot_deg(false), 2.0 * overshoot_deg(true));
+}
+
+TEST(World, RefusesAFaultOfWheelsWithoutMotors) {
+  Model model = fitted_paper_model();
+  Scenario scenario = short_open_loop();
+  scenario.faults = {{.wheels = {Wheel::kFrontLeft, Wheel::kRearLeft}},
+                     {.wheels = {Wheel::kRearRight}}};
+  EXPECT_TRUE(check_scenario(scenario, model));
+  model.vehicle.drive = Drive::kFrontWheel;
+  const Status refused = check_scenario(scenario, model);
+  ASSERT_FALSE(refused);
+  ASSERT_EQ(refused.error().faults.size(), 1U);
+  EXPECT_EQ(refused.error().faults[0].place, "scenario 'circle':/faults/1/wheel");
 }
 
 }  // namespace

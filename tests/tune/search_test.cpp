@@ -12,8 +12,11 @@
 #include "awmr/core/units.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/simulate.h"
+#include "awmr/tune/pole_placement.h"
 #include "awmr/tune/robust.h"
+#include "awmr/tune/settling.h"
 #include "awmr/tune/trade_off.h"
+#include "awmr/tune/turning.h"
 #include "support/uncertain_model.h"
 #include "tune/paper_model.h"
 
@@ -589,6 +592,19 @@ TEST(Robust, RefusesALatencyOfManySamples) {
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("100 samples"));
 }
 
+TEST(Search, ExaminesNoDrawIfNoGainsMeetTheConstraintsOnTheNominalVehicle) {
+  ConstraintContext context{.plant = paper_plant(), .latency_s = 0.05};
+  TuneOptions options;
+  options.bounds.mu = Interval{1e-4, 1e-3};  // below 0.2 g3/I'z
+  bound_around(starting_poles(context), options.bounds);
+  const Candidate alone = feasible_start(options, context, kPaperGains);
+  EXPECT_GT(alone.violation, 0.0);
+  DrawnVehicle drawn = context.own();
+  drawn.plant.yaw.alpha *= 5.0;  // would be violated more
+  context.draws = {drawn};
+  EXPECT_EQ(feasible_start(options, context, kPaperGains).violation, alone.violation);
+}
+
 TEST(Search, RefusesGainsWithWhichNoRunSettles) {
   TuneOptions options = short_options();
   options.global_evaluations = 40;
@@ -598,7 +614,89 @@ TEST(Search, RefusesGainsWithWhichNoRunSettles) {
   const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
+  EXPECT_EQ(tuning.error().faults.front().place, "tune.json:/scenarios");
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("no run settles"));
+  // The advice has a number, with which runs settle. This vehicle has no friction at rest.
+  const std::string message = tuning.error().faults.front().message;
+  const std::string key = "scenarios of ";
+  const std::size_t place = message.find(key);
+  ASSERT_NE(place, std::string::npos) << message;
+  options.scenarios[0].duration_s = std::stod(message.substr(place + key.size()));
+  EXPECT_TRUE(tune(paper_model(), options)) << message;
+  EXPECT_THAT(message, ::testing::Not(::testing::HasSubstr("steering_rate")));
+}
+
+TEST(Settling, ProposesChangesThatHelpAndNoObserverIfOneIsOn) {
+  const Model model = paper_model();
+  const Plant<double> plant = model.plant().value();
+  ObjectiveSetting setting{.vehicles = {{plant, model.vehicle.wheel_force}},
+                           .vehicle = model.vehicle,
+                           .weights = {},
+                           .scenarios = short_options().scenarios,
+                           .arithmetic = batch_arithmetic().value(),
+                           .mode = YawMode::kDifferential};
+  DisturbanceTerm push;
+  push.value = 0.03;  // m, less than an observer may compensate
+  setting.scenarios[0].disturbance.yaw = {push};
+  ConstraintContext context{.plant = plant, .mode = YawMode::kDifferential};
+  Gains<double> weak = starting_poles(context)[0];
+  weak.heading.lambda *= 0.25;
+  weak.heading.epsilon *= 4.0;
+  ASSERT_LE(std::ranges::max(residuals(constraints_of(weak, context))), 0.0);
+  const auto changes = changes_that_settle(setting, context, weak, 1.0);
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0].pointer, "/observer");
+  EXPECT_THAT(changes[0].text, ::testing::HasSubstr("rad/s"));
+  weak.observer = {1e-3, 0.1, 0.1};  // on, but too slow
+  EXPECT_TRUE(changes_that_settle(setting, context, weak, 1.0).empty());
+}
+
+/// The paper's vehicle with Coulomb friction in yaw, m.
+Model with_friction(double coulomb_m) {
+  Model model = paper_model();
+  model[ParameterId::kYawCoulomb] = given(coulomb_m);
+  return model;
+}
+
+TEST(Turning, RefusesAVehicleThatItsMotorsCannotTurnBeforeTheSearch) {
+  TuneOptions options = short_options();
+  options.progress = [](std::size_t, std::size_t) { FAIL() << "searched"; };
+  const Result<Tuning> tuning = tune(with_friction(3.0), options);
+  ASSERT_FALSE(tuning);
+  EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
+  ASSERT_EQ(tuning.error().faults.size(), 3U);  // one per mode
+  EXPECT_EQ(tuning.error().faults[0].place, "model.json:/vehicle/wheel_force");
+  EXPECT_THAT(tuning.error().faults[0].message,
+              ::testing::AllOf(::testing::HasSubstr("is 1.44 m"),  // 4 d, with F' of -1 to 1
+                               ::testing::HasSubstr("at 1 deg/s is 3.01 m")));
+}
+
+TEST(Turning, NamesTheNumbersWithWhichTheSteeringTurnsTheVehicle) {
+  TuneOptions options = short_options();
+  options.mode = YawMode::kSteering;
+  Model model = with_friction(0.2);
+  const Result<Tuning> tuning = tune(model, options);
+  ASSERT_FALSE(tuning);
+  const std::string message = tuning.error().faults.front().message;
+  const auto number_after = [&](const std::string& key) {
+    const std::size_t place = message.find(key);
+    EXPECT_NE(place, std::string::npos) << message;
+    return place == std::string::npos ? 0.0 : std::stod(message.substr(place + key.size()));
+  };
+  const double angle_deg = number_after("(`max_deg`) above ");
+  const double speed_mps = number_after("a speed above ");
+  const double given_mps = options.scenarios[0].speed_mps;
+  for (const double factor : {0.98, 1.02}) {
+    Model steeper = model;
+    steeper.vehicle.steering_max_deg = factor * angle_deg;
+    const auto turns = [](const Model& vehicle, double mps) {
+      return turning_moment({*vehicle.plant(), vehicle.vehicle.wheel_force}, mps,
+                            YawMode::kSteering)
+          .turns();
+    };
+    EXPECT_EQ(turns(steeper, given_mps), factor > 1.0) << message;
+    EXPECT_EQ(turns(model, factor * speed_mps), factor > 1.0) << message;
+  }
 }
 
 TEST(Robust, DrawsOnlyNoiseWithoutACovariance) {
@@ -629,6 +727,7 @@ TEST(Refusal, NamesTheBoundAtFaultInsteadOfTheLimitThatItViolates) {
   TuneOptions options = short_options();
   options.bounds.lambda = Interval{20.0, 30.0};
   const std::string message = refusal_of(options);
+  EXPECT_THAT(message, ::testing::StartsWith("error: tune.json:/"));
   EXPECT_THAT(message, ::testing::HasSubstr("no-gains"));
   EXPECT_THAT(message, ::testing::HasSubstr("bounds/lambda"));
   options.bounds.lambda = std::nullopt;

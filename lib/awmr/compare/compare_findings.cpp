@@ -7,6 +7,8 @@
 #include <iterator>
 #include <utility>
 
+#include "awmr/core/option_text.h"
+
 namespace awmr {
 namespace {
 
@@ -37,8 +39,9 @@ void note_scrub(const Model& model, std::vector<Finding>& findings) {
        fmt::format(
            "the simulated 3-DOF model adds the measured tyre scrub, {:.3g} m (95 %: {:.3g} to "
            "{:.3g}), to differential and combined turns; the controller does not "
-           "compensate it. Add --break-even to see which scrub changes each ranking",
-           model.yaw_scrub->moment_m, model.yaw_scrub->ci95_m.lo, model.yaw_scrub->ci95_m.hi)});
+           "compensate it. Add {} to see which scrub changes each ranking",
+           model.yaw_scrub->moment_m, model.yaw_scrub->ci95_m.lo, model.yaw_scrub->ci95_m.hi,
+           option_text("break_even"))});
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 ///     spell_options("use " + option_text("loss huber"), "--");  // "use --loss huber"
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,10 @@ std::string option_text(std::string_view name);
 
 /// Replaces each marked name by `prefix` and the name. With the prefix "--", '_' becomes '-'.
 std::string spell_options(std::string_view message, std::string_view prefix);
+
+/// Replaces each marked option, its name and value, by `spelling` of it.
+std::string replace_options(std::string_view message,
+                            const std::function<std::string(std::string_view option)>& spelling);
 
 /// Removes the marks of option_text() from a message; the option names stay, spelt as in
 /// model.json.

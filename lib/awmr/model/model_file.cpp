@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -9,7 +10,9 @@
 #include "awmr/core/file.h"
 #include "awmr/core/input_file.h"
 #include "awmr/core/json_document.h"
+#include "awmr/core/option_text.h"
 #include "awmr/model/findings_json.h"
+#include "awmr/model/plausibility.h"
 #include "awmr/model/ranges.h"
 #include "awmr/model/si_units.h"
 #include "awmr/model/transform.h"
@@ -167,6 +170,7 @@ auto list_from_json(JsonObject& root, std::string_view key, FromJson from_json) 
 }  // namespace
 
 NumberRule rule_of(ParameterId id) {
+  if (id == ParameterId::kWheelDeadZone) return kCommandDeadZone;
   if (info(id).term) return kTerm;
   if (id == ParameterId::kSteeringTimeConstant) return kServoTime_s;
   const bool is_exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
@@ -258,6 +262,38 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
                     scrub.moment_m, most_m));
 }
 
+/// Contradictions between identified quantities and the vehicle: an I'z/m' that no distribution of
+/// the mass can have, a dead zone beyond the largest wheel force.
+void add_vehicle_contradictions(const Model& model, std::vector<Fault>& faults) {
+  const Estimate& inertia = model[ParameterId::kInertiaNorm];
+  const Estimate& mass = model[ParameterId::kMassNorm];
+  if (inertia.value && mass.value && implausible_values(model.vehicle).empty()) {
+    const Interval range = inertia_over_vehicle(model.vehicle, inertia, mass);
+    if (!(range.hi > kInertiaOverBox.lo && range.lo < kInertiaOverBox.hi)) {
+      faults.push_back(
+          {ErrorCode::kContradiction, model.file + ":/inertia_norm/value",
+           fmt::format("I'z/m' is {:.3g} times Iz/m of the vehicle, where {:g} to {:g} times is "
+                       "possible; identify again",
+                       inertia_over_vehicle(model.vehicle, *inertia.value, *mass.value),
+                       kInertiaOverBox.lo, kInertiaOverBox.hi)});
+    }
+  }
+  const double zone = model[ParameterId::kWheelDeadZone].value.value_or(0.0);
+  if (zone < model.vehicle.wheel_force.hi) return;
+  faults.push_back({ErrorCode::kContradiction, model.file + ":/wheel/dead_zone/value",
+                    fmt::format("a dead zone of {:g} leaves no force of a wheel, because "
+                                "/vehicle/wheel_force/max is {:g}; identify again",
+                                zone, model.vehicle.wheel_force.hi)});
+}
+
+/// True if the user accepted the implausible values of the vehicle: identify adds this finding only
+/// with `--as-is`.
+bool accepts_implausible(const Model& model) {
+  return std::ranges::any_of(model.record.findings, [](const Finding& finding) {
+    return finding.code == "implausible-vehicle";
+  });
+}
+
 /// Contradictions in a file that was edited by hand: a value outside its interval, a scrub moment
 /// that does not fit its interval, a standard error that differs from the covariance.
 std::vector<Fault> self_contradictions(const Model& model) {
@@ -271,6 +307,7 @@ std::vector<Fault> self_contradictions(const Model& model) {
          fmt::format("[{:g}, {:g}] does not contain the value {:g}; write null for no interval",
                      estimate.ci95->lo, estimate.ci95->hi, *estimate.value)});
   }
+  add_vehicle_contradictions(model, faults);
   if (model.yaw_scrub) add_scrub_contradictions(*model.yaw_scrub, model, faults);
   const Covariance& covariance = model.covariance;
   for (std::size_t i = 0; i < covariance.parameters.size(); ++i) {
@@ -288,14 +325,8 @@ std::vector<Fault> self_contradictions(const Model& model) {
   return faults;
 }
 
-}  // namespace
-
-Result<Model> read_model(const std::filesystem::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const std::string text, read_input(path, kMaxJsonBytes));
-  return model_from_text(text, path.string());
-}
-
-Result<Model> model_from_text(std::string_view text, const std::string& file) {
+/// Parses a model. `as_is`: the vehicle may be implausible.
+Result<Model> parse_model(std::string_view text, const std::string& file, bool as_is) {
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_text(text, file));
   std::vector<Fault> faults;
   JsonObject root(json, file, "", faults);
@@ -303,7 +334,28 @@ Result<Model> model_from_text(std::string_view text, const std::string& file) {
   model.file = file;
   if (faults.empty()) faults = self_contradictions(model);
   if (!faults.empty()) return input_errors(std::move(faults));
+  if (!as_is && !accepts_implausible(model)) {
+    AWMR_RETURN_IF_ERROR(check_plausible(model.vehicle, file + ":/vehicle",
+                                         "Correct vehicle.json and identify again, with " +
+                                             option_text("as-is") + " if the value is right"));
+  }
   return model;
+}
+
+}  // namespace
+
+Result<Model> read_model(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const std::string text, read_input(path, kMaxJsonBytes));
+  return parse_model(text, path.string(), false);
+}
+
+Result<Model> read_model_as_is(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const std::string text, read_input(path, kMaxJsonBytes));
+  return parse_model(text, path.string(), true);
+}
+
+Result<Model> model_from_text(std::string_view text, const std::string& file) {
+  return parse_model(text, file, false);
 }
 
 Status check_model_text(std::string_view text, const std::string& file) {

@@ -11,8 +11,11 @@
 namespace awmr {
 
 /// Reads model.json. Errors: as read_json_file(); unknown or missing keys; values that are out of
-/// range (ranges.h) or contradict each other, such as a value outside its interval.
+/// range (ranges.h) or contradict each other, such as a value outside its interval; an implausible
+/// vehicle (plausibility.h) that the user did not accept with `identify --as-is`.
 Result<Model> read_model(const std::filesystem::path& path);
+/// As read_model(), but any vehicle within the ranges is accepted.
+Result<Model> read_model_as_is(const std::filesystem::path& path);
 
 /// As read_model(), from a text in memory; `file`: its name in errors.
 Result<Model> model_from_text(std::string_view text, const std::string& file);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -184,6 +185,22 @@ void check_steering(const Vehicle& vehicle, std::vector<Implausible>& found) {
 }
 
 }  // namespace
+
+double inertia_over_vehicle(const Vehicle& vehicle, double inertia_norm, double mass_norm) {
+  return inertia_norm / mass_norm / (vehicle.inertia_kgm2() / vehicle.mass_kg);
+}
+
+Interval inertia_over_vehicle(const Vehicle& vehicle, const Estimate& inertia,
+                              const Estimate& mass) {
+  if (inertia.ci95 && mass.ci95) {
+    const double largest = mass.ci95->lo > 0.0
+                               ? inertia_over_vehicle(vehicle, inertia.ci95->hi, mass.ci95->lo)
+                               : std::numeric_limits<double>::max();
+    return {inertia_over_vehicle(vehicle, inertia.ci95->lo, mass.ci95->hi), largest};
+  }
+  const double ratio = inertia_over_vehicle(vehicle, *inertia.value, *mass.value);
+  return {0.5 * ratio, 2.0 * ratio};
+}
 
 std::vector<Implausible> implausible_values(const Vehicle& vehicle) {
   std::vector<Implausible> found;

@@ -16,6 +16,7 @@
 
 #include "awmr/core/interval.h"
 #include "awmr/core/result.h"
+#include "awmr/model/model.h"
 #include "awmr/model/record.h"
 #include "awmr/model/vehicle.h"
 
@@ -26,6 +27,13 @@ namespace awmr {
 inline constexpr Interval kInertiaOverBox{0.05, 3.0};
 /// Largest plausible time constant of a steering servo, s; a larger number is probably in ms.
 inline constexpr double kSlowestServo_s = 2.0;
+
+/// Identified I'z/m' over Iz/m of the vehicle. Precondition: mass_norm > 0.
+double inertia_over_vehicle(const Vehicle& vehicle, double inertia_norm, double mass_norm);
+/// Range of this ratio from the 95 % intervals; without intervals, a factor of 2 around the value.
+/// Precondition: both estimates have a value.
+Interval inertia_over_vehicle(const Vehicle& vehicle, const Estimate& inertia,
+                              const Estimate& mass);
 
 /// A number that is impossible or very unlikely.
 struct Implausible {

@@ -28,8 +28,10 @@ inline constexpr NumberRule kBackEmf_s_per_m{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kFastestTurn_degps{.min = 1e-3, .max = 1e6};
 /// Coefficients of resistance, m' and I'z, each in its own unit.
 inline constexpr NumberRule kCoefficient{.min = 1e-9, .max = 1e9};
-/// Optional terms of the model (ParameterInfo::term): Coulomb, quadratic, dead zone, back-EMF.
+/// Optional terms of the model (ParameterInfo::term): Coulomb, quadratic, back-EMF.
 inline constexpr NumberRule kTerm{.min = 0.0, .max = 1e9};
+/// Dead zone of a wheel's command, relative to the largest command.
+inline constexpr NumberRule kCommandDeadZone{.min = 0.0, .max = 1.0, .max_excluded = true};
 inline constexpr NumberRule kExponent{.min = 0.0, .max = 20.0};
 /// Tyres: friction coefficient from ice to above rubber on dry asphalt; cornering stiffness over
 /// load from a soft tyre to a rigid wheel.

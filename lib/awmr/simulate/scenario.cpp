@@ -172,8 +172,29 @@ Status check_observer(const Scenario& scenario, const Model& model) {
       fmt::format("scenario '{}':/control/disturbance_observer/bandwidth_radps", scenario.name));
 }
 
+/// Errors: a fault of wheels that all have no motor.
+Status check_faults(const Scenario& scenario, const Model& model) {
+  if (model.vehicle.drive != Drive::kFrontWheel) return {};
+  std::vector<Fault> errors;
+  for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
+    const auto is_driven = [](Wheel wheel) {
+      return wheel == Wheel::kFrontLeft || wheel == Wheel::kFrontRight;
+    };
+    const std::vector<Wheel>& wheels = scenario.faults[i].wheels;
+    if (std::any_of(wheels.begin(), wheels.end(), is_driven)) continue;
+    errors.push_back({ErrorCode::kConflict,
+                      fmt::format("scenario '{}':/faults/{}/wheel", scenario.name, i),
+                      fmt::format("this wheel has no motor that could fail, because the drive of "
+                                  "the vehicle is \"{}\"; name a front wheel, or remove the fault",
+                                  name_in(kDriveNames, model.vehicle.drive))});
+  }
+  if (!errors.empty()) return input_errors(std::move(errors));
+  return {};
+}
+
 Status check_scenario(const Scenario& scenario, const Model& model) {
   AWMR_RETURN_IF_ERROR(check_tyres(scenario));
+  AWMR_RETURN_IF_ERROR(check_faults(scenario, model));
   AWMR_RETURN_IF_ERROR(check_lqi(scenario, model));
   return check_observer(scenario, model);
 }

@@ -159,7 +159,8 @@ std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario);
 Status check_tyres(const Scenario& scenario);
 
 /// Checks that the scenario can run with this model. Errors (input): as check_tyres and
-/// check_observer_rate; an LQI law that is unstable at the vehicle's sample time.
+/// check_observer_rate; an LQI law that is unstable at the vehicle's sample time; a motor fault of
+/// wheels without motors.
 Status check_scenario(const Scenario& scenario, const Model& model);
 
 /// Description of the simulated plant: "model", or "four-wheel, friction 0.8, ..." with the numbers

@@ -197,9 +197,11 @@ std::optional<Finding> extrapolation_finding(const std::string& file, double mea
                   is_rate_limited
                       ? "Heading commands are limited to the measured rate, but the vehicle "
                         "overshoots or slides. Record faster turning trials, or give a "
-                        "lower --heading-rate-limit"
+                        "lower " +
+                            option_text("heading_rate_limit")
                       : "Record faster turning trials, or limit the rate of heading commands "
-                        "(shaping in the scenario, or --heading-rate-limit measured)")};
+                        "(shaping in the scenario, or " +
+                            option_text("heading_rate_limit measured") + ")")};
 }
 
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,

@@ -76,15 +76,12 @@ std::vector<ExaminedLoop> at_all_rates(const Plant<double>& plant,
   return loops;
 }
 
-/// The context's own plant and each draw, at the lowest and the highest yaw rate.
-std::vector<ExaminedLoop> at_end_rates(const ConstraintContext& context) {
+/// Adds each draw at the lowest and the highest yaw rate.
+void add_draws(const ConstraintContext& context, std::vector<ExaminedLoop>& loops) {
   const Interval rates = examined_rates_radps(context);
-  std::vector<ExaminedLoop> loops;
   for (const double rate_radps : {rates.lo, rates.hi}) {
-    loops.push_back({&context.plant, rate_radps});
     for (const DrawnVehicle& drawn : context.draws) loops.push_back({&drawn.plant, rate_radps});
   }
-  return loops;
 }
 
 /// Smallest damping ratio over the modes and the loops.
@@ -162,9 +159,11 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
     }
   }
   if (context.latency_s > 0.0 || context.motor_time_constant_s > 0.0) {
-    const std::vector<ExaminedLoop> ends = at_end_rates(context);
+    const Interval rates = examined_rates_radps(context);
+    std::vector<ExaminedLoop> ends{{&context.plant, rates.lo}, {&context.plant, rates.hi}};
     std::vector<ExaminedLoop> loops = at_all_rates(context.plant, context);
-    loops.insert(loops.end(), ends.begin(), ends.end());
+    add_draws(context, ends);
+    add_draws(context, loops);
     const double lag_s = context.motor_time_constant_s;
     worst.push_back(at_least(
         "late damping", heading_damping(gains, context, loops, context.latency_s, lag_s),

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "awmr/core/option_text.h"
@@ -15,6 +15,13 @@
 
 namespace awmr {
 namespace {
+
+/// Error at a place in tune.json.
+tl::unexpected<Error> refused_at(const TuneOptions& requested, const std::string& pointer,
+                                 ErrorCode code, std::string message) {
+  return tl::unexpected(
+      Error{ErrorKind::kRefused, {{code, requested.file + ":" + pointer, std::move(message)}}});
+}
 
 std::string in_words(const Gains<double>& g) {
   return fmt::format(
@@ -26,7 +33,7 @@ std::string in_words(const Gains<double>& g) {
 /// Refusal that names the goal that the nearest gains violate most. Empty if they meet all goals.
 std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, const Evaluation& e,
                                                  const Objective& objective,
-                                                 const std::vector<Scenario>& scenarios) {
+                                                 const TuneOptions& requested) {
   const std::vector<GoalInMode> goals = by_mode(objective.goals(), objective.modes());
   std::size_t worst = goals.size();
   for (std::size_t i = 0; i < goals.size(); ++i) {
@@ -34,9 +41,11 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
     if (worst == goals.size() || e.goal_quantile[i] > e.goal_quantile[worst]) worst = i;
   }
   if (worst == goals.size()) return std::nullopt;
-  const bool is_rate_limited = std::ranges::any_of(
-      scenarios, [](const Scenario& one) { return one.name.ends_with(kLedSuffix); });
-  return refusal(
+  const bool is_rate_limited =
+      std::ranges::any_of(objective.setting().scenarios,
+                          [](const Scenario& one) { return one.name.ends_with(kLedSuffix); });
+  return refused_at(
+      requested, fmt::format("/goals/{}", goals[worst].goal - objective.goals().data()),
       ErrorCode::kNoGains,
       fmt::format(
           "no gains within the bounds reach the goal \"{}\": of {} evaluated, the nearest ({}) "
@@ -67,8 +76,8 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
   const auto worst = std::ranges::max_element(
       all, {}, [](const ConstraintReport& c) { return c.required ? residual(c) : -1.0; });
   const std::vector<std::string> changes = single_changes(nearest.gains, context, requested);
-  return refusal(
-      ErrorCode::kNoGains,
+  return refused_at(
+      requested, pointer_to(worst->name), ErrorCode::kNoGains,
       fmt::format("no gains within the bounds meet the constraints: the nearest ({}) violate '{}', "
                   "{:.4g} against a limit of {:.4g} ({}). {}",
                   in_words(nearest.gains), worst->name, worst->value, worst->limit, worst->meaning,
@@ -82,20 +91,21 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
 }
 
 tl::unexpected<Error> not_found(const SearchResult& found, const Objective& objective,
-                                const std::vector<Scenario>& scenarios) {
+                                const TuneOptions& requested) {
   const Evaluation e = objective(found.nearest.gains);
-  if (auto missed = goal_missed(found, e, objective, scenarios)) return *missed;
+  if (auto missed = goal_missed(found, e, objective, requested)) return *missed;
   const std::string gains = in_words(found.nearest.gains);
   if (!e.valid) {
-    return refusal(ErrorCode::kDiverges,
-                   fmt::format("runs diverge with all {} gains that were tried; the nearest to the "
-                               "limits are {}. Give slower "
-                               "scenarios or narrower bounds",
-                               found.evaluations, gains));
+    return refused_at(
+        requested, "/scenarios", ErrorCode::kDiverges,
+        fmt::format("runs diverge with all {} gains that were tried; the nearest to the "
+                    "limits are {}. Give slower "
+                    "scenarios or narrower bounds",
+                    found.evaluations, gains));
   }
   const bool is_activity = found.broken_most.starts_with("activity");
-  return refusal(
-      ErrorCode::kNoGains,
+  return refused_at(
+      requested, is_activity ? "/activity_max" : pointer_to(found.broken_most), ErrorCode::kNoGains,
       fmt::format(
           "no gains within the bounds meet every limit: the nearest of {} evaluated ({}) violate "
           "'{}' by {:.0f} %; {}, or increase local_evaluations",
@@ -104,26 +114,31 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
 }
 
 tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,
-                                    const std::vector<ActiveConstraint>& active,
-                                    const TuneOptions& requested, bool is_held) {
-  const auto costliest = std::ranges::max_element(active, {}, &ActiveConstraint::wider_gains);
+                                    const std::vector<SettlingChange>& changes,
+                                    const TuneOptions& requested) {
   const std::vector<std::string> strict = stricter_than_default(requested);
-  const std::string advice =
-      !strict.empty()
-          ? fmt::format("limits stricter than their defaults can be the cause: relax {}",
-                        fmt::join(strict, ", "))
-      : costliest == active.end()
-          ? "give the headings of the scenarios more time"
-          : fmt::format("'{}' is at its limit: {}", costliest->name, advice_on(costliest->name));
-  return refusal(
-      ErrorCode::kNoGains,
+  std::vector<std::string> texts;
+  for (const SettlingChange& change : changes) texts.push_back(change.text);
+  std::vector<std::string> advice;
+  if (!texts.empty()) {
+    advice.push_back(fmt::format("{} lets runs settle: {}",
+                                 texts.size() == 1 ? "This change" : "Each of these changes",
+                                 fmt::join(texts, "; ")));
+  }
+  if (!strict.empty()) {
+    advice.push_back(fmt::format("Limits stricter than their defaults can be the cause: relax {}",
+                                 fmt::join(strict, ", ")));
+  }
+  if (advice.empty()) {
+    advice.emplace_back(
+        "None of these changes lets a run settle: 4 times the time, no heading-rate limit, an "
+        "observer, gains for one mode only");
+  }
+  return refused_at(
+      requested, changes.empty() ? "/scenarios" : changes.front().pointer, ErrorCode::kNoGains,
       fmt::format("no run settles with gains within the limits: none of {} runs settles with the "
-                  "best gains ({}); {}{}",
-                  runs, in_words(gains), advice,
-                  is_held ? fmt::format("; an observer ({}) compensates the friction that holds "
-                                        "the vehicle off its heading",
-                                        option_text("observer"))
-                          : ""));
+                  "best gains ({}). {}",
+                  runs, in_words(gains), fmt::join(advice, ". ")));
 }
 
 }  // namespace awmr

@@ -1,5 +1,5 @@
 /// Errors of a search without a result. They name the constraint that no gains meet and the limit
-/// to relax. Private to tune/.
+/// to relax; the place is its pointer in tune.json (TuneOptions::file). Private to tune/.
 #pragma once
 
 #include <vector>
@@ -20,14 +20,12 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
 /// Error if no gains meet the limits that need simulated runs: names the goal, activity limit or
 /// constraint that the gains with the smallest violation violate most.
 tl::unexpected<Error> not_found(const SearchResult& found, const Objective& objective,
-                                const std::vector<Scenario>& scenarios);
+                                const TuneOptions& requested);
 
-/// Error if gains meet every limit but none of the `runs` runs settles: names the limits in
-/// `requested` that are stricter than their defaults, else the active constraint with the largest
-/// cost. `is_held`: friction at rest holds the vehicle off its heading; the
-/// message then suggests --observer.
+/// Error if gains meet every limit but none of the `runs` runs settles: names the `changes` with
+/// which runs settle, and the limits in `requested` that are stricter than their defaults.
 tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,
-                                    const std::vector<ActiveConstraint>& active,
-                                    const TuneOptions& requested, bool is_held);
+                                    const std::vector<SettlingChange>& changes,
+                                    const TuneOptions& requested);
 
 }  // namespace awmr

@@ -111,6 +111,13 @@ std::string advice_on(const std::string& constraint) {
                                     : "widen `bounds` of tune.json, or give slower scenarios";
 }
 
+std::string pointer_to(const std::string& constraint) {
+  for (const Limit& limit : limits()) {
+    if (sets(limit, constraint)) return fmt::format("/{}", limit.key);
+  }
+  return "/bounds";
+}
+
 std::vector<std::string> stricter_than_default(const TuneOptions& requested) {
   ConstraintContext now{.margin = requested.margin, .limits = requested.limits};
   ConstraintContext before;

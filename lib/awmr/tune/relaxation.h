@@ -13,6 +13,9 @@ namespace awmr {
 /// Advice for a constraint that no gains meet: the limit to relax, or the cause in the vehicle.
 std::string advice_on(const std::string& constraint);
 
+/// Pointer in tune.json to the limit of a constraint; "/bounds" if it has none.
+std::string pointer_to(const std::string& constraint);
+
 /// Limits of tune.json that the user made stricter than their defaults: "`margin`".
 std::vector<std::string> stricter_than_default(const TuneOptions& requested);
 

@@ -30,7 +30,9 @@
 #include "awmr/tune/robust.h"
 #include "awmr/tune/search.h"
 #include "awmr/tune/sensitivity.h"
+#include "awmr/tune/settling.h"
 #include "awmr/tune/trade_off.h"
+#include "awmr/tune/turning.h"
 
 namespace awmr {
 namespace {
@@ -198,15 +200,18 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
   AWMR_RETURN_IF_ERROR(check_baseline(all, baseline));
   const Objective some(searched(setting, options), baseline.gains);
   AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, some, all, starts));
-  if (!found.best) return not_found(found, all, setting.scenarios);
+  if (!found.best) return not_found(found, all, requested);
   const SettledGains settled = settle(options, context, some, all, *found.best);
   AWMR_ASSIGN_OR_RETURN(std::vector<ActiveConstraint> active,
                         active_constraints(options, context, some, *found.best));
   const Evaluation tuned = all(settled.gains);
   const auto settles = [](const ModeScore& score) { return score.metrics.completed; };
   if (std::ranges::none_of(tuned.scores, settles)) {
-    const bool is_held = context.plant.yaw.coulomb > 0.0 && !options.observer;
-    return never_settles(settled.gains, tuned.scores.size(), active, requested, is_held);
+    ObjectiveSetting nominal = setting;
+    nominal.vehicles.resize(1);
+    constexpr double kAny = 1e-9;
+    return never_settles(settled.gains, tuned.scores.size(),
+                         changes_that_settle(nominal, context, settled.gains, kAny), requested);
   }
   AWMR_ASSIGN_OR_RETURN(Certificate certificate,
                         certify(model, context, options.open, settled.gains));
@@ -239,7 +244,48 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
                 .held_out_objective = evaluated.objective,
                 .certificate = std::move(certificate),
                 .trade_off = std::move(trade_off),
+                .unsettled = {},
                 .robust = {}};
+}
+
+/// The runs of each scenario and mode with few settled runs, and the changes with which they settle
+/// on the nominal vehicle and the first draws of the setting.
+std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveSetting& setting,
+                                          const ConstraintContext& context) {
+  constexpr std::size_t kVehicles = 13;
+  std::vector<UnsettledRuns> all;
+  const auto look_at = [&](const std::string& scenario, YawMode mode, double settled_share) {
+    if (settled_share >= kSettledShare) return;
+    ObjectiveSetting runs = setting;
+    runs.mode = mode;
+    runs.numbers.clear();
+    runs.goals.clear();
+    if (runs.vehicles.size() > kVehicles) runs.vehicles.resize(kVehicles);
+    if (!scenario.empty()) {
+      std::erase_if(runs.scenarios, [&](const Scenario& s) { return s.name != scenario; });
+    }
+    const Status turns =
+        check_turning(context.own(), std::span(&mode, 1), runs.scenarios, std::string());
+    UnsettledRuns unsettled{.scenario = scenario, .mode = mode, .why = {}, .changes = {}};
+    if (turns) {
+      unsettled.changes = changes_that_settle(runs, context, tuning.gains, kSettledShare);
+    } else {
+      unsettled.why = turns.error().faults.front().message;
+    }
+    all.push_back(std::move(unsettled));
+  };
+  if (tuning.robust && !tuning.robust->evaluated.empty()) {
+    const RobustTuning& robust = *tuning.robust;
+    for (const EvaluatedGains& one :
+         robust.evaluated_by_scenario.empty() ? robust.evaluated : robust.evaluated_by_scenario) {
+      if (one.gains == kRobustGains) look_at(one.scenario, one.mode, one.completed_share);
+    }
+  } else {
+    for (const ModeScore& score : tuning.scores) {
+      look_at(score.scenario, score.mode, score.metrics.completed ? 1.0 : 0.0);
+    }
+  }
+  return all;
 }
 
 /// Error (input) if the latency exceeds kMaxLatencySamples: the work for a constraint grows with
@@ -342,6 +388,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                                              options.sensitivity));
   }
   tuning.robust = std::move(robust);
+  if (!options.shard) tuning.unsettled = unsettled_runs(tuning, setting, context);
   return tuning;
 }
 
@@ -357,8 +404,11 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
   if (scenarios.empty()) {
     AWMR_ASSIGN_OR_RETURN(scenarios, default_tuning_scenarios(model, options));
   }
+  const DrawnVehicle nominal{plant, model.vehicle.wheel_force};
+  AWMR_RETURN_IF_ERROR(
+      check_turning(nominal, tuned_modes(model.vehicle, options.mode), scenarios, model.file));
   AWMR_RETURN_IF_ERROR(check_work(options, scenarios, plant, model));
-  ObjectiveSetting setting{.vehicles = {{plant, model.vehicle.wheel_force}},
+  ObjectiveSetting setting{.vehicles = {nominal},
                            .vehicle = model.vehicle,
                            .weights = options.weights,
                            .scenarios = std::move(scenarios),
@@ -368,7 +418,11 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
                            .mode = options.mode};
   ConstraintContext context = context_of(options, plant, model.vehicle, setting.scenarios);
   AWMR_RETURN_IF_ERROR(limit_observer(context, options.observer));
-  if (options.nominal) return search_gains(model, setting, context, options, held_out);
+  if (options.nominal) {
+    AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(model, setting, context, options, held_out));
+    tuning.unsettled = unsettled_runs(tuning, setting, context);
+    return tuning;
+  }
   return tune_robustly(model, std::move(setting), std::move(context), options, held_out);
 }
 

@@ -154,6 +154,7 @@ bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 
 struct TuneOptions {
+  std::string file = "tune.json";  ///< name in errors: the path that it was read from
   /// true: tune on the identified plant only, with noise-free sensors without latency and motors
   /// without lag. false (robust): tune also on `draws` plants from the model's covariance, with the
   /// noise, latency and lag of LoopConditions. The gains meet every constraint on all of these
@@ -400,6 +401,19 @@ struct Certificate {
 };
 inline constexpr double kCertifiedShare = 0.95;  ///< probability of the confidence set
 
+/// A change with which runs settle.
+struct SettlingChange {
+  std::string pointer;  ///< place in tune.json: "/observer"
+  std::string text;     ///< the change, with its number
+};
+/// Runs of which fewer than 95 % settle with the tuned gains.
+struct UnsettledRuns {
+  std::string scenario;  ///< empty: the only one
+  YawMode mode{};
+  std::string why;  ///< the mode cannot turn the vehicle (turning.h); empty: it can
+  std::vector<SettlingChange> changes;  ///< changes_that_settle() (settling.h)
+};
+
 /// Result of tune().
 struct Tuning {
   Gains<double> gains{};
@@ -430,7 +444,8 @@ struct Tuning {
   double held_out_objective = 0.0;
   std::optional<Certificate> certificate;  ///< always present in the result of tune()
   TradeOff trade_off;
-  std::optional<RobustTuning> robust;  ///< absent for nominal gains
+  std::vector<UnsettledRuns> unsettled;  ///< empty for a part (TuneOptions::shard)
+  std::optional<RobustTuning> robust;    ///< absent for nominal gains
 };
 
 /// Default tuning scenario: from rest, a heading and then its opposite. Speed, angle and time are
@@ -469,8 +484,9 @@ Result<Scenario> held_out_scenario(const Model& model);
 /// and the instruction set (Tuning::arithmetic) determine every bit of the result, for any number
 /// of cores.
 /// Errors (refused): no gains within the bounds meet the constraints, the activity limit and the
-/// goals that are not soft (the message names the most violated one); runs diverge with all gains;
-/// no run of the nominal vehicle settles with the tuned gains; runs of the sensitivity analysis
+/// goals that are not soft (the message names the most violated one); in every mode, the largest
+/// yaw moment is below the yaw resistance at 1 deg/s (turning.h); runs diverge with all gains; no
+/// run of the nominal vehicle settles with the tuned gains; runs of the sensitivity analysis
 /// diverge.
 /// Errors (input): the model lacks a parameter; an option is invalid (check_options.h); the latency
 /// exceeds 20 samples; no wheel force is left for an observer; runs with the baseline break off;

@@ -325,6 +325,7 @@ Result<TuneConfig> read_tune_config(const std::filesystem::path& path) {
   JsonObject object(json, path.string(), "", faults);
   TuneConfig config = config_from_json(object, path.parent_path(), faults);
   if (!faults.empty()) return input_errors(std::move(faults));
+  config.options.file = path.string();
   return config;
 }
 

@@ -1,15 +1,18 @@
 #include "awmr/tune/tune_findings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
 #include <optional>
 #include <utility>
 
+#include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/conditions.h"
 #include "awmr/simulate/validity.h"
+#include "awmr/tune/settling.h"
 
 namespace awmr {
 namespace {
@@ -24,22 +27,42 @@ void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
            "{:g} % are required: {}",
            evaluated.held, evaluated.runs, name_of(evaluated.mode), 100.0 * evaluated.ci95.lo,
            100.0 * evaluated.ci95.hi, 100.0 * evaluated.goal.share,
-           is_missed ? "tune on more draws (--draws), raise the goal's limits or lower its "
-                       "share"
-                     : "increase judged_draws")});
+           is_missed ? "tune on more draws (" + option_text("draws") +
+                           "), raise the goal's limits or lower its share"
+                     : std::string("increase judged_draws"))});
+}
+
+/// The cause and the changes that help, as far as they are known; a `merge` does not know them.
+std::string advice_for(const std::string& scenario, YawMode mode,
+                       std::span<const UnsettledRuns> unsettled) {
+  const auto found = std::ranges::find_if(unsettled, [&](const UnsettledRuns& runs) {
+    return runs.scenario == scenario && runs.mode == mode;
+  });
+  if (found == unsettled.end()) return ". The settling times are in /robust/quantiles";
+  if (!found->why.empty()) return ": " + found->why;
+  if (found->changes.empty()) {
+    return fmt::format(
+        ". None of these changes lets {:g} % settle: 4 times the time, no heading-rate limit, an "
+        "observer, gains for one mode only",
+        100.0 * kSettledShare);
+  }
+  std::vector<std::string> texts;
+  for (const SettlingChange& change : found->changes) texts.push_back(change.text);
+  return fmt::format(". {} lets {:g} % settle: {}",
+                     texts.size() == 1 ? "This change" : "Each of these changes",
+                     100.0 * kSettledShare, fmt::join(texts, "; "));
 }
 
 void note_unsettled(const std::string& scenario, YawMode mode, double completed_share,
-                    std::vector<Finding>& findings) {
-  constexpr double kMinShare = 0.95;
-  if (completed_share >= kMinShare) return;
+                    std::span<const UnsettledRuns> unsettled, std::vector<Finding>& findings) {
+  if (completed_share >= kSettledShare) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "unsettled",
        fmt::format(
            "{}{}: only {:.0f} % of the runs with the tuned gains settle after every heading "
-           "step. Give the steps more time or a higher heading-rate limit, or add an "
-           "observer (--observer) against constant disturbances",
-           scenario.empty() ? "" : scenario + ", ", name_of(mode), 100.0 * completed_share)});
+           "step{}",
+           scenario.empty() ? "" : scenario + ", ", name_of(mode), 100.0 * completed_share,
+           advice_for(scenario, mode, unsettled))});
 }
 
 /// Adds a note if the 95 % interval of a total Sobol index is wider than kWide.
@@ -57,8 +80,9 @@ void note_sensitivity(const Tuning& tuning, std::vector<Finding>& findings) {
   findings.push_back(
       {"", 0, Severity::kNote, "sensitivity-open",
        fmt::format("{} samples are too few to show which input affects {} of {} metrics most; "
-                   "increase --sensitivity",
-                   tuning.robust->sensitivity->samples, open, figures.size())});
+                   "increase {}",
+                   tuning.robust->sensitivity->samples, open, figures.size(),
+                   option_text("sensitivity"))});
 }
 
 /// Adds a warning if some parameters of the confidence set make the heading loop unstable.
@@ -106,7 +130,8 @@ void note_scenarios(const Model& model, const TuneOptions& options, const Tuning
 std::vector<Finding> nominal_findings(const Tuning& tuning) {
   std::vector<Finding> findings;
   for (const ModeScore& score : tuning.scores) {
-    note_unsettled(score.scenario, score.mode, score.metrics.completed ? 1.0 : 0.0, findings);
+    note_unsettled(score.scenario, score.mode, score.metrics.completed ? 1.0 : 0.0,
+                   tuning.unsettled, findings);
   }
   return findings;
 }
@@ -115,7 +140,8 @@ std::vector<Finding> nominal_findings(const Tuning& tuning) {
 
 std::vector<Finding> evaluation_findings(const std::vector<EvaluatedGains>& evaluated,
                                          const std::vector<EvaluatedGains>& evaluated_by_scenario,
-                                         const std::vector<EvaluatedGoal>& goals) {
+                                         const std::vector<EvaluatedGoal>& goals,
+                                         std::span<const UnsettledRuns> unsettled) {
   std::vector<Finding> findings;
   for (const EvaluatedGoal& goal : goals) {
     if (goal.gains == kRobustGains) note_goal(goal, findings);
@@ -123,7 +149,7 @@ std::vector<Finding> evaluation_findings(const std::vector<EvaluatedGains>& eval
   for (const EvaluatedGains& one :
        evaluated_by_scenario.empty() ? evaluated : evaluated_by_scenario) {
     if (one.gains == kRobustGains) {
-      note_unsettled(one.scenario, one.mode, one.completed_share, findings);
+      note_unsettled(one.scenario, one.mode, one.completed_share, unsettled, findings);
     }
   }
   return findings;
@@ -133,10 +159,11 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
                                    const Tuning& tuning) {
   std::vector<Finding> findings;
   if (!options.shard) {
-    findings = tuning.robust && !tuning.robust->evaluated.empty()
-                   ? evaluation_findings(tuning.robust->evaluated,
-                                         tuning.robust->evaluated_by_scenario, tuning.robust->goals)
-                   : nominal_findings(tuning);
+    findings =
+        tuning.robust && !tuning.robust->evaluated.empty()
+            ? evaluation_findings(tuning.robust->evaluated, tuning.robust->evaluated_by_scenario,
+                                  tuning.robust->goals, tuning.unsettled)
+            : nominal_findings(tuning);
   }
   if (auto finding = missing_intervals(model)) findings.push_back(*std::move(finding));
   note_sensitivity(tuning, findings);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "awmr/core/index.h"
+#include "awmr/core/option_text.h"
 #include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/trials/replay.h"
@@ -119,9 +120,8 @@ DriveChannel measured_channel(const DrivingLog& log, LogChannel which, std::size
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s) {
   if (from_s && *from_s < log.t_s.front()) {
     return input_error(ErrorCode::kTooFewData, log.file,
-                       fmt::format("the log begins at {:g} s, but --from is {:g} s; give a later "
-                                   "time",
-                                   log.t_s.front(), *from_s));
+                       fmt::format("the log begins at {:g} s, but {} is {:g} s; give a later time",
+                                   log.t_s.front(), option_text("from"), *from_s));
   }
   for (std::size_t row = 0; row < log.rows(); ++row) {
     const bool commands = log.force_left[row] != 0.0 || log.force_right[row] != 0.0 ||
@@ -130,7 +130,8 @@ Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<doub
   }
   return input_error(
       ErrorCode::kTooFewData, log.file,
-      from_s ? fmt::format("the log ends before {:g} s (--from); give an earlier time", *from_s)
+      from_s ? fmt::format("the log ends before {:g} s ({}); give an earlier time", *from_s,
+                           option_text("from"))
              : "the log commands nothing (every force and steering command is 0); give a log of "
                "the drive");
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "awmr/core/drawn_rows.h"
+#include "awmr/core/option_text.h"
 #include "awmr/trials/replay.h"
 
 namespace awmr {
@@ -38,7 +39,8 @@ Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   if (!log[LogChannel::kSpeed]) {
     return input_error(ErrorCode::kMissing, log.file,
                        "has no speed_mps, the only channel that a model of straight motion "
-                       "predicts; map its column with --column");
+                       "predicts; map its column with " +
+                           option_text("column"));
   }
   DrivingLog part = log;
   for (const LogChannel channel : kChannels) {
@@ -114,8 +116,8 @@ Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, do
   if (!validation.channels.empty()) return validation;
   return input_error(ErrorCode::kTooFewData, log.file,
                      fmt::format("no channel has readings that can be predicted within a horizon "
-                                 "of {:g} s; give a longer --horizon",
-                                 horizon_s));
+                                 "of {:g} s; give a longer {}",
+                                 horizon_s, option_text("horizon")));
 }
 
 }  // namespace awmr

@@ -43,36 +43,21 @@ const Estimate* estimate_of(const Model& model, const LogStage& stage, Parameter
   return model[id].value ? &model[id] : nullptr;
 }
 
-/// Fitted I'z/m' over that of the vehicle's mass and size.
-double times_box(const Vehicle& vehicle, double inertia_norm, double mass_norm) {
-  return inertia_norm / mass_norm / (vehicle.inertia_kgm2() / vehicle.mass_kg);
-}
-
-/// Range of I'z/m' over that of a uniform box, from the 95 % intervals; without intervals, a factor
-/// of 2 around the value.
-Interval inertia_over_box(const Vehicle& vehicle, const Estimate& inertia, const Estimate& mass) {
-  if (inertia.ci95 && mass.ci95) {
-    return {times_box(vehicle, inertia.ci95->lo, mass.ci95->hi),
-            times_box(vehicle, inertia.ci95->hi, mass.ci95->lo)};
-  }
-  const double times = times_box(vehicle, *inertia.value, *mass.value);
-  return {0.5 * times, 2.0 * times};
-}
-
 /// Warns of an I'z/m' that is possible, but unusual: a unit or a size may be wrong.
 void note_unusual_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                           const Model& model, LogStage& stage) {
   const Estimate* inertia = estimate_of(model, stage, ParameterId::kInertiaNorm);
   const Estimate* mass = estimate_of(model, stage, ParameterId::kMassNorm);
   if (inertia == nullptr || mass == nullptr) return;
-  const Interval range = inertia_over_box(vehicle, *inertia, *mass);
+  const Interval range = inertia_over_vehicle(vehicle, *inertia, *mass);
   if (range.lo < kUsual.hi && range.hi > kUsual.lo) return;
   stage.findings.push_back(
       {logs.front().file, 0, Severity::kWarning, "inertia-mismatch",
        fmt::format("the fitted I'z/m' is {:.3g} times Iz/m of the vehicle; usual are {:g} to {:g} "
                    "times. Check the units of the speed and the yaw rate, and the size of the "
                    "vehicle",
-                   times_box(vehicle, *inertia->value, *mass->value), kUsual.lo, kUsual.hi)});
+                   inertia_over_vehicle(vehicle, *inertia->value, *mass->value), kUsual.lo,
+                   kUsual.hi)});
 }
 
 /// Reason why the fitted I'z is impossible or not determined; empty if it is plausible.
@@ -88,9 +73,9 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
                  "determined either"
                : "";
   }
-  const Interval range = inertia_over_box(vehicle, *inertia, *mass);
+  const Interval range = inertia_over_vehicle(vehicle, *inertia, *mass);
   if (range.hi > kInertiaOverBox.lo && range.lo < kInertiaOverBox.hi) return {};
-  const double times = times_box(vehicle, *inertia->value, *mass->value);
+  const double times = inertia_over_vehicle(vehicle, *inertia->value, *mass->value);
   return fmt::format(
       "the fitted I'z/m' is {:.3g} times Iz/m of the vehicle, which no distribution of its mass "
       "can "

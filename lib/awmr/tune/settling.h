@@ -1,0 +1,29 @@
+/// Changes with which runs settle that do not settle with the tuned gains, each confirmed by
+/// simulated runs. Private to tune/.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "awmr/tune/constraints.h"
+#include "awmr/tune/objective.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+
+/// Share of the runs that has to settle; below it, the finding `unsettled` is reported.
+inline constexpr double kSettledShare = 0.95;
+
+/// Tries one change at a time, and returns those with which at least `share` of the runs of the
+/// setting settle:
+///   - 2 or 4 times the time of the scenarios and their headings
+///   - no heading-rate limit, if there is one
+///   - an observer, if the gains have none, within the constraints
+///   - gains for one mode only, by pole placement, if several modes are tuned
+///   - with Coulomb friction in yaw: a higher limit of the steering rate, which permits a smaller
+///     friction width (with_friction_width())
+std::vector<SettlingChange> changes_that_settle(const ObjectiveSetting& setting,
+                                                const ConstraintContext& context,
+                                                const Gains<double>& gains, double share);
+
+}  // namespace awmr

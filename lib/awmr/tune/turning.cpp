@@ -1,0 +1,119 @@
+#include "awmr/tune/turning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "awmr/core/units.h"
+#include "awmr/model/steady.h"
+#include "awmr/tune/constraints.h"
+
+namespace awmr {
+namespace {
+
+/// Steering angles above this are not proposed.
+constexpr double kLargestAngle_deg = 60.0;
+
+/// Factor on the angle in the steered moment: tan(factor d_r).
+double angle_factor(const Plant<double>& plant) { return plant.rear_driven > 0.0 ? 0.5 : 1.0; }
+
+/// Changes of the steering with which it makes `moment_m` at the speed.
+std::vector<std::string> steering_changes(const DrawnVehicle& vehicle, double speed_mps,
+                                          double moment_m) {
+  const Plant<double>& plant = vehicle.plant;
+  const double factor = angle_factor(plant);
+  std::vector<std::string> changes;
+  const double per_angle_m = plant.front_axle_m * plant.surge(speed_mps);
+  const double angle_deg = degrees(std::atan(moment_m / per_angle_m)) / factor;
+  if (angle_deg <= kLargestAngle_deg) {
+    changes.push_back(fmt::format("a steering stop (`max_deg`) above {:.3g} deg", angle_deg));
+  }
+  const double thrust = moment_m / (plant.front_axle_m * std::tan(factor * plant.steering_max_rad));
+  const double wheels = driven_wheels(plant);
+  const auto faster = steady_rate(plant.surge, thrust);
+  if (faster && thrust <= wheels * (vehicle.wheel_force.hi - plant.wheel_dead_zone -
+                                    plant.back_emf_s_per_m * *faster)) {
+    changes.push_back(fmt::format("a speed above {:.3g} m/s", *faster));
+  }
+  return changes;
+}
+
+/// Changes with which the mode turns.
+std::vector<std::string> changes(const TurningMoment& moment, const DrawnVehicle& vehicle) {
+  const Plant<double>& plant = vehicle.plant;
+  std::vector<std::string> found;
+  if (moment.mode != YawMode::kDifferential) {
+    found = steering_changes(vehicle, moment.speed_mps, moment.needed_m);
+  }
+  const double span = 2.0 * moment.needed_m / (driven_wheels(plant) * plant.half_track_m) +
+                      2.0 * plant.wheel_dead_zone;
+  constexpr double kWidest = 2.0;  // F' from -1 to 1
+  if (moment.mode != YawMode::kSteering && span <= kWidest) {
+    found.push_back(fmt::format("a `wheel_force` range wider than {:.3g}", span));
+  }
+  return found;
+}
+
+/// True if the run needs no turn at steady speed: it accelerates, and its only heading is commanded
+/// from the start.
+bool turns_while_accelerating(const Scenario& scenario) {
+  return std::get<HeadingSteps>(scenario.guidance).steps.size() == 1 &&
+         scenario.initial.u_mps < scenario.speed_mps;
+}
+
+}  // namespace
+
+TurningMoment turning_moment(const DrawnVehicle& vehicle, double speed_mps, YawMode mode) {
+  const Plant<double>& plant = vehicle.plant;
+  const double zone = plant.wheel_dead_zone;
+  const double most = std::max(vehicle.wheel_force.hi - zone, 0.0);
+  const double least = std::min(vehicle.wheel_force.lo + zone, 0.0);
+  const double steering = mode == YawMode::kDifferential
+                              ? 0.0
+                              : plant.front_axle_m * plant.surge(speed_mps) *
+                                    std::tan(angle_factor(plant) * plant.steering_max_rad);
+  const double differential =
+      mode == YawMode::kSteering ? 0.0
+                                 : 0.5 * driven_wheels(plant) * plant.half_track_m * (most - least);
+  const double all = steering + differential;
+  const double scrub = all > 0.0 ? plant.yaw_scrub_m * differential / all : 0.0;
+  return {.mode = mode,
+          .speed_mps = speed_mps,
+          .available_m = all,
+          .needed_m = plant.yaw.at(kSlowest_radps) + scrub};
+}
+
+std::string describe(const TurningMoment& moment, const DrawnVehicle& vehicle) {
+  const std::vector<std::string> found = changes(moment, vehicle);
+  std::string text = fmt::format(
+      "the largest yaw moment of mode {} at {:.3g} m/s is {:.3g} m, but the yaw "
+      "resistance at {:.3g} deg/s is {:.3g} m. ",
+      name_of(moment.mode), moment.speed_mps, moment.available_m, degrees(kSlowest_radps),
+      moment.needed_m);
+  if (found.empty()) return text + "Motors with more force are needed, or a smaller yaw resistance";
+  text += "It turns with ";
+  for (std::size_t i = 0; i < found.size(); ++i) text += (i == 0 ? "" : ", or with ") + found[i];
+  return text;
+}
+
+Status check_turning(const DrawnVehicle& vehicle, std::span<const YawMode> modes,
+                     std::span<const Scenario> scenarios, const std::string& model_file) {
+  Error error{.kind = ErrorKind::kRefused, .faults = {}};
+  for (const YawMode mode : modes) {
+    std::optional<TurningMoment> best;
+    for (const Scenario& scenario : scenarios) {
+      const TurningMoment moment = turning_moment(vehicle, scenario.speed_mps, mode);
+      if (moment.turns() || turns_while_accelerating(scenario)) return {};
+      if (!best || moment.available_m > best->available_m) best = moment;
+    }
+    const char* place =
+        mode == YawMode::kDifferential ? "/vehicle/wheel_force" : "/vehicle/steering";
+    error.faults.push_back({ErrorCode::kNoGains, model_file + ":" + place,
+                            "the motors cannot turn the vehicle: " + describe(*best, vehicle)});
+  }
+  return tl::unexpected(std::move(error));
+}
+
+}  // namespace awmr

@@ -1,0 +1,43 @@
+/// Whether the motors can turn the vehicle at all: the largest yaw moment of a mode compared with
+/// the yaw resistance at a small yaw rate. Private to tune/.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "awmr/core/result.h"
+#include "awmr/simulate/scenario.h"
+#include "awmr/tune/drawn_vehicle.h"
+
+namespace awmr {
+
+/// Yaw moments of one mode at the speed u_d, m.
+struct TurningMoment {
+  YawMode mode{};
+  double speed_mps = 0.0;    ///< u_d
+  double available_m = 0.0;  ///< the largest moment
+  /// g3 at kSlowest_radps, plus scrub in proportion to the share of the wheel-force difference.
+  double needed_m = 0.0;
+
+  bool turns() const { return available_m > needed_m; }
+};
+
+/// The largest moments are
+///   steering      l_f g1(u_d) tan(d_max/2), as the steady speed needs the thrust g1(u_d)
+///   differential  n d (F'max - F'min)/2, n the number of driven wheels
+///   combined      the sum of both
+/// F'max and F'min are without the dead zone; with front-wheel drive, tan(d_max) replaces
+/// tan(d_max/2).
+TurningMoment turning_moment(const DrawnVehicle& vehicle, double speed_mps, YawMode mode);
+
+/// Describes the moments of a mode that does not turn, and the single change of the vehicle or the
+/// scenario that lets it turn, with its number.
+std::string describe(const TurningMoment& moment, const DrawnVehicle& vehicle);
+
+/// Checks that at least one of the modes turns in at least one scenario. Errors (refused): none
+/// does. Precondition: the scenarios have heading guidance.
+Status check_turning(const DrawnVehicle& vehicle, std::span<const YawMode> modes,
+                     std::span<const Scenario> scenarios, const std::string& model_file);
+
+}  // namespace awmr
