@@ -1,10 +1,12 @@
 # Compiler warnings, as a target that every target of this project links privately. It is not exported, so that users of the
 # library do not get the warnings.
 add_library(awmr_warnings INTERFACE)
-target_compile_options(awmr_warnings INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
-  -Wold-style-cast -Woverloaded-virtual -Wdouble-promotion
-  $<$<BOOL:${AWMR_WARNINGS_AS_ERRORS}>:-Werror>)
+if(AWMR_WARNINGS)
+  target_compile_options(awmr_warnings INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+    -Wold-style-cast -Woverloaded-virtual -Wdouble-promotion
+    $<$<BOOL:${AWMR_WARNINGS_AS_ERRORS}>:-Werror>)
+endif()
 
 # awmr_library(NAME HEADERS file... [SOURCES file...] [PUBLIC target...] [PRIVATE target...])
 # Defines the library of one folder, `awmr_NAME` with the alias `awmr::NAME`; header-only without SOURCES. HEADERS are the
