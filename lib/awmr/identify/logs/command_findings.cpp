@@ -8,6 +8,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/units.h"
+#include "awmr/identify/logs/force_findings.h"
 
 namespace awmr {
 namespace {
@@ -207,7 +208,7 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
                                                  const std::string& file) {
   std::vector<Finding> findings = delay_findings(fit, file);
   for (const auto& more : {steering_findings(fit, file), saturation_findings(fit, file),
-                           actuator_findings(fit, file)}) {
+                           actuator_findings(fit, file), force_findings(fit, file)}) {
     findings.insert(findings.end(), more.begin(), more.end());
   }
   if (!withdrawn) return findings;

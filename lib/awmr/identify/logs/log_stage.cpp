@@ -128,7 +128,9 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
     if (!fit.refusal_reason[i].empty()) {
       if (parameter) stage.reasons[q.id] = fit.refusal_reason[i];
       if (q.is(ParameterId::kBackEmf)) stage.is_back_emf_open = true;
-      if (!parameter && q.kind != FreeQuantity::Kind::kSaturationSharpness) {
+      const bool is_form =
+          q.kind == FreeQuantity::Kind::kSaturationSharpness || q.is_stribeck_speed();
+      if (!parameter && !is_form) {
         stage.findings.push_back({file, 0, Severity::kWarning, "not-identifiable",
                                   fmt::format("{}: {}", q.name(), fit.refusal_reason[i])});
       }

@@ -108,4 +108,14 @@ std::vector<double> measured_initial_states(const std::vector<FitWindow>& window
   return states;
 }
 
+double largest_measured(const DrivingLog& log, LogChannel channel) {
+  double largest = 0.0;
+  for (std::size_t row = 0; log[channel] && row < log.rows(); ++row) {
+    if (is_measurement(log, channel, row)) {
+      largest = std::max(largest, std::abs(log[channel]->value[row]));
+    }
+  }
+  return largest;
+}
+
 }  // namespace awmr
