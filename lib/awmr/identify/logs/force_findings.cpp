@@ -39,31 +39,50 @@ double fitted_value(const LogFit& fit, ParameterId id) {
   return 0.0;
 }
 
-std::vector<Finding> stribeck_findings(const LogFit& fit, const std::string& file) {
-  struct Axis {
-    ExtraForce force;
-    ExtraForce speed;
-    ParameterId coulomb;
-    std::string_view what;
-    std::string_view unit;
+/// Stribeck friction of one axis of a fit.
+struct FoundStribeck {
+  std::string_view axis;  ///< prefix of the parameters of its resistance
+  std::string_view what;
+  std::string_view unit;
+  FoundForce force;
+  double coulomb;               ///< Coulomb friction c
+  std::optional<double> speed;  ///< w_s; empty if it is not identified
+
+  /// True if the friction at rest is more than 5 % above c.
+  bool is_large() const { return force.value > 0.05 * coulomb; }
+};
+
+std::vector<FoundStribeck> found_stribeck(const LogFit& fit) {
+  std::vector<FoundStribeck> found;
+  const auto add = [&](ExtraForce force, ExtraForce speed, ParameterId coulomb,
+                       std::string_view axis, std::string_view what, std::string_view unit) {
+    const auto one = found_force(fit, force);
+    if (!one || one->value < kStandardErrors * one->error) return;
+    const auto scale = found_force(fit, speed);
+    found.push_back({axis, what, unit, *one, fitted_value(fit, coulomb),
+                     scale ? std::optional(scale->value) : std::nullopt});
   };
-  constexpr Axis kAxes[] = {
-      {ExtraForce::kSurgeStribeck, ExtraForce::kSurgeStribeckSpeed, ParameterId::kSurgeCoulomb,
-       "rolling", "m/s"},
-      {ExtraForce::kYawStribeck, ExtraForce::kYawStribeckSpeed, ParameterId::kYawCoulomb, "turning",
-       "rad/s"}};
+  add(ExtraForce::kSurgeStribeck, ExtraForce::kSurgeStribeckSpeed, ParameterId::kSurgeCoulomb,
+      "surge.", "rolling", "m/s");
+  add(ExtraForce::kYawStribeck, ExtraForce::kYawStribeckSpeed, ParameterId::kYawCoulomb, "yaw.",
+      "turning", "rad/s");
+  return found;
+}
+
+std::vector<Finding> stribeck_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
-  for (const Axis& axis : kAxes) {
-    const auto force = found_force(fit, axis.force);
-    if (!force || force->value < kStandardErrors * force->error) continue;
-    const auto speed = found_force(fit, axis.speed);
+  for (const FoundStribeck& one : found_stribeck(fit)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "stribeck-friction",
          fmt::format("the friction of {} rises at low speed (Stribeck effect): by {:.2g} +- {:.2g} "
                      "to the Coulomb friction {:.2g}{}. The fit compensates this, but simulations "
-                     "and gains do not; drive faster than that",
-                     axis.what, force->value, force->error, fitted_value(fit, axis.coulomb),
-                     speed ? fmt::format(", mainly below {:.2g} {}", speed->value, axis.unit) : "")});
+                     "and gains do not, so drive faster than that{}",
+                     one.what, one.force.value, one.force.error, one.coulomb,
+                     one.speed ? fmt::format(", mainly below {:.2g} {}", *one.speed, one.unit) : "",
+                     one.is_large() ? fmt::format("; the intervals of {}* are withdrawn, because "
+                                                  "the true form is unknown",
+                                                  one.axis)
+                                    : "")});
   }
   return findings;
 }
@@ -90,6 +109,16 @@ std::vector<Finding> force_findings(const LogFit& fit, const std::string& file) 
   std::vector<Finding> findings = stribeck_findings(fit, file);
   for (Finding& slope : slope_findings(fit, file)) findings.push_back(std::move(slope));
   return findings;
+}
+
+void withdraw_by_stribeck(LogFit& fit) {
+  for (const FoundStribeck& one : found_stribeck(fit)) {
+    for (EstimatorParameter& parameter : fit.report.parameters) {
+      if (!one.is_large() || !parameter.name.starts_with(one.axis)) continue;
+      parameter.std_error.reset();
+      parameter.ci95.reset();
+    }
+  }
 }
 
 }  // namespace awmr

@@ -12,4 +12,9 @@ namespace awmr {
 /// than two standard errors.
 std::vector<Finding> force_findings(const LogFit& fit, const std::string& file);
 
+/// Withdraws the intervals of a resistance with a Stribeck friction above 5 % of its Coulomb
+/// friction. The logs do not show the true form of the decrease with speed, on which all terms of
+/// this resistance depend. (m' and I'z depend on it much less.)
+void withdraw_by_stribeck(LogFit& fit);
+
 }  // namespace awmr
