@@ -12,6 +12,7 @@
 #include "awmr/identify/logs/log_fit.h"
 #include "awmr/identify/logs/log_fit_options.h"
 #include "awmr/identify/logs/residuals.h"
+#include "awmr/identify/logs/windows.h"
 #include "awmr/model/model_file.h"
 #include "identify/log_answers.h"
 
@@ -180,6 +181,33 @@ TEST_P(SmoothedSpeed, IsAllowedFor) {
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
 }
 INSTANTIATE_TEST_SUITE_P(ByARecursiveFilter, SmoothedSpeed, ::testing::Bool());
+
+/// The log without its first rows.
+DrivingLog cut(DrivingLog log, std::size_t rows) {
+  const auto shorten = [&](std::vector<double>& values) {
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rows));
+  };
+  for (std::vector<double>* const values :
+       {&log.t_s, &log.force_left, &log.force_right, &*log.steering_command_rad}) {
+    shorten(*values);
+  }
+  for (const LogChannel channel : kChannels) {
+    if (!log[channel]) continue;
+    shorten(log[channel]->value);
+    log[channel]->fresh.erase(log[channel]->fresh.begin(),
+                              log[channel]->fresh.begin() + static_cast<std::ptrdiff_t>(rows));
+  }
+  return log;
+}
+
+TEST(LateLog, DoesNotFitTheFirstSecondOfALogThatBeginsInMotion) {
+  const std::vector<DrivingLog> from_rest = {drive(kTruths[1], 8)};
+  EXPECT_EQ(fit_windows(from_rest).front().rows.begin, 0U);
+  constexpr std::size_t kCut = 600;
+  ASSERT_GT(from_rest[0][LogChannel::kSpeed]->value[kCut], 0.1);
+  const std::vector<DrivingLog> in_motion = {cut(from_rest[0], kCut)};
+  EXPECT_EQ(fit_windows(in_motion).front().rows.begin, 100U);
+}
 
 TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
   LogFit fit;
