@@ -12,6 +12,7 @@
 #include "awmr/identify/logs/log_fit.h"
 #include "awmr/identify/logs/log_fit_options.h"
 #include "awmr/identify/logs/residuals.h"
+#include "awmr/identify/logs/windows.h"
 #include "awmr/model/model_file.h"
 #include "identify/log_answers.h"
 
@@ -181,6 +182,33 @@ TEST_P(SmoothedSpeed, IsAllowedFor) {
 }
 INSTANTIATE_TEST_SUITE_P(ByARecursiveFilter, SmoothedSpeed, ::testing::Bool());
 
+/// The log without its first rows.
+DrivingLog cut(DrivingLog log, std::size_t rows) {
+  const auto shorten = [&](std::vector<double>& values) {
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rows));
+  };
+  for (std::vector<double>* const values :
+       {&log.t_s, &log.force_left, &log.force_right, &*log.steering_command_rad}) {
+    shorten(*values);
+  }
+  for (const LogChannel channel : kChannels) {
+    if (!log[channel]) continue;
+    shorten(log[channel]->value);
+    log[channel]->fresh.erase(log[channel]->fresh.begin(),
+                              log[channel]->fresh.begin() + static_cast<std::ptrdiff_t>(rows));
+  }
+  return log;
+}
+
+TEST(LateLog, DoesNotFitTheFirstSecondOfALogThatBeginsInMotion) {
+  const std::vector<DrivingLog> from_rest = {drive(kTruths[1], 8)};
+  EXPECT_EQ(fit_windows(from_rest).front().rows.begin, 0U);
+  constexpr std::size_t kCut = 600;
+  ASSERT_GT(from_rest[0][LogChannel::kSpeed]->value[kCut], 0.1);
+  const std::vector<DrivingLog> in_motion = {cut(from_rest[0], kCut)};
+  EXPECT_EQ(fit_windows(in_motion).front().rows.begin, 100U);
+}
+
 TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
   LogFit fit;
   fit.quantities = {steering_delay(),
@@ -330,6 +358,23 @@ TEST_P(ForceSaturation, IsCompensatedWithoutIntervals) {
     EXPECT_FALSE(result->model[id].ci95) << info(id).name;
   }
 }
+/// The saturation of tanh is not of the fitted form, so that each log has other values.
+TEST(LateLog, DoesNotCompareLogsWithALargeSaturation) {
+  TrialData data;
+  for (const std::uint64_t seed : {8U, 9U}) {
+    DrivingLog log = drive(kTruths[1], seed, {.duration_s = 12.0, .rate_hz = 40.0});
+    for (auto* const forces : {&log.force_left, &log.force_right}) {
+      for (double& force : *forces) force = 0.9 * std::atanh(std::clamp(force, -0.8, 0.8) / 0.9);
+    }
+    log.file = std::to_string(seed);
+    data.logs.push_back(std::move(log));
+  }
+  const auto result = identify(robot(), data, power_law(), {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "force-saturation", "without a comparison"));
+  EXPECT_FALSE(has_finding(*result, "logs-disagree", ""));
+}
+
 INSTANTIATE_TEST_SUITE_P(Short, ForceSaturation, ::testing::Values(4.0));
 /// Also a gradual loss and a hard limit.
 INSTANTIATE_TEST_SUITE_P(Long, ForceSaturation, ::testing::Values(1.0, 2.0, 20.0));

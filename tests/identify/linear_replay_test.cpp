@@ -358,6 +358,65 @@ TEST(LinearReplay, OfErrorsOfTheCommandsHasTheDerivativesOfCentralDifferences) {
   }
 }
 
+/// Stribeck friction with the logarithms of its speed scales, and slope, by ExtraForce.
+using ForceCoordinates = std::array<double, kExtraForceCount>;
+
+/// The motion with these forces as the only columns.
+std::vector<LinearMotion> with_forces(const DrivingLog& log, const ForceCoordinates& coordinates) {
+  constexpr double kStep_s = 0.004;
+  const LogSignals signals(log);
+  ExtraForces extra;
+  for (std::size_t i = 0; i < kExtraForceCount; ++i) {
+    const auto force = static_cast<ExtraForce>(i);
+    const bool is_speed =
+        force == ExtraForce::kSurgeStribeckSpeed || force == ExtraForce::kYawStribeckSpeed;
+    extra[force] = is_speed ? std::exp(coordinates[i]) : coordinates[i];
+    extra.columns.push_back({force, i, is_speed ? extra[force] : 1.0});
+  }
+  const Plant<double> plant = plant_by_hand(log.steering_command_rad.has_value(), kStep_s,
+                                            Drive::kFourWheel, Friction::kCoulomb);
+  LinearStepper stepper(plant, kExtraForceCount, {}, {}, 0.0, extra);
+  std::vector<LinearMotion> motions;
+  const LinearMotion first{first_state<double>([](std::size_t, double x) { return x; }),
+                           std::vector<double>(kStateSize * kExtraForceCount, 0.0)};
+  replay_linear(signals, 0, log.rows(), {}, stepper, kStep_s, first,
+                [&](std::size_t, const LinearMotion& motion) { motions.push_back(motion); });
+  return motions;
+}
+
+TEST(LinearReplay, OfExtraForcesHasTheDerivativesOfCentralDifferences) {
+  constexpr double kApart = 1e-6;
+  const DrivingLog log = commands(true);
+  // At the first coordinates, no force acts. Where the vehicle stops within a step, derivatives and
+  // differences agree less exactly.
+  for (const ForceCoordinates& at : {ForceCoordinates{0.0, -2.0, 0.0, -1.0, 0.0, 0.0},
+                                     ForceCoordinates{0.04, -2.0, 0.01, -1.0, 0.06, -0.1}}) {
+    const std::vector<LinearMotion> here = with_forces(log, at);
+    for (std::size_t column = 0; column < kExtraForceCount; ++column) {
+      ForceCoordinates more = at;
+      ForceCoordinates less = at;
+      more[column] += kApart;
+      less[column] -= kApart;
+      const std::vector<LinearMotion> after = with_forces(log, more);
+      const std::vector<LinearMotion> before = with_forces(log, less);
+      for (const LogChannel channel : kChannels) {
+        if (channel == LogChannel::kSteering) continue;  // no force acts on the steering
+        double largest = 1e-9;
+        double apart = 0.0;
+        for (std::size_t row = 0; row < here.size(); ++row) {
+          const double slope =
+              (channel_of(after[row].state, channel) - channel_of(before[row].state, channel)) /
+              (2.0 * kApart);
+          const double by_hand = here[row].row(channel, kExtraForceCount)[column];
+          largest = std::max(largest, std::abs(by_hand));
+          apart = std::max(apart, std::abs(by_hand - slope));
+        }
+        EXPECT_LT(apart, 3e-3 * largest) << info(channel).name << " by column " << column;
+      }
+    }
+  }
+}
+
 TEST(ProductSums, EqualTheSumsOfAllRowsAndOfTheTriangle) {
   std::mt19937 chance(3);
   std::normal_distribution<double> normal;

@@ -308,6 +308,49 @@ TEST_P(AWrongTurn, IsNamedInEveryLog) {
   }
 }
 
+/// Wheel odometry with the left side reversed: the speed is d r, the yaw rate u/d.
+void reverse_left_wheels(DrivingLog& log) {
+  const double d = vehicle().half_track_m;
+  std::vector<double>& speed = log[LogChannel::kSpeed]->value;
+  std::vector<double>& rate = log[LogChannel::kYawRate]->value;
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    const double u = speed[i];
+    speed[i] = d * rate[i];
+    rate[i] = u / d;
+  }
+}
+
+TEST(LogConsistency, BlamesReversedWheelOdometryInsteadOfTheForces) {
+  DrivingLog log = sound_log(1, {.position = false});
+  std::ranges::fill(*log.steering_command_rad, 0.0);
+  const auto moved = [&log](double turn) {  // a drive that turns by its forces only
+    for (std::size_t i = 0; i < log.rows(); ++i) {
+      log[LogChannel::kYawRate]->value[i] =
+          turn * (log.force_right[i] - log.force_left[i]) + 1e-4 * static_cast<double>(i % 7);
+    }
+  };
+  moved(3.0);
+  double psi = 0.0;
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    log[LogChannel::kHeading]->value[i] = psi;
+    psi += kStep_s * log[LogChannel::kYawRate]->value[i];
+  }
+  EXPECT_TRUE(contradictions(log, vehicle(), {}).empty());
+  reverse_left_wheels(log);
+  const auto by_heading = contradictions(log, vehicle(), {});
+  ASSERT_EQ(by_heading.size(), 1U);
+  EXPECT_EQ(by_heading[0].column, "speed_mps");
+  EXPECT_THAT(by_heading[0].message, HasSubstr("one side is reversed"));
+  EXPECT_EQ(by_heading[0].mapping, "");
+  // Without the heading, reversed forces have the same effect.
+  log[LogChannel::kHeading].reset();
+  const auto alone = contradictions(log, vehicle(), {});
+  ASSERT_EQ(alone.size(), 1U);
+  EXPECT_EQ(alone[0].column, "force_left");
+  EXPECT_THAT(alone[0].message, HasSubstr("one side is reversed"));
+  EXPECT_THAT(alone[0].remedy, HasSubstr("find out which is true"));
+}
+
 TEST_P(AWrongTurn, IsNamedInTheFirstTenSeconds) {
   int named = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {

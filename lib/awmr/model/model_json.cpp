@@ -33,6 +33,7 @@ bool is_estimated_name(std::string_view name) {
          name == kSteeringTrimName || name == kForceImbalanceName || name == kForceSaturationName ||
          name == kSaturationSharpnessName || name == kMotorLagName || name == kMassOverSurgeName ||
          name == kCoulombOverSurgeName || name == kQuadraticOverSurgeName ||
+         std::ranges::find(kExtraForceNames, name) != kExtraForceNames.end() ||
          name.starts_with(kBiasPrefix) || name.starts_with(kSensorDelayPrefix) ||
          name.starts_with(kSensorLagPrefix);
 }

@@ -1,8 +1,9 @@
 /// Names, in /estimates of model.json, of the vehicle and sensor errors that a fit of logs can
-/// estimate: steering trim, imbalance of left and right motors, saturation of the forces, delay and
-/// filter time constant of a sensor.
+/// estimate: steering trim, imbalance of left and right motors, saturation of the forces, Stribeck
+/// friction, slope of the ground, delay and filter time constant of a sensor.
 #pragma once
 
+#include <array>
 #include <string_view>
 
 namespace awmr {
@@ -11,6 +12,11 @@ inline constexpr std::string_view kSteeringTrimName = "steering.trim_rad";
 inline constexpr std::string_view kForceImbalanceName = "motor.imbalance";
 inline constexpr std::string_view kForceSaturationName = "motor.saturation";
 inline constexpr std::string_view kSaturationSharpnessName = "motor.saturation_sharpness";
+/// Stribeck friction and its speed scale, of the speed and of the yaw rate; acceleration by a slope.
+inline constexpr std::array<std::string_view, 6> kExtraForceNames = {
+    "surge.stribeck", "surge.stribeck_speed_mps",
+    "yaw.stribeck",   "yaw.stribeck_speed_radps",
+    "slope.x_mps2",   "slope.y_mps2"};
 inline constexpr std::string_view kSensorDelayPrefix = "delay.";  ///< + the channel's column
 inline constexpr std::string_view kSensorLagPrefix = "lag.";      ///< + the channel's column
 

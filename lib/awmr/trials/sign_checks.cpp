@@ -237,41 +237,76 @@ std::optional<Contradiction> check_direction(const Evidence& evidence) {
                        scaled_mapping(evidence, "speed_mps", -1.0)};
 }
 
-/// Detects a column force_left or force_right with the wrong sign: the speed v is then proportional
-/// to the difference of the logged forces instead of their sum. Compares the fraction of sum v^2
-/// that each explains:
+/// Fractions of sum y^2 over the windows that the sum and the difference of the logged forces
+/// explain:
 ///
-///     R^2 = (sum v s)^2 / (sum v^2 sum s^2)   for s = F'L + F'R and for s = F'R - F'L
+///     R^2 = (sum y s)^2 / (sum y^2 sum s^2)   for s = F'L + F'R and for s = F'R - F'L
+struct SideShares {
+  double of_sum = 0.0;
+  double of_difference = 0.0;
+  bool is_positive = true;  ///< y has the sign of F'R - F'L
+
+  bool follows_difference() const { return explains(of_difference, of_sum); }
+  bool follows_sum() const { return explains(of_sum, of_difference); }
+
+ private:
+  static bool explains(double one, double other) { return one > 0.5 && one > 3.0 * other; }
+};
+
+template <class Y>
+SideShares side_shares(const std::vector<EvidenceWindow>& windows, Y y_of) {
+  double yy = 0.0, ss = 0.0, dd = 0.0, ys = 0.0, yd = 0.0;
+  for (const EvidenceWindow& w : windows) {
+    const double y = y_of(w) / w.span_s;
+    yy += y * y;
+    ss += w.thrust * w.thrust;
+    dd += w.tau_diff_m * w.tau_diff_m;
+    ys += y * w.thrust;
+    yd += y * w.tau_diff_m;
+  }
+  const auto share = [yy](double yx, double xx) {
+    return yy > 0.0 && xx > 0.0 ? yx * yx / (yy * xx) : 0.0;
+  };
+  return {share(ys, ss), share(yd, dd), yd > 0.0};
+}
+
+/// Detects a speed that is proportional to F'R - F'L instead of the sum. If heading or yaw rate
+/// follow F'R - F'L as well, the forces are right and the speed is not that of the vehicle: it comes
+/// from wheels of which one side is reversed, or it is another column. Otherwise a force column has
+/// the wrong sign, but without a heading both columns of wheel odometry can be wrong instead.
 std::optional<Contradiction> check_one_side(const Evidence& evidence) {
-  constexpr double kExplains = 0.5;
-  constexpr double kMoreThanSum = 3.0;
   constexpr std::size_t kMinSeconds = 10;
   if (!evidence.has(LogChannel::kSpeed) || evidence.windows.size() < kMinSeconds) {
     return std::nullopt;
   }
-  double vv = 0.0, ss = 0.0, dd = 0.0, vs = 0.0, vd = 0.0;
-  for (const EvidenceWindow& w : evidence.windows) {
-    const double v = w.driven_m / w.span_s;
-    vv += v * v;
-    ss += w.thrust * w.thrust;
-    dd += w.tau_diff_m * w.tau_diff_m;
-    vs += v * w.thrust;
-    vd += v * w.tau_diff_m;
+  const std::vector<EvidenceWindow>& windows = evidence.windows;
+  const SideShares speed = side_shares(windows, [](const auto& w) { return w.driven_m; });
+  if (!speed.follows_difference()) return std::nullopt;
+  const std::string observed = fmt::format(
+      "the speed is proportional to force_right - force_left (R^2 {:.2f}) instead of "
+      "their sum ({:.2f})",
+      speed.of_difference, speed.of_sum);
+  const SideShares turn = side_shares(windows, [](const auto& w) { return w.turned_rad; });
+  const SideShares rate = side_shares(windows, [](const auto& w) { return w.rate_rad; });
+  constexpr std::string_view kReversed =
+      "the speed comes from wheels of which one side is reversed, or its column is exchanged with "
+      "that of the yaw rate";
+  if (turn.follows_difference() || rate.follows_difference()) {
+    return Contradiction{"speed_mps",
+                         fmt::format("{}, as the turning is ({:.2f}): {}", observed,
+                                     std::max(turn.of_difference, rate.of_difference), kReversed),
+                         "", "map the column of the vehicle's speed, forward positive"};
   }
-  const auto share = [vv](double vx, double xx) { return xx > 0.0 ? vx * vx / (vv * xx) : 0.0; };
-  const double of_difference = share(vd, dd);
-  if (!(vv > 0.0) || !(of_difference > kExplains) ||
-      !(of_difference > kMoreThanSum * share(vs, ss))) {
-    return std::nullopt;
+  const std::string column = speed.is_positive ? "force_left" : "force_right";
+  const std::string mapping = scaled_mapping(evidence, column, -1.0);
+  const std::string wrong = "this column has the wrong sign; forward is positive on both sides";
+  if (evidence.has(LogChannel::kHeading) || !evidence.has(LogChannel::kYawRate)) {
+    return Contradiction{column, fmt::format("{}: {}", observed, wrong), mapping};
   }
-  const std::string column = vd > 0.0 ? "force_left" : "force_right";
-  return Contradiction{
-      column,
-      fmt::format("the speed is proportional to force_right - force_left (R^2 {:.2f}) instead of "
-                  "their sum ({:.2f}): this column has the wrong sign; forward is "
-                  "positive on both sides",
-                  of_difference, share(vs, ss)),
-      scaled_mapping(evidence, column, -1.0)};
+  return Contradiction{column, fmt::format("{}: {}; or {}", observed, wrong, kReversed), mapping,
+                       fmt::format("find out which is true; only if it is the force, map it with "
+                                   "{}",
+                                   option_text("column '" + mapping + "'"))};
 }
 
 /// Speed gained during rearward thrust, m/s, summed over all spans of such thrust. The gain in a

@@ -187,6 +187,11 @@ std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLo
   return {{term->name(), p_value, by_log.files, by_log.coordinates, true}};
 }
 
+bool is_of_slope(std::string_view name) {
+  return name == kExtraForceNames[at(ExtraForce::kSlopeX)] ||
+         name == kExtraForceNames[at(ExtraForce::kSlopeY)];
+}
+
 LogComparison compare_parts(const std::vector<DrivingLog>& log, const LogFitOptions& options,
                             FamilyFit& common) {
   constexpr double kAgree = 0.05;
@@ -231,7 +236,7 @@ LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& commo
   LogComparison found{disagreement_on_missing(logs, files, options, common.fit), std::nullopt};
   for (LogDisagreement& one : disagreements_of(files, fits, common)) {
     one.withdraws = one.name == kSteeringTrimName || one.name == kForceImbalanceName ||
-                    one.name == kForceSaturationName;
+                    one.name == kForceSaturationName || is_of_slope(one.name);
     found.disagreements.push_back(std::move(one));
   }
   return found;

@@ -8,6 +8,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/units.h"
+#include "awmr/identify/logs/force_findings.h"
 
 namespace awmr {
 namespace {
@@ -185,10 +186,14 @@ std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& f
          fmt::format(
              "at the largest command of the logs, {:.3g}, the wheels push {:.1f} +- {:.1f} % less "
              "than in proportion to small commands: tyres slip, or the current or voltage of the "
-             "motors is limited. The fit compensates this, but simulations and gains assume "
+             "motors is limited. The fit compensates this{}, but simulations and gains assume "
              "proportional forces, which holds within {:.0f} % up to {:.2g}: limit wheel_force in "
              "the vehicle file to that, and record logs below it",
-             full, 100.0 * loss, 100.0 * error, 100.0 * kLinear, std::min(linear, full))});
+             full, 100.0 * loss, 100.0 * error,
+             saturates_much(fit) ? ", without intervals and without a comparison of parts of the "
+                                   "logs, because the true form is unknown"
+                                 : "",
+             100.0 * kLinear, std::min(linear, full))});
   }
   return findings;
 }
@@ -207,11 +212,12 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
                                                  const std::string& file) {
   std::vector<Finding> findings = delay_findings(fit, file);
   for (const auto& more : {steering_findings(fit, file), saturation_findings(fit, file),
-                           actuator_findings(fit, file)}) {
+                           actuator_findings(fit, file), force_findings(fit, file)}) {
     findings.insert(findings.end(), more.begin(), more.end());
   }
   if (!withdrawn) return findings;
   for (Finding& finding : findings) {
+    if (finding.code == "force-saturation" && saturates_much(fit)) continue;
     finding.message +=
         ". Its interval is withdrawn too, because the model error may cause this effect";
   }

@@ -46,6 +46,38 @@ double largest_command(const LogProblem& problem) {
   return largest;
 }
 
+/// Largest absolute measurement of a channel; 1 without measurements.
+double fastest_of(const LogProblem& problem, LogChannel channel) {
+  double largest = 0.0;
+  const DrivingLog* last = nullptr;
+  for (const FitWindow& window : problem.windows) {
+    if (window.rows.log == last) continue;
+    last = window.rows.log;
+    largest = std::max(largest, largest_measured(*last, channel));
+  }
+  return largest > 0.0 ? largest : 1.0;
+}
+
+/// Adds the forces of extra_forces.h that can still be added: Stribeck friction to a resistance
+/// with Coulomb friction, and a slope if the logs show the heading in world coordinates.
+void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
+  const std::vector<FreeQuantity>& quantities = problem.model.quantities;
+  const auto is_free = [&](ParameterId id) {
+    return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.is(id); });
+  };
+  for (const auto& [force, coulomb] :
+       {std::pair(ExtraForce::kSurgeStribeck, ParameterId::kSurgeCoulomb),
+        std::pair(ExtraForce::kYawStribeck, ParameterId::kYawCoulomb)}) {
+    if (is_free(coulomb) && !has_force(quantities, force)) found.push_back(extra_force(force));
+  }
+  const bool has_heading = problem.model.noise.contains(LogChannel::kHeading) ||
+                           problem.model.noise.contains(LogChannel::kX);
+  if (has_heading && !has_force(quantities, ExtraForce::kSlopeX)) {
+    found.push_back(extra_force(ExtraForce::kSlopeX));
+    found.push_back(extra_force(ExtraForce::kSlopeY));
+  }
+}
+
 }  // namespace
 
 std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
@@ -72,6 +104,7 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   if (full_command > 0.0 && !has_kind(quantities, Kind::kForceSaturation)) {
     found.push_back(force_saturation(full_command));
   }
+  add_forces(problem, found);
   return found;
 }
 
@@ -112,7 +145,8 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
   for (const FreeTerm& term : more) {
     quantities.push_back(term.quantity);
     const double most = kLargestFirstStep * term.quantity.large_change;
-    begin.push_back(std::clamp(term.begin, -most, most));
+    const bool is_step = term.quantity.scale == Scale::kLinear;
+    begin.push_back(is_step ? std::clamp(term.begin, -most, most) : term.begin);
   }
   Extended from = extended(with_white_noise(settled.problem), settled.point, quantities, begin);
   return settle_noise(std::move(from.problem), std::move(from.point), loss, 1);
@@ -162,8 +196,17 @@ void consider_filters(const NoiseIteration& settled,
 }
 
 /// The candidate with the terms that are freed together with it.
-std::vector<FreeTerm> with_companion(const CandidateTerm& candidate) {
+std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateTerm& candidate) {
   std::vector<FreeTerm> terms{{candidate.quantity, candidate.value}};
+  for (const auto& [force, channel] : {std::pair(ExtraForce::kSurgeStribeck, LogChannel::kSpeed),
+                                       std::pair(ExtraForce::kYawStribeck, LogChannel::kYawRate)}) {
+    if (!candidate.quantity.is(force)) continue;
+    terms.push_back(stribeck_speed_term(force, fastest_of(problem, channel)));
+  }
+  for (const auto& [one, other] : {std::pair(ExtraForce::kSlopeX, ExtraForce::kSlopeY),
+                                   std::pair(ExtraForce::kSlopeY, ExtraForce::kSlopeX)}) {
+    if (candidate.quantity.is(one)) terms.push_back({extra_force(other), 0.0});
+  }
   if (candidate.quantity.kind == FreeQuantity::Kind::kForceSaturation) {
     const FreeQuantity sharpness = saturation_sharpness();
     terms.push_back({sharpness, to_coordinate(sharpness.scale, kDefaultSharpness)});
@@ -191,7 +234,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     const FreeQuantity& more = candidate_term.quantity;
     const bool is_sensor = more.kind == FreeQuantity::Kind::kSensorDelay;
     if (is_sensor && has_sensor) continue;
-    NoiseIteration fit = tried(settled, with_companion(candidate_term), loss);
+    NoiseIteration fit = tried(settled, with_companion(settled.problem, candidate_term), loss);
     const double found_s = fit.point.coordinates.back();
     if (&candidate_term == &terms.front() && candidate_term.significance > kBeyondDoubt) {
       strongest = fit;

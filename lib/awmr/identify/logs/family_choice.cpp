@@ -164,6 +164,28 @@ LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_l
   return of_first;
 }
 
+/// Names of the free delays, lags, command errors and offsets of a fit.
+std::set<std::string> names_of_terms(const LogFit& fit) {
+  std::set<std::string> names;
+  for (const FreeQuantity& q : fit.quantities) {
+    if (q.kind != FreeQuantity::Kind::kParameter) names.insert(q.name());
+  }
+  return names;
+}
+
+/// Fits Stribeck friction of one axis (yaw if `of_yaw`, else surge) in addition to Coulomb and
+/// linear friction. Keeps this fit if it is significantly better than `result.best`. (A power with
+/// Coulomb friction resembles Stribeck friction so much that a score test does not show it.)
+void compete_with_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                           bool of_yaw, BestFamily& result) {
+  if (!result.best.fit.usable || result.is_out_of_time) return;
+  FamilyFit stribeck = fit_stribeck(logs, power_law, result.best, of_yaw);
+  if (aic_lead(stribeck.fit, result.best.fit) > kFamilyAicThreshold) {
+    std::swap(stribeck, result.best);
+    result.others.push_back(std::move(stribeck));
+  }
+}
+
 /// Searches delays, lags and command errors again for the best families, because terms that were
 /// found with other families may only have compensated for a wrong resistance. Keeps the new fit if
 /// it is better.
@@ -173,7 +195,10 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
   if (!best.fit.usable || result.is_out_of_time) return;
   LogFitOptions options = from_optimum(best.options, best);
   options.finds_delays = true;
-  options.terms = power_law.terms;
+  std::erase_if(options.terms, [](const FreeTerm& term) {
+    return term.quantity.kind != FreeQuantity::Kind::kExtraForce;
+  });
+  options.terms.insert(options.terms.end(), power_law.terms.begin(), power_law.terms.end());
   options.candidate_terms = power_law.candidate_terms;
   FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
   if (is_over(power_law)) {
@@ -181,15 +206,6 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
     result.findings.push_back(terms_not_searched(logs.front().file, best));
   }
   if (aic_lead(own.fit, best.fit) > 0.0) best = std::move(own);
-}
-
-/// Names of the free delays, lags, command errors and offsets of a fit.
-std::set<std::string> names_of_terms(const LogFit& fit) {
-  std::set<std::string> names;
-  for (const FreeQuantity& q : fit.quantities) {
-    if (q.kind != FreeQuantity::Kind::kParameter) names.insert(q.name());
-  }
-  return names;
 }
 
 /// Returns the families of one axis (yaw if `of_yaw`, else surge) to compare again, and removes
@@ -276,9 +292,13 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
   std::map<bool, LogFit> winners;  // by axis (true: yaw), before delays are searched again
   const auto contest_axis = [&](bool of_yaw, const std::vector<Contender>& others) {
     const auto before = std::pair(result.best.surge, result.best.yaw);
+    const std::set<std::string> terms = names_of_terms(result.best.fit);
     LogFit of_first = compete(logs, power_law, others, contest.lead, result);
-    winners.try_emplace(of_yaw, result.best.fit);
-    const bool is_other = std::pair(result.best.surge, result.best.yaw) != before;
+    if (winners.try_emplace(of_yaw, result.best.fit).second) {
+      compete_with_stribeck(logs, power_law, of_yaw, result);
+    }
+    const bool is_other = std::pair(result.best.surge, result.best.yaw) != before ||
+                          names_of_terms(result.best.fit) != terms;
     if (is_other) search_terms_again(logs, power_law, result);
     if (before == families_of_first) power_fit = std::move(of_first);
   };

@@ -62,13 +62,7 @@ LogFitOptions without_terms(const LogFitOptions& power_law, const FamilyFit& inn
 /// Largest absolute value of a channel in the logs (m/s or rad/s); 1 without measurements.
 double fastest(const std::vector<DrivingLog>& logs, LogChannel channel) {
   double most = 0.0;
-  for (const DrivingLog& log : logs) {
-    for (std::size_t row = 0; log[channel] && row < log.rows(); ++row) {
-      if (is_measurement(log, channel, row)) {
-        most = std::max(most, std::abs(log[channel]->value[row]));
-      }
-    }
-  }
+  for (const DrivingLog& log : logs) most = std::max(most, largest_measured(log, channel));
   return most > 0.0 ? most : 1.0;
 }
 
@@ -137,14 +131,30 @@ FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& p
 }
 
 FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                   const FamilyFit& inner, Family surge, Family yaw) {
+                   const FamilyFit& inner, Family surge, Family yaw,
+                   const std::vector<FreeTerm>& more) {
   if (!inner.fit.usable) return fit_family(logs, power_law, surge, yaw);
-  const LogFitOptions at_optimum = without_terms(power_law, inner, surge, yaw);
+  LogFitOptions at_optimum = without_terms(power_law, inner, surge, yaw);
+  at_optimum.terms.insert(at_optimum.terms.end(), more.begin(), more.end());
   LogFitOptions near = at_optimum;
   begin_near(logs, inner, surge, yaw, near.initial_guess);
   LogFitOptions options = with_families(std::move(near), surge, yaw);
   options.also_from = {at_optimum.initial_guess};
   return fit_with(logs, std::move(options), surge, yaw);
+}
+
+FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                       const FamilyFit& inner, bool of_yaw) {
+  constexpr double kShare = 0.3;  // initial guess of the friction, relative to the resistance
+  const Plant<double> plant =
+      plant_of(inner.options.vehicle, fitted_values(inner.options, inner.fit));
+  const ExtraForce force = of_yaw ? ExtraForce::kYawStribeck : ExtraForce::kSurgeStribeck;
+  const LogChannel channel = of_yaw ? LogChannel::kYawRate : LogChannel::kSpeed;
+  const double top = fastest(logs, channel);
+  const double resistance = (of_yaw ? plant.yaw : plant.surge).at(kStribeckShare * top);
+  return fit_from(logs, power_law, inner, of_yaw ? inner.surge : Family::kCoulombLinear,
+                  of_yaw ? Family::kCoulombLinear : inner.yaw,
+                  {{extra_force(force), kShare * resistance}, stribeck_speed_term(force, top)});
 }
 
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,

@@ -34,9 +34,15 @@ FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& p
 /// Fits the logs under the families `surge` and `yaw`, starting from the optimum of `inner`, a fit
 /// of other families. There are two starts: the curves of the new families nearest to those of
 /// `inner`, and the values of `inner`, with the initial guess of `power_law` for terms that are 0
-/// in `inner`. If `inner` did not converge, as fit_family().
+/// in `inner`. If `inner` did not converge, as fit_family(). `more`: terms that are freed too.
 FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                   const FamilyFit& inner, Family surge, Family yaw);
+                   const FamilyFit& inner, Family surge, Family yaw,
+                   const std::vector<FreeTerm>& more = {});
+
+/// Fits the logs with Coulomb, linear and Stribeck friction of the yaw rate (`of_yaw`) or the speed,
+/// starting from the optimum of `inner`, a usable fit of other families.
+FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                       const FamilyFit& inner, bool of_yaw);
 
 /// If `alternative` is better than `first`, repeats the search for the families of `first` from the
 /// optimum of `alternative`, so that `first` does not lose only because its search failed. Returns

@@ -61,10 +61,10 @@ std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities,
 }
 
 /// True if the search stopped at an end of the quantity's range. A delay, a lag or a term of a
-/// family at 0 does not count, because 0 is a possible value; nor does the sharpness of a
-/// saturation, whose limits are a gradual loss of force and a limit that begins at once.
+/// family at 0 does not count, because 0 is a possible value; nor does the form of a saturation
+/// (sharpness) or of Stribeck friction (speed scale), whose limits are possible too.
 bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
-  if (q.kind == FreeQuantity::Kind::kSaturationSharpness) return false;
+  if (q.kind == FreeQuantity::Kind::kSaturationSharpness || q.is_stribeck_speed()) return false;
   if (q.may_be_zero()) return coordinate >= bounds.hi;
   const bool term = q.kind == FreeQuantity::Kind::kParameter && info(q.id).term;
   if (term && coordinate == bounds.lo) return false;

@@ -1,5 +1,6 @@
 #include "awmr/identify/logs/linear_rates.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "awmr/core/index.h"
@@ -143,17 +144,80 @@ void add_back_emf(const LinearPlant& plant, const State<double>& s, bool left_on
   a.r_steering -= k * along(braking.by_steering, 2);
 }
 
+/// Subtracts from the resistance g at the speed w the part s (1 - exp(-(w/w_s)^2)) of the Stribeck
+/// friction. add_friction() adds c + s, so that the sum has its maximum c + s at rest.
+template <double DrivenSlopes::*kRate>
+void subtract_stribeck(const ExtraForces& extra, ExtraForce force, ExtraForce speed, double w,
+                       double per_inertia, ResistanceSlopes& g, LinearRates& out) {
+  const double size = extra[force];
+  const double scale = extra[speed];
+  const double ratio = w / scale;
+  const double rest = std::exp(-ratio * ratio);
+  const double sign = w > 0.0 ? 1.0 : w < 0.0 ? -1.0 : 0.0;
+  const double by_ratio = 2.0 * size * rest * std::abs(ratio);
+  g.value -= sign * size * (1.0 - rest);
+  g.by_speed -= by_ratio / scale;
+  out.by_extra[at(force)].*kRate = sign * (1.0 - rest) * per_inertia;
+  out.by_extra[at(speed)].*kRate = -by_ratio * ratio / scale * per_inertia;
+}
+
+/// Adds the acceleration by the slope of the ground.
+void add_slope(const ExtraForces& extra, double psi_rad, LinearRates& out) {
+  const double c = std::cos(psi_rad);
+  const double d = std::sin(psi_rad);
+  const double along = extra[ExtraForce::kSlopeX] * c + extra[ExtraForce::kSlopeY] * d;
+  const double across = extra[ExtraForce::kSlopeY] * c - extra[ExtraForce::kSlopeX] * d;
+  out.rates.u_mps += along;
+  out.rates.v_mps += across;
+  out.by_state.u_psi = across;
+  out.by_state.v_psi = -along;
+  out.by_extra[at(ExtraForce::kSlopeX)] = {.u = c, .v = -d};
+  out.by_extra[at(ExtraForce::kSlopeY)] = {.u = d, .v = c};
+}
+
+Plant<double> with_stribeck(Plant<double> p, const ExtraForces& extra) {
+  p.surge.coulomb += extra[ExtraForce::kSurgeStribeck];
+  p.yaw.coulomb += extra[ExtraForce::kYawStribeck];
+  return p;
+}
+
+/// True if `one` is not 0, or one of both is free or not 0.
+bool has_force(const ExtraForces& extra, ExtraForce one, ExtraForce other) {
+  return extra[one] != 0.0 || std::ranges::any_of(extra.columns, [&](const ExtraColumn& column) {
+           return column.force == one || column.force == other;
+         });
+}
+
 /// Multiplies v_dot and its derivatives by `pace` (LinearPlant::sway_pace).
 void slow_sway(double pace, LinearRates& out) {
   StateSlopes& a = out.by_state;
-  for (double* rate : {&out.rates.v_mps, &a.v_u, &a.v_v, &a.v_r, &a.v_steering,
+  for (double* rate : {&out.rates.v_mps, &a.v_psi, &a.v_u, &a.v_v, &a.v_r, &a.v_steering,
                        &out.by_force_left.v, &out.by_force_right.v}) {
     *rate *= pace;
   }
   for (DrivenSlopes& by : out.by_parameter) by.v *= pace;
+  for (DrivenSlopes& by : out.by_extra) by.v *= pace;
 }
 
 }  // namespace
+
+LinearPlant::LinearPlant(const Plant<double>& p, bool by_back_emf, double longest_step_s,
+                         const ExtraForces& extra_forces)
+    : plant(without_friction(p)),
+      friction(friction_rates(with_stribeck(p, extra_forces))),
+      extra(extra_forces),
+      surge(plant.surge),
+      yaw(plant.yaw),
+      per_mass(1.0 / p.mass_norm),
+      per_inertia(1.0 / p.inertia_norm),
+      per_lag(1.0 / p.steering_time_constant_s),
+      sway_pace(std::min(1.0, p.mass_norm / (p.sway_alpha * longest_step_s))),
+      has_back_emf(by_back_emf || p.back_emf_s_per_m > 0.0),
+      has_surge_stribeck(
+          has_force(extra, ExtraForce::kSurgeStribeck, ExtraForce::kSurgeStribeckSpeed)),
+      has_yaw_stribeck(has_force(extra, ExtraForce::kYawStribeck, ExtraForce::kYawStribeckSpeed)),
+      has_slope(has_force(extra, ExtraForce::kSlopeX, ExtraForce::kSlopeY) ||
+                has_force(extra, ExtraForce::kSlopeY, ExtraForce::kSlopeX)) {}
 
 LinearResistance::LinearResistance(const Resistance<double>& law) : law_(law) {
   if (law.rest_speed > 0.0) at_rest_speed_ = at(law.rest_speed);
@@ -196,8 +260,18 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
   const WheelForce right = wheel_force(command.force.right, p.wheel_dead_zone);
   const double sum = left.value + right.value;
   const double difference = right.value - left.value;
-  const ResistanceSlopes g1 = plant.surge(s.u_mps);
-  const ResistanceSlopes g3 = plant.yaw(s.r_radps);
+  ResistanceSlopes g1 = plant.surge(s.u_mps);
+  ResistanceSlopes g3 = plant.yaw(s.r_radps);
+  if (plant.has_surge_stribeck) {
+    subtract_stribeck<&DrivenSlopes::u>(plant.extra, ExtraForce::kSurgeStribeck,
+                                        ExtraForce::kSurgeStribeckSpeed, s.u_mps, plant.per_mass,
+                                        g1, out);
+  }
+  if (plant.has_yaw_stribeck) {
+    subtract_stribeck<&DrivenSlopes::r>(plant.extra, ExtraForce::kYawStribeck,
+                                        ExtraForce::kYawStribeckSpeed, s.r_radps, plant.per_inertia,
+                                        g3, out);
+  }
 
   add_kinematics(s, out);
   add_servo(plant, s, command.steering_rad, out);
@@ -252,17 +326,19 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
     };
     add_back_emf(plant, s, is_on(left), is_on(right), sin_d, cos_d, out);
   }
+  if (plant.has_slope) add_slope(plant.extra, s.psi_rad, out);
   if (plant.sway_pace < 1.0) slow_sway(plant.sway_pace, out);
 }
 
 namespace {
 
-/// Adds Coulomb friction c to the rate of one speed w and to its derivatives: w_dot -= s c/inertia,
-/// with the sign s of the motion. The inertia is m' or I'z.
+/// Adds the friction c at rest to the rate of one speed w and to its derivatives:
+/// w_dot -= sgn(w) c/inertia. The inertia is m' or I'z.
 template <double DrivenSlopes::*kRate>
 void brake(double way, double friction, double per_inertia, ParameterId coulomb,
-           ParameterId inertia, double& rate, LinearRates& out) {
+           ExtraForce stribeck, ParameterId inertia, double& rate, LinearRates& out) {
   rate -= way * friction;
+  out.by_extra[at(stribeck)].*kRate -= way * per_inertia;
   out.by_parameter[at(coulomb)].*kRate = -way * per_inertia;
   out.by_parameter[at(inertia)].*kRate += way * friction * per_inertia;
 }
@@ -271,6 +347,7 @@ template <double DrivenSlopes::*kRate>
 void hold(double& rate, LinearRates& out) {
   rate = 0.0;
   for (DrivenSlopes& by : out.by_parameter) by.*kRate = 0.0;
+  for (DrivenSlopes& by : out.by_extra) by.*kRate = 0.0;
   out.by_force_left.*kRate = 0.0;
   out.by_force_right.*kRate = 0.0;
 }
@@ -281,18 +358,19 @@ void add_friction(const LinearPlant& p, const Sliding& way, LinearRates& out) {
   StateSlopes& a = out.by_state;
   if (is_held(way.surge, p.friction.surge_mps2)) {
     hold<&DrivenSlopes::u>(out.rates.u_mps, out);
-    a.u_u = a.u_v = a.u_r = a.u_steering = 0.0;
+    a.u_psi = a.u_u = a.u_v = a.u_r = a.u_steering = 0.0;
   } else if (p.friction.surge_mps2 > 0.0) {
     brake<&DrivenSlopes::u>(way.surge, p.friction.surge_mps2, p.per_mass,
-                            ParameterId::kSurgeCoulomb, ParameterId::kMassNorm, out.rates.u_mps,
-                            out);
+                            ParameterId::kSurgeCoulomb, ExtraForce::kSurgeStribeck,
+                            ParameterId::kMassNorm, out.rates.u_mps, out);
   }
   if (is_held(way.yaw, p.friction.yaw_radps2)) {
     hold<&DrivenSlopes::r>(out.rates.r_radps, out);
     a.r_u = a.r_v = a.r_r = a.r_steering = 0.0;
   } else if (p.friction.yaw_radps2 > 0.0) {
     brake<&DrivenSlopes::r>(way.yaw, p.friction.yaw_radps2, p.per_inertia, ParameterId::kYawCoulomb,
-                            ParameterId::kInertiaNorm, out.rates.r_radps, out);
+                            ExtraForce::kYawStribeck, ParameterId::kInertiaNorm, out.rates.r_radps,
+                            out);
   }
 }
 

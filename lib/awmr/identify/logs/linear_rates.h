@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 
+#include "awmr/identify/logs/extra_forces.h"
 #include "awmr/model/dynamics.h"
 #include "awmr/model/parameters.h"
 #include "awmr/model/sliding.h"
@@ -51,18 +52,10 @@ struct LinearPlant {
   /// `by_back_emf`: true: computes the derivatives by k_e even if k_e is 0. `longest_step_s`:
   /// longest Runge-Kutta step that will be used; 0: all steps are short enough for sway.
   explicit LinearPlant(const Plant<double>& p, bool by_back_emf = false,
-                       double longest_step_s = 0.0)
-      : plant(without_friction(p)),
-        friction(friction_rates(p)),
-        surge(plant.surge),
-        yaw(plant.yaw),
-        per_mass(1.0 / p.mass_norm),
-        per_inertia(1.0 / p.inertia_norm),
-        per_lag(1.0 / p.steering_time_constant_s),
-        sway_pace(std::min(1.0, p.mass_norm / (p.sway_alpha * longest_step_s))),
-        has_back_emf(by_back_emf || p.back_emf_s_per_m > 0.0) {}
+                       double longest_step_s = 0.0, const ExtraForces& extra_forces = {});
   Plant<double> plant;
-  FrictionRates<double> friction;
+  FrictionRates<double> friction;  ///< at rest: by c + s, with the Stribeck friction s
+  ExtraForces extra;
   LinearResistance surge;
   LinearResistance yaw;
   double per_mass;
@@ -72,6 +65,9 @@ struct LinearPlant {
   /// then reaches the same steady value with a time constant of one step.
   double sway_pace;
   bool has_back_emf;
+  bool has_surge_stribeck;
+  bool has_yaw_stribeck;
+  bool has_slope;
 };
 
 /// Wheel forces and steering command, held constant over a step.
@@ -85,8 +81,8 @@ struct HeldCommand {
 struct StateSlopes {
   double x_psi, x_u, x_v;
   double y_psi, y_u, y_v;
-  double u_u, u_v, u_r, u_steering;
-  double v_u, v_v, v_r, v_steering;
+  double u_psi, u_u, u_v, u_r, u_steering;
+  double v_psi, v_u, v_v, v_r, v_steering;
   double r_u, r_v, r_r, r_steering;
   double steering_steering;
 };
@@ -104,6 +100,7 @@ struct LinearRates {
   State<double> rates{};
   StateSlopes by_state{};
   std::array<DrivenSlopes, kParameterCount> by_parameter{};
+  std::array<DrivenSlopes, kExtraForceCount> by_extra{};  ///< only of the free ones
   DrivenSlopes by_force_left;
   DrivenSlopes by_force_right;
   double steering_by_command = 0.0;

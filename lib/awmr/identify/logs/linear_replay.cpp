@@ -72,8 +72,8 @@ std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double
   return {a.x_psi * psi + a.x_u * u + a.x_v * v,
           a.y_psi * psi + a.y_u * u + a.y_v * v,
           r,
-          a.u_u * u + a.u_v * v + a.u_r * r + a.u_steering * steering + b[0],
-          a.v_u * u + a.v_v * v + a.v_r * r + a.v_steering * steering + b[columns],
+          a.u_psi * psi + a.u_u * u + a.u_v * v + a.u_r * r + a.u_steering * steering + b[0],
+          a.v_psi * psi + a.v_u * u + a.v_v * v + a.v_r * r + a.v_steering * steering + b[columns],
           a.r_u * u + a.r_v * v + a.r_r * r + a.r_steering * steering + b[2 * columns],
           a.steering_steering * steering + b[3 * columns]};
 }
@@ -98,12 +98,13 @@ double* LinearMotion::row(LogChannel channel, std::size_t columns) {
 
 LinearStepper::LinearStepper(const Plant<double>& plant, std::size_t columns,
                              const std::vector<ParameterColumn>& parameters,
-                             const CommandColumns& command_columns, double longest_step_s)
+                             const CommandColumns& command_columns, double longest_step_s,
+                             const ExtraForces& extra)
     : plant_(
           plant,
           std::ranges::any_of(
               parameters, [](const ParameterColumn& p) { return p.id == ParameterId::kBackEmf; }),
-          longest_step_s),
+          longest_step_s, extra),
       columns_(columns),
       command_columns_(command_columns),
       driven_(kStages * kDrivenSize * columns, 0.0) {
@@ -121,6 +122,12 @@ LinearStepper::LinearStepper(const Plant<double>& plant, std::size_t columns,
 void LinearStepper::note_driven(const DelayedCommand& command, double* driven) const {
   for (const Term& t : terms_) {
     driven[t.place] = rates_.by_parameter[t.parameter].*t.rate * t.factor;
+  }
+  for (const ExtraColumn& extra : plant_.extra.columns) {
+    const DrivenSlopes& by = rates_.by_extra[at(extra.force)];
+    for (std::size_t i = 0; i < kDrivenSize; ++i) {
+      driven[i * columns_ + extra.column] = by.*kDriven[i] * extra.factor;
+    }
   }
   const CommandColumns& c = command_columns_;
   if (c.delay) set_column({command.by_delay, 0.0}, *c.delay, driven);

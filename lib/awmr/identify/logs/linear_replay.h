@@ -89,10 +89,11 @@ class LinearStepper {
  public:
   /// `columns`: number of derivatives; 0: the state alone is computed. `parameters`: the columns
   /// that belong to model parameters. `command_columns`: columns_of() of the command path.
-  /// `longest_step_s`: as for LinearPlant.
+  /// `longest_step_s`, `extra`: as for LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
                 const std::vector<ParameterColumn>& parameters,
-                const CommandColumns& command_columns, double longest_step_s = 0.0);
+                const CommandColumns& command_columns, double longest_step_s = 0.0,
+                const ExtraForces& extra = {});
   /// Makes one classical Runge-Kutta step of h_s seconds with friction, like
   /// rk4_step_with_friction().
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);

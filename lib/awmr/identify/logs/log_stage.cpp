@@ -13,6 +13,7 @@
 #include "awmr/identify/logs/between_logs.h"
 #include "awmr/identify/logs/command_findings.h"
 #include "awmr/identify/logs/cross_validation.h"
+#include "awmr/identify/logs/force_findings.h"
 #include "awmr/identify/logs/inertia_check.h"
 #include "awmr/identify/logs/log_report.h"
 #include "awmr/identify/logs/log_setup.h"
@@ -128,7 +129,9 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
     if (!fit.refusal_reason[i].empty()) {
       if (parameter) stage.reasons[q.id] = fit.refusal_reason[i];
       if (q.is(ParameterId::kBackEmf)) stage.is_back_emf_open = true;
-      if (!parameter && q.kind != FreeQuantity::Kind::kSaturationSharpness) {
+      const bool is_form =
+          q.kind == FreeQuantity::Kind::kSaturationSharpness || q.is_stribeck_speed();
+      if (!parameter && !is_form) {
         stage.findings.push_back({file, 0, Severity::kWarning, "not-identifiable",
                                   fmt::format("{}: {}", q.name(), fit.refusal_reason[i])});
       }
@@ -198,7 +201,9 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   }
   FamilyFit chosen = fit_families(logs, power_law, options, std::move(first), stage);
   show_step(options, "comparing the logs with each other");
-  const LogComparison compared = compare_logs(logs, chosen);
+  // An inexact form of a large saturation gives every part of the logs other values.
+  const LogComparison compared =
+      saturates_much(chosen.fit) ? LogComparison{} : compare_logs(logs, chosen);
   stage.withdraws_intervals =
       stage.withdraws_intervals || compared.missed || saturates_much(chosen.fit) ||
       std::ranges::any_of(compared.disagreements, &LogDisagreement::withdraws);
@@ -208,6 +213,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   }
   append(stage.findings, in_words(compared.disagreements, stage.withdraws_intervals));
   if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
+  withdraw_by_stribeck(chosen.fit);
   if (stage.withdraws_intervals) withdraw_intervals(chosen.fit.report);
   stage.reports[stage.chosen_report] = chosen.fit.report;
   const std::string& file = logs.front().file;

@@ -18,6 +18,8 @@ Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& 
   constexpr double kLargestImbalance = 0.5;
   constexpr double kLargestSaturation = 0.95;
   constexpr Interval kSharpness{1.0, 20.0};
+  constexpr Interval kStribeckSpeed{0.01, 0.5};  // relative to the largest speed
+  constexpr double kSteepest_mps2 = 5.0;
   if (quantity.kind == FreeQuantity::Kind::kDelay ||
       quantity.kind == FreeQuantity::Kind::kSteeringDelay) {
     return {-kLongest_s, kLongest_s};
@@ -32,6 +34,13 @@ Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& 
   if (quantity.kind == FreeQuantity::Kind::kSaturationSharpness) {
     return {to_coordinate(quantity.scale, kSharpness.lo),
             to_coordinate(quantity.scale, kSharpness.hi)};
+  }
+  if (quantity.is_stribeck_speed()) {
+    return {to_coordinate(quantity.scale, kStribeckSpeed.lo * quantity.fastest),
+            to_coordinate(quantity.scale, kStribeckSpeed.hi * quantity.fastest)};
+  }
+  if (quantity.kind == FreeQuantity::Kind::kExtraForce) {
+    return quantity.may_be_zero() ? Interval{0.0, 1e6} : Interval{-kSteepest_mps2, kSteepest_mps2};
   }
   if (quantity.may_be_zero()) return {0.0, kLongest_s};
   if (quantity.kind == FreeQuantity::Kind::kBias) return {-1e6, 1e6};
@@ -70,6 +79,8 @@ std::string FreeQuantity::name() const {
       return std::string(kForceSaturationName);
     case Kind::kSaturationSharpness:
       return std::string(kSaturationSharpnessName);
+    case Kind::kExtraForce:
+      return std::string(kExtraForceNames[at(force)]);
     case Kind::kSensorDelay:
       return fmt::format("{}{}", kSensorDelayPrefix, info(channel).name);
     case Kind::kSensorLag:
@@ -117,6 +128,23 @@ FreeQuantity saturation_sharpness() {
   return {.kind = FreeQuantity::Kind::kSaturationSharpness, .scale = Scale::kLogarithmic};
 }
 
+FreeQuantity extra_force(ExtraForce force) {
+  const bool is_slope = force == ExtraForce::kSlopeX || force == ExtraForce::kSlopeY;
+  return {.kind = FreeQuantity::Kind::kExtraForce,
+          .force = force,
+          .large_change = is_slope ? 0.5 : 0.2};
+}
+
+FreeTerm stribeck_speed_term(ExtraForce force, double fastest) {
+  const bool is_of_yaw = force == ExtraForce::kYawStribeck;
+  const FreeQuantity speed{
+      .kind = FreeQuantity::Kind::kExtraForce,
+      .force = is_of_yaw ? ExtraForce::kYawStribeckSpeed : ExtraForce::kSurgeStribeckSpeed,
+      .scale = Scale::kLogarithmic,
+      .fastest = fastest};
+  return {speed, to_coordinate(speed.scale, kStribeckShare * fastest)};
+}
+
 FreeQuantity sensor_delay_of(LogChannel channel) {
   return {.kind = FreeQuantity::Kind::kSensorDelay, .channel = channel, .large_change = 0.1};
 }
@@ -130,6 +158,10 @@ FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows) {
 
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind) {
   return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.kind == kind; });
+}
+
+bool has_force(const std::vector<FreeQuantity>& quantities, ExtraForce force) {
+  return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.is(force); });
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "awmr/core/interval.h"
+#include "awmr/identify/logs/extra_forces.h"
 #include "awmr/model/plant_of.h"
 #include "awmr/model/transform.h"
 #include "awmr/model/vehicle.h"
@@ -27,6 +28,7 @@ struct FreeQuantity {
     kForceImbalance,       ///< (right - left)/(right + left) of the forces at equal commands
     kForceSaturation,      ///< L of force_saturation(): large commands push less than in proportion
     kSaturationSharpness,  ///< n of force_saturation()
+    kExtraForce,           ///< Stribeck friction or a slope (extra_forces.h)
     kBias,                 ///< constant offset of a channel
     kSensorDelay,          ///< latency of a channel
     kSensorLag             ///< time constant of a filter that smooths a channel
@@ -35,21 +37,29 @@ struct FreeQuantity {
   ParameterId id = ParameterId::kMassNorm;  ///< of kParameter
   LogChannel channel =
       LogChannel::kX;  ///< of kSensorDelay (kX: x and y together), kSensorLag, kBias
+  ExtraForce force = ExtraForce::kSlopeX;  ///< of kExtraForce
   Scale scale = Scale::kLinear;
   /// Change of the coordinate that counts as large: 1 for a logarithm (a factor e), an exponent or
   /// a bias (SI); 0.2 for a term of a family; 0.1 for a delay or lag (s), trim (rad), imbalance or
-  /// saturation. Standard deviations of priors and limits of identifiability are
+  /// saturation; 0.2 for Stribeck friction; 0.5 for a slope (m/s^2). Standard deviations of priors and limits of identifiability are
   /// multiples of this change.
   double large_change = 1.0;
   double full_command = 1.0;  ///< of kForceSaturation: F'm of force_saturation(), > 0
+  double fastest = 1.0;       ///< of a Stribeck speed: largest speed of the logs
   bool is_at_rows = false;    ///< of kSensorLag: the filter of sensor_lag_of() at the rows of a log
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
-  /// True for delays, lags and the saturation, which cannot be negative, so that 0 is an end of
+  bool is(ExtraForce one) const { return kind == Kind::kExtraForce && force == one; }
+  /// True for the speed scales of Stribeck friction.
+  bool is_stribeck_speed() const {
+    return is(ExtraForce::kSurgeStribeckSpeed) || is(ExtraForce::kYawStribeckSpeed);
+  }
+  /// True for delays, lags, saturation and Stribeck friction, which cannot be negative, so that 0 is an end of
   /// their range.
   bool may_be_zero() const {
     return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag ||
-           kind == Kind::kForceSaturation;
+           kind == Kind::kForceSaturation || is(ExtraForce::kSurgeStribeck) ||
+           is(ExtraForce::kYawStribeck);
   }
   std::string name() const;
   double value(double coordinate) const;
@@ -89,6 +99,9 @@ FreeQuantity force_saturation(double full_command);
 FreeQuantity saturation_sharpness();
 inline constexpr double kDefaultSharpness = 4.0;  ///< of a fit without free sharpness
 
+/// Stribeck friction (`force`: its s of surge or yaw), or a component of the slope.
+FreeQuantity extra_force(ExtraForce force);
+
 /// Time constant of a first-order filter that smooths a channel, s. `is_at_rows`: a recursive
 /// filter with one step for each row of the log, y(row) = e y(row - 1) + (1 - e) u(row), in place
 /// of a continuous filter (smoothed_channel.h).
@@ -103,7 +116,13 @@ struct FreeTerm {
   double begin;  ///< coordinate of the initial guess
 };
 
+/// Speed scale w_s of the Stribeck friction `force`, with its initial guess. `fastest`: largest speed
+/// (m/s or rad/s) of the logs.
+FreeTerm stribeck_speed_term(ExtraForce force, double fastest);
+inline constexpr double kStribeckShare = 0.1;  ///< initial guess of w_s, relative to `fastest`
+
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind);
+bool has_force(const std::vector<FreeQuantity>& quantities, ExtraForce force);
 
 /// Free quantities of a fit, in the order of FreeQuantity::Kind.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);

@@ -22,6 +22,7 @@ struct Unpacked {
   Plant<double> plant;
   std::vector<ParameterColumn> parameters;
   CommandPath path;
+  ExtraForces extra;
   std::array<double, kChannelCount> bias{};
   std::array<std::optional<std::size_t>, kChannelCount> bias_column{};
   std::array<std::optional<DelayColumn>, kChannelCount> sensor_delay{};
@@ -78,6 +79,10 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
         break;
       case FreeQuantity::Kind::kSaturationSharpness:
         u.path.sharpness = {number, i};
+        break;
+      case FreeQuantity::Kind::kExtraForce:
+        u.extra[quantity.force] = number;
+        u.extra.columns.push_back({quantity.force, i, quantity.jacobian(coordinates[i])});
         break;
       case FreeQuantity::Kind::kSensorLag:
         u.sensor_lag[at(quantity.channel)] = {{number, i}, quantity.is_at_rows};
@@ -147,8 +152,8 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
   const std::vector<Sample>& samples = window.samples();
   const double h = model.longest_step_s;
   const CommandColumns command_columns = columns_of(u.path);
-  LinearStepper stepper(u.plant, columns, u.parameters, command_columns, h);
-  LinearStepper back(u.plant, columns, u.parameters, command_columns, h);
+  LinearStepper stepper(u.plant, columns, u.parameters, command_columns, h, u.extra);
+  LinearStepper back(u.plant, columns, u.parameters, command_columns, h, u.extra);
   const bool any_late = u.any_late();
   std::vector<LinearMotion> motions;  // by row; kept only if a sensor has latency
   std::vector<double> row(columns);

@@ -27,8 +27,10 @@ AWMR_INLINE Column rate_of(const StateSlopes& a, const double* b, std::size_t co
   return {.x = a.x_psi * s.psi + a.x_u * s.u + a.x_v * s.v,
           .y = a.y_psi * s.psi + a.y_u * s.u + a.y_v * s.v,
           .psi = s.r,
-          .u = a.u_u * s.u + a.u_v * s.v + a.u_r * s.r + a.u_steering * s.steering + b[0],
-          .v = a.v_u * s.u + a.v_v * s.v + a.v_r * s.r + a.v_steering * s.steering + b[columns],
+          .u = a.u_psi * s.psi + a.u_u * s.u + a.u_v * s.v + a.u_r * s.r +
+               a.u_steering * s.steering + b[0],
+          .v = a.v_psi * s.psi + a.v_u * s.u + a.v_v * s.v + a.v_r * s.r +
+               a.v_steering * s.steering + b[columns],
           .r = a.r_u * s.u + a.r_v * s.v + a.r_r * s.r + a.r_steering * s.steering + b[2 * columns],
           .steering = a.steering_steering * s.steering + b[3 * columns]};
 }

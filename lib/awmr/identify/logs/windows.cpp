@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/core/sample_quantile.h"
 
 namespace awmr {
 namespace {
@@ -37,6 +38,35 @@ LogWindow within(const LogWindow& window, const Interval& only_s) {
           at(std::lower_bound(from, to, only_s.hi) - t_s.begin())};
 }
 
+/// True if the vehicle already moves at the first row: the median of the first readings of speed or
+/// yaw rate is above 5 % of the largest reading.
+bool begins_in_motion(const DrivingLog& log) {
+  constexpr double kMoves = 0.05;
+  constexpr std::size_t kReadings = 5;
+  return std::ranges::any_of(
+      std::array{LogChannel::kSpeed, LogChannel::kYawRate}, [&](LogChannel channel) {
+        std::vector<double> first;
+        for (std::size_t row = 0; log[channel] && row < log.rows() && first.size() < kReadings;
+             ++row) {
+          if (is_measurement(log, channel, row)) first.push_back(log[channel]->value[row]);
+        }
+        return first.size() == kReadings &&
+               std::abs(median(first)) > kMoves * largest_measured(log, channel);
+      });
+}
+
+/// The rows of a window that are fitted. Lagged forces and filtered sensors depend on commands and
+/// speeds before the first row, so the first second of a log that begins in motion is not fitted.
+LogWindow without_unknown_past(LogWindow window) {
+  constexpr double kForgotten_s = 1.0;
+  constexpr double kShortest_s = 5.0;  // shorter logs are fitted entirely
+  const std::vector<double>& t_s = window.log->t_s;
+  if (t_s.back() - t_s.front() < kShortest_s || !begins_in_motion(*window.log)) return window;
+  const auto from = std::ranges::lower_bound(t_s, t_s.front() + kForgotten_s);
+  window.begin = std::clamp(at(from - t_s.begin()), window.begin, window.end);
+  return window;
+}
+
 }  // namespace
 
 std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
@@ -45,7 +75,7 @@ std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
   for (const DrivingLog& log : logs) {
     const auto signals = std::make_shared<const LogSignals>(log);
     for (const LogWindow& all : windows_of(log, kWindow_s)) {
-      const LogWindow rows = only_s ? within(all, *only_s) : all;
+      const LogWindow rows = without_unknown_past(only_s ? within(all, *only_s) : all);
       auto samples = std::make_shared<const std::vector<Sample>>(samples_of(rows));
       if (samples->empty()) continue;
       windows.push_back({rows, signals, std::move(samples), measured_initial_state(rows), {}});
@@ -106,6 +136,16 @@ std::vector<double> measured_initial_states(const std::vector<FitWindow>& window
     }
   }
   return states;
+}
+
+double largest_measured(const DrivingLog& log, LogChannel channel) {
+  double largest = 0.0;
+  for (std::size_t row = 0; log[channel] && row < log.rows(); ++row) {
+    if (is_measurement(log, channel, row)) {
+      largest = std::max(largest, std::abs(log[channel]->value[row]));
+    }
+  }
+  return largest;
 }
 
 }  // namespace awmr

@@ -14,6 +14,9 @@
 
 namespace awmr {
 
+/// Largest absolute measurement of a channel of the log; 0 without measurements.
+double largest_measured(const DrivingLog& log, LogChannel channel);
+
 /// Length of a window, s.
 inline constexpr double kWindow_s = 10.0;
 
@@ -38,7 +41,8 @@ struct FitWindow {
 };
 
 /// Divides all logs into windows, within the time interval `only_s` if given. Omits windows without
-/// samples. The logs must outlive the windows.
+/// samples, and the first second of a log that begins in motion, because motors and filters then
+/// depend on unknown earlier commands. The logs must outlive the windows.
 std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
                                    const std::optional<Interval>& only_s = {});
 

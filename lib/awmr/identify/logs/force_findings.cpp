@@ -1,0 +1,124 @@
+#include "awmr/identify/logs/force_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "awmr/core/index.h"
+#include "awmr/core/units.h"
+
+namespace awmr {
+namespace {
+
+constexpr double kStandardErrors = 2.0;  // smallest force that is reported
+
+/// An identified quantity with its standard error.
+struct FoundForce {
+  double value;
+  double error;
+};
+
+std::optional<FoundForce> found_force(const LogFit& fit, ExtraForce force) {
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    const FreeQuantity& q = fit.quantities[i];
+    if (!q.is(force) || !fit.refusal_reason[i].empty()) continue;
+    const double x = fit.coordinates[i];
+    const Eigen::Index row = eigen_index(i);
+    return FoundForce{q.value(x), q.jacobian(x) * std::sqrt(fit.covariance(row, row))};
+  }
+  return std::nullopt;
+}
+
+/// Value of a parameter of the fit; 0 if it is not free.
+double fitted_value(const LogFit& fit, ParameterId id) {
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    if (fit.quantities[i].is(id)) return fit.quantities[i].value(fit.coordinates[i]);
+  }
+  return 0.0;
+}
+
+/// Stribeck friction of one axis of a fit.
+struct FoundStribeck {
+  std::string_view axis;  ///< prefix of the parameters of its resistance
+  std::string_view what;
+  std::string_view unit;
+  FoundForce force;
+  double coulomb;               ///< Coulomb friction c
+  std::optional<double> speed;  ///< w_s; empty if it is not identified
+
+  /// True if the friction at rest is more than 5 % above c.
+  bool is_large() const { return force.value > 0.05 * coulomb; }
+};
+
+std::vector<FoundStribeck> found_stribeck(const LogFit& fit) {
+  std::vector<FoundStribeck> found;
+  const auto add = [&](ExtraForce force, ExtraForce speed, ParameterId coulomb,
+                       std::string_view axis, std::string_view what, std::string_view unit) {
+    const auto one = found_force(fit, force);
+    if (!one || one->value < kStandardErrors * one->error) return;
+    const auto scale = found_force(fit, speed);
+    found.push_back({axis, what, unit, *one, fitted_value(fit, coulomb),
+                     scale ? std::optional(scale->value) : std::nullopt});
+  };
+  add(ExtraForce::kSurgeStribeck, ExtraForce::kSurgeStribeckSpeed, ParameterId::kSurgeCoulomb,
+      "surge.", "rolling", "m/s");
+  add(ExtraForce::kYawStribeck, ExtraForce::kYawStribeckSpeed, ParameterId::kYawCoulomb, "yaw.",
+      "turning", "rad/s");
+  return found;
+}
+
+std::vector<Finding> stribeck_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
+  for (const FoundStribeck& one : found_stribeck(fit)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "stribeck-friction",
+         fmt::format("the friction of {} rises at low speed (Stribeck effect): by {:.2g} +- {:.2g} "
+                     "to the Coulomb friction {:.2g}{}. The fit compensates this, but simulations "
+                     "and gains do not, so drive faster than that{}",
+                     one.what, one.force.value, one.force.error, one.coulomb,
+                     one.speed ? fmt::format(", mainly below {:.2g} {}", *one.speed, one.unit) : "",
+                     one.is_large() ? fmt::format("; the intervals of {}* are withdrawn, because "
+                                                  "the true form is unknown",
+                                                  one.axis)
+                                    : "")});
+  }
+  return findings;
+}
+
+std::vector<Finding> slope_findings(const LogFit& fit, const std::string& file) {
+  constexpr double kGravity_mps2 = 9.81;
+  const auto x = found_force(fit, ExtraForce::kSlopeX);
+  const auto y = found_force(fit, ExtraForce::kSlopeY);
+  if (!x || !y) return {};
+  const double size = std::hypot(x->value, y->value);
+  const double error = std::hypot(x->error * x->value, y->error * y->value) / size;
+  if (!(size > kStandardErrors * error)) return {};
+  return {{file, 0, Severity::kWarning, "slope",
+           fmt::format("a constant force pushes the vehicle towards the heading {:.0f} deg with "
+                       "{:.3f} +- {:.3f} m/s^2, like ground that falls by {:.2f} deg. The fit "
+                       "compensates this, but simulations do not; record logs on level ground",
+                       degrees(std::atan2(y->value, x->value)), size, error,
+                       degrees(std::asin(std::min(1.0, size / kGravity_mps2))))}};
+}
+
+}  // namespace
+
+std::vector<Finding> force_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings = stribeck_findings(fit, file);
+  for (Finding& slope : slope_findings(fit, file)) findings.push_back(std::move(slope));
+  return findings;
+}
+
+void withdraw_by_stribeck(LogFit& fit) {
+  for (const FoundStribeck& one : found_stribeck(fit)) {
+    for (EstimatorParameter& parameter : fit.report.parameters) {
+      if (!one.is_large() || !parameter.name.starts_with(one.axis)) continue;
+      parameter.std_error.reset();
+      parameter.ci95.reset();
+    }
+  }
+}
+
+}  // namespace awmr
