@@ -127,15 +127,14 @@ Differences all_differences(const ScenarioRows& scenario, double relevance) {
 /// log_loss() of every metric that can rank, in the counted runs of every mode. Rows as in
 /// ScenarioStatistics::resampled_losses, a column is a sample.
 Eigen::ArrayXXd all_losses(const ScenarioRows& scenario, const Preferences& preferences) {
-  const auto runs = [](const ModeRows& mode) { return mode.counted(); };
   Eigen::ArrayXXd losses =
       Eigen::ArrayXXd::Zero(eigen_index(scenario.modes.size() * std::size(kMetricColumns)),
-                            eigen_index(runs(scenario.modes.front()).size()));
+                            eigen_index(scenario.modes.front().counted().size()));
   for (const ScoredMetric& scored : rankable_metrics(scenario, preferences)) {
     for (std::size_t mode = 0; mode < scenario.modes.size(); ++mode) {
       auto row = losses.row(loss_row(mode, scored.metric->id));
       Eigen::Index sample = 0;
-      for (const ComparisonRow& run : runs(scenario.modes[mode])) {
+      for (const ComparisonRow& run : scenario.modes[mode].counted()) {
         row[sample++] = log_loss(run.metrics, scored);
       }
     }
@@ -302,7 +301,7 @@ ScenarioStatistics statistics_of(const ScenarioRows& scenario, const Preferences
         resampled_means(all, all_losses(scenario, preferences), Random(seed, kBootstrapStream));
     for (std::size_t i = 0; i < differences.size(); ++i) {
       PairedDifference& d = differences[i];
-      if (d.count >= 2) d.ci95 = interval_of(means.differences.row(eigen_index(i)), d.count);
+      if (d.count >= 2) d.ci95 = interval_of(resampled.row(eigen_index(i)), d.count);
     }
     statistics.resampled_losses = std::move(means.losses);
   }
