@@ -358,6 +358,26 @@ TEST_P(ForceSaturation, IsCompensatedWithoutIntervals) {
     EXPECT_FALSE(result->model[id].ci95) << info(id).name;
   }
 }
+TEST(LateLog, FindsForcesThatGrowWithAPowerOfTheCommands) {
+  const Truth& truth = kTruths[1];
+  DrivingLog log = drive(truth, 8, {.duration_s = 30.0, .rate_hz = 40.0});
+  for (auto* const forces : {&log.force_left, &log.force_right}) {
+    for (double& force : *forces) force = std::copysign(std::pow(std::abs(force), 1.25), force);
+  }
+  TrialData data;
+  data.logs = {std::move(log)};
+  const auto result = identify(robot(), data, power_law(), {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "force-saturation", "to the power of"));
+  const auto exponent = estimated(*result, "motor.exponent");
+  ASSERT_TRUE(exponent);
+  EXPECT_NEAR(exponent->value, 0.8, 0.02);
+  EXPECT_FALSE(has_finding(*result, "model-inadequate"));
+  const Estimate& mass = result->model[ParameterId::kMassNorm];
+  EXPECT_NEAR(mass.value.value_or(0.0), truth.mass_norm, 0.02 * truth.mass_norm);
+  EXPECT_FALSE(mass.ci95);
+}
+
 /// The saturation of tanh is not of the fitted form, so that each log has other values.
 TEST(LateLog, DoesNotCompareLogsWithALargeSaturation) {
   TrialData data;

@@ -304,8 +304,9 @@ TEST(LinearReplay, DerivativeByASensorDelayIsTheRateOfTheMotion) {
   EXPECT_LT(apart, here.size() * kStateSize / 20);
 }
 
-/// Steering trim, rad, force imbalance, saturation and the logarithm of its sharpness.
-constexpr std::size_t kErrors = 4;
+/// Steering trim, rad, force imbalance, saturation, and the logarithms of its sharpness and of the
+/// exponent of the forces.
+constexpr std::size_t kErrors = 5;
 using CommandErrors = std::array<double, kErrors>;
 
 /// The motion with these errors of the commands as the only columns.
@@ -314,6 +315,7 @@ std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors
   const LogSignals signals(log);
   const CommandPath path{.steering_trim = OffsetColumn{errors[0], 0},
                          .imbalance = OffsetColumn{errors[1], 1},
+                         .exponent = OffsetColumn{std::exp(errors[4]), 4},
                          .saturation = OffsetColumn{errors[2], 2},
                          .full_command = 0.3,
                          .sharpness = OffsetColumn{std::exp(errors[3]), 3}};
@@ -330,7 +332,7 @@ std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors
 
 TEST(LinearReplay, OfErrorsOfTheCommandsHasTheDerivativesOfCentralDifferences) {
   constexpr double kApart = 1e-6;
-  const CommandErrors errors{0.03, -0.08, 0.2, 1.2};
+  const CommandErrors errors{0.03, -0.08, 0.2, 1.2, -0.2};
   for (const bool servo : {true, false}) {
     const DrivingLog log = commands(servo);
     const std::vector<LinearMotion> here = with_errors(log, errors);

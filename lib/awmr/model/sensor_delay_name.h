@@ -10,6 +10,7 @@ namespace awmr {
 
 inline constexpr std::string_view kSteeringTrimName = "steering.trim_rad";
 inline constexpr std::string_view kForceImbalanceName = "motor.imbalance";
+inline constexpr std::string_view kForceExponentName = "motor.exponent";
 inline constexpr std::string_view kForceSaturationName = "motor.saturation";
 inline constexpr std::string_view kSaturationSharpnessName = "motor.saturation_sharpness";
 /// Stribeck friction and its speed scale, of the speed and of the yaw rate; acceleration by a slope.

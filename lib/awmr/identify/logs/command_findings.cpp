@@ -174,7 +174,21 @@ double sharpness_of(const LogFit& fit) {
 
 /// `force-saturation`, if large commands push less than in proportion.
 std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& file) {
+  constexpr std::string_view kWithoutIntervals =
+      ", without intervals and without a comparison of parts of the logs, because the true form is "
+      "unknown";
+  const std::string_view withdrawn = saturates_much(fit) ? kWithoutIntervals : "";
   std::vector<Finding> findings;
+  for (const FoundTerm& exponent : found_terms(fit, FreeQuantity::Kind::kForceExponent)) {
+    const double p = exponent.quantity.value(exponent.value);
+    findings.push_back(
+        {file, 0, Severity::kWarning, "force-saturation",
+         fmt::format("the wheels push with the command to the power of {:.3f} +- {:.3f}: large "
+                     "commands push less than in proportion to small ones. The fit compensates "
+                     "this{}, but simulations and gains assume proportional forces: log commands "
+                     "that are proportional to the force, |command|^{:.2f}",
+                     p, p * exponent.error, withdrawn, p)});
+  }
   const double n = sharpness_of(fit);
   for (const auto& [quantity, loss, error] :
        found_terms(fit, FreeQuantity::Kind::kForceSaturation)) {
@@ -189,11 +203,8 @@ std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& f
              "motors is limited. The fit compensates this{}, but simulations and gains assume "
              "proportional forces, which holds within {:.0f} % up to {:.2g}: limit wheel_force in "
              "the vehicle file to that, and record logs below it",
-             full, 100.0 * loss, 100.0 * error,
-             saturates_much(fit) ? ", without intervals and without a comparison of parts of the "
-                                   "logs, because the true form is unknown"
-                                 : "",
-             100.0 * kLinear, std::min(linear, full))});
+             full, 100.0 * loss, 100.0 * error, withdrawn, 100.0 * kLinear,
+             std::min(linear, full))});
   }
   return findings;
 }
@@ -202,8 +213,10 @@ std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& f
 
 bool saturates_much(const LogFit& fit) {
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    const bool is_loss = fit.quantities[i].kind == FreeQuantity::Kind::kForceSaturation;
-    if (is_loss && fit.coordinates[i] > kLinear) return true;
+    const FreeQuantity& q = fit.quantities[i];
+    const double x = fit.coordinates[i];
+    if (q.kind == FreeQuantity::Kind::kForceSaturation && x > kLinear) return true;
+    if (q.kind == FreeQuantity::Kind::kForceExponent && 1.0 - q.value(x) > kLinear) return true;
   }
   return false;
 }

@@ -101,7 +101,10 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
     found.push_back(force_imbalance());
   }
   const double full_command = largest_command(problem);
-  if (full_command > 0.0 && !has_kind(quantities, Kind::kForceSaturation)) {
+  // Only one of them: together they fit every curve, also one that ends at a wrong small force.
+  if (full_command > 0.0 && !has_kind(quantities, Kind::kForceExponent) &&
+      !has_kind(quantities, Kind::kForceSaturation)) {
+    found.push_back(force_exponent());
     found.push_back(force_saturation(full_command));
   }
   add_forces(problem, found);
@@ -126,6 +129,7 @@ std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const double value = tests[i].value;
     if (channels[i].may_be_zero() && !(value > 0.0)) continue;
+    if (channels[i].kind == FreeQuantity::Kind::kForceExponent && !(value < 0.0)) continue;
     const double significance = std::abs(value) / tests[i].noise_error;
     if (significance > kWorthATry) found.push_back({channels[i], value, significance});
   }
@@ -145,7 +149,8 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
   for (const FreeTerm& term : more) {
     quantities.push_back(term.quantity);
     const double most = kLargestFirstStep * term.quantity.large_change;
-    const bool is_step = term.quantity.scale == Scale::kLinear;
+    const bool is_step = !term.quantity.is_stribeck_speed() &&
+                         term.quantity.kind != FreeQuantity::Kind::kSaturationSharpness;
     begin.push_back(is_step ? std::clamp(term.begin, -most, most) : term.begin);
   }
   Extended from = extended(with_white_noise(settled.problem), settled.point, quantities, begin);

@@ -14,7 +14,7 @@ namespace awmr {
 ///   - an additional delay of the steering, if the servo's time constant is free;
 ///   - a steering trim, if the steering moves;
 ///   - a force imbalance, if left and right forces differ;
-///   - a saturation of the forces;
+///   - a saturation of the forces, or an exponent below 1;
 ///   - Stribeck friction of a resistance with Coulomb friction; a slope, if heading or position are
 ///     measured (extra_forces.h).
 std::vector<FreeQuantity> further_terms(const LogProblem& problem);

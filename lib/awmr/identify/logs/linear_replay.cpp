@@ -85,8 +85,8 @@ CommandColumns columns_of(const CommandPath& path) {
     return term ? std::optional(term->column) : std::nullopt;
   };
   return {column(path.delay),         column(path.steering_delay), path.lag_column,
-          column(path.steering_trim), column(path.imbalance),      column(path.saturation),
-          column(path.sharpness)};
+          column(path.steering_trim), column(path.imbalance),      column(path.exponent),
+          column(path.saturation),    column(path.sharpness)};
 }
 
 const double* LinearMotion::row(LogChannel channel, std::size_t columns) const {
@@ -134,6 +134,7 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
   if (c.lag) set_column({command.by_lag, 0.0}, *c.lag, driven);
   if (c.steering_trim) set_column({{}, command.steering_by_trim}, *c.steering_trim, driven);
   if (c.imbalance) set_column({command.by_imbalance, 0.0}, *c.imbalance, driven);
+  if (c.exponent) set_column({command.by_exponent, 0.0}, *c.exponent, driven);
   if (c.saturation) set_column({command.by_saturation, 0.0}, *c.saturation, driven);
   if (c.sharpness) set_column({command.by_sharpness, 0.0}, *c.sharpness, driven);
 }
@@ -307,6 +308,25 @@ void saturate(const CommandPath& path, DelayedCommand& at) {
     at.by_delay.*side *= slope;
     at.by_lag.*side *= slope;
     at.by_imbalance.*side *= slope;
+    at.by_exponent.*side *= slope;
+    force *= share;
+  }
+}
+
+/// Replaces the forces f by |f|^p sgn f, with the derivatives
+///
+///     d/df = p |f|^(p - 1),   d/d ln p = p ln|f| |f|^p sgn f
+void raise_to_power(const CommandPath& path, DelayedCommand& at) {
+  const double p = path.exponent->value;
+  for (double SideForces<double>::*const side :
+       {&SideForces<double>::left, &SideForces<double>::right}) {
+    double& force = at.command.force.*side;
+    if (force == 0.0) continue;
+    const double share = std::pow(std::abs(force), p - 1.0);
+    at.by_exponent.*side = p * std::log(std::abs(force)) * force * share;
+    at.by_delay.*side *= p * share;
+    at.by_lag.*side *= p * share;
+    at.by_imbalance.*side *= p * share;
     force *= share;
   }
 }
@@ -323,6 +343,7 @@ DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
       force->right *= 1.0 + path.imbalance->value;
     }
   }
+  if (path.exponent) raise_to_power(path, at);
   if (path.saturation) saturate(path, at);
   return at;
 }

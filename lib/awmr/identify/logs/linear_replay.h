@@ -52,6 +52,7 @@ struct CommandPath {
   std::optional<std::size_t> lag_column = {};      ///< column of the lag; present if it is free
   std::optional<OffsetColumn> steering_trim = {};  ///< rad, added to command or logged angle
   std::optional<OffsetColumn> imbalance = {};   ///< e: left forces times 1 - e, right times 1 + e
+  std::optional<OffsetColumn> exponent = {};    ///< p of force_exponent(); derivatives by ln p
   std::optional<OffsetColumn> saturation = {};  ///< L of force_saturation()
   double full_command = 1.0;                    ///< F'm of force_saturation()
   std::optional<OffsetColumn> sharpness = {};   ///< n; the derivatives are by ln n
@@ -66,6 +67,7 @@ struct CommandColumns {
   std::optional<std::size_t> lag = {};
   std::optional<std::size_t> steering_trim = {};
   std::optional<std::size_t> imbalance = {};
+  std::optional<std::size_t> exponent = {};
   std::optional<std::size_t> saturation = {};
   std::optional<std::size_t> sharpness = {};
 };
@@ -79,6 +81,7 @@ struct DelayedCommand {
   SideForces<double> by_delay{};
   SideForces<double> by_lag{};         ///< d force / d time constant of the motors, 1/s
   SideForces<double> by_imbalance{};   ///< d force / d imbalance
+  SideForces<double> by_exponent{};    ///< d force / d ln p
   SideForces<double> by_saturation{};  ///< d force / d L
   SideForces<double> by_sharpness{};   ///< d force / d ln n
   double steering_by_trim = 0.0;       ///< d steering / d trim: 1 if there is a trim, else 0

@@ -20,6 +20,7 @@ Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& 
   constexpr Interval kSharpness{1.0, 20.0};
   constexpr Interval kStribeckSpeed{0.01, 0.5};  // relative to the largest speed
   constexpr double kSteepest_mps2 = 5.0;
+  constexpr Interval kExponent{0.2, 1.0};
   if (quantity.kind == FreeQuantity::Kind::kDelay ||
       quantity.kind == FreeQuantity::Kind::kSteeringDelay) {
     return {-kLongest_s, kLongest_s};
@@ -34,6 +35,10 @@ Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& 
   if (quantity.kind == FreeQuantity::Kind::kSaturationSharpness) {
     return {to_coordinate(quantity.scale, kSharpness.lo),
             to_coordinate(quantity.scale, kSharpness.hi)};
+  }
+  if (quantity.kind == FreeQuantity::Kind::kForceExponent) {
+    return {to_coordinate(quantity.scale, kExponent.lo),
+            to_coordinate(quantity.scale, kExponent.hi)};
   }
   if (quantity.is_stribeck_speed()) {
     return {to_coordinate(quantity.scale, kStribeckSpeed.lo * quantity.fastest),
@@ -75,6 +80,8 @@ std::string FreeQuantity::name() const {
       return std::string(kSteeringTrimName);
     case Kind::kForceImbalance:
       return std::string(kForceImbalanceName);
+    case Kind::kForceExponent:
+      return std::string(kForceExponentName);
     case Kind::kForceSaturation:
       return std::string(kForceSaturationName);
     case Kind::kSaturationSharpness:
@@ -116,6 +123,12 @@ FreeQuantity steering_trim() {
 
 FreeQuantity force_imbalance() {
   return {.kind = FreeQuantity::Kind::kForceImbalance, .large_change = 0.1};
+}
+
+FreeQuantity force_exponent() {
+  return {.kind = FreeQuantity::Kind::kForceExponent,
+          .scale = Scale::kLogarithmic,
+          .large_change = 0.1};
 }
 
 FreeQuantity force_saturation(double full_command) {

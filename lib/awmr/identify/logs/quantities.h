@@ -26,6 +26,7 @@ struct FreeQuantity {
     kMotorLag,             ///< time constant of the motors
     kSteeringTrim,         ///< steering angle at a command of 0
     kForceImbalance,       ///< (right - left)/(right + left) of the forces at equal commands
+    kForceExponent,        ///< p of force_exponent(): forces in proportion to a power of commands
     kForceSaturation,      ///< L of force_saturation(): large commands push less than in proportion
     kSaturationSharpness,  ///< n of force_saturation()
     kExtraForce,           ///< Stribeck friction or a slope (extra_forces.h)
@@ -85,6 +86,10 @@ FreeQuantity steering_trim();
 /// Force imbalance e: the left motors push with 1 - e times their command, the right with 1 + e
 /// times.
 FreeQuantity force_imbalance();
+
+/// Exponent p of the wheel forces: the command F' pushes with |F'|^p sgn F' (times F_max). The search
+/// tries p below 1 only; above 1, the curve resembles a dead zone of the wheels.
+FreeQuantity force_exponent();
 
 /// Saturation of the wheel forces: the share L, in [0, 1), of the force that is lost at F'm, the
 /// largest command of the logs. With w = (|F'|/F'm)^n, the command F' pushes with

@@ -73,6 +73,9 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
       case FreeQuantity::Kind::kForceImbalance:
         u.path.imbalance = {number, i};
         break;
+      case FreeQuantity::Kind::kForceExponent:
+        u.path.exponent = {number, i};
+        break;
       case FreeQuantity::Kind::kForceSaturation:
         u.path.saturation = {number, i};
         u.path.full_command = quantity.full_command;
