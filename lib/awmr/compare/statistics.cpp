@@ -299,6 +299,7 @@ ScenarioStatistics statistics_of(const ScenarioRows& scenario, const Preferences
   if (all.values.cols() >= 2) {
     ResampledMeans means =
         resampled_means(all, all_losses(scenario, preferences), Random(seed, kBootstrapStream));
+    const Eigen::ArrayXXd& resampled = means.differences;
     for (std::size_t i = 0; i < differences.size(); ++i) {
       PairedDifference& d = differences[i];
       if (d.count >= 2) d.ci95 = interval_of(resampled.row(eigen_index(i)), d.count);
