@@ -104,16 +104,16 @@ std::vector<Entry> sorted_entries(const ScenarioRows& scenario,
 std::vector<double> resampled_differences(const Entry& own, const Entry& leader,
                                           const std::vector<ScoredMetric>& scoring,
                                           const ScenarioStatistics& statistics) {
-  const Eigen::ArrayXXd& losses = statistics.resampled_losses;
-  Eigen::ArrayXd means = Eigen::ArrayXd::Zero(losses.cols());
+  std::vector<double> means(kResamples, 0.0);
   for (const ScoredMetric& scored : scoring) {
-    const MetricId metric = scored.metric->id;
-    means += scored.weight *
-             (losses.row(loss_row(own.mode, metric)) - losses.row(loss_row(leader.mode, metric)))
-                 .transpose();
+    const auto& of_own = statistics.resampled_losses[loss_row(own.mode, scored.metric->id)];
+    const auto& of_leader = statistics.resampled_losses[loss_row(leader.mode, scored.metric->id)];
+    for (std::size_t i = 0; i < means.size(); ++i) {
+      means[i] += scored.weight * (of_own[i] - of_leader[i]);
+    }
   }
   std::sort(means.begin(), means.end());
-  return {means.begin(), means.end()};
+  return means;
 }
 
 /// Interval of the ratio of a mode's score to the leader's, and the conclusion from it.

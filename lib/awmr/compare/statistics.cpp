@@ -1,5 +1,6 @@
 #include "awmr/compare/statistics.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -132,7 +133,7 @@ Eigen::ArrayXXd all_losses(const ScenarioRows& scenario, const Preferences& pref
                             eigen_index(scenario.modes.front().counted().size()));
   for (const ScoredMetric& scored : rankable_metrics(scenario, preferences)) {
     for (std::size_t mode = 0; mode < scenario.modes.size(); ++mode) {
-      auto row = losses.row(loss_row(mode, scored.metric->id));
+      auto row = losses.row(eigen_index(loss_row(mode, scored.metric->id)));
       Eigen::Index sample = 0;
       for (const ComparisonRow& run : scenario.modes[mode].counted()) {
         row[sample++] = log_loss(run.metrics, scored);
@@ -297,14 +298,15 @@ ScenarioStatistics statistics_of(const ScenarioRows& scenario, const Preferences
   ScenarioStatistics statistics{std::move(all.results), {}};
   std::vector<PairedDifference>& differences = statistics.differences;
   if (all.values.cols() >= 2) {
-    ResampledMeans means =
+    const ResampledMeans means =
         resampled_means(all, all_losses(scenario, preferences), Random(seed, kBootstrapStream));
-    const Eigen::ArrayXXd& resampled = means.differences;
     for (std::size_t i = 0; i < differences.size(); ++i) {
       PairedDifference& d = differences[i];
-      if (d.count >= 2) d.ci95 = interval_of(resampled.row(eigen_index(i)), d.count);
+      if (d.count >= 2) d.ci95 = interval_of(means.differences.row(eigen_index(i)), d.count);
     }
-    statistics.resampled_losses = std::move(means.losses);
+    for (const auto& row : means.losses.rowwise()) {
+      statistics.resampled_losses.emplace_back(row.begin(), row.end());
+    }
   }
   correct(differences);
   for (PairedDifference& d : differences) d.conclusion = conclusion_of(d);

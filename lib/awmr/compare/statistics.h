@@ -2,7 +2,6 @@
 /// compare/.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <iterator>
 #include <optional>
@@ -115,15 +114,15 @@ inline constexpr int kResamples = 1000;  ///< number of bootstrap resamples
 struct ScenarioStatistics {
   /// Of every metric between every pair of contenders with the same gains or the same mode.
   std::vector<PairedDifference> differences;
-  /// Mean log_loss() (scoring.h) of each mode and metric in each resample. Row loss_row(), column
-  /// resample; 0 for metrics that cannot rank. Empty below 2 samples. The mean score with any
-  /// weights is a weighted sum of its rows.
-  Eigen::ArrayXXd resampled_losses;
+  /// Mean log_loss() (scoring.h) of each mode and metric, index loss_row(), in each resample; 0 for
+  /// metrics that cannot rank. Empty below 2 samples. The mean score with any weights is a weighted
+  /// sum of these series.
+  std::vector<std::vector<double>> resampled_losses;
 };
 
 /// Row of a mode (index in ScenarioRows::modes) and a metric in the resampled losses.
-inline Eigen::Index loss_row(std::size_t mode, MetricId metric) {
-  return eigen_index(mode * std::size(kMetricColumns) + at(metric));
+inline std::size_t loss_row(std::size_t mode, MetricId metric) {
+  return mode * std::size(kMetricColumns) + at(metric);
 }
 
 ScenarioStatistics statistics_of(const ScenarioRows& scenario, const Preferences& preferences,
