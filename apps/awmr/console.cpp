@@ -155,12 +155,14 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
 
 CLI::Option* add_output(CLI::App& command, std::filesystem::path& path,
                         const std::string& meaning) {
-  return add_file(command, "-o,--output", path, meaning)->required();
+  return add_file(command, "-o,--output", path, meaning)->required()->check(not_standard_output());
 }
 
 CLI::Option* add_output_directory(CLI::App& command, std::filesystem::path& path,
                                   const std::string& meaning) {
-  return add_directory(command, "-o,--output", path, meaning)->required();
+  return add_directory(command, "-o,--output", path, meaning)
+      ->required()
+      ->check(not_standard_output());
 }
 
 void put_findings_into_document(Outcome& outcome) {

@@ -140,7 +140,8 @@ void add_map(CLI::App& app, Session& session) {
   add_choice(*sub, "--trial", command->trial, kTrialKindNames,
              "What the file is: log (default), or a table with one row per run");
   add_file(*sub, "-o,--output", command->output,
-           "JSON to write, for --columns-file or a vehicle's columns");
+           "JSON to write, for --columns-file or a vehicle's columns")
+      ->check(not_standard_output());
 }
 
 }  // namespace awmr::cli

@@ -9,16 +9,17 @@ namespace awmr::cli {
 inline constexpr const char* kFileValue = "FILE";
 inline constexpr const char* kDirectoryValue = "DIR";
 
-/// Refuses an empty path, and "-", which other programs read as standard input or output.
-inline CLI::Validator is_path() {
+inline CLI::Validator not_empty() {
   return CLI::Validator(
-      [](const std::string& path) -> std::string {
-        if (path.empty()) return "is empty: give a path";
-        if (path == "-") {
-          return "'-' (standard input or output) is not supported: give a path; ./- is a file "
-                 "named -";
-        }
-        return "";
+      [](const std::string& path) { return path.empty() ? "is empty: give a path" : ""; }, "");
+}
+
+/// Refuses "-" for an output, which other programs take as standard output.
+inline CLI::Validator not_standard_output() {
+  return CLI::Validator(
+      [](const std::string& path) {
+        return path == "-" ? "standard output is not supported: give a path; ./- is a file named -"
+                           : "";
       },
       "");
 }
@@ -27,13 +28,13 @@ inline CLI::Validator is_path() {
 template <class Path>
 CLI::Option* add_file(CLI::App& command, const std::string& option, Path& path,
                       const std::string& meaning) {
-  return command.add_option(option, path, meaning)->type_name(kFileValue)->check(is_path());
+  return command.add_option(option, path, meaning)->type_name(kFileValue)->check(not_empty());
 }
 
 template <class Path>
 CLI::Option* add_directory(CLI::App& command, const std::string& option, Path& path,
                            const std::string& meaning) {
-  return command.add_option(option, path, meaning)->type_name(kDirectoryValue)->check(is_path());
+  return command.add_option(option, path, meaning)->type_name(kDirectoryValue)->check(not_empty());
 }
 
 }  // namespace awmr::cli

@@ -165,13 +165,7 @@ Project project_from_json(JsonObject& json, const fs::path& path,
   if (auto columns = json.optional_object("columns")) read_columns(*columns, "", project);
   if (auto identify = json.optional_object("identify")) read_identify(*identify, project);
   project.tune = files.maybe_at(json, "tune");
-  if (json.has("compare")) {
-    read_compare(json.object("compare"), files, project);
-  } else {
-    json.fault(ErrorCode::kMissing, "compare",
-               "no scenarios: add \"compare\": {\"scenarios\": [FILE, ...]}; awmr init writes "
-               "scenarios to start with");
-  }
+  read_compare(json.object("compare"), files, project);
   json.reject_unknown_keys();
   return project;
 }

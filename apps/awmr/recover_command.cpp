@@ -164,7 +164,8 @@ void add_recover(CLI::App& app, Session& session) {
   add_estimator(*sub, *words);
   add_simulated_trials(*sub, words->command.recover);
   auto* output = add_file(*sub, "-o,--output", words->command.output,
-                          "recover.json to write; with --shard, the directory of the part");
+                          "recover.json to write; with --shard, the directory of the part")
+                     ->check(not_standard_output());
   auto* shard = add_shard(*sub, words->shard)->needs(output);
   sub->add_flag("--resume", words->command.resume, "Skip a part that is already finished")
       ->needs(shard);

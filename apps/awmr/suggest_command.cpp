@@ -130,7 +130,8 @@ void add_suggest(CLI::App& app, Session& session) {
                   "Number of trials on the sheet (default 8; the file has "
                   "all)")
       ->check(within(1, 1000));
-  add_file(*sub, "-o,--output", command.output, "suggest.json to write");
+  add_file(*sub, "-o,--output", command.output, "suggest.json to write")
+      ->check(not_standard_output());
 }
 
 }  // namespace awmr::cli

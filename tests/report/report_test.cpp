@@ -28,6 +28,9 @@ Model some_model(const std::string& name) {
 Model whole_model() {
   Model model = some_model("robot");
   for (Estimate& estimate : model.estimates) estimate.value = estimate.value.value_or(0.5);
+  model[ParameterId::kInertiaNorm].value =
+      *model[ParameterId::kMassNorm].value * model.vehicle.inertia_kgm2() / model.vehicle.mass_kg;
+  model[ParameterId::kWheelDeadZone].value = 0.01;
   return model;
 }
 

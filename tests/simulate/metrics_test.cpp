@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/validity.h"
 #include "simulate/paper_plant.h"
@@ -227,9 +228,11 @@ TEST(Validity, DoesNotAdviseALimitThatIsSet) {
   note_extrapolation(model, 40.0, "run", findings, false);
   note_extrapolation(model, 40.0, "run", findings, true);
   ASSERT_EQ(findings.size(), 2U);
-  EXPECT_NE(findings[0].message.find("--heading-rate-limit measured"), std::string::npos);
-  EXPECT_EQ(findings[1].message.find("--heading-rate-limit measured"), std::string::npos);
-  EXPECT_NE(findings[1].message.find("lower --heading-rate-limit"), std::string::npos);
+  const std::string measured = option_text("heading_rate_limit measured");
+  EXPECT_NE(findings[0].message.find(measured), std::string::npos);
+  EXPECT_EQ(findings[1].message.find(measured), std::string::npos);
+  EXPECT_NE(findings[1].message.find("lower " + option_text("heading_rate_limit")),
+            std::string::npos);
 }
 
 TEST(Validity, WarnsIfHeadingsAreNotRateLimited) {
