@@ -445,8 +445,8 @@ TEST(Observer, WithAntiWindupASaturatedTurnIsNotTakenForADisturbance) {
 TEST(World, RefusesAFaultOfWheelsWithoutMotors) {
   Model model = fitted_paper_model();
   Scenario scenario = short_open_loop();
-  scenario.faults = {{.wheels = {Wheel::kFrontLeft, Wheel::kRearLeft}},
-                     {.wheels = {Wheel::kRearRight}}};
+  scenario.faults = {{.wheels = {Wheel::kFrontLeft, Wheel::kRearLeft}, .window = {}},
+                     {.wheels = {Wheel::kRearRight}, .window = {}}};
   EXPECT_TRUE(check_scenario(scenario, model));
   model.vehicle.drive = Drive::kFrontWheel;
   const Status refused = check_scenario(scenario, model);
