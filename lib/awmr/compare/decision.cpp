@@ -28,13 +28,6 @@ std::vector<Contender> first_of(const std::vector<RankedMode>& ranking) {
   return first;
 }
 
-/// Mean of log_loss() over the counted runs.
-double mean_log_loss(const ModeRows& rows, const ScoredMetric& scored) {
-  double sum = 0.0;
-  for (const ComparisonRow& row : rows.counted()) sum += log_loss(row.metrics, scored);
-  return sum / static_cast<double>(rows.counted().size());
-}
-
 /// Multiplies or divides each weight w_k by kWeightFactor, so that `own` compares as badly as
 /// possible with `other`. Let d_k be the mean loss of own minus that of other in metric k, and m =
 /// ln(1 + relevance). Own is behind if

@@ -40,9 +40,7 @@ Entry entry_of(const ScenarioRows& scenario, std::size_t mode,
   Entry entry{
       .mode = mode, .rows = &rows, .log_scores = log_scores(rows, scoring), .mean_losses = {}};
   for (const ScoredMetric& scored : scoring) {
-    double sum = 0.0;
-    for (const ComparisonRow& row : rows.counted()) sum += log_loss(row.metrics, scored);
-    entry.mean_losses.push_back(sum / static_cast<double>(rows.counted().size()));
+    entry.mean_losses.push_back(mean_log_loss(rows, scored));
   }
   return entry;
 }

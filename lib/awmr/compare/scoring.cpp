@@ -52,6 +52,12 @@ double log_loss(const Metrics& metrics, const ScoredMetric& scored) {
   return std::log(std::max(value, 0.0) + scored.offset);
 }
 
+double mean_log_loss(const ModeRows& rows, const ScoredMetric& scored) {
+  double sum = 0.0;
+  for (const ComparisonRow& row : rows.counted()) sum += log_loss(row.metrics, scored);
+  return sum / static_cast<double>(rows.counted().size());
+}
+
 double log_score(const Metrics& metrics, const std::vector<ScoredMetric>& scoring) {
   double sum = 0.0;
   for (const ScoredMetric& scored : scoring) sum += scored.weight * log_loss(metrics, scored);

@@ -33,6 +33,9 @@ std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Prefere
 /// dominate the score.
 double log_loss(const Metrics& metrics, const ScoredMetric& scored);
 
+/// Mean of log_loss() over the counted runs (ModeRows::counted).
+double mean_log_loss(const ModeRows& rows, const ScoredMetric& scored);
+
 /// Score of a run: the sum of w ln(x + f) over the metrics. For two runs, exp(difference of their
 /// scores) is the weighted geometric mean of the ratios of their x + f.
 double log_score(const Metrics& metrics, const std::vector<ScoredMetric>& scoring);

@@ -13,7 +13,8 @@ inline constexpr std::string_view kForceImbalanceName = "motor.imbalance";
 inline constexpr std::string_view kForceExponentName = "motor.exponent";
 inline constexpr std::string_view kForceSaturationName = "motor.saturation";
 inline constexpr std::string_view kSaturationSharpnessName = "motor.saturation_sharpness";
-/// Stribeck friction and its speed scale, of the speed and of the yaw rate; acceleration by a slope.
+/// Stribeck friction and its speed scale, of the speed and of the yaw rate; acceleration by a
+/// slope.
 inline constexpr std::array<std::string_view, 6> kExtraForceNames = {
     "surge.stribeck", "surge.stribeck_speed_mps",
     "yaw.stribeck",   "yaw.stribeck_speed_radps",

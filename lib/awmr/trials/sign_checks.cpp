@@ -271,9 +271,10 @@ SideShares side_shares(const std::vector<EvidenceWindow>& windows, Y y_of) {
 }
 
 /// Detects a speed that is proportional to F'R - F'L instead of the sum. If heading or yaw rate
-/// follow F'R - F'L as well, the forces are right and the speed is not that of the vehicle: it comes
-/// from wheels of which one side is reversed, or it is another column. Otherwise a force column has
-/// the wrong sign, but without a heading both columns of wheel odometry can be wrong instead.
+/// follow F'R - F'L as well, the forces are right and the speed is not that of the vehicle: it
+/// comes from wheels of which one side is reversed, or it is another column. Otherwise a force
+/// column has the wrong sign, but without a heading both columns of wheel odometry can be wrong
+/// instead.
 std::optional<Contradiction> check_one_side(const Evidence& evidence) {
   constexpr std::size_t kMinSeconds = 10;
   if (!evidence.has(LogChannel::kSpeed) || evidence.windows.size() < kMinSeconds) {

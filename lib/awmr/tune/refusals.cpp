@@ -12,6 +12,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/tune/goals.h"
 #include "awmr/tune/relaxation.h"
+#include "awmr/tune/settling.h"
 
 namespace awmr {
 namespace {
@@ -117,23 +118,13 @@ tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs
                                     const std::vector<SettlingChange>& changes,
                                     const TuneOptions& requested) {
   const std::vector<std::string> strict = stricter_than_default(requested);
-  std::vector<std::string> texts;
-  for (const SettlingChange& change : changes) texts.push_back(change.text);
   std::vector<std::string> advice;
-  if (!texts.empty()) {
-    advice.push_back(fmt::format("{} lets runs settle: {}",
-                                 texts.size() == 1 ? "This change" : "Each of these changes",
-                                 fmt::join(texts, "; ")));
-  }
+  if (!changes.empty()) advice.push_back(describe(changes, "runs"));
   if (!strict.empty()) {
     advice.push_back(fmt::format("Limits stricter than their defaults can be the cause: relax {}",
                                  fmt::join(strict, ", ")));
   }
-  if (advice.empty()) {
-    advice.emplace_back(
-        "None of these changes lets a run settle: 4 times the time, no heading-rate limit, an "
-        "observer, gains for one mode only");
-  }
+  if (advice.empty()) advice.push_back(no_change_settles("a run"));
   return refused_at(
       requested, changes.empty() ? "/scenarios" : changes.front().pointer, ErrorCode::kNoGains,
       fmt::format("no run settles with gains within the limits: none of {} runs settles with the "

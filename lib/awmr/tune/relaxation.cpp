@@ -66,6 +66,13 @@ bool sets(const Limit& limit, std::string_view constraint) {
   return std::ranges::find(limit.constraints, constraint) != limit.constraints.end();
 }
 
+/// The limit that sets a constraint; null if there is none.
+const Limit* limit_of(std::string_view constraint) {
+  const auto found =
+      std::ranges::find_if(limits(), [&](const Limit& limit) { return sets(limit, constraint); });
+  return found == limits().end() ? nullptr : &*found;
+}
+
 /// Number of the limit at which gains with these constraints just meet the constraints that it
 /// sets. The limit of the speed lag is 1/(4 zeta^2); all others are proportional to their number in
 /// tune.json.
@@ -102,20 +109,16 @@ constexpr Bound kBounds[] = {
 }  // namespace
 
 std::string advice_on(const std::string& constraint) {
-  for (const Limit& limit : limits()) {
-    if (sets(limit, constraint)) {
-      return fmt::format("relax `{}` of tune.json", limit.key);
-    }
+  if (const Limit* limit = limit_of(constraint)) {
+    return fmt::format("relax `{}` of tune.json", limit->key);
   }
   return constraint == "speed gain" ? "give a vehicle file with a shorter sample_time_s"
                                     : "widen `bounds` of tune.json, or give slower scenarios";
 }
 
 std::string pointer_to(const std::string& constraint) {
-  for (const Limit& limit : limits()) {
-    if (sets(limit, constraint)) return fmt::format("/{}", limit.key);
-  }
-  return "/bounds";
+  const Limit* limit = limit_of(constraint);
+  return limit ? fmt::format("/{}", limit->key) : "/bounds";
 }
 
 std::vector<std::string> stricter_than_default(const TuneOptions& requested) {

@@ -1,6 +1,7 @@
 #include "awmr/tune/settling.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -140,6 +141,21 @@ std::vector<SettlingChange> changes_that_settle(const ObjectiveSetting& setting,
     if (change) changes.push_back(*change);
   }
   return changes;
+}
+
+std::string describe(const std::vector<SettlingChange>& changes, std::string_view runs) {
+  std::vector<std::string> texts;
+  for (const SettlingChange& change : changes) texts.push_back(change.text);
+  return fmt::format("{} lets {} settle: {}",
+                     texts.size() == 1 ? "This change" : "Each of these changes", runs,
+                     fmt::join(texts, "; "));
+}
+
+std::string no_change_settles(std::string_view runs) {
+  return fmt::format(
+      "None of these changes lets {} settle: 4 times the time, no heading-rate limit, an observer, "
+      "gains for one mode only",
+      runs);
 }
 
 }  // namespace awmr

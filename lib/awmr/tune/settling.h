@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "awmr/tune/constraints.h"
@@ -25,5 +26,10 @@ inline constexpr double kSettledShare = 0.95;
 std::vector<SettlingChange> changes_that_settle(const ObjectiveSetting& setting,
                                                 const ConstraintContext& context,
                                                 const Gains<double>& gains, double share);
+
+/// "Each of these changes lets runs settle: ..." with `runs` = "runs". Precondition: not empty.
+std::string describe(const std::vector<SettlingChange>& changes, std::string_view runs);
+/// "None of these changes lets runs settle: ..." with `runs` = "runs".
+std::string no_change_settles(std::string_view runs);
 
 }  // namespace awmr

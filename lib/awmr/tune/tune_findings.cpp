@@ -1,7 +1,6 @@
 #include "awmr/tune/tune_findings.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -40,17 +39,9 @@ std::string advice_for(const std::string& scenario, YawMode mode,
   });
   if (found == unsettled.end()) return ". The settling times are in /robust/quantiles";
   if (!found->why.empty()) return ": " + found->why;
-  if (found->changes.empty()) {
-    return fmt::format(
-        ". None of these changes lets {:g} % settle: 4 times the time, no heading-rate limit, an "
-        "observer, gains for one mode only",
-        100.0 * kSettledShare);
-  }
-  std::vector<std::string> texts;
-  for (const SettlingChange& change : found->changes) texts.push_back(change.text);
-  return fmt::format(". {} lets {:g} % settle: {}",
-                     texts.size() == 1 ? "This change" : "Each of these changes",
-                     100.0 * kSettledShare, fmt::join(texts, "; "));
+  const std::string share = fmt::format("{:g} %", 100.0 * kSettledShare);
+  return ". " +
+         (found->changes.empty() ? no_change_settles(share) : describe(found->changes, share));
 }
 
 void note_unsettled(const std::string& scenario, YawMode mode, double completed_share,

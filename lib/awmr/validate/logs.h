@@ -25,8 +25,7 @@ struct ChannelValidation {
 /// Result of validate_log().
 struct LogValidation {
   std::string file;
-  double horizon_s =
-      0.0;  ///< maximum length of a window, s: as requested, at most the log's length
+  double horizon_s = 0.0;  ///< maximum length of a window, s, at most the log's length
   std::vector<ChannelValidation> channels;
   bool passed = false;  ///< true: the long-horizon NRMSE of every channel is within the tolerance,
                         ///< and there is a channel

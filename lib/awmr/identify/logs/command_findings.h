@@ -18,8 +18,9 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
                                                  const std::string& file);
 
 /// True if the fit has found a saturation that takes more than 5 % of the force at the largest
-/// command, or an exponent of the forces below 0.95. The logs do not show the true form of the saturation, and with it the force of small
-/// commands, on which all other values depend: the intervals of the fit are too narrow.
+/// command, or an exponent of the forces below 0.95. The logs do not show the true form of the
+/// saturation, and with it the force of small commands, on which all other values depend: the
+/// intervals of the fit are too narrow.
 bool saturates_much(const LogFit& fit);
 
 }  // namespace awmr

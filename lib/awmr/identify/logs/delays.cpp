@@ -149,9 +149,7 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
   for (const FreeTerm& term : more) {
     quantities.push_back(term.quantity);
     const double most = kLargestFirstStep * term.quantity.large_change;
-    const bool is_step = !term.quantity.is_stribeck_speed() &&
-                         term.quantity.kind != FreeQuantity::Kind::kSaturationSharpness;
-    begin.push_back(is_step ? std::clamp(term.begin, -most, most) : term.begin);
+    begin.push_back(term.quantity.is_form() ? term.begin : std::clamp(term.begin, -most, most));
   }
   Extended from = extended(with_white_noise(settled.problem), settled.point, quantities, begin);
   return settle_noise(std::move(from.problem), std::move(from.point), loss, 1);

@@ -277,6 +277,22 @@ std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& fir
   return count;
 }
 
+namespace {
+
+/// Adds the findings about undecided families, and about families that replace the power law.
+/// `power_fit`: the best fit of the first families.
+void add_findings(const std::string& file, const LogFit& power_fit, BestFamily& result) {
+  for (Finding& finding : undecided_axes(file, result)) {
+    result.findings.push_back(std::move(finding));
+  }
+  const bool other = result.best.surge != Family::kPower || result.best.yaw != Family::kPower;
+  if (other && aic_lead(result.best.fit, power_fit) > kFamilyAicThreshold) {
+    result.findings.push_back(taken(file, result.best, power_fit));
+  }
+}
+
+}  // namespace
+
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest) {
   const bool surge = is_contested(power_law, first, contest, false);
@@ -312,13 +328,7 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
     const auto others = to_compare_again(winners.at(of_yaw), of_yaw, result.best, result.others);
     if (!others.empty()) contest_axis(of_yaw, others);
   }
-  for (Finding& finding : undecided_axes(logs.front().file, result)) {
-    result.findings.push_back(std::move(finding));
-  }
-  const bool other = result.best.surge != Family::kPower || result.best.yaw != Family::kPower;
-  if (other && aic_lead(result.best.fit, power_fit) > kFamilyAicThreshold) {
-    result.findings.push_back(taken(logs.front().file, result.best, power_fit));
-  }
+  add_findings(logs.front().file, power_fit, result);
   return result;
 }
 

@@ -39,8 +39,8 @@ FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
                    const FamilyFit& inner, Family surge, Family yaw,
                    const std::vector<FreeTerm>& more = {});
 
-/// Fits the logs with Coulomb, linear and Stribeck friction of the yaw rate (`of_yaw`) or the speed,
-/// starting from the optimum of `inner`, a usable fit of other families.
+/// Fits the logs with Coulomb, linear and Stribeck friction of the yaw rate (`of_yaw`) or the
+/// speed, starting from the optimum of `inner`, a usable fit of other families.
 FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const FamilyFit& inner, bool of_yaw);
 

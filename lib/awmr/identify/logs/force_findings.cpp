@@ -33,10 +33,8 @@ std::optional<FoundForce> found_force(const LogFit& fit, ExtraForce force) {
 
 /// Value of a parameter of the fit; 0 if it is not free.
 double fitted_value(const LogFit& fit, ParameterId id) {
-  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    if (fit.quantities[i].is(id)) return fit.quantities[i].value(fit.coordinates[i]);
-  }
-  return 0.0;
+  const auto i = place_of(fit.quantities, id);
+  return i ? fit.quantities[*i].value(fit.coordinates[*i]) : 0.0;
 }
 
 /// Stribeck friction of one axis of a fit.

@@ -53,18 +53,11 @@ void refuse_direction(const Eigen::VectorXd& direction, double std,
   for (const std::size_t i : parts) refusal_reason[i] = why;
 }
 
-std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities, ParameterId id) {
-  const auto found = std::find_if(quantities.begin(), quantities.end(),
-                                  [id](const FreeQuantity& q) { return q.is(id); });
-  if (found == quantities.end()) return std::nullopt;
-  return at(found - quantities.begin());
-}
-
 /// True if the search stopped at an end of the quantity's range. A delay, a lag or a term of a
 /// family at 0 does not count, because 0 is a possible value; nor does the form of a saturation
 /// (sharpness) or of Stribeck friction (speed scale), whose limits are possible too.
 bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
-  if (q.kind == FreeQuantity::Kind::kSaturationSharpness || q.is_stribeck_speed()) return false;
+  if (q.is_form()) return false;
   if (q.may_be_zero()) return coordinate >= bounds.hi;
   const bool term = q.kind == FreeQuantity::Kind::kParameter && info(q.id).term;
   if (term && coordinate == bounds.lo) return false;

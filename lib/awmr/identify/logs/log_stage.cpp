@@ -100,13 +100,9 @@ Finding in_words(const HeldOut& missed, const std::string& file) {
 /// True if the search ended with the servo's time constant at its upper limit, which no servo
 /// reaches: the optimum is probably a wrong one.
 bool has_impossible_servo(const LogFit& fit) {
-  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    const FreeQuantity& q = fit.quantities[i];
-    if (!q.is(ParameterId::kSteeringTimeConstant)) continue;
-    constexpr double kAtLimit = 1.0 - 1e-6;
-    if (q.value(fit.coordinates[i]) >= kAtLimit * kSlowestServo_s) return true;
-  }
-  return false;
+  constexpr double kAtLimit = 1.0 - 1e-6;
+  const auto i = place_of(fit.quantities, ParameterId::kSteeringTimeConstant);
+  return i && fit.quantities[*i].value(fit.coordinates[*i]) >= kAtLimit * kSlowestServo_s;
 }
 
 Finding impossible_servo_finding(const std::string& file) {
@@ -129,9 +125,7 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
     if (!fit.refusal_reason[i].empty()) {
       if (parameter) stage.reasons[q.id] = fit.refusal_reason[i];
       if (q.is(ParameterId::kBackEmf)) stage.is_back_emf_open = true;
-      const bool is_form =
-          q.kind == FreeQuantity::Kind::kSaturationSharpness || q.is_stribeck_speed();
-      if (!parameter && !is_form) {
+      if (!parameter && !q.is_form()) {
         stage.findings.push_back({file, 0, Severity::kWarning, "not-identifiable",
                                   fmt::format("{}: {}", q.name(), fit.refusal_reason[i])});
       }

@@ -12,43 +12,8 @@
 namespace awmr {
 namespace {
 
-Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& vehicle) {
-  constexpr double kLongest_s = 1.0;
-  constexpr double kLargestTrim_rad = 0.35;
-  constexpr double kLargestImbalance = 0.5;
-  constexpr double kLargestSaturation = 0.95;
-  constexpr Interval kSharpness{1.0, 20.0};
-  constexpr Interval kStribeckSpeed{0.01, 0.5};  // relative to the largest speed
-  constexpr double kSteepest_mps2 = 5.0;
-  constexpr Interval kExponent{0.2, 1.0};
-  if (quantity.kind == FreeQuantity::Kind::kDelay ||
-      quantity.kind == FreeQuantity::Kind::kSteeringDelay) {
-    return {-kLongest_s, kLongest_s};
-  }
-  if (quantity.kind == FreeQuantity::Kind::kSteeringTrim) {
-    return {-kLargestTrim_rad, kLargestTrim_rad};
-  }
-  if (quantity.kind == FreeQuantity::Kind::kForceImbalance) {
-    return {-kLargestImbalance, kLargestImbalance};
-  }
-  if (quantity.kind == FreeQuantity::Kind::kForceSaturation) return {0.0, kLargestSaturation};
-  if (quantity.kind == FreeQuantity::Kind::kSaturationSharpness) {
-    return {to_coordinate(quantity.scale, kSharpness.lo),
-            to_coordinate(quantity.scale, kSharpness.hi)};
-  }
-  if (quantity.kind == FreeQuantity::Kind::kForceExponent) {
-    return {to_coordinate(quantity.scale, kExponent.lo),
-            to_coordinate(quantity.scale, kExponent.hi)};
-  }
-  if (quantity.is_stribeck_speed()) {
-    return {to_coordinate(quantity.scale, kStribeckSpeed.lo * quantity.fastest),
-            to_coordinate(quantity.scale, kStribeckSpeed.hi * quantity.fastest)};
-  }
-  if (quantity.kind == FreeQuantity::Kind::kExtraForce) {
-    return quantity.may_be_zero() ? Interval{0.0, 1e6} : Interval{-kSteepest_mps2, kSteepest_mps2};
-  }
-  if (quantity.may_be_zero()) return {0.0, kLongest_s};
-  if (quantity.kind == FreeQuantity::Kind::kBias) return {-1e6, 1e6};
+/// Bounds of the coordinate of a parameter of the model.
+Interval parameter_bounds(const FreeQuantity& quantity, double initial, const Vehicle& vehicle) {
   if (quantity.id == ParameterId::kSurgeBeta) {
     return {vehicle.surge_beta_range.lo, vehicle.surge_beta_range.hi};
   }
@@ -62,6 +27,55 @@ Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& 
                           ? to_coordinate(quantity.scale, kSlowestServo_s)
                           : initial + 10.0;
   return {initial - 10.0, std::max(initial, most)};
+}
+
+/// Range of a Stribeck friction, its speed scale, or a component of a slope.
+Interval extra_force_range(const FreeQuantity& quantity) {
+  constexpr double kSteepest_mps2 = 5.0;
+  if (quantity.is_stribeck_speed()) return {0.01 * quantity.fastest, 0.5 * quantity.fastest};
+  return quantity.may_be_zero() ? Interval{0.0, 1e6} : Interval{-kSteepest_mps2, kSteepest_mps2};
+}
+
+/// Range of the value of a quantity that is not a parameter.
+Interval range_of(const FreeQuantity& quantity) {
+  using Kind = FreeQuantity::Kind;
+  constexpr double kLongest_s = 1.0;
+  constexpr double kLargestTrim_rad = 0.35;
+  constexpr double kLargestImbalance = 0.5;
+  switch (quantity.kind) {
+    case Kind::kDelay:
+    case Kind::kSteeringDelay:
+      return {-kLongest_s, kLongest_s};
+    case Kind::kSteeringTrim:
+      return {-kLargestTrim_rad, kLargestTrim_rad};
+    case Kind::kForceImbalance:
+      return {-kLargestImbalance, kLargestImbalance};
+    case Kind::kForceExponent:
+      return {0.2, 1.0};
+    case Kind::kForceSaturation:
+      return {0.0, 0.95};
+    case Kind::kSaturationSharpness:
+      return {1.0, 20.0};
+    case Kind::kExtraForce:
+      return extra_force_range(quantity);
+    case Kind::kParameter:
+    case Kind::kBias:
+      return {-1e6, 1e6};
+    case Kind::kMotorLag:
+    case Kind::kSensorDelay:
+    case Kind::kSensorLag:
+      return {0.0, kLongest_s};
+  }
+  return {};
+}
+
+/// Bounds of the coordinate of a quantity.
+Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& vehicle) {
+  if (quantity.kind == FreeQuantity::Kind::kParameter) {
+    return parameter_bounds(quantity, initial, vehicle);
+  }
+  const Interval range = range_of(quantity);
+  return {to_coordinate(quantity.scale, range.lo), to_coordinate(quantity.scale, range.hi)};
 }
 
 }  // namespace
@@ -175,6 +189,13 @@ bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind ki
 
 bool has_force(const std::vector<FreeQuantity>& quantities, ExtraForce force) {
   return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.is(force); });
+}
+
+std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities, ParameterId id) {
+  const auto found = std::find_if(quantities.begin(), quantities.end(),
+                                  [id](const FreeQuantity& q) { return q.is(id); });
+  if (found == quantities.end()) return std::nullopt;
+  return at(found - quantities.begin());
 }
 
 namespace {

@@ -2,6 +2,7 @@
 /// Private to identify/.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,9 @@ struct FreeQuantity {
   ExtraForce force = ExtraForce::kSlopeX;  ///< of kExtraForce
   Scale scale = Scale::kLinear;
   /// Change of the coordinate that counts as large: 1 for a logarithm (a factor e), an exponent or
-  /// a bias (SI); 0.2 for a term of a family; 0.1 for a delay or lag (s), trim (rad), imbalance or
-  /// saturation; 0.2 for Stribeck friction; 0.5 for a slope (m/s^2). Standard deviations of priors and limits of identifiability are
-  /// multiples of this change.
+  /// a bias (SI); 0.2 for a term of a family or Stribeck friction; 0.1 for a delay or lag (s), trim
+  /// (rad), imbalance or saturation; 0.5 for a slope (m/s^2). Standard deviations of priors and
+  /// limits of identifiability are multiples of this change.
   double large_change = 1.0;
   double full_command = 1.0;  ///< of kForceSaturation: F'm of force_saturation(), > 0
   double fastest = 1.0;       ///< of a Stribeck speed: largest speed of the logs
@@ -55,8 +56,10 @@ struct FreeQuantity {
   bool is_stribeck_speed() const {
     return is(ExtraForce::kSurgeStribeckSpeed) || is(ExtraForce::kYawStribeckSpeed);
   }
-  /// True for delays, lags, saturation and Stribeck friction, which cannot be negative, so that 0 is an end of
-  /// their range.
+  /// True for the form of a saturation (sharpness) or of Stribeck friction (speed scale).
+  bool is_form() const { return kind == Kind::kSaturationSharpness || is_stribeck_speed(); }
+  /// True for delays, lags, saturation and Stribeck friction, which cannot be negative, so that 0
+  /// is an end of their range.
   bool may_be_zero() const {
     return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag ||
            kind == Kind::kForceSaturation || is(ExtraForce::kSurgeStribeck) ||
@@ -87,8 +90,8 @@ FreeQuantity steering_trim();
 /// times.
 FreeQuantity force_imbalance();
 
-/// Exponent p of the wheel forces: the command F' pushes with |F'|^p sgn F' (times F_max). The search
-/// tries p below 1 only; above 1, the curve resembles a dead zone of the wheels.
+/// Exponent p of the wheel forces: the command F' pushes with |F'|^p sgn F' (times F_max). The
+/// search tries p below 1 only; above 1, the curve resembles a dead zone of the wheels.
 FreeQuantity force_exponent();
 
 /// Saturation of the wheel forces: the share L, in [0, 1), of the force that is lost at F'm, the
@@ -121,13 +124,15 @@ struct FreeTerm {
   double begin;  ///< coordinate of the initial guess
 };
 
-/// Speed scale w_s of the Stribeck friction `force`, with its initial guess. `fastest`: largest speed
-/// (m/s or rad/s) of the logs.
+/// Speed scale w_s of the Stribeck friction `force`, with its initial guess. `fastest`: largest
+/// speed (m/s or rad/s) of the logs.
 FreeTerm stribeck_speed_term(ExtraForce force, double fastest);
 inline constexpr double kStribeckShare = 0.1;  ///< initial guess of w_s, relative to `fastest`
 
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind);
 bool has_force(const std::vector<FreeQuantity>& quantities, ExtraForce force);
+/// Place of a parameter among the quantities; empty if it is not free.
+std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities, ParameterId id);
 
 /// Free quantities of a fit, in the order of FreeQuantity::Kind.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);

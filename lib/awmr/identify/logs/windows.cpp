@@ -55,16 +55,14 @@ bool begins_in_motion(const DrivingLog& log) {
       });
 }
 
-/// The rows of a window that are fitted. Lagged forces and filtered sensors depend on commands and
-/// speeds before the first row, so the first second of a log that begins in motion is not fitted.
-LogWindow without_unknown_past(LogWindow window) {
+/// The first row that is fitted. Lagged forces and filtered sensors depend on commands and speeds
+/// before the first row, so the first second of a log that begins in motion is not fitted.
+std::size_t first_fitted_row(const DrivingLog& log) {
   constexpr double kForgotten_s = 1.0;
   constexpr double kShortest_s = 5.0;  // shorter logs are fitted entirely
-  const std::vector<double>& t_s = window.log->t_s;
-  if (t_s.back() - t_s.front() < kShortest_s || !begins_in_motion(*window.log)) return window;
-  const auto from = std::ranges::lower_bound(t_s, t_s.front() + kForgotten_s);
-  window.begin = std::clamp(at(from - t_s.begin()), window.begin, window.end);
-  return window;
+  const std::vector<double>& t_s = log.t_s;
+  if (t_s.back() - t_s.front() < kShortest_s || !begins_in_motion(log)) return 0;
+  return at(std::ranges::lower_bound(t_s, t_s.front() + kForgotten_s) - t_s.begin());
 }
 
 }  // namespace
@@ -74,8 +72,10 @@ std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
   std::vector<FitWindow> windows;
   for (const DrivingLog& log : logs) {
     const auto signals = std::make_shared<const LogSignals>(log);
+    const std::size_t first = first_fitted_row(log);
     for (const LogWindow& all : windows_of(log, kWindow_s)) {
-      const LogWindow rows = without_unknown_past(only_s ? within(all, *only_s) : all);
+      LogWindow rows = only_s ? within(all, *only_s) : all;
+      rows.begin = std::clamp(first, rows.begin, rows.end);
       auto samples = std::make_shared<const std::vector<Sample>>(samples_of(rows));
       if (samples->empty()) continue;
       windows.push_back({rows, signals, std::move(samples), measured_initial_state(rows), {}});
