@@ -56,8 +56,23 @@ Status check_sample_time(const Model& model) {
           65536.0 * 8.0 / kClockHz * 1000.0, model.vehicle.sample_time_s * 1000.0));
 }
 
+/// Emit options that the scenario's guidance and split need, added to the given ones.
+EmitOptions emit_options_for(EmitOptions given, const Scenario& scenario, const Mission& mission) {
+  given.parts.merge(parts_of(mission));
+  if (mission.line) given.line_law = mission.line->place;
+  if (scenario.control.split != CombinedSplit::kRedistribute) given.split = mission.split;
+  return given;
+}
+
+GpsLimits gps_limits_of(const AutopilotParameters& parameters) {
+  const auto& safety = parameters.block.safety;
+  return {.speed_max_mps = safety.speed_max_mps,
+          .on_course_rad = parameters.on_course_rad,
+          .off_course_mrad = parameters.off_course_mrad,
+          .timeout_ms = safety.speed_timeout_ms};
+}
+
 Result<Inputs> read_inputs(const PilOptions& options) {
-  Inputs in;
   auto model = read_model(options.model);
   if (!model) return tl::unexpected(model.error());
   const auto gains = read_gains_for(options.gains, model->vehicle.sample_time_s);
@@ -73,10 +88,8 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   if (!names) return tl::unexpected(names.error());
   if (estimates_position(*scenario)) know_receiver(*scenario->sensors->gps, *model);
   const Mission mission = mission_of(*scenario);
-  in.emit = options.emit;
-  in.emit.parts.merge(parts_of(mission));
-  if (mission.line) in.emit.line_law = mission.line->place;
-  if (scenario->control.split != CombinedSplit::kRedistribute) in.emit.split = mission.split;
+  Inputs in;
+  in.emit = emit_options_for(options.emit, *scenario, mission);
   const auto parameters = autopilot_parameters(*model, *gains, *names, in.emit);
   if (!parameters) return tl::unexpected(parameters.error());
   in.setup = {.plant = *plant,
@@ -85,19 +98,14 @@ Result<Inputs> read_inputs(const PilOptions& options) {
               .scenario = *scenario,
               .mission = mission,
               .mode = options.mode,
-              .injection = options.injection};
+              .injection = options.injection,
+              .limits = parameters->block.safety,
+              .gps_limits = gps_limits_of(*parameters)};
   in.model = std::move(*model);
   in.gains = *gains;
   in.names = *names;
   in.emit.parts = parameters->parts;
   in.parameters = *parameters;
-  in.setup.limits = parameters->block.safety;
-  in.setup.gps_limits = {
-      .speed_max_mps = parameters->block.safety.speed_max_mps,
-      .on_course_rad = parameters->on_course_rad,
-      .off_course_mrad = parameters->off_course_mrad,
-      .timeout_ms = parameters->block.safety.speed_timeout_ms,
-  };
   return in;
 }
 

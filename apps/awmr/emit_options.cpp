@@ -13,8 +13,9 @@
 #include "numbers.h"
 
 namespace awmr::cli {
+namespace {
 
-void add_emit_options(CLI::App& command, EmitOptions& options) {
+void add_resistance_options(CLI::App& command, EmitOptions& options) {
   add_choice(
       command, "--resistance", options.resistance, kResistanceFormNames,
       "Resistance on the chip: by an interpolated table in flash, or by the C library's powf")
@@ -25,6 +26,9 @@ void add_emit_options(CLI::App& command, EmitOptions& options) {
                   "smaller, to a tenth of the largest force (yaw: moment). Refused if no table "
                   "is that accurate [5e-4, or the error of the most accurate table]")
       ->check(within(1e-7, 0.1));
+}
+
+void add_parts_option(CLI::App& command, EmitOptions& options) {
   command
       .add_option_function<std::vector<std::string>>(
           "--with",
@@ -36,14 +40,13 @@ void add_emit_options(CLI::App& command, EmitOptions& options) {
           "Optional parts to compile in, in addition to heading hold and waypoints")
       ->delimiter(',')
       ->check(one_of(names_in(kFirmwarePartNames)));
-  add_choice(
-      command, "--split", options.split, kCombinedSplitNames,
-      "Combined mode, when steering or wheel forces reach their limit: redistribute gives the "
-      "rest of the yaw moment to the other one; with fixed_half the rest is lost")
-      ->default_str("redistribute");
+}
+
+void add_timeouts(CLI::App& command, EmitOptions& options) {
+  constexpr std::uint32_t kHour_ms = 3600000;
   const auto timeout = [&](const char* name, std::uint32_t& value, const char* meaning) {
     command.add_option(name, value, meaning)
-        ->check(within<std::uint32_t>(1, 3600000))
+        ->check(within<std::uint32_t>(1, kHour_ms))
         ->capture_default_str();
   };
   timeout("--heading-timeout-ms", options.heading_timeout_ms,
@@ -56,7 +59,20 @@ void add_emit_options(CLI::App& command, EmitOptions& options) {
       .add_option(
           "--step-timeout-ms", options.step_timeout_ms,
           "Largest time between two steps, ms; a longer one is a fault [three sample times]")
-      ->check(within<std::uint32_t>(1, 3600000));
+      ->check(within<std::uint32_t>(1, kHour_ms));
+}
+
+}  // namespace
+
+void add_emit_options(CLI::App& command, EmitOptions& options) {
+  add_resistance_options(command, options);
+  add_parts_option(command, options);
+  add_choice(
+      command, "--split", options.split, kCombinedSplitNames,
+      "Combined mode, when steering or wheel forces reach their limit: redistribute gives the "
+      "rest of the yaw moment to the other one; with fixed_half the rest is lost")
+      ->default_str("redistribute");
+  add_timeouts(command, options);
 }
 
 Result<EmitInputs> emit_inputs(const std::filesystem::path& model,

@@ -15,6 +15,27 @@ namespace {
 
 constexpr unsigned kAnyCount = std::numeric_limits<unsigned>::max();
 
+void add_inputs(CLI::App& command, PilOptions& options) {
+  add_file(command, "--model", options.model, "model.json from identify")->required();
+  add_file(command, "--gains", options.gains, "gains.json from tune")->required();
+  add_file(command, "--scenario", options.scenario, "scenario.json")->required();
+  add_choice(command, "--mode", options.mode, kYawModeNames,
+             "Yaw control by wheel forces, by steering or by both")
+      ->required();
+}
+
+void add_link(CLI::App& command, PilOptions& options) {
+  add_choice(command, "--link", options.link, kPilLinkNames,
+             "Data exchange through the chip's RAM (fast), or through its UART in frames")
+      ->default_str("memory");
+  add_file(command, "--port", options.port,
+           "Serial port of a real board, flashed with DIR/pil_uart.elf of --build-dir; "
+           "with --link uart");
+  command.add_option("--baud", options.baud, "Baud rate of --port")
+      ->check(within(300U, 4000000U))
+      ->capture_default_str();
+}
+
 void add_bounds(CLI::App& command, PilOptions& options) {
   command
       .add_option("--cycles-max", options.cycles_max,
@@ -43,21 +64,8 @@ void add_bounds(CLI::App& command, PilOptions& options) {
 }  // namespace
 
 void add_pil_options(CLI::App& command, PilOptions& options) {
-  add_file(command, "--model", options.model, "model.json from identify")->required();
-  add_file(command, "--gains", options.gains, "gains.json from tune")->required();
-  add_file(command, "--scenario", options.scenario, "scenario.json")->required();
-  add_choice(command, "--mode", options.mode, kYawModeNames,
-             "Yaw control by wheel forces, by steering or by both")
-      ->required();
-  add_choice(command, "--link", options.link, kPilLinkNames,
-             "Data exchange through the chip's RAM (fast), or through its UART in frames")
-      ->default_str("memory");
-  add_file(command, "--port", options.port,
-           "Serial port of a real board, flashed with DIR/pil_uart.elf of --build-dir; "
-           "with --link uart");
-  command.add_option("--baud", options.baud, "Baud rate of --port")
-      ->check(within(300U, 4000000U))
-      ->capture_default_str();
+  add_inputs(command, options);
+  add_link(command, options);
   add_emit_options(command, options.emit);
   command
       .add_option_function<std::string>(

@@ -220,6 +220,26 @@ void describe_trade_off(JsonObject json) {
   json.reject_unknown_keys();
 }
 
+void describe_limits(JsonObject json) {
+  TuningLimits kept;
+  limit_options(kept, [&](const char* key, const auto& value, const NumberRule& rule) {
+    if constexpr (std::is_same_v<decltype(value), const double&>) {
+      json.number(key, rule);
+    } else {
+      json.optional_number(key, rule);
+    }
+  });
+  json.reject_unknown_keys();
+}
+
+void describe_baseline(JsonObject json) {
+  gains_from_json(json);
+  json.optional_string("source");  // "pole-placement", "paper" or a file; absent: the paper's
+  json.number("objective");
+  describe_scores(json.object("metrics"));
+  json.reject_unknown_keys();
+}
+
 void describe_gains(JsonObject& json) {
   json.schema(kGainsSchema);
   read_provenance(json);
@@ -232,17 +252,7 @@ void describe_gains(JsonObject& json) {
   }
   describe_constraints(json);
   if (auto examined = json.optional_object("examined")) read_examined(std::move(*examined));
-  if (auto limits = json.optional_object("limits")) {
-    TuningLimits kept;
-    limit_options(kept, [&](const char* key, const auto& value, const NumberRule& rule) {
-      if constexpr (std::is_same_v<decltype(value), const double&>) {
-        limits->number(key, rule);
-      } else {
-        limits->optional_number(key, rule);
-      }
-    });
-    limits->reject_unknown_keys();
-  }
+  if (auto limits = json.optional_object("limits")) describe_limits(*limits);
   if (auto certificate = json.optional_object("certificate")) describe_certificate(*certificate);
   if (auto trade_off = json.optional_object("trade_off")) describe_trade_off(*trade_off);
   if (auto objective = json.optional_object("objective")) describe_objective(*objective);
@@ -251,14 +261,7 @@ void describe_gains(JsonObject& json) {
   if (auto robust = json.optional_object("robust")) describe_robust(*robust);
   describe_goals(json);
   if (auto sensitivity = json.optional_object("sensitivity")) describe_sensitivity(*sensitivity);
-  if (auto baseline = json.optional_object("baseline")) {
-    gains_from_json(*baseline);
-    baseline->optional_string(
-        "source");  // "pole-placement", "paper" or a file; absent: the paper's
-    baseline->number("objective");
-    describe_scores(baseline->object("metrics"));
-    baseline->reject_unknown_keys();
-  }
+  if (auto baseline = json.optional_object("baseline")) describe_baseline(*baseline);
   read_findings(json);
   json.reject_unknown_keys();
 }

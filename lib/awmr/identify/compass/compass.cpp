@@ -245,6 +245,27 @@ CompassCalibration calibration_of(const Known& known) {
           .heading_error_deg = degrees(heading_error_rad(known))};
 }
 
+/// Errors (refusal): the headings leave a large gap, or the field is not on an ellipse.
+Status check_ellipse(const std::string& file, const Known& fit,
+                     const std::pair<double, double>& gap_rad) {
+  const double gap_deg = degrees(gap_rad.second);
+  if (gap_deg > kLargestGapDeg) {
+    return refusal(
+        ErrorCode::kCompassUnusable,
+        fmt::format("{}: no reading for {:.0f} deg of the circle, counter-clockwise from the "
+                    "magnetic heading {:.0f} deg, so the ellipse is uncertain there; "
+                    "turn through two whole circles",
+                    file, gap_deg, degrees(gap_rad.first)));
+  }
+  if (fit.residual > kNoEllipse) {
+    return refusal(ErrorCode::kCompassUnusable,
+                   fmt::format("{}: the field is off the best ellipse by {:.0f} % (standard "
+                               "deviation); record again on level ground, away from moving iron",
+                               file, 100.0 * fit.residual));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<CompassFit> fit_compass(const FieldRecord& record, double declination_deg) {
@@ -258,26 +279,13 @@ Result<CompassFit> fit_compass(const FieldRecord& record, double declination_deg
             "ground, away from iron");
   }
   const std::vector<double> headings = headings_of(*ellipse, points);
-  const auto [gap_begin, gap] = largest_gap_rad(headings);
-  if (degrees(gap) > kLargestGapDeg) {
-    return refusal(
-        ErrorCode::kCompassUnusable,
-        fmt::format("{}: no reading for {:.0f} deg of the circle, counter-clockwise from the "
-                    "magnetic heading {:.0f} deg, so the ellipse is uncertain there; "
-                    "turn through two whole circles",
-                    record.file, degrees(gap), degrees(gap_begin)));
-  }
+  const std::pair<double, double> gap_rad = largest_gap_rad(headings);
   const Known fit = known(*ellipse, points, headings);
-  if (fit.residual > kNoEllipse) {
-    return refusal(ErrorCode::kCompassUnusable,
-                   fmt::format("{}: the field is off the best ellipse by {:.0f} % (standard "
-                               "deviation); record again on level ground, away from moving iron",
-                               record.file, 100.0 * fit.residual));
-  }
+  AWMR_RETURN_IF_ERROR(check_ellipse(record.file, fit, gap_rad));
   CompassFit result{.calibration = calibration_of(fit)};
   AWMR_RETURN_IF_ERROR(check_usable(record.file, result.calibration));
   result.calibration.turned_deg = degrees(turned_rad(headings));
-  result.calibration.largest_gap_deg = degrees(gap);
+  result.calibration.largest_gap_deg = degrees(gap_rad.second);
   result.calibration.declination_deg = declination_deg;
   if (fit.residual > kLargeResidual) {
     result.findings.push_back(

@@ -113,9 +113,8 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
 }
 
 /// `steering-delay`, if the steering reacts later than the forces, beyond the servo's lag, or if
-/// its commands are stamped later;
-/// `steering-trim` and `force-imbalance` for constant errors of the commands.
-std::vector<Finding> steering_findings(const LogFit& fit, const std::string& file) {
+/// its commands are stamped later.
+std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& latency : found_terms(fit, FreeQuantity::Kind::kSteeringDelay)) {
     findings.push_back(
@@ -131,7 +130,13 @@ std::vector<Finding> steering_findings(const LogFit& fit, const std::string& fil
                            "compensates this; log each command when it is sent",
                            -latency.value, latency.error)});
   }
-  // If the commands cannot separate trim and imbalance, only one of them is in the fit.
+  return findings;
+}
+
+/// `steering-trim` and `force-imbalance` for constant errors of the commands. If the commands
+/// cannot separate the two, only one of them is in the fit.
+std::vector<Finding> constant_error_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
   for (const FoundTerm& trim : found_terms(fit, FreeQuantity::Kind::kSteeringTrim)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "steering-trim",
@@ -224,8 +229,9 @@ bool saturates_much(const LogFit& fit) {
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
                                                  const std::string& file) {
   std::vector<Finding> findings = delay_findings(fit, file);
-  for (const auto& more : {steering_findings(fit, file), saturation_findings(fit, file),
-                           actuator_findings(fit, file), force_findings(fit, file)}) {
+  for (const auto& more :
+       {steering_delay_findings(fit, file), constant_error_findings(fit, file),
+        saturation_findings(fit, file), actuator_findings(fit, file), force_findings(fit, file)}) {
     findings.insert(findings.end(), more.begin(), more.end());
   }
   if (!withdrawn) return findings;

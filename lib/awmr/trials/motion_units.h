@@ -1,0 +1,14 @@
+/// Checks the units of heading, yaw rate, position and speed in a log. Private to this folder.
+#pragma once
+
+#include <vector>
+
+#include "awmr/trials/log_evidence.h"
+
+namespace awmr {
+
+/// Compares each channel with the one that it is the derivative of. Without that one, detects
+/// values that no wheeled vehicle reaches.
+std::vector<Contradiction> motion_unit_contradictions(const Evidence& evidence);
+
+}  // namespace awmr
