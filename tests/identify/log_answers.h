@@ -31,11 +31,10 @@ inline IdentifyOptions power_law() {
 }
 
 /// Mean force from each row to the next of motors with the time constant T = lag_s under the
-/// command c: F'(t + h) = c + (F'(t) - c) exp(-h/T).
+/// command c: F'(t + h) = c + (F'(t) - c) exp(-h/T). `force`: F' at the first row.
 inline std::vector<double> behind_motors(const DrivingLog& log, const std::vector<double>& command,
-                                         double lag_s) {
+                                         double lag_s, double force) {
   std::vector<double> mean = command;
-  double force = command.front();
   for (std::size_t i = 0; i + 1 < log.rows(); ++i) {
     const double h = log.t_s[i + 1] - log.t_s[i];
     const double e = std::exp(-h / lag_s);
@@ -45,9 +44,10 @@ inline std::vector<double> behind_motors(const DrivingLog& log, const std::vecto
   return mean;
 }
 
-/// The log of drive() for a vehicle whose motors lag by the time constant `lag_s`.
+/// The log of drive() for a vehicle whose motors lag by the time constant `lag_s`. Before the log,
+/// the motors had the force of the first row, or none if the log begins `from_rest`.
 inline DrivingLog drive_with_lag(const Truth& t, std::uint64_t seed, double lag_s,
-                                 DrivePlan plan = {.duration_s = 20.0}) {
+                                 DrivePlan plan = {.duration_s = 20.0}, bool from_rest = false) {
   const std::map<LogChannel, double> noise{{LogChannel::kX, 0.02},
                                            {LogChannel::kY, 0.02},
                                            {LogChannel::kHeading, 0.01},
@@ -56,8 +56,8 @@ inline DrivingLog drive_with_lag(const Truth& t, std::uint64_t seed, double lag_
   DrivingLog log = drive(t, seed, plan);
   const std::vector<double> left = log.force_left;
   const std::vector<double> right = log.force_right;
-  log.force_left = behind_motors(log, left, lag_s);
-  log.force_right = behind_motors(log, right, lag_s);
+  log.force_left = behind_motors(log, left, lag_s, from_rest ? 0.0 : left.front());
+  log.force_right = behind_motors(log, right, lag_s, from_rest ? 0.0 : right.front());
   Random random(seed, 77);
   replay<double>(LogSignals(log), 0, log.rows(), plant(t), nullptr, 0.002, {},
                  [&](std::size_t row, const State<double>& state) {

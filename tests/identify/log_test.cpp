@@ -12,6 +12,7 @@
 #include "awmr/identify/logs/whitener.h"
 #include "awmr/identify/planning/recover.h"
 #include "awmr/model/model_file.h"
+#include "awmr/trials/log_start.h"
 #include "awmr/trials/replay.h"
 #include "identify/log_answers.h"
 
@@ -216,6 +217,24 @@ TEST(Log, SeparatesMotorLagFromADeadTime) {
   EXPECT_TRUE(has_finding(*result, "actuator-lag"));
   expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
   expect_recovered(*result, ParameterId::kSurgeAlpha, kTruths[1].a1, 4.5);
+}
+
+/// The motors are switched on with the first row. Speed and yaw rate both look filtered.
+TEST(Log, FindsALargeMotorLagInALogThatBeginsWithTheMotors) {
+  constexpr double kLag_s = 0.3;
+  TrialData data;
+  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 20.0}, true)};
+  add_row_of_rest(data.logs[0]);
+  ASSERT_EQ(data.logs[0].force_left[0], 0.0);
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto lag = estimated(*result, "motor.time_constant_s");
+  ASSERT_TRUE(lag && lag->std_error);
+  EXPECT_NEAR(lag->value, kLag_s, 4.5 * *lag->std_error);
+  EXPECT_FALSE(has_finding(*result, "sensor-lag"));
+  EXPECT_FALSE(has_finding(*result, "stribeck-friction"));
+  expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
 }
 
 TEST(Log, RefusesAnImpossibleInertia) {

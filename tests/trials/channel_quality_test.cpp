@@ -79,6 +79,21 @@ TEST(ChannelQuality, ASlowSensorCountsAtItsOwnRate) {
   }
 }
 
+/// Slow motion reaches the next step at irregular times, often several rows apart.
+TEST(ChannelQuality, ACoarseSensorWithoutNoiseIsNotTakenForASlowOne) {
+  for (const double quantum : {0.05, 0.1, 0.2}) {
+    Drive d = drive(6, 0.0);
+    for (std::size_t i = 0; i < kRows; ++i) {
+      const double t_s = 0.02 * static_cast<double>(i);
+      d.speed[i] = quantum * std::round((1.0 + std::sin(0.4 * t_s)) / quantum);
+    }
+    const ChannelQuality q = evaluate(d);
+    EXPECT_EQ(q.repeats, Repeats::kCoarse) << quantum;
+    EXPECT_NEAR(q.quantum, quantum, 1e-9);
+    EXPECT_EQ(fresh_rows(q), kRows) << quantum;
+  }
+}
+
 TEST(ChannelQuality, ASlowAndCoarseSensorCountsWhereItRepeatsToo) {
   Drive d = drive(5, 0.0);
   for (std::size_t i = 0; i < kRows; ++i) {

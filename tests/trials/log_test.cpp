@@ -46,6 +46,30 @@ TEST(Log, ReadsChannelsInSi) {
   EXPECT_NEAR(log.median_step_s(), 0.1, 1e-9);
 }
 
+/// A log with twelve rows at 10 Hz, forces of 0.2 and these speeds.
+Read<DrivingLog> log_with_speeds(const std::function<double(int)>& speed_mps) {
+  return accepted_log(log_text("speed_mps", [&](int i) { return std::to_string(speed_mps(i)); }));
+}
+
+TEST(Log, FromRestWithMotorsOnHasARowWithoutForcesBefore) {
+  const DrivingLog log = log_with_speeds([](int i) { return i < 6 ? 0.001 * i : 0.2 * i; }).set;
+  ASSERT_EQ(log.rows(), 13U);
+  EXPECT_NEAR(log.t_s[0], -0.1, 1e-9);
+  EXPECT_EQ(log.force_left[0], 0.0);
+  EXPECT_EQ(log.force_right[0], 0.0);
+  EXPECT_EQ(log.force_left[1], 0.2);
+  EXPECT_EQ((*log.steering_command_rad)[0], (*log.steering_command_rad)[1]);
+  EXPECT_FALSE(is_measurement(log, LogChannel::kSpeed, 0));
+  EXPECT_TRUE(is_measurement(log, LogChannel::kSpeed, 1));
+  EXPECT_EQ(log.line[1], 2);
+}
+
+TEST(Log, InMotionHasNoRowBefore) {
+  const DrivingLog log = log_with_speeds([](int i) { return 1.0 + 0.1 * i; }).set;
+  EXPECT_EQ(log.rows(), 12U);
+  EXPECT_EQ(log.force_left[0], 0.2);
+}
+
 std::vector<std::string> constant_columns(const Read<DrivingLog>& read) {
   std::vector<std::string> columns;
   for (const Finding& finding : read.findings) {
@@ -170,9 +194,10 @@ TEST(Log, ACourseAtRestIsSetAside) {
     const auto read = accepted_log(with_rests(course));
     EXPECT_THAT(codes(read), Contains("course-at-rest"));
     const Measured& heading = *read.set[LogChannel::kHeading];
-    EXPECT_FALSE(heading.fresh[5] || heading.fresh[35]);
-    EXPECT_TRUE(heading.fresh[20]);
-    EXPECT_NEAR(heading.value[55], radians(90.1), 1e-9);  // without whole turns from the noise
+    // Row 0 is the added row of rest.
+    EXPECT_FALSE(heading.fresh[6] || heading.fresh[36]);
+    EXPECT_TRUE(heading.fresh[21]);
+    EXPECT_NEAR(heading.value[56], radians(90.1), 1e-9);  // without whole turns from the noise
   }
 }
 

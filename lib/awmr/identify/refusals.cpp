@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
+#include <string_view>
 
 #include "awmr/identify/assumed_sway.h"
 
@@ -41,6 +43,29 @@ std::string table_reason(ParameterId id, const TrialData& data, const Reasons& r
     default:
       return "vehicle.json does not give it";
   }
+}
+
+/// True if a log has one of these channels.
+bool is_logged(const TrialData& data, std::initializer_list<LogChannel> channels) {
+  return std::ranges::any_of(data.logs, [&](const DrivingLog& log) {
+    return std::ranges::any_of(channels, [&](LogChannel c) { return log[c].has_value(); });
+  });
+}
+
+/// The trial or channel that would identify the parameter.
+std::string_view remedy_of(ParameterId id, const TrialData& data, const Vehicle& vehicle) {
+  const bool is_turning = id == ParameterId::kYawAlpha || id == ParameterId::kYawBeta ||
+                          id == ParameterId::kInertiaNorm;
+  const bool is_surge = id == ParameterId::kSurgeAlpha || id == ParameterId::kSurgeBeta ||
+                        id == ParameterId::kMassNorm;
+  using enum LogChannel;
+  if (!data.logs.empty() && is_surge && !is_logged(data, {kSpeed, kX})) {
+    return "the logs have no speed_mps and no x_m, y_m: log or map one of them";
+  }
+  if (!data.logs.empty() && is_turning && !is_logged(data, {kYawRate, kHeading, kX})) {
+    return "the logs have no yaw_rate_radps, heading_deg or x_m, y_m: log or map one of them";
+  }
+  return trial_of(vehicle, id);
 }
 
 }  // namespace
@@ -99,7 +124,7 @@ std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Rea
     model.record.findings.push_back(
         {"", 0, wanted ? Severity::kError : Severity::kNote, "not-identifiable",
          fmt::format("{} ({}) cannot be identified: {}; {}{}", parameter.name, parameter.meaning,
-                     why, trial_of(model.vehicle, parameter.id), kept)});
+                     why, remedy_of(parameter.id, data, model.vehicle), kept)});
   }
   return refused;
 }

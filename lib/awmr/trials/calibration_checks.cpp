@@ -80,18 +80,19 @@ struct CourseWindow {
   Complex moved, driven, turned, slipped, hastened;
 };
 
-CourseWindow course_window(const DrivingLog& log, const LogWindow& window, double heading_factor) {
+/// `psi`: heading by row, rad.
+CourseWindow course_window(const DrivingLog& log, const LogWindow& window,
+                           const std::vector<double>& psi) {
   const std::vector<double>& x = log[LogChannel::kX]->value;
   const std::vector<double>& y = log[LogChannel::kY]->value;
   const std::vector<double>& u = log[LogChannel::kSpeed]->value;
-  const std::vector<double>& psi = log[LogChannel::kHeading]->value;
   const auto& rate = log[LogChannel::kYawRate];
   const std::size_t last = window.end - 1;
   CourseWindow sums{{x[last] - x[window.begin], y[last] - y[window.begin]}, 0, 0, 0, 0};
   for (std::size_t i = window.begin; i < last; ++i) {
     const double h = log.t_s[i + 1] - log.t_s[i];
     const double speed = 0.5 * (u[i] + u[i + 1]);
-    const Complex ahead = std::polar(1.0, heading_factor * 0.5 * (psi[i] + psi[i + 1]));
+    const Complex ahead = std::polar(1.0, 0.5 * (psi[i] + psi[i + 1]));
     const double turn =
         rate ? 0.5 * (rate->value[i] + rate->value[i + 1]) * h : psi[i + 1] - psi[i];
     sums.driven += speed * h * ahead;
@@ -117,12 +118,14 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
   }
   const std::vector<LogWindow> windows = calibration_windows(log);
   if (windows.size() < kMinWindows) return std::nullopt;
+  std::vector<double> psi = log[LogChannel::kHeading]->value;
+  for (double& heading : psi) heading *= heading_factor;
   // With k = p + i q: Re(k a) = p Re a - q Im a, Im(k a) = p Im a + q Re a.
   constexpr Eigen::Index kTerms = 4;
   Eigen::MatrixXd left(2 * static_cast<Eigen::Index>(windows.size()), 2 * kTerms);
   Eigen::VectorXd right(left.rows());
   for (std::size_t w = 0; w < windows.size(); ++w) {
-    const CourseWindow sums = course_window(log, windows[w], heading_factor);
+    const CourseWindow sums = course_window(log, windows[w], psi);
     const auto row = 2 * static_cast<Eigen::Index>(w);
     const Complex terms[kTerms] = {sums.driven, sums.turned, sums.slipped, sums.hastened};
     for (Eigen::Index i = 0; i < kTerms; ++i) {
@@ -137,6 +140,36 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
   return CourseFit{{found->coefficients(0), found->coefficients(1)},
                    std::max(found->std_errors(0), found->std_errors(1)),
                    found->scatter};
+}
+
+/// s in a log without heading, from the yaw rate (calibration_checks.h). Empty if a channel is
+/// missing, with fewer than 15 windows, or if s is not determined.
+std::optional<Calibration> distance_scale(const DrivingLog& log) {
+  for (const LogChannel channel :
+       {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed, LogChannel::kYawRate}) {
+    if (!log[channel]) return std::nullopt;
+  }
+  const std::vector<LogWindow> windows = calibration_windows(log);
+  if (windows.size() < kMinWindows) return std::nullopt;
+  const std::vector<double>& rate = log[LogChannel::kYawRate]->value;
+  std::vector<double> psi(log.rows(), 0.0);
+  for (std::size_t i = 1; i < log.rows(); ++i) {
+    psi[i] = psi[i - 1] + 0.5 * (rate[i - 1] + rate[i]) * (log.t_s[i] - log.t_s[i - 1]);
+  }
+  Eigen::MatrixXd left(static_cast<Eigen::Index>(windows.size()), 5);
+  Eigen::VectorXd right(left.rows());
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    const CourseWindow sums = course_window(log, windows[w], psi);
+    const Complex crossed = sums.driven * std::conj(sums.turned);
+    const auto row = static_cast<Eigen::Index>(w);
+    left.row(row) << std::norm(sums.driven), crossed.real(), crossed.imag(), std::norm(sums.turned),
+        1.0;
+    right(row) = std::norm(sums.moved);
+  }
+  const auto found = regression(left, right);
+  if (!found || !(found->coefficients(0) > 0.0)) return std::nullopt;
+  const double scale = std::sqrt(found->coefficients(0));
+  return Calibration{scale, 0.5 * found->std_errors(0) / scale};
 }
 
 /// Factor k between the change of heading and the integral of the yaw rate (calibration_checks.h).
@@ -219,9 +252,9 @@ std::optional<Finding> rate_mismatch(const DrivingLog& log,
                                    compared, rate, heading));
 }
 
-std::optional<Finding> speed_mismatch(const DrivingLog& log, const CourseFit& course,
+/// `scale`: s of calibration_checks.h.
+std::optional<Finding> speed_mismatch(const DrivingLog& log, const Calibration& scale,
                                       std::span<const ColumnMapping> mappings) {
-  const Calibration scale{std::abs(course.factor), course.std_error};
   if (!is_off_one(scale)) return std::nullopt;
   return scale_finding(
       log,
@@ -254,8 +287,13 @@ std::vector<Finding> calibration_findings(const DrivingLog& log,
   std::vector<Finding> findings;
   if (auto rate = rate_mismatch(log, mappings)) findings.push_back(*std::move(rate));
   const auto course = course_fit(log);
+  const auto scale = course
+                         ? std::optional(Calibration{std::abs(course->factor), course->std_error})
+                         : distance_scale(log);
+  if (scale) {
+    if (auto speed = speed_mismatch(log, *scale, mappings)) findings.push_back(*std::move(speed));
+  }
   if (!course) return findings;
-  if (auto speed = speed_mismatch(log, *course, mappings)) findings.push_back(*std::move(speed));
   if (const auto offset = offset_of(*course)) {
     findings.push_back(
         {log.file, 0, Severity::kWarning, "heading-offset",

@@ -13,7 +13,13 @@
 ///     d = int exp(i psi) du                  latency of speed or position
 ///
 /// s is the ratio of the position's scale to the speed's scale (1 if both are right). phi is the
-/// angle from the heading to the course over ground. The change of heading is compared with the
+/// angle from the heading to the course over ground. Without a heading, psi is the integral of the
+/// yaw rate, whose unknown start does not change distances; n is the noise of the positions, and c
+/// and d are left out:
+///
+///     |p(t1) - p(t0)|^2 = s^2 |a|^2 + 2 s Re(k_b* a b*) + |k_b|^2 |b|^2 + n
+///
+/// The change of heading is compared with the
 /// integral of the yaw rate in the same way. There, k is the ratio of the heading's scale to the
 /// yaw rate's scale, k_0 corrects an offset of the yaw rate, and k_1 is the latency between the
 /// two:

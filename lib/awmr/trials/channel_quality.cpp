@@ -60,6 +60,27 @@ std::vector<double> gaps_of(const Changes& changes) {
   return gaps;
 }
 
+/// True if nearly all changes are one step of the resolution and their gaps are no multiples of one
+/// interval. So changes a coarse sensor without noise, whatever its rate: it reaches the next step
+/// sooner or later, as the signal moves. A slow sensor changes at its own interval or multiples.
+bool changes_step_by_step(const Changes& changes, double quantum) {
+  constexpr double kNearlyAll = 0.95;
+  constexpr double kRegular = 0.8;
+  constexpr double kOffMultiple = 0.15;  // of the interval
+  if (!(quantum > 0.0)) return false;
+  const auto single =
+      std::ranges::count_if(changes.step, [&](double step) { return step < 1.5 * quantum; });
+  if (static_cast<double>(single) < kNearlyAll * static_cast<double>(changes.step.size())) {
+    return false;
+  }
+  const std::vector<double> gaps = gaps_of(changes);
+  const double interval = quantile(gaps, 0.05);
+  const auto multiples = std::ranges::count_if(gaps, [&](double gap) {
+    return std::abs(gap - interval * std::round(gap / interval)) <= kOffMultiple * interval;
+  });
+  return static_cast<double>(multiples) < kRegular * static_cast<double>(gaps.size());
+}
+
 /// Marks the rows with a reading of a slow sensor: the rows where the value changes. If the value
 /// stays for several of the usual (median) intervals between changes, one row per interval is also
 /// marked, because the sensor probably read the same value again.
@@ -89,7 +110,8 @@ void classify_repeats(std::span<const double> value, ChannelQuality& quality) {
   const double quantum = quantum_of(changes);
   const bool often = repeated > kRepeatedShare * moving;
   // The sensor is slower than the log if 95 % of the changes are at least two rows apart.
-  const bool own_rate = often && quantile(gaps_of(changes), 0.05) >= 2.0;
+  const bool own_rate =
+      often && quantile(gaps_of(changes), 0.05) >= 2.0 && !changes_step_by_step(changes, quantum);
   if (own_rate) {
     quality.repeats = Repeats::kSlow;
     quality.fresh = slow_readings(changes, value.size());

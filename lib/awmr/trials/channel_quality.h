@@ -34,8 +34,9 @@ struct ChannelQuality {
 /// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the
 /// signal, by row, in any scale. A signal that is constant while `activity` changes is stuck.
 ///
-/// A slow sensor changes its value in every second row at most. A coarse sensor also changes it in
-/// neighbouring rows, mostly by one step of its resolution. Of a slow sensor, only the rows with a
+/// A slow sensor changes its value in every second row at most, at a multiple of its interval. A
+/// coarse sensor changes it at any time, also in neighbouring rows, mostly by one step of its
+/// resolution. Of a slow sensor, only the rows with a
 /// new reading are measurements. Of a coarse sensor, every row is a measurement: an unchanged value
 /// means that the signal did not reach the next step. Rows with spikes, stuck values (except the
 /// first) or saturated values are not measurements.

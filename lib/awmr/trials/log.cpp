@@ -12,6 +12,7 @@
 #include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/trials/channel_quality.h"
+#include "awmr/trials/log_start.h"
 #include "awmr/trials/read_trials.h"
 #include "awmr/trials/trial_columns.h"
 #include "constant_channels.h"
@@ -375,6 +376,7 @@ DrivingLog log_of(TrialReader& reader, RowSpan rows, std::span<const LogChannel>
     }
   }
   note_gaps(log, findings);
+  if (reader.faults().empty()) add_row_of_rest(log);
   return log;
 }
 

@@ -78,7 +78,8 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
     if (!noise.of_the_model()) continue;
     std::string advice =
         "an unmodelled effect acts on the vehicle (a motor driver that brakes at a command of 0, a "
-        "slope, sliding tyres), a size in the vehicle file is wrong (half_track_m, front_axle_m), "
+        "slope, sliding tyres), a value in the vehicle file is wrong (half_track_m, "
+        "front_axle_m, steering.max_rate_degps), "
         "or the sensor has a bias or drifts";
     if (channel == LogChannel::kYawRate) {
       advice += " (" + option_text("fit bias.yaw_rate_radps") + " estimates a bias)";

@@ -35,9 +35,13 @@ struct ChannelNoise {
   /// Number of estimated noise parameters: 1 (sigma_w), plus 2 of a first-order drift or 3 of a
   /// second-order drift.
   int numbers() const { return drift_std > 0.0 ? (second_order() ? 4 : 3) : 1; }
-  /// True if the drift is above half of the sensor noise and lasts half a second or more. It is
-  /// then a model error or a sensor drift.
-  bool of_the_model() const { return drift_std > 0.5 * sensor_std && correlation_s >= 0.5; }
+  /// True if the drift is above half of the sensor noise and lasts half a second or more, or above
+  /// one and a half times the noise for a quarter of a second. It is then a model error or a sensor
+  /// drift; sensor filters are faster.
+  bool of_the_model() const {
+    return (drift_std > 0.5 * sensor_std && correlation_s >= 0.5) ||
+           (drift_std > 1.5 * sensor_std && correlation_s >= 0.25);
+  }
   /// True if of_the_model() and the drift is above 2.5 times the sensor noise: the model is
   /// inadequate.
   bool overwhelms_sensor() const {

@@ -10,6 +10,7 @@
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/nearest_curve.h"
+#include "awmr/trials/log_start.h"
 
 namespace awmr {
 namespace {

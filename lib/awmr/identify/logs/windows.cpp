@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
-#include "awmr/core/sample_quantile.h"
+#include "awmr/trials/log_start.h"
 
 namespace awmr {
 namespace {
@@ -36,23 +36,6 @@ LogWindow within(const LogWindow& window, const Interval& only_s) {
   const auto to = t_s.begin() + static_cast<std::ptrdiff_t>(window.end);
   return {window.log, at(std::lower_bound(from, to, only_s.lo) - t_s.begin()),
           at(std::lower_bound(from, to, only_s.hi) - t_s.begin())};
-}
-
-/// True if the vehicle already moves at the first row: the median of the first readings of speed or
-/// yaw rate is above 5 % of the largest reading.
-bool begins_in_motion(const DrivingLog& log) {
-  constexpr double kMoves = 0.05;
-  constexpr std::size_t kReadings = 5;
-  return std::ranges::any_of(
-      std::array{LogChannel::kSpeed, LogChannel::kYawRate}, [&](LogChannel channel) {
-        std::vector<double> first;
-        for (std::size_t row = 0; log[channel] && row < log.rows() && first.size() < kReadings;
-             ++row) {
-          if (is_measurement(log, channel, row)) first.push_back(log[channel]->value[row]);
-        }
-        return first.size() == kReadings &&
-               std::abs(median(first)) > kMoves * largest_measured(log, channel);
-      });
 }
 
 /// The first row that is fitted. Lagged forces and filtered sensors depend on commands and speeds
@@ -136,16 +119,6 @@ std::vector<double> measured_initial_states(const std::vector<FitWindow>& window
     }
   }
   return states;
-}
-
-double largest_measured(const DrivingLog& log, LogChannel channel) {
-  double largest = 0.0;
-  for (std::size_t row = 0; log[channel] && row < log.rows(); ++row) {
-    if (is_measurement(log, channel, row)) {
-      largest = std::max(largest, std::abs(log[channel]->value[row]));
-    }
-  }
-  return largest;
 }
 
 }  // namespace awmr

@@ -14,9 +14,6 @@
 
 namespace awmr {
 
-/// Largest absolute measurement of a channel of the log; 0 without measurements.
-double largest_measured(const DrivingLog& log, LogChannel channel);
-
 /// Length of a window, s.
 inline constexpr double kWindow_s = 10.0;
 

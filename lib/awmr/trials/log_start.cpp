@@ -1,0 +1,62 @@
+#include "awmr/trials/log_start.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "awmr/core/sample_quantile.h"
+#include "awmr/trials/replay.h"
+
+namespace awmr {
+namespace {
+
+template <class T>
+void repeat_first(std::vector<T>& values) {
+  values.insert(values.begin(), values.front());
+}
+
+}  // namespace
+
+double largest_measured(const DrivingLog& log, LogChannel channel) {
+  double largest = 0.0;
+  for (std::size_t row = 0; log[channel] && row < log.rows(); ++row) {
+    if (is_measurement(log, channel, row)) {
+      largest = std::max(largest, std::abs(log[channel]->value[row]));
+    }
+  }
+  return largest;
+}
+
+bool begins_in_motion(const DrivingLog& log) {
+  constexpr double kMoves = 0.05;
+  constexpr std::size_t kReadings = 5;
+  return std::ranges::any_of(
+      std::array{LogChannel::kSpeed, LogChannel::kYawRate}, [&](LogChannel channel) {
+        std::vector<double> first;
+        for (std::size_t row = 0; log[channel] && row < log.rows() && first.size() < kReadings;
+             ++row) {
+          if (is_measurement(log, channel, row)) first.push_back(log[channel]->value[row]);
+        }
+        return first.size() == kReadings &&
+               std::abs(median(first)) > kMoves * largest_measured(log, channel);
+      });
+}
+
+void add_row_of_rest(DrivingLog& log) {
+  const bool is_driven = log.force_left.front() != 0.0 || log.force_right.front() != 0.0;
+  if (!is_driven || !log[LogChannel::kSpeed] || begins_in_motion(log)) return;
+  const double before_s = log.t_s.front() - log.median_step_s();
+  repeat_first(log.line);
+  log.t_s.insert(log.t_s.begin(), before_s);
+  log.force_left.insert(log.force_left.begin(), 0.0);
+  log.force_right.insert(log.force_right.begin(), 0.0);
+  if (log.steering_command_rad) repeat_first(*log.steering_command_rad);
+  for (std::optional<Measured>& channel : log.measured) {
+    if (!channel) continue;
+    repeat_first(channel->value);
+    channel->fresh.insert(channel->fresh.begin(), false);
+  }
+}
+
+}  // namespace awmr
