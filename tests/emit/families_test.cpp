@@ -149,7 +149,7 @@ TEST(Families, WithFrictionAtRestHaveATableFromTheRestSpeedOnAndTheValueThere) {
   ASSERT_TRUE(p->rest);
   EXPECT_EQ(p->rest->surge_rest_speed, 0.02F);
   EXPECT_EQ(p->rest->surge_at_rest, static_cast<float>(plant.surge.at(0.02)));
-  EXPECT_EQ(p->rest->yaw_rest_speed, 0.0F);
+  EXPECT_THAT(p->rest->yaw_rest_speed, ::testing::Each(0.0F));
   EXPECT_EQ(p->rest->dead_zone, 0.0F);
   // Equals the feed-forward of the simulated controller within 5e-4; at rest friction has the sign
   // of the error.
@@ -178,17 +178,22 @@ TEST(Families, WithFrictionInYawHaveTheFrictionWidthOfTheGains) {
   const auto p = autopilot_parameters(model, gains, paper_inputs(), {});
   ASSERT_TRUE(p) << to_text(p.error());
   EXPECT_EQ(p->rest->surge_rest_speed, 0.02F);
-  EXPECT_EQ(p->rest->yaw_rest_speed, 0.15F);
-  const Resistance<double> law = feed_forward(model.plant().value().yaw, 0.15);
-  EXPECT_EQ(p->rest->yaw_at_rest, static_cast<float>(law.at(0.15)));
-  // Equals the feed-forward of the simulated controller.
-  const RestingTable chip{p->yaw.view(), p->rest->yaw_rest_speed, p->rest->yaw_at_rest};
-  for (const float rate : {-1.0F, -0.149F, 0.0F, 0.1F, 0.151F}) {
-    for (const float error : {-0.2F, -0.03F, 0.0F, 0.1F}) {
-      const double exact = fed_forward(law, static_cast<double>(rate), static_cast<double>(error));
-      EXPECT_NEAR(static_cast<double>(fed_forward(chip, rate, error)), exact,
-                  5e-4 * std::max(std::abs(exact), 0.2) + 1e-6)
-          << rate << " " << error;
+  EXPECT_THAT(p->rest->yaw_rest_speed, ::testing::ElementsAre(0.02F, 0.15F, 0.075F));
+  for (int mode = 0; mode < kYawModeCount; ++mode) {
+    const double width = static_cast<double>(p->rest->yaw_rest_speed[mode]);
+    const Resistance<double> law = feed_forward(model.plant().value().yaw, width);
+    EXPECT_FLOAT_EQ(p->rest->yaw_at_rest[mode], static_cast<float>(law.at(width)));
+    // Equals the feed-forward of the simulated controller.
+    const RestingTable chip{p->yaw.view(), p->rest->yaw_rest_speed[mode],
+                            p->rest->yaw_at_rest[mode]};
+    for (const float rate : {-1.0F, -0.149F, 0.0F, 0.1F, 0.151F}) {
+      for (const float error : {-0.2F, -0.03F, 0.0F, 0.1F}) {
+        const double exact =
+            fed_forward(law, static_cast<double>(rate), static_cast<double>(error));
+        EXPECT_NEAR(static_cast<double>(fed_forward(chip, rate, error)), exact,
+                    5e-4 * std::max(std::abs(exact), 0.2) + 1e-6)
+            << mode << " " << rate << " " << error;
+      }
     }
   }
   const auto has_width = [&](const Gains<double>& of) {

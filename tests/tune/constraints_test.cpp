@@ -326,6 +326,44 @@ TEST(FrictionWidth, IsTheNarrowestThatKeepsTheSteeringRate) {
   EXPECT_EQ(width(), 0.02);
 }
 
+/// With the widths of all modes from one w0, the combined mode has no more noise of the steering
+/// command than the steering mode.
+TEST(FrictionWidth, OfTheCombinedModeKeepsTheSteeringRateOfTheSteeringMode) {
+  for (const bool is_heavy : {false, true}) {
+    ConstraintContext context = coulomb_context(is_heavy);
+    for (const double lambda : {2.0, 0.3}) {
+      for (const double width : {0.02, 0.03, 0.06, 0.2, 1.0}) {
+        const Gains<double> gains{{lambda, 2.6 * lambda, 2.0, width}, {5.0, 1.2}};
+        context.mode = YawMode::kSteering;
+        const double in_steering = steering_rate_rms_degps(gains, context);
+        context.mode = YawMode::kCombined;
+        EXPECT_LT(steering_rate_rms_degps(gains, context), in_steering) << lambda << " " << width;
+      }
+    }
+  }
+}
+
+/// A wide w0, which the noise of the steering command requires, leaves no heading error in
+/// differential mode, which does not steer.
+TEST(FrictionWidth, OfTheDifferentialModeIsTheDefault) {
+  const ConstraintContext context = coulomb_context(false);
+  Model model = paper_model();
+  const auto error_deg = [&](double width, YawMode mode) {
+    Scenario turned{.name = "turned", .guidance = HeadingSteps{{{0.0, radians(30.0)}}}};
+    turned.duration_s = 10.0;
+    turned.initial.u_mps = turned.speed_mps = context.speed_mps;
+    const Gains<double> gains{{2.0, 5.2, 2.0, width}, {5.0, 1.2}};
+    SimulateOptions options;
+    options.sample_time_s = context.sample_time_s;
+    const auto run = simulate(context.plant, make_controller(context.plant, model.vehicle, gains),
+                              turned, mode, options);
+    return std::abs(30.0 - degrees(run.rows.back().state.psi_rad));
+  };
+  EXPECT_GT(error_deg(1.0, YawMode::kSteering), 2.0);
+  EXPECT_LT(error_deg(1.0, YawMode::kDifferential), 0.6);
+  EXPECT_EQ(error_deg(1.0, YawMode::kDifferential), error_deg(0.02, YawMode::kDifferential));
+}
+
 /// No pole pair whose slower pole is faster by a twentieth meets every constraint.
 TEST(PolePlacement, IsTheFastestThatTheConstraintsAllow) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);

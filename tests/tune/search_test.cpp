@@ -626,6 +626,35 @@ TEST(Search, RefusesGainsWithWhichNoRunSettles) {
   EXPECT_THAT(message, ::testing::Not(::testing::HasSubstr("steering_rate")));
 }
 
+/// A limit that is stricter than its default is named with a number with which tune() succeeds.
+TEST(Search, NamesTheNumberOfTheStricterLimitWithWhichRunsSettle) {
+  TuneOptions options = short_options();
+  options.global_evaluations = 40;
+  options.local_evaluations = 10;
+  options.limits.noise_share = 2e-4;  // lambda mu/epsilon is at most 0.1/s^2
+  const Result<Tuning> tuning = tune(paper_model(), options);
+  ASSERT_FALSE(tuning);
+  const std::string message = tuning.error().faults.front().message;
+  ASSERT_THAT(message, ::testing::HasSubstr("no run settles"));
+  const std::string key = "`limits/noise_share` ";
+  const std::size_t place = message.find(key);
+  ASSERT_NE(place, std::string::npos) << message;
+  options.limits.noise_share = std::stod(message.substr(place + key.size()));
+  EXPECT_LE(options.limits.noise_share, TuningLimits{}.noise_share);
+  EXPECT_TRUE(tune(paper_model(), options)) << message;
+}
+
+/// With an observer, the poles of law and observer together meet the constraints.
+TEST(PolePlacement, LeavesRoomForAnObserver) {
+  const ConstraintContext context{.plant = paper_plant(), .latency_s = 0.02};
+  const Gains<double> placed = starting_poles(context, {2.0, 0.1, 0.1})[1];
+  EXPECT_EQ(placed.observer.bandwidth_radps, 2.0);
+  EXPECT_LE(std::ranges::max(residuals(constraints_of(placed, context))), 0.0);
+  Gains<double> too_fast = starting_poles(context)[1];
+  too_fast.observer = placed.observer;
+  EXPECT_GT(std::ranges::max(residuals(constraints_of(too_fast, context))), 0.0);
+}
+
 TEST(Settling, ProposesChangesThatHelpAndNoObserverIfOneIsOn) {
   const Model model = paper_model();
   const Plant<double> plant = model.plant().value();

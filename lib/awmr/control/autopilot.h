@@ -101,10 +101,11 @@ template <class G, class P>
 AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in,
                          const Measurement<float>& measured, const Reference<float>& ref,
                          AutopilotOutput& out) {
+  const auto& motors = part_of<typename P::Motors>(a);
+  use_friction_width(motors, in.mode, a.controller.yaw);
   out.psi_ref_rad = ref.psi_rad;
   out.tau_speed = speed_law(a.controller, measured, ref);
   out.tau_turn_m = heading_law(a.controller, measured, ref);
-  const auto& motors = part_of<typename P::Motors>(a);
   const AllocationConstants<float>& at_rest = a.controller.constants.allocation;
   const AllocationConstants<float>& limits = limits_at(motors, at_rest, measured.u_mps);
   allocate_observed(part_of<typename P::Observation>(a), a.controller, measured,

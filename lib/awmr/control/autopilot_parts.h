@@ -10,6 +10,7 @@
 #include "awmr/control/guidance/parts.h"
 #include "awmr/control/motor_command.h"
 #include "awmr/control/optional_part.h"
+#include "awmr/control/parameters_block.h"
 #include "awmr/control/position_estimate.h"
 #include "awmr/control/yaw_mode.h"
 
@@ -28,6 +29,7 @@ struct Observer {
 struct MotorCurve {
   float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
   float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
+  const RestBlock* rest;   ///< in flash on an AVR; null: none
 };
 
 /// Estimates the position from the fixes of a receiver. Filter: as in PositionEstimate.
@@ -120,6 +122,14 @@ AWMR_CALLED Position<float> position_now(Positioner<Filter>& part, const Autopil
 AWMR_INLINE void make_up_dead_zone(const Disabled<MotorCurve>&, SideForces<float>&) {}
 inline void make_up_dead_zone(const MotorCurve& part, SideForces<float>& force) {
   force = with_dead_zone(force, part.dead_zone);
+}
+
+/// Sets the friction width of g3 to that of the mode, if MotorCurve is compiled in.
+template <class G>
+AWMR_INLINE void use_friction_width(const Disabled<MotorCurve>&, uint8_t, G&) {}
+template <class G>
+void use_friction_width(const MotorCurve& part, uint8_t mode, G& yaw) {
+  if (part.rest != 0) set_friction_width(part.rest, mode, yaw);
 }
 
 /// Allocation limits at the speed u, m/s: reduced by the back-EMF if MotorCurve is compiled in.

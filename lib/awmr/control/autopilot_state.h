@@ -31,6 +31,7 @@ struct Autopilot : GuidanceLaws<float, P>, P::Observation, P::Motors, P::Positio
 /// Sets dead zone and back-EMF of the motors, if MotorCurve is compiled in.
 inline void set_motors(const RestBlock*, Disabled<MotorCurve>&) {}
 inline void set_motors(const RestBlock* rest, MotorCurve& part) {
+  part.rest = rest;
   part.dead_zone = rest != 0 ? flash_float(&rest->dead_zone) : 0.0F;
   part.back_emf_s_per_m = rest != 0 ? flash_float(&rest->back_emf_s_per_m) : 0.0F;
 }
@@ -62,7 +63,7 @@ bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
   set_resistance(&block->yaw_table, block->yaw_alpha_beta, yaw_lines, c.yaw);
   if (rest != 0) {
     set_rest(&rest->surge_rest_speed, &rest->surge_at_rest, c.surge);
-    set_rest(&rest->yaw_rest_speed, &rest->yaw_at_rest, c.yaw);
+    set_friction_width(rest, 0, c.yaw);
   }
   set_motors(rest, part_of<typename P::Motors>(a));
   read_flash(&block->safety, a.limits);

@@ -10,6 +10,7 @@
 #include "awmr/control/flash.h"
 #include "awmr/control/resistance_table.h"
 #include "awmr/control/safety.h"
+#include "awmr/control/yaw_mode.h"
 
 namespace awmr {
 
@@ -34,12 +35,13 @@ struct ParameterBlock {
 /// Additional parameters for motors with a dead zone or back-EMF, or for friction that does not
 /// vanish at rest. All members have 32 bits.
 struct RestBlock {
-  float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
-  float surge_rest_speed;  ///< RestingTable::rest_speed of g1, m/s; 0: no jump at rest
-  float surge_at_rest;     ///< RestingTable::at_rest of g1
-  float yaw_rest_speed;    ///< RestingTable::rest_speed of g3, rad/s; 0: no jump at rest
-  float yaw_at_rest;       ///< RestingTable::at_rest of g3, m
-  float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
+  float dead_zone;                      ///< F'0 of a wheel, over F_max; 0: none
+  float surge_rest_speed;               ///< RestingTable::rest_speed of g1, m/s; 0: no jump at rest
+  float surge_at_rest;                  ///< RestingTable::at_rest of g1
+  float yaw_rest_speed[kYawModeCount];  ///< RestingTable::rest_speed of g3, rad/s, by YawMode:
+                                        ///< HeadingGains::friction_width_at(); 0: no jump at rest
+  float yaw_at_rest[kYawModeCount];     ///< RestingTable::at_rest of g3, m, by YawMode
+  float back_emf_s_per_m;               ///< k_e of a motor, s/m; 0: none
 };
 
 /// Additional parameters for gains that were tuned with a disturbance observer. All members have 32
@@ -100,6 +102,11 @@ void set_rest(const float* /*rest_speed*/, const float* /*at_rest*/, G&) {}
 inline void set_rest(const float* rest_speed, const float* at_rest, RestingTable& law) {
   law.rest_speed = flash_float(rest_speed);
   law.at_rest = flash_float(at_rest);
+}
+/// Sets rest_speed and at_rest of g3 to those of a mode, if RestingTable is compiled in.
+template <class G>
+void set_friction_width(const RestBlock* rest, uint8_t mode, G& yaw) {
+  set_rest(&rest->yaw_rest_speed[mode], &rest->yaw_at_rest[mode], yaw);
 }
 
 }  // namespace awmr

@@ -12,16 +12,24 @@ enum class YawMode {
   kCombined,      ///< half of the moment by each method
 };
 
+constexpr int kYawModeCount = 3;  ///< number of modes; they count from 0
+
 /// Reaction of the combined mode when steering or wheel forces reach their limit (saturate).
 enum class CombinedSplit {
   kFixedHalf,     ///< as in the paper: half of tau_turn each way, regardless of limits
   kRedistribute,  ///< the wheel forces make the moment that the steering cannot, and the reverse
 };
 
+/// Share of the yaw moment that the steering makes: 0 differential, 1/2 combined, 1 steering.
+template <class T>
+constexpr T steering_share(YawMode mode) {
+  return mode == YawMode::kCombined ? T(0.5) : T(mode == YawMode::kSteering ? 1.0 : 0.0);
+}
+
 /// Split of the yaw moment between steering and wheel forces.
 template <class T>
 struct YawSplit {
-  T steering_share;  ///< s, fraction that steering makes: 0 differential, 1/2 combined, 1 steering
+  T steering_share;       ///< s, fraction that the steering makes: steering_share() of the mode
   Mask<T> redistributes;  ///< combined mode with CombinedSplit::kRedistribute
 };
 
@@ -29,8 +37,7 @@ struct YawSplit {
 template <class T>
 YawSplit<T> yaw_split(YawMode mode, CombinedSplit split) {
   const bool combined = mode == YawMode::kCombined;
-  return {combined ? T(0.5) : T(mode == YawMode::kSteering ? 1.0 : 0.0),
-          Mask<T>(combined && split == CombinedSplit::kRedistribute)};
+  return {steering_share<T>(mode), Mask<T>(combined && split == CombinedSplit::kRedistribute)};
 }
 
 }  // namespace awmr

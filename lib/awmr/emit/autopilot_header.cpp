@@ -116,9 +116,10 @@ std::string parts_text(const AutopilotParameters& parameters) {
 
 constexpr std::string_view kRest = R"(
 /* The firmware compensates friction at rest, a dead zone and the back-EMF of the motors. Below
-   AWMR_SURGE_REST_SPEED (m/s) and AWMR_YAW_REST_SPEED (rad/s) a resistance is the straight line from
-   the origin to its value at that speed (..._AT_REST). The allocation requests wheel forces between
-   AWMR_ALLOCATED_FORCE_MIN and _MAX: the force limits, reduced by the dead zone. */
+   AWMR_SURGE_REST_SPEED (m/s) and AWMR_YAW_REST_SPEED (rad/s; differential, steering, combined) a
+   resistance is the straight line from the origin to its value at that speed (..._AT_REST). The
+   allocation requests wheel forces between AWMR_ALLOCATED_FORCE_MIN and _MAX: the force limits,
+   reduced by the dead zone. */
 #define AWMR_FRICTION_AT_REST 1
 #define AWMR_DEAD_ZONE {}
 #define AWMR_SURGE_REST_SPEED {}
@@ -139,11 +140,15 @@ constexpr std::string_view kNoRest = R"(
 std::string rest_text(const AutopilotParameters& parameters) {
   if (!parameters.rest) return std::string(kNoRest);
   const auto literal = [](float value) { return float_literal(static_cast<double>(value)); };
+  const auto by_mode = [&](const float(&values)[kYawModeCount]) {
+    return fmt::format("{{{}, {}, {}}}", literal(values[0]), literal(values[1]),
+                       literal(values[2]));
+  };
   const RestBlock& rest = *parameters.rest;
   const AllocationConstants<float>& allocation = parameters.block.constants.allocation;
   return fmt::format(kRest, literal(rest.dead_zone), literal(rest.surge_rest_speed),
-                     literal(rest.surge_at_rest), literal(rest.yaw_rest_speed),
-                     literal(rest.yaw_at_rest), literal(rest.back_emf_s_per_m),
+                     literal(rest.surge_at_rest), by_mode(rest.yaw_rest_speed),
+                     by_mode(rest.yaw_at_rest), literal(rest.back_emf_s_per_m),
                      literal(allocation.force_min), literal(allocation.force_max));
 }
 

@@ -53,13 +53,19 @@ std::optional<RestBlock> rest_of(const Plant<double>& plant, const Gains<double>
     return law.rest_speed > 0.0 ? single(law.at(law.rest_speed)) : 0.0F;
   };
   const Resistance<double> surge = feed_forward(plant.surge);
-  const Resistance<double> yaw = feed_forward(plant.yaw, gains.heading.friction_width_radps);
-  return RestBlock{single(plant.wheel_dead_zone),
-                   single(surge.rest_speed),
-                   at_rest(surge),
-                   single(yaw.rest_speed),
-                   at_rest(yaw),
-                   single(plant.back_emf_s_per_m)};
+  RestBlock rest{.dead_zone = single(plant.wheel_dead_zone),
+                 .surge_rest_speed = single(surge.rest_speed),
+                 .surge_at_rest = at_rest(surge),
+                 .yaw_rest_speed = {},
+                 .yaw_at_rest = {},
+                 .back_emf_s_per_m = single(plant.back_emf_s_per_m)};
+  for (int mode = 0; mode < kYawModeCount; ++mode) {
+    const double share = steering_share<double>(static_cast<YawMode>(mode));
+    const Resistance<double> yaw = feed_forward(plant.yaw, gains.heading.friction_width_at(share));
+    rest.yaw_rest_speed[mode] = single(yaw.rest_speed);
+    rest.yaw_at_rest[mode] = at_rest(yaw);
+  }
+  return rest;
 }
 
 /// Returns the controller in float. Values derived from it are also computed in float, as by the
@@ -215,13 +221,12 @@ struct ChipLaw {
   ResistanceLaw law;  ///< g1, dimensionless, or g3, m
   double full_scale;  ///< the largest possible force or moment, in the unit of g
   double top;         ///< top speed of the table (table_top()), m/s or rad/s
-  double rest_speed;  ///< speed below which the chip does not use the table, m/s or rad/s
+  double rest_speed;  ///< speed below which the chip never uses the table, m/s or rad/s
 };
 
-ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_scale,
-                 double rest_speed = feed_forward_rest_speed<double>()) {
+ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_scale) {
   ChipLaw chip{std::move(name), [law](double speed) { return law(speed); }, full_scale, 0.0,
-               feed_forward(law, rest_speed).rest_speed};
+               feed_forward(law).rest_speed};
   chip.top = table_top(chip.law, full_scale);
   return chip;
 }
@@ -281,8 +286,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
 
   const double full_force = 4.0 * force_beyond_dead_zone(plant, model.vehicle).hi;
   const ChipLaw surge = chip_law("surge", plant.surge, full_force);
-  const ChipLaw yaw = chip_law("yaw", plant.yaw, full_force * plant.half_track_m,
-                               gains.heading.friction_width_radps);
+  const ChipLaw yaw = chip_law("yaw", plant.yaw, full_force * plant.half_track_m);
 
   AutopilotParameters parameters;
   parameters.resistance = options.resistance;

@@ -92,16 +92,18 @@ RunController<double> run_controller(const Scenario& scenario, const Controller<
   const auto held = scenario.held_tau_speed();
   const auto* const open = std::get_if<OpenLoop>(&scenario.guidance);
   const ObserverGains<double> observer = observer_in(scenario, controller.gains);
-  RunController<double> c{
-      .laws = prepared(controller),
-      .steering_share = yaw_split<double>(mode, controller.limits.split).steering_share,
-      .dead_zone = controller.limits.dead_zone,
-      .back_emf_s_per_m = controller.limits.back_emf_s_per_m,
-      .tau_speed = open ? open->tau_speed : held.value_or(0.0),
-      .tau_turn_m = open ? open->tau_turn_m : 0.0,
-      .lqi = {},
-      .yaw_observer = {observer.bandwidth_radps, observer.yaw_max_m},
-      .surge_observer = {observer.bandwidth_radps, observer.surge_max}};
+  const double share = steering_share<double>(mode);
+  Controller<double> in_mode = controller;
+  in_mode.yaw = feed_forward(controller.yaw, controller.gains.heading.friction_width_at(share));
+  RunController<double> c{.laws = prepared(in_mode),
+                          .steering_share = share,
+                          .dead_zone = controller.limits.dead_zone,
+                          .back_emf_s_per_m = controller.limits.back_emf_s_per_m,
+                          .tau_speed = open ? open->tau_speed : held.value_or(0.0),
+                          .tau_turn_m = open ? open->tau_turn_m : 0.0,
+                          .lqi = {},
+                          .yaw_observer = {observer.bandwidth_radps, observer.yaw_max_m},
+                          .surge_observer = {observer.bandwidth_radps, observer.surge_max}};
   if (scenario.control.lqi && !open) {
     c.lqi = lqi_gains(*scenario.control.lqi, controller.inertia_norm);
   }

@@ -95,7 +95,8 @@ int substeps_for(const Plant<double>& plant, double sample_time_s);
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
 /// A controller with the parameters of this plant, whose resistances it feeds forward, with these
-/// gains and the limits of the vehicle.
+/// gains and the limits of the vehicle. Its yaw law has the friction width of the steering mode; a
+/// run replaces it by that of its mode.
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
                                    const Gains<double>& gains,
                                    CombinedSplit split = CombinedSplit::kRedistribute);

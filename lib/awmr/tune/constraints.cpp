@@ -39,19 +39,6 @@ double examined_rate_radps(double share, const ConstraintContext& context) {
   return std::max(share * context.fastest_radps, kSlowest_radps);
 }
 
-/// Share of the yaw moment that left and right wheel forces make; the steering makes the rest.
-double direct_share(YawMode mode) {
-  switch (mode) {
-    case YawMode::kDifferential:
-      return 1.0;
-    case YawMode::kSteering:
-      return 0.0;
-    case YawMode::kCombined:
-      return 0.5;
-  }
-  return 1.0;
-}
-
 /// g3'(r)/I'z, g3'(r) = a3 b3 r^(b3 - 1) + 2 q3 r
 double resistance_rate(const Plant<double>& plant, double rate_radps) {
   const Resistance<double>& g3 = plant.yaw;
@@ -192,7 +179,7 @@ SampledHeadingLoop heading_loop(const Gains<double>& gains, const ConstraintCont
           .input_gain = context.plant.inertia_norm / plant.inertia_norm,
           .servo_time_constant_s = plant.steering_time_constant_s,
           .sample_time_s = context.sample_time_s,
-          .direct_share = direct_share(mode),
+          .direct_share = 1.0 - steering_share<double>(mode),
           .observer_radps = gains.observer.bandwidth_radps};
 }
 
@@ -203,6 +190,12 @@ Interval examined_rates_radps(const ConstraintContext& context) {
 }
 
 namespace {
+
+/// Share of the yaw moment that the steering makes in the mode with the most noise of the steering
+/// command: the only mode, or steering.
+double steered_share(const ConstraintContext& context) {
+  return steering_share<double>(context.mode.value_or(YawMode::kSteering));
+}
 
 /// E[f(z) g(z)] for a standard normal z, by the midpoint rule over -6 ... 6.
 template <class F, class G>
@@ -300,7 +293,8 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
   if (!context.steers() || !(tau_speed > 0.0)) return 0.0;
   const double k = gains.heading.mu / gains.heading.epsilon;
   const double rate_gain = gains.heading.lambda + k + gains.observer.bandwidth_radps;
-  const Resistance<double> g3 = feed_forward(plant.yaw, gains.heading.friction_width_radps);
+  const double share = steered_share(context);
+  const Resistance<double> g3 = feed_forward(plant.yaw, gains.heading.friction_width_at(share));
   const auto w = [&](double z) {  // z = n/sigma_r
     const double n = z * context.yaw_rate_noise_radps;
     const double moment = std::abs(n) < g3.rest_speed ? 0.0 : g3(n);
@@ -310,7 +304,6 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
   const double by_heading = gains.heading.lambda * k * context.heading_noise_rad;
   mean_square += by_heading * by_heading * (1.0 - context.heading_correlation);
   if (g3.rest_speed > 0.0) mean_square += resting_mean_square(g3, gains, context);
-  const double share = context.mode == YawMode::kCombined ? 0.5 : 1.0;
   const double per_moment =
       share * (plant.rear_driven > 0.0 ? 2.0 : 1.0) / (plant.front_axle_m * tau_speed);
   return degrees(per_moment * plant.inertia_norm * std::sqrt(2.0 * mean_square) /
@@ -324,25 +317,24 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
   constexpr double kMinFrictionShare = 0.1;
   double& width = gains.heading.friction_width_radps;
   width = feed_forward_rest_speed<double>();
+  const Gains<double> narrowest = gains;
+  const double share = steered_share(context);
   const auto& limit = context.limits.steering_rate_rms_degps;
   const Plant<double>& plant = context.plant;
   if (!limit || !context.steers() || !(plant.yaw.coulomb > 0.0)) return gains;
-  const auto is_calm = [&](double radps) {
-    width = radps;
+  const auto is_calm = [&](double of_mode) {
+    width = of_mode / share;
     return steering_rate_rms_degps(gains, context) <= *limit * (1.0 + wider);
   };
   const double in_proportion =
       plant.yaw.coulomb * gains.heading.epsilon / (plant.inertia_norm * gains.heading.mu);
   Interval widths{width, std::min(in_proportion / kMinFrictionShare, context.fastest_radps)};
-  if (is_calm(widths.lo) || widths.hi <= widths.lo) {
-    width = widths.lo;
-    return gains;
-  }
+  if (is_calm(widths.lo) || widths.hi <= widths.lo) return narrowest;
   for (int i = 0; i < kBisections && is_calm(widths.hi); ++i) {
     const double middle = std::sqrt(widths.lo * widths.hi);
     (is_calm(middle) ? widths.hi : widths.lo) = middle;
   }
-  width = widths.hi;
+  width = widths.hi / share;
   return gains;
 }
 

@@ -34,19 +34,26 @@ double least_mu(const ConstraintReport& dominates) {
   return std::max(dominates.limit / kInside, kMinMu);
 }
 
-SpeedGains<double> place_speed_pole(const std::vector<ConstraintReport>& at_one) {
+/// `at_one`: the constraints of gains that are all 1. The constraints limit the sum of the rates of
+/// law and observer.
+SpeedGains<double> place_speed_pole(const std::vector<ConstraintReport>& at_one,
+                                    double observer_radps) {
+  constexpr double kMinRate = 1e-3;
   const ConstraintReport& gain = named(at_one, "speed gain");
   const ConstraintReport& lag = named(at_one, "speed lag");
-  const double rate = kInside * std::min(gain.limit / gain.value, lag.limit / lag.value);
+  const double sum =
+      kInside * std::min(gain.limit / gain.value, lag.limit / lag.value) * (1.0 + observer_radps);
+  const double rate = std::max(sum - observer_radps, kMinRate);
   const double mu = least_mu(named(at_one, "mu_s dominates"));
   return {mu, mu / rate};
 }
 
-/// Finds the heading poles for given speed gains.
+/// Finds the heading poles for given speed gains and a given observer.
 class HeadingPoles {
  public:
-  HeadingPoles(const ConstraintContext& context, const SpeedGains<double>& speed, double mu)
-      : context_(context), own_(context), speed_(speed), mu_(mu) {
+  HeadingPoles(const ConstraintContext& context, const SpeedGains<double>& speed, double mu,
+               const ObserverGains<double>& observer)
+      : context_(context), own_(context), speed_(speed), mu_(mu), observer_(observer) {
     own_.draws.clear();
   }
 
@@ -60,7 +67,7 @@ class HeadingPoles {
  private:
   Gains<double> gains_at(double ratio, double k) const {
     const double lambda = ratio * k;
-    return with_friction_width({{lambda, mu_, mu_ / k}, speed_}, context_);
+    return with_friction_width({{lambda, mu_, mu_ / k}, speed_, observer_}, context_);
   }
 
   bool is_met(const Gains<double>& gains) {
@@ -99,6 +106,7 @@ class HeadingPoles {
   ConstraintContext own_;  ///< without the draws
   SpeedGains<double> speed_;
   double mu_;
+  ObserverGains<double> observer_;
   bool found_ = false;
   Gains<double> best_{};
   Gains<double> nearest_{};
@@ -107,10 +115,11 @@ class HeadingPoles {
 
 }  // namespace
 
-Gains<double> place_poles(const ConstraintContext& context) {
-  const Gains<double> one{{1.0, 1.0, 1.0}, {1.0, 1.0}};
+Gains<double> place_poles(const ConstraintContext& context, const ObserverGains<double>& observer) {
+  const Gains<double> one{{1.0, 1.0, 1.0}, {1.0, 1.0}, observer};
   const std::vector<ConstraintReport> at_one = constraints_of(one, context);
-  return HeadingPoles(context, place_speed_pole(at_one), least_mu(named(at_one, "mu dominates")))
+  return HeadingPoles(context, place_speed_pole(at_one, observer.bandwidth_radps),
+                      least_mu(named(at_one, "mu dominates")), observer)
       .fastest();
 }
 
@@ -131,8 +140,9 @@ Gains<double> with_wide_layers(Gains<double> gains, const ConstraintContext& con
   return gains;
 }
 
-std::array<Gains<double>, 2> starting_poles(const ConstraintContext& context) {
-  const Gains<double> narrow = place_poles(context);
+std::array<Gains<double>, 2> starting_poles(const ConstraintContext& context,
+                                            const ObserverGains<double>& observer) {
+  const Gains<double> narrow = place_poles(context, observer);
   return {with_wide_layers(narrow, context), narrow};
 }
 

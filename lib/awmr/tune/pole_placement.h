@@ -17,8 +17,10 @@ namespace awmr {
 ///               of it are tried.
 ///   k_s         the largest that meets "speed gain" and "speed lag"
 ///   mu, mu_s    the smallest that meet "mu dominates" and "mu_s dominates"
-/// If no pair meets every constraint, the pair with the smallest violation is returned.
-Gains<double> place_poles(const ConstraintContext& context);
+/// If no pair meets every constraint, the pair with the smallest violation is returned. The gains
+/// have the given observer (default: none), which the constraints include.
+Gains<double> place_poles(const ConstraintContext& context,
+                          const ObserverGains<double>& observer = {});
 
 /// Returns gains with the same poles, whose boundary layers contain the initial errors S = lambda e
 /// (e: the largest heading step) and e_u = u_d, so that only the actuators saturate, not the laws:
@@ -27,7 +29,8 @@ Gains<double> with_wide_layers(Gains<double> gains, const ConstraintContext& con
 
 /// Starts of the search: the result of place_poles() with wide boundary layers, and as it is. The
 /// default bounds of the gains are around these.
-std::array<Gains<double>, 2> starting_poles(const ConstraintContext& context);
+std::array<Gains<double>, 2> starting_poles(const ConstraintContext& context,
+                                            const ObserverGains<double>& observer = {});
 
 /// Multiplies lambda, mu/epsilon and epsilon by `share`, so that the heading loop is slower for
 /// `share` < 1. The speed gains are unchanged.

@@ -117,19 +117,12 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
 tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,
                                     const std::vector<SettlingChange>& changes,
                                     const TuneOptions& requested) {
-  const std::vector<std::string> strict = stricter_than_default(requested);
-  std::vector<std::string> advice;
-  if (!changes.empty()) advice.push_back(describe(changes, "runs"));
-  if (!strict.empty()) {
-    advice.push_back(fmt::format("Limits stricter than their defaults can be the cause: relax {}",
-                                 fmt::join(strict, ", ")));
-  }
-  if (advice.empty()) advice.push_back(no_change_settles("a run"));
   return refused_at(
       requested, changes.empty() ? "/scenarios" : changes.front().pointer, ErrorCode::kNoGains,
       fmt::format("no run settles with gains within the limits: none of {} runs settles with the "
                   "best gains ({}). {}",
-                  runs, in_words(gains), fmt::join(advice, ". ")));
+                  runs, in_words(gains),
+                  changes.empty() ? no_change_settles("a run") : describe(changes, "runs")));
 }
 
 }  // namespace awmr

@@ -23,7 +23,7 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
                                 const TuneOptions& requested);
 
 /// Error if gains meet every limit but none of the `runs` runs settles: names the `changes` with
-/// which runs settle, and the limits in `requested` that are stricter than their defaults.
+/// which runs settle.
 tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,
                                     const std::vector<SettlingChange>& changes,
                                     const TuneOptions& requested);

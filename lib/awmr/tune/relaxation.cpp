@@ -121,18 +121,34 @@ std::string pointer_to(const std::string& constraint) {
   return limit ? fmt::format("/{}", limit->key) : "/bounds";
 }
 
-std::vector<std::string> stricter_than_default(const TuneOptions& requested) {
-  ConstraintContext now{.margin = requested.margin, .limits = requested.limits};
-  ConstraintContext before;
-  std::vector<std::string> keys;
+std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context) {
+  constexpr double kShares[] = {0.25, 0.5, 0.75, 1.0};
+  constexpr double kFactors[] = {1.2, 2.0, 5.0, 20.0};
+  ConstraintContext given = context;
+  ConstraintContext by_default;
+  std::vector<std::vector<RelaxedLimit>> all;
   for (const Limit& limit : limits()) {
-    const bool is_rate = sets(limit, kSteeringRate);
-    const bool is_stricter = is_rate ? now.limits.steering_rate_rms_degps.has_value()
-                             : limit.relaxed_by_less ? limit.of(now) > limit.of(before)
-                                                     : limit.of(now) < limit.of(before);
-    if (is_stricter) keys.push_back(fmt::format("`{}`", limit.key));
+    std::vector<RelaxedLimit> numbers;
+    const auto add = [&](double number) {
+      numbers.push_back({.key = limit.key, .number = number, .context = context});
+      limit.of(numbers.back().context) = number;
+    };
+    if (sets(limit, kSteeringRate)) {
+      const auto& rate = context.limits.steering_rate_rms_degps;
+      for (const double factor : kFactors) {
+        if (rate && context.steers()) add(std::ceil(factor * *rate));
+      }
+    } else {
+      const double strict = limit.of(given);
+      const double loose = limit.of(by_default);
+      for (const double share : kShares) {
+        const double number = in_two_digits(limit, strict + share * (loose - strict));
+        if (limit.relaxed_by_less ? number < strict : number > strict) add(number);
+      }
+    }
+    if (!numbers.empty()) all.push_back(std::move(numbers));
   }
-  return keys;
+  return all;
 }
 
 namespace {

@@ -16,8 +16,17 @@ std::string advice_on(const std::string& constraint);
 /// Pointer in tune.json to the limit of a constraint; "/bounds" if it has none.
 std::string pointer_to(const std::string& constraint);
 
-/// Limits of tune.json that the user made stricter than their defaults: "`margin`".
-std::vector<std::string> stricter_than_default(const TuneOptions& requested);
+/// A limit of tune.json with another number.
+struct RelaxedLimit {
+  const char* key;            ///< "limits/damping"
+  double number;              ///< less strict than that of the context it was made from
+  ConstraintContext context;  ///< with the number
+};
+
+/// For each limit of the context that can be relaxed, some numbers from the strictest on:
+///   - limits that are stricter than their default: up to the default
+///   - the limit of the steering rate: up to 20 times the present one
+std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context);
 
 /// Changes of one limit or one requested bound, each of which alone permits gains that meet the
 /// constraints that need no simulation: "`limits/late_damping` 0.55". Each is confirmed by the

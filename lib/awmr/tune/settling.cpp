@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <span>
 
 #include "awmr/core/option_text.h"
 #include "awmr/tune/pole_placement.h"
+#include "awmr/tune/relaxation.h"
 
 namespace awmr {
 namespace {
@@ -63,6 +65,14 @@ bool meets_constraints(const Gains<double>& gains, const ConstraintContext& cont
   return std::ranges::max(residuals(constraints_of(gains, context))) <= 0.0;
 }
 
+/// True if the runs settle with gains by pole placement that meet the constraints.
+bool poles_settle(const ObjectiveSetting& setting, const ConstraintContext& context, double share,
+                  const ObserverGains<double>& observer = {}) {
+  return std::ranges::any_of(starting_poles(context, observer), [&](const Gains<double>& gains) {
+    return meets_constraints(gains, context) && settled_share(setting, gains) >= share;
+  });
+}
+
 std::optional<SettlingChange> an_observer(const ObjectiveSetting& setting,
                                           const ConstraintContext& context,
                                           const Gains<double>& gains, double share) {
@@ -74,20 +84,11 @@ std::optional<SettlingChange> an_observer(const ObjectiveSetting& setting,
   if (!(thrust > 0.0)) return std::nullopt;
   for (const double bandwidth_radps : {0.5, 1.0, 2.0, 4.0}) {
     if (bandwidth_radps * context.sample_time_s >= 1.0) break;
-    // The constraints limit the sum of the rates of law and observer, so the law is made slower.
-    for (const double slower : {1.0, 0.7, 0.5}) {
-      Gains<double> observed = gains;
-      observed.observer = {bandwidth_radps, kObserverShare * authority_m, kObserverShare * thrust};
-      observed.heading.lambda *= slower;
-      observed.heading.epsilon /= slower;
-      const double speed_rate = gains.speed.mu / gains.speed.epsilon - bandwidth_radps;
-      if (speed_rate > 0.0) observed.speed.epsilon = gains.speed.mu / speed_rate;
-      if (!meets_constraints(observed, context) || settled_share(setting, observed) < share) {
-        continue;
-      }
-      return SettlingChange{"/observer", fmt::format("{} (here with a bandwidth of {:g} rad/s)",
-                                                     option_text("observer"), bandwidth_radps)};
-    }
+    const ObserverGains<double> observer{bandwidth_radps, kObserverShare * authority_m,
+                                         kObserverShare * thrust};
+    if (!poles_settle(setting, context, share, observer)) continue;
+    return SettlingChange{"/observer", fmt::format("{} (here with a bandwidth of {:g} rad/s)",
+                                                   option_text("observer"), bandwidth_radps)};
   }
   return std::nullopt;
 }
@@ -100,32 +101,30 @@ std::optional<SettlingChange> one_mode(const ObjectiveSetting& setting,
     alone.mode = mode;
     ObjectiveSetting runs = setting;
     runs.mode = mode;
-    for (const Gains<double>& gains : starting_poles(alone)) {
-      if (!meets_constraints(gains, alone) || settled_share(runs, gains) < share) continue;
-      return SettlingChange{"/mode",
-                            fmt::format("{}, gains for this mode only",
-                                        option_text("mode " + std::string(name_of(mode))))};
-    }
+    if (!poles_settle(runs, alone, share)) continue;
+    return SettlingChange{"/mode", fmt::format("{}, gains for this mode only",
+                                               option_text("mode " + std::string(name_of(mode))))};
   }
   return std::nullopt;
 }
 
-std::optional<SettlingChange> a_higher_steering_rate(const ObjectiveSetting& setting,
-                                                     const ConstraintContext& context,
-                                                     const Gains<double>& gains, double share) {
-  if (!context.limits.steering_rate_rms_degps || !(context.plant.yaw.coulomb > 0.0)) {
-    return std::nullopt;
+/// For each limit that can be relaxed (relaxed_limits()), the number nearest to the present one
+/// with which runs settle.
+std::vector<SettlingChange> relaxed(const ObjectiveSetting& setting,
+                                    const ConstraintContext& context, const Gains<double>& gains,
+                                    double share) {
+  std::vector<SettlingChange> changes;
+  for (const std::vector<RelaxedLimit>& numbers : relaxed_limits(context)) {
+    const auto settles = std::ranges::find_if(numbers, [&](const RelaxedLimit& limit) {
+      const Gains<double> same = with_friction_width(gains, limit.context);
+      return (meets_constraints(same, limit.context) && settled_share(setting, same) >= share) ||
+             poles_settle(setting, limit.context, share);
+    });
+    if (settles == numbers.end()) continue;
+    changes.push_back({fmt::format("/{}", settles->key),
+                       fmt::format("`{}` {:g}", settles->key, settles->number)});
   }
-  for (const double factor : {1.2, 2.0, 5.0, 20.0}) {
-    ConstraintContext higher = context;
-    double& limit = *higher.limits.steering_rate_rms_degps;
-    limit = std::ceil(factor * limit);
-    const Gains<double> narrower = with_friction_width(gains, higher);
-    if (settled_share(setting, narrower) < share) continue;
-    return SettlingChange{"/limits/steering_rate_rms_degps",
-                          fmt::format("`limits/steering_rate_rms_degps` {:g}", limit)};
-  }
-  return std::nullopt;
+  return changes;
 }
 
 }  // namespace
@@ -136,10 +135,10 @@ std::vector<SettlingChange> changes_that_settle(const ObjectiveSetting& setting,
   std::vector<SettlingChange> changes;
   for (auto& change :
        {more_time(setting, gains, share), no_rate_limit(setting, gains, share),
-        an_observer(setting, context, gains, share), one_mode(setting, context, share),
-        a_higher_steering_rate(setting, context, gains, share)}) {
+        an_observer(setting, context, gains, share), one_mode(setting, context, share)}) {
     if (change) changes.push_back(*change);
   }
+  std::ranges::copy(relaxed(setting, context, gains, share), std::back_inserter(changes));
   return changes;
 }
 
@@ -154,7 +153,7 @@ std::string describe(const std::vector<SettlingChange>& changes, std::string_vie
 std::string no_change_settles(std::string_view runs) {
   return fmt::format(
       "None of these changes lets {} settle: 4 times the time, no heading-rate limit, an observer, "
-      "gains for one mode only",
+      "gains for one mode only, relaxed limits",
       runs);
 }
 

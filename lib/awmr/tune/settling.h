@@ -19,10 +19,9 @@ inline constexpr double kSettledShare = 0.95;
 /// setting settle:
 ///   - 2 or 4 times the time of the scenarios and their headings
 ///   - no heading-rate limit, if there is one
-///   - an observer, if the gains have none, within the constraints
+///   - an observer, if the gains have none, with gains by pole placement
 ///   - gains for one mode only, by pole placement, if several modes are tuned
-///   - with Coulomb friction in yaw: a higher limit of the steering rate, which permits a smaller
-///     friction width (with_friction_width())
+///   - a relaxed limit (relaxed_limits()), with the same gains or those by pole placement
 std::vector<SettlingChange> changes_that_settle(const ObjectiveSetting& setting,
                                                 const ConstraintContext& context,
                                                 const Gains<double>& gains, double share);
