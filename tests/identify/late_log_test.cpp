@@ -182,6 +182,55 @@ TEST_P(SmoothedSpeed, IsAllowedFor) {
 }
 INSTANTIATE_TEST_SUITE_P(ByARecursiveFilter, SmoothedSpeed, ::testing::Bool());
 
+/// The log with readings of slipping wheels: the speed, and the yaw rate if `of_yaw`.
+DrivingLog with_slip(DrivingLog log, double slip, bool of_yaw) {
+  const double half_track_m = robot().half_track_m;
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    const double left = slip * log.force_left[i];
+    const double right = slip * log.force_right[i];
+    log[LogChannel::kSpeed]->value[i] += 0.5 * (left + right);
+    if (of_yaw) log[LogChannel::kYawRate]->value[i] += 0.5 * (right - left) / half_track_m;
+  }
+  return log;
+}
+
+class SlippingWheels : public ::testing::TestWithParam<bool> {};
+
+TEST_P(SlippingWheels, AreFoundInTheirReadings) {
+  constexpr double kSlip_mps = 0.16;
+  const Truth& t = kTruths[1];
+  TrialData data;
+  data.logs = {with_slip(drive(t, 8, {.duration_s = 40.0}), kSlip_mps, GetParam())};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto slip = estimated(*result, "slip.speed_mps");
+  ASSERT_TRUE(slip && slip->std_error);
+  EXPECT_NEAR(slip->value, kSlip_mps, 4.5 * *slip->std_error);
+  EXPECT_TRUE(has_finding(*result, "wheel-slip", "speed_mps"));
+  EXPECT_EQ(has_finding(*result, "wheel-slip", "yaw_rate_radps"), GetParam());
+  EXPECT_FALSE(has_finding(*result, "late-commands"));
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+}
+TEST(LateLog, WithdrawsTheMassIfSlipResemblesLateCommands) {
+  // Slip of the speed resembles a speed that is read early, as by late commands and a late yaw rate.
+  DrivingLog log = with_slip(drive(kTruths[1], 8, {.duration_s = 40.0}), 0.02, false);
+  for (const LogChannel absent : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
+    log[absent].reset();
+  }
+  TrialData data;
+  data.logs = {std::move(log)};
+  const auto result = identify(robot(), data, power_law(), {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "wheel-slip", "do not decide between"));
+  EXPECT_TRUE(has_finding(*result, "wheel-slip", "late time stamps of the commands"));
+  EXPECT_TRUE(has_finding(*result, "wheel-slip", "mass_norm"));
+  EXPECT_FALSE(result->model[ParameterId::kMassNorm].std_error);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTheYawRateToo, SlippingWheels, ::testing::Bool());
+
 /// The log without its first rows.
 DrivingLog cut(DrivingLog log, std::size_t rows) {
   const auto shorten = [&](std::vector<double>& values) {

@@ -112,6 +112,23 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
   return findings;
 }
 
+/// `wheel-slip` for every channel that slipping wheels measure.
+std::vector<Finding> slip_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
+  for (const auto& [quantity, slip, error] : found_terms(fit, FreeQuantity::Kind::kWheelSlip)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "wheel-slip",
+         fmt::format("the wheels that measure {} slip: a wheel with the force F' rolls faster "
+                     "than over ground by F' times {}. The fit compensates this; measure without "
+                     "driven wheels (optical flow, GNSS, a gyroscope, a free wheel)",
+                     info(quantity.channel).name,
+                     quantity.is_ratio
+                         ? fmt::format("{:.1f} +- {:.1f} %", 100.0 * slip, 100.0 * error)
+                         : fmt::format("{:.3f} +- {:.3f} m/s", slip, error))});
+  }
+  return findings;
+}
+
 /// `steering-delay`, if the steering reacts later than the forces, beyond the servo's lag, or if
 /// its commands are stamped later;
 /// `steering-trim` and `force-imbalance` for constant errors of the commands.
@@ -224,8 +241,9 @@ bool saturates_much(const LogFit& fit) {
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
                                                  const std::string& file) {
   std::vector<Finding> findings = delay_findings(fit, file);
-  for (const auto& more : {steering_findings(fit, file), saturation_findings(fit, file),
-                           actuator_findings(fit, file), force_findings(fit, file)}) {
+  for (const auto& more :
+       {slip_findings(fit, file), steering_findings(fit, file), saturation_findings(fit, file),
+        actuator_findings(fit, file), force_findings(fit, file)}) {
     findings.insert(findings.end(), more.begin(), more.end());
   }
   if (!withdrawn) return findings;

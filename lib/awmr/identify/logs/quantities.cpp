@@ -42,6 +42,7 @@ Interval range_of(const FreeQuantity& quantity) {
   constexpr double kLongest_s = 1.0;
   constexpr double kLargestTrim_rad = 0.35;
   constexpr double kLargestImbalance = 0.5;
+  constexpr double kLargestSlip = 10.0;
   switch (quantity.kind) {
     case Kind::kDelay:
     case Kind::kSteeringDelay:
@@ -65,6 +66,8 @@ Interval range_of(const FreeQuantity& quantity) {
     case Kind::kSensorDelay:
     case Kind::kSensorLag:
       return {0.0, kLongest_s};
+    case Kind::kWheelSlip:
+      return {0.0, kLargestSlip};
   }
   return {};
 }
@@ -106,6 +109,8 @@ std::string FreeQuantity::name() const {
       return fmt::format("{}{}", kSensorDelayPrefix, info(channel).name);
     case Kind::kSensorLag:
       return fmt::format("{}{}", kSensorLagPrefix, info(channel).name);
+    case Kind::kWheelSlip:
+      return fmt::format("{}{}", is_ratio ? kSlipRatioPrefix : kSlipPrefix, info(channel).name);
     case Kind::kBias:
       return fmt::format("{}{}", kBiasPrefix, info(channel).name);
   }
@@ -181,6 +186,13 @@ FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows) {
           .channel = channel,
           .large_change = 0.1,
           .is_at_rows = is_at_rows};
+}
+
+FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio) {
+  return {.kind = FreeQuantity::Kind::kWheelSlip,
+          .channel = channel,
+          .large_change = 0.1,
+          .is_ratio = is_ratio};
 }
 
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind) {
