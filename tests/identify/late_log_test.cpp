@@ -145,18 +145,21 @@ TEST(LateLog, KeepsAMotorLagOfTheVehicleFileFixed) {
   expect_recovered(*result, ParameterId::kSurgeAlpha, kTruths[1].a1, 4.5);
 }
 
-/// Filters the speed by a first-order lag: dy/dt = (u - y)/T, exactly for ramps between the rows,
+/// Filters a channel by a first-order lag: dy/dt = (u - y)/T, exactly for ramps between the rows,
 /// or with one step for each row (`is_at_rows`).
-DrivingLog with_smoothed_speed(DrivingLog log, const std::vector<double>& speed, double lag_s,
-                               bool is_at_rows) {
-  std::vector<double>& shown = log[LogChannel::kSpeed]->value;
+DrivingLog with_smoothed(DrivingLog log, LogChannel channel, double lag_s, bool is_at_rows) {
+  std::vector<double> all(log.rows());
+  replay<double>(
+      LogSignals(log), 0, log.rows(), plant(kTruths[1]), nullptr, 0.002, {},
+      [&](std::size_t row, const State<double>& state) { all[row] = channel_of(state, channel); });
+  std::vector<double>& shown = log[channel]->value;
   const double e = std::exp(-kStep_s / lag_s);
-  double y = speed.front();
+  double y = all.front();
   for (std::size_t i = 1; i < log.rows(); ++i) {
-    const double slope = (speed[i] - speed[i - 1]) / kStep_s;
-    y = is_at_rows ? e * y + (1.0 - e) * speed[i]
-                   : speed[i] - slope * lag_s + (y - speed[i - 1] + slope * lag_s) * e;
-    shown[i] += y - speed[i];
+    const double slope = (all[i] - all[i - 1]) / kStep_s;
+    y = is_at_rows ? e * y + (1.0 - e) * all[i]
+                   : all[i] - slope * lag_s + (y - all[i - 1] + slope * lag_s) * e;
+    shown[i] += y - all[i];
   }
   return log;
 }
@@ -166,12 +169,9 @@ class SmoothedSpeed : public ::testing::TestWithParam<bool> {};
 TEST_P(SmoothedSpeed, IsAllowedFor) {
   constexpr double kLag_s = 0.2;
   const Truth& t = kTruths[1];
-  DrivingLog log = drive(t, 8, {.duration_s = 40.0});
-  std::vector<double> speed(log.rows());
-  replay<double>(LogSignals(log), 0, log.rows(), plant(t), nullptr, 0.002, {},
-                 [&](std::size_t row, const State<double>& state) { speed[row] = state.u_mps; });
   TrialData data;
-  data.logs = {with_smoothed_speed(std::move(log), speed, kLag_s, GetParam())};
+  data.logs = {
+      with_smoothed(drive(t, 8, {.duration_s = 40.0}), LogChannel::kSpeed, kLag_s, GetParam())};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "lag.speed_mps");
@@ -181,6 +181,25 @@ TEST_P(SmoothedSpeed, IsAllowedFor) {
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
 }
 INSTANTIATE_TEST_SUITE_P(ByARecursiveFilter, SmoothedSpeed, ::testing::Bool());
+
+TEST(LateLog, AllowsForASmoothedCompassWithoutAGyroscope) {
+  constexpr double kLag_s = 0.2;
+  const Truth& t = kTruths[1];
+  DrivingLog log =
+      with_smoothed(drive(t, 8, {.duration_s = 40.0}), LogChannel::kHeading, kLag_s, false);
+  for (const LogChannel absent : {LogChannel::kX, LogChannel::kY, LogChannel::kYawRate}) {
+    log[absent].reset();
+  }
+  TrialData data;
+  data.logs = {std::move(log)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto lag = estimated(*result, "lag.heading_rad");
+  ASSERT_TRUE(lag && lag->std_error);
+  EXPECT_NEAR(lag->value, kLag_s, 4.5 * *lag->std_error);
+  EXPECT_TRUE(has_finding(*result, "sensor-lag", "heading_rad"));
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+}
 
 /// The log with readings of slipping wheels: the speed, and the yaw rate if `of_yaw`.
 DrivingLog with_slip(DrivingLog log, double slip, bool of_yaw) {
@@ -213,6 +232,7 @@ TEST_P(SlippingWheels, AreFoundInTheirReadings) {
   expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
 }
+
 TEST(LateLog, WithdrawsTheMassIfSlipResemblesLateCommands) {
   // Slip of the speed resembles a speed that is read early, as by late commands and a late yaw rate.
   DrivingLog log = with_slip(drive(kTruths[1], 8, {.duration_s = 40.0}), 0.02, false);

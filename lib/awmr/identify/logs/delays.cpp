@@ -179,7 +179,8 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
 
 /// Channels that are often filtered before logging.
 bool may_be_smoothed(LogChannel channel) {
-  return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate;
+  return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate ||
+         channel == LogChannel::kHeading;
 }
 
 /// The fit with the lowest AIC among those considered.
