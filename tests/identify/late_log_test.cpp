@@ -201,6 +201,42 @@ TEST(LateLog, AllowsForASmoothedCompassWithoutAGyroscope) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
 }
 
+/// The log with the readings of a sway sensor that sits `ahead_m` ahead of the centre of gravity and
+/// is turned to the left by `turned_rad`.
+DrivingLog with_sway_sensor(DrivingLog log, double ahead_m, double turned_rad) {
+  Random random(3, 9);
+  Measured sway{.value = std::vector<double>(log.rows()),
+                .fresh = std::vector<bool>(log.rows(), true),
+                .fresh_count = static_cast<int>(log.rows())};
+  replay<double>(LogSignals(log), 0, log.rows(), plant(kTruths[1]), nullptr, 0.002, {},
+                 [&](std::size_t row, const State<double>& s) {
+                   sway.value[row] = s.v_mps * std::cos(turned_rad) -
+                                     s.u_mps * std::sin(turned_rad) + ahead_m * s.r_radps +
+                                     0.01 * random.normal();
+                 });
+  log[LogChannel::kSway] = std::move(sway);
+  return log;
+}
+
+TEST(LateLog, FindsPlaceAndDirectionOfASwaySensor) {
+  constexpr double kAhead_m = -0.04;
+  constexpr double kTurned_rad = 0.03;
+  const Truth& t = kTruths[1];
+  TrialData data;
+  data.logs = {with_sway_sensor(drive(t, 8, {.duration_s = 40.0}), kAhead_m, kTurned_rad)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto ahead = estimated(*result, "sway.offset_m");
+  const auto turned = estimated(*result, "sway.angle_rad");
+  ASSERT_TRUE(ahead && ahead->std_error && turned && turned->std_error);
+  EXPECT_NEAR(ahead->value, kAhead_m, 4.5 * *ahead->std_error);
+  EXPECT_NEAR(turned->value, kTurned_rad, 4.5 * *turned->std_error);
+  EXPECT_TRUE(has_finding(*result, "sway-sensor", "behind the centre of gravity"));
+  EXPECT_TRUE(has_finding(*result, "sway-sensor", "to the left"));
+  expect_recovered(*result, ParameterId::kSwayAlpha, plant(t).sway_alpha, 4.5);
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+}
+
 /// The log with readings of slipping wheels: the speed, and the yaw rate if `of_yaw`.
 DrivingLog with_slip(DrivingLog log, double slip, bool of_yaw) {
   const double half_track_m = robot().half_track_m;

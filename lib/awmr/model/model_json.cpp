@@ -32,7 +32,8 @@ bool is_estimated_name(std::string_view name) {
   return parameter_by_name(name) || name == kInputDelayName || name == kSteeringDelayName ||
          name == kSteeringTrimName || name == kForceImbalanceName || name == kForceExponentName ||
          name == kForceSaturationName || name == kSaturationSharpnessName ||
-         name == kMotorLagName || name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
+         name == kSwayOffsetName || name == kSwayAngleName || name == kMotorLagName ||
+         name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
          name == kQuadraticOverSurgeName ||
          std::ranges::find(kExtraForceNames, name) != kExtraForceNames.end() ||
          name.starts_with(kBiasPrefix) || name.starts_with(kSensorDelayPrefix) ||

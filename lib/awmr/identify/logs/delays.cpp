@@ -130,6 +130,10 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   }
   add_forces(problem, found);
   add_slip(problem, found);
+  if (problem.model.noise.contains(LogChannel::kSway)) {
+    if (!has_kind(quantities, Kind::kSwayOffset)) found.push_back(sway_offset());
+    if (!has_kind(quantities, Kind::kSwayAngle)) found.push_back(sway_angle());
+  }
   return found;
 }
 

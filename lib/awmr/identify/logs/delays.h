@@ -16,6 +16,7 @@ namespace awmr {
 ///   - a force imbalance, if left and right forces differ;
 ///   - a saturation of the forces, or an exponent below 1;
 ///   - slip of the wheels that measure the speed, or the yaw rate if left and right forces differ;
+///   - place and direction of a sway sensor;
 ///   - Stribeck friction of a resistance with Coulomb friction; a slope, if heading or position are
 ///     measured (extra_forces.h).
 std::vector<FreeQuantity> further_terms(const LogProblem& problem);

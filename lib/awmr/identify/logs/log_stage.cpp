@@ -52,6 +52,9 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   append(stage.reports, adequacy.alternatives);
   append(stage.findings, adequacy.findings);
   stage.withdraws_intervals = adequacy.withdraws_intervals || found.is_out_of_time;
+  if (adequacy.withdraws_sway) {
+    withdraw_interval(chosen.fit.report, info(ParameterId::kSwayAlpha).name);
+  }
   return chosen;
 }
 

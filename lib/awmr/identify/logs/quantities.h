@@ -34,7 +34,9 @@ struct FreeQuantity {
     kBias,                 ///< constant offset of a channel
     kSensorDelay,          ///< latency of a channel
     kSensorLag,            ///< time constant of a filter that smooths a channel
-    kWheelSlip             ///< slip of the wheels that measure a channel (wheel_slip.h)
+    kWheelSlip,            ///< slip of the wheels that measure a channel (wheel_slip.h)
+    kSwayOffset,           ///< distance of the sway sensor ahead of the centre of gravity
+    kSwayAngle             ///< angle by which the sway sensor is turned to the left
   };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< of kParameter
@@ -44,8 +46,8 @@ struct FreeQuantity {
   Scale scale = Scale::kLinear;
   /// Change of the coordinate that counts as large: 1 for a logarithm (a factor e), an exponent or
   /// a bias (SI); 0.2 for a term of a family or Stribeck friction; 0.1 for a delay or lag (s), trim
-  /// (rad), imbalance, saturation or wheel slip; 0.5 for a slope (m/s^2). Standard deviations of
-  /// priors and limits of identifiability are multiples of this change.
+  /// or angle (rad), imbalance, saturation, wheel slip or offset (m); 0.5 for a slope (m/s^2).
+  /// Standard deviations of priors and limits of identifiability are multiples of this change.
   double large_change = 1.0;
   double full_command = 1.0;  ///< of kForceSaturation: F'm of force_saturation(), > 0
   double fastest = 1.0;       ///< of a Stribeck speed: largest speed of the logs
@@ -123,6 +125,12 @@ FreeQuantity sensor_delay_of(LogChannel channel);
 /// Slip s of the wheels that measure the speed or the yaw rate (wheel_slip.h). `is_ratio`: s is a
 /// ratio of speeds in place of a speed.
 FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio);
+
+/// Place x_s (m) of the sway sensor and the angle a (rad) by which it is turned to the left: it reads
+///
+///     v cos a - u sin a + x_s r
+FreeQuantity sway_offset();
+FreeQuantity sway_angle();
 
 /// A free quantity with its initial guess.
 struct FreeTerm {

@@ -29,6 +29,8 @@ struct Unpacked {
   std::array<std::optional<DelayColumn>, kChannelCount> sensor_delay{};
   std::array<std::optional<SensorFilter>, kChannelCount> sensor_lag{};
   std::vector<WheelSlip> slips;
+  std::optional<OffsetColumn> sway_offset;
+  std::optional<OffsetColumn> sway_angle;
   State<double> initial{};
 
   bool any_late() const {
@@ -99,6 +101,12 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
       case FreeQuantity::Kind::kWheelSlip:
         u.slips.push_back({quantity.channel, {number, i}, quantity.is_ratio});
         break;
+      case FreeQuantity::Kind::kSwayOffset:
+        u.sway_offset = {number, i};
+        break;
+      case FreeQuantity::Kind::kSwayAngle:
+        u.sway_angle = {number, i};
+        break;
       case FreeQuantity::Kind::kBias:
         u.bias[at(quantity.channel)] = number;
         u.bias_column[at(quantity.channel)] = i;
@@ -167,11 +175,33 @@ class Sensors {
       value += add_wheel_slip(slip, wheels_, command_at(signals_, t_s, u_.path), motion,
                               row_.size(), row_.data());
     }
-    return value;
+    return c == LogChannel::kSway ? sway(motion) : value;
   }
   std::vector<double>& row() { return row_; }
 
  private:
+  /// Reading of the sway sensor (sway_offset()).
+  double sway(const LinearMotion& motion) {
+    const State<double>& s = motion.state;
+    const double x = u_.sway_offset ? u_.sway_offset->value : 0.0;
+    const double angle = u_.sway_angle ? u_.sway_angle->value : 0.0;
+    const double along = std::sin(angle);
+    const double across = std::cos(angle);
+    const std::size_t columns = row_.size();
+    if (columns > 0 && (u_.sway_offset || u_.sway_angle)) {
+      const double* const by_u = motion.row(LogChannel::kSpeed, columns);
+      const double* const by_r = motion.row(LogChannel::kYawRate, columns);
+      for (std::size_t c = 0; c < columns; ++c) {
+        row_[c] = across * row_[c] - along * by_u[c] + x * by_r[c];
+      }
+      if (u_.sway_offset) row_[u_.sway_offset->column] += s.r_radps;
+      if (u_.sway_angle) {
+        row_[u_.sway_angle->column] -= along * s.v_mps + across * s.u_mps;
+      }
+    }
+    return across * s.v_mps - along * s.u_mps + x * s.r_radps;
+  }
+
   const LogSignals& signals_;
   const Unpacked& u_;
   SlippingWheels wheels_;
