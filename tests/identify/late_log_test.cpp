@@ -145,18 +145,21 @@ TEST(LateLog, KeepsAMotorLagOfTheVehicleFileFixed) {
   expect_recovered(*result, ParameterId::kSurgeAlpha, kTruths[1].a1, 4.5);
 }
 
-/// Filters the speed by a first-order lag: dy/dt = (u - y)/T, exactly for ramps between the rows,
+/// Filters a channel by a first-order lag: dy/dt = (u - y)/T, exactly for ramps between the rows,
 /// or with one step for each row (`is_at_rows`).
-DrivingLog with_smoothed_speed(DrivingLog log, const std::vector<double>& speed, double lag_s,
-                               bool is_at_rows) {
-  std::vector<double>& shown = log[LogChannel::kSpeed]->value;
+DrivingLog with_smoothed(DrivingLog log, LogChannel channel, double lag_s, bool is_at_rows) {
+  std::vector<double> all(log.rows());
+  replay<double>(
+      LogSignals(log), 0, log.rows(), plant(kTruths[1]), nullptr, 0.002, {},
+      [&](std::size_t row, const State<double>& state) { all[row] = channel_of(state, channel); });
+  std::vector<double>& shown = log[channel]->value;
   const double e = std::exp(-kStep_s / lag_s);
-  double y = speed.front();
+  double y = all.front();
   for (std::size_t i = 1; i < log.rows(); ++i) {
-    const double slope = (speed[i] - speed[i - 1]) / kStep_s;
-    y = is_at_rows ? e * y + (1.0 - e) * speed[i]
-                   : speed[i] - slope * lag_s + (y - speed[i - 1] + slope * lag_s) * e;
-    shown[i] += y - speed[i];
+    const double slope = (all[i] - all[i - 1]) / kStep_s;
+    y = is_at_rows ? e * y + (1.0 - e) * all[i]
+                   : all[i] - slope * lag_s + (y - all[i - 1] + slope * lag_s) * e;
+    shown[i] += y - all[i];
   }
   return log;
 }
@@ -166,12 +169,9 @@ class SmoothedSpeed : public ::testing::TestWithParam<bool> {};
 TEST_P(SmoothedSpeed, IsAllowedFor) {
   constexpr double kLag_s = 0.2;
   const Truth& t = kTruths[1];
-  DrivingLog log = drive(t, 8, {.duration_s = 40.0});
-  std::vector<double> speed(log.rows());
-  replay<double>(LogSignals(log), 0, log.rows(), plant(t), nullptr, 0.002, {},
-                 [&](std::size_t row, const State<double>& state) { speed[row] = state.u_mps; });
   TrialData data;
-  data.logs = {with_smoothed_speed(std::move(log), speed, kLag_s, GetParam())};
+  data.logs = {
+      with_smoothed(drive(t, 8, {.duration_s = 40.0}), LogChannel::kSpeed, kLag_s, GetParam())};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "lag.speed_mps");
@@ -181,6 +181,111 @@ TEST_P(SmoothedSpeed, IsAllowedFor) {
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
 }
 INSTANTIATE_TEST_SUITE_P(ByARecursiveFilter, SmoothedSpeed, ::testing::Bool());
+
+TEST(LateLog, AllowsForASmoothedCompassWithoutAGyroscope) {
+  constexpr double kLag_s = 0.2;
+  const Truth& t = kTruths[1];
+  DrivingLog log =
+      with_smoothed(drive(t, 8, {.duration_s = 40.0}), LogChannel::kHeading, kLag_s, false);
+  for (const LogChannel absent : {LogChannel::kX, LogChannel::kY, LogChannel::kYawRate}) {
+    log[absent].reset();
+  }
+  TrialData data;
+  data.logs = {std::move(log)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto lag = estimated(*result, "lag.heading_rad");
+  ASSERT_TRUE(lag && lag->std_error);
+  EXPECT_NEAR(lag->value, kLag_s, 4.5 * *lag->std_error);
+  EXPECT_TRUE(has_finding(*result, "sensor-lag", "heading_rad"));
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+}
+
+/// The log with the readings of a sway sensor that sits `ahead_m` ahead of the centre of gravity and
+/// is turned to the left by `turned_rad`.
+DrivingLog with_sway_sensor(DrivingLog log, double ahead_m, double turned_rad) {
+  Random random(3, 9);
+  Measured sway{.value = std::vector<double>(log.rows()),
+                .fresh = std::vector<bool>(log.rows(), true),
+                .fresh_count = static_cast<int>(log.rows())};
+  replay<double>(LogSignals(log), 0, log.rows(), plant(kTruths[1]), nullptr, 0.002, {},
+                 [&](std::size_t row, const State<double>& s) {
+                   sway.value[row] = s.v_mps * std::cos(turned_rad) -
+                                     s.u_mps * std::sin(turned_rad) + ahead_m * s.r_radps +
+                                     0.01 * random.normal();
+                 });
+  log[LogChannel::kSway] = std::move(sway);
+  return log;
+}
+
+TEST(LateLog, FindsPlaceAndDirectionOfASwaySensor) {
+  constexpr double kAhead_m = -0.04;
+  constexpr double kTurned_rad = 0.03;
+  const Truth& t = kTruths[1];
+  TrialData data;
+  data.logs = {with_sway_sensor(drive(t, 8, {.duration_s = 40.0}), kAhead_m, kTurned_rad)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto ahead = estimated(*result, "sway.offset_m");
+  const auto turned = estimated(*result, "sway.angle_rad");
+  ASSERT_TRUE(ahead && ahead->std_error && turned && turned->std_error);
+  EXPECT_NEAR(ahead->value, kAhead_m, 4.5 * *ahead->std_error);
+  EXPECT_NEAR(turned->value, kTurned_rad, 4.5 * *turned->std_error);
+  EXPECT_TRUE(has_finding(*result, "sway-sensor", "behind the centre of gravity"));
+  EXPECT_TRUE(has_finding(*result, "sway-sensor", "to the left"));
+  expect_recovered(*result, ParameterId::kSwayAlpha, plant(t).sway_alpha, 4.5);
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+}
+
+/// The log with readings of slipping wheels: the speed, and the yaw rate if `of_yaw`.
+DrivingLog with_slip(DrivingLog log, double slip, bool of_yaw) {
+  const double half_track_m = robot().half_track_m;
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    const double left = slip * log.force_left[i];
+    const double right = slip * log.force_right[i];
+    log[LogChannel::kSpeed]->value[i] += 0.5 * (left + right);
+    if (of_yaw) log[LogChannel::kYawRate]->value[i] += 0.5 * (right - left) / half_track_m;
+  }
+  return log;
+}
+
+class SlippingWheels : public ::testing::TestWithParam<bool> {};
+
+TEST_P(SlippingWheels, AreFoundInTheirReadings) {
+  constexpr double kSlip_mps = 0.16;
+  const Truth& t = kTruths[1];
+  TrialData data;
+  data.logs = {with_slip(drive(t, 8, {.duration_s = 40.0}), kSlip_mps, GetParam())};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto slip = estimated(*result, "slip.speed_mps");
+  ASSERT_TRUE(slip && slip->std_error);
+  EXPECT_NEAR(slip->value, kSlip_mps, 4.5 * *slip->std_error);
+  EXPECT_TRUE(has_finding(*result, "wheel-slip", "speed_mps"));
+  EXPECT_EQ(has_finding(*result, "wheel-slip", "yaw_rate_radps"), GetParam());
+  EXPECT_FALSE(has_finding(*result, "late-commands"));
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+}
+
+TEST(LateLog, WithdrawsTheMassIfSlipResemblesLateCommands) {
+  // Slip of the speed resembles a speed that is read early, as by late commands and a late yaw rate.
+  DrivingLog log = with_slip(drive(kTruths[1], 8, {.duration_s = 40.0}), 0.02, false);
+  for (const LogChannel absent : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
+    log[absent].reset();
+  }
+  TrialData data;
+  data.logs = {std::move(log)};
+  const auto result = identify(robot(), data, power_law(), {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "wheel-slip", "do not decide between"));
+  EXPECT_TRUE(has_finding(*result, "wheel-slip", "late time stamps of the commands"));
+  EXPECT_TRUE(has_finding(*result, "wheel-slip", "mass_norm"));
+  EXPECT_FALSE(result->model[ParameterId::kMassNorm].std_error);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTheYawRateToo, SlippingWheels, ::testing::Bool());
 
 /// The log without its first rows.
 DrivingLog cut(DrivingLog log, std::size_t rows) {

@@ -11,6 +11,7 @@
 #include "awmr/identify/ceres_solve.h"
 #include "awmr/identify/logs/linear_replay.h"
 #include "awmr/identify/logs/product_sums.h"
+#include "awmr/identify/logs/wheel_slip.h"
 #include "awmr/model/plant_of.h"
 #include "awmr/model/rest.h"
 
@@ -358,6 +359,59 @@ TEST(LinearReplay, OfErrorsOfTheCommandsHasTheDerivativesOfCentralDifferences) {
       }
     }
   }
+}
+
+/// Speed, yaw rate, logarithm of the dead zone, back-EMF, imbalance and slip.
+constexpr std::size_t kSlipColumns = 6;
+using SlipCoordinates = std::array<double, kSlipColumns>;
+
+/// What slip adds to a reading, with its derivatives.
+std::pair<double, std::vector<double>> slip_at(const SlipCoordinates& x, LogChannel channel,
+                                               bool is_ratio) {
+  Plant<double> plant = plant_by_hand(true, 0.004, Drive::kFourWheel, Friction::kNone);
+  plant.wheel_dead_zone = std::exp(x[2]);
+  plant.back_emf_s_per_m = x[3];
+  DrivingLog log = commands(true);
+  log.force_left.assign(log.rows(), -0.4);
+  log.force_right.assign(log.rows(), 0.3);
+  const CommandPath path{.imbalance = OffsetColumn{x[4], 4}};
+  LinearMotion motion{{}, std::vector<double>(kStateSize * kSlipColumns, 0.0)};
+  motion.state.u_mps = x[0];
+  motion.state.r_radps = x[1];
+  motion.row(LogChannel::kSpeed, kSlipColumns)[0] = 1.0;
+  motion.row(LogChannel::kYawRate, kSlipColumns)[1] = 1.0;
+  const std::vector<ParameterColumn> parameters{
+      {ParameterId::kWheelDeadZone, 2, plant.wheel_dead_zone}, {ParameterId::kBackEmf, 3, 1.0}};
+  std::vector<double> by(kSlipColumns, 0.0);
+  const double added =
+      add_wheel_slip({channel, {x[5], 5}, is_ratio}, {plant, parameters, columns_of(path)},
+                     command_at(LogSignals(log), 0.5, path), motion, kSlipColumns, by.data());
+  return {added, by};
+}
+
+TEST(WheelSlip, HasTheDerivativesOfCentralDifferences) {
+  constexpr double kApart = 1e-6;
+  const SlipCoordinates x{0.1, 2.0, -3.0, 0.05, 0.1, 0.2};  // the left wheels roll back
+  for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
+    for (const bool is_ratio : {false, true}) {
+      const std::vector<double> by = slip_at(x, channel, is_ratio).second;
+      for (std::size_t i = 0; i < kSlipColumns; ++i) {
+        SlipCoordinates more = x;
+        SlipCoordinates less = x;
+        more[i] += kApart;
+        less[i] -= kApart;
+        const double slope =
+            (slip_at(more, channel, is_ratio).first - slip_at(less, channel, is_ratio).first) /
+            (2.0 * kApart);
+        EXPECT_NEAR(by[i], slope, 1e-7) << "column " << i;
+      }
+    }
+  }
+}
+
+TEST(WheelSlip, OfAStandingWheelIsZero) {
+  const SlipCoordinates at_rest{0.0, 0.0, -3.0, 0.05, 0.1, 0.2};
+  EXPECT_EQ(slip_at(at_rest, LogChannel::kSpeed, false).first, 0.0);
 }
 
 /// Stribeck friction with the logarithms of its speed scales, and slope, by ExtraForce.

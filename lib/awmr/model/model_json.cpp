@@ -32,11 +32,13 @@ bool is_estimated_name(std::string_view name) {
   return parameter_by_name(name) || name == kInputDelayName || name == kSteeringDelayName ||
          name == kSteeringTrimName || name == kForceImbalanceName || name == kForceExponentName ||
          name == kForceSaturationName || name == kSaturationSharpnessName ||
-         name == kMotorLagName || name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
+         name == kSwayOffsetName || name == kSwayAngleName || name == kMotorLagName ||
+         name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
          name == kQuadraticOverSurgeName ||
          std::ranges::find(kExtraForceNames, name) != kExtraForceNames.end() ||
          name.starts_with(kBiasPrefix) || name.starts_with(kSensorDelayPrefix) ||
-         name.starts_with(kSensorLagPrefix);
+         name.starts_with(kSensorLagPrefix) || name.starts_with(kSlipPrefix) ||
+         name.starts_with(kSlipRatioPrefix);
 }
 
 int count(JsonObject& json, std::string_view key) {

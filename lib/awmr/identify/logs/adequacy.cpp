@@ -84,6 +84,11 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
     if (channel == LogChannel::kYawRate) {
       advice += " (" + option_text("fit bias.yaw_rate_radps") + " estimates a bias)";
     }
+    if (channel == LogChannel::kSway) {
+      advice =
+          "the tyres slide, or the sensor is turned, sits ahead of or behind the centre of "
+          "gravity, or drifts";
+    }
     if (channel == LogChannel::kSpeed && try_families) {
       advice = try_alternatives(best_family(logs, power_law, chosen, {.only_candidates = false}),
                                 chosen, adequacy)
@@ -92,6 +97,7 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
     const bool is_models = noise.overwhelms_sensor() && is_evaluated(chosen.fit.noise, channel);
     const bool withdraws = is_models || has_only_positions(chosen.fit.noise);
     adequacy.withdraws_intervals |= withdraws;
+    adequacy.withdraws_sway |= channel == LogChannel::kSway;
     adequacy.findings.push_back(
         {logs.front().file, 0, Severity::kWarning, "model-inadequate",
          fmt::format("the model has an error of {1:.3g} {2} in {0} for {3} at a time, compared "
@@ -101,7 +107,9 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
                                                      : fmt::format("more than {:g} s", kWindow_s),
                      noise.sensor_std, advice,
                      withdraws ? "The intervals are withdrawn"
-                               : "The intervals do not include this model error")});
+                     : channel == LogChannel::kSway
+                         ? "The interval of sway.alpha is withdrawn"
+                         : "The intervals do not include this model error")});
   }
   return adequacy;
 }

@@ -17,6 +17,7 @@ struct Adequacy {
   std::vector<EstimatorReport> alternatives;  ///< fits of other families, if any
   std::vector<Finding> findings;
   bool withdraws_intervals = false;  ///< true: a model error is so large that no interval is valid
+  bool withdraws_sway = false;       ///< true: the sway speed has a model error
 };
 
 /// Reports `model-inadequate` for every channel of the fit `chosen` whose residuals show a model

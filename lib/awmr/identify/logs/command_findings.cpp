@@ -112,6 +112,46 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
   return findings;
 }
 
+/// `wheel-slip` for every channel that slipping wheels measure.
+std::vector<Finding> slip_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
+  for (const auto& [quantity, slip, error] : found_terms(fit, FreeQuantity::Kind::kWheelSlip)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "wheel-slip",
+         fmt::format("the wheels that measure {} slip: a wheel with the force F' rolls faster "
+                     "than over ground by F' times {}. The fit compensates this; measure without "
+                     "driven wheels (optical flow, GNSS, a gyroscope, a free wheel)",
+                     info(quantity.channel).name,
+                     quantity.is_ratio
+                         ? fmt::format("{:.1f} +- {:.1f} %", 100.0 * slip, 100.0 * error)
+                         : fmt::format("{:.3f} +- {:.3f} m/s", slip, error))});
+  }
+  return findings;
+}
+
+/// `sway-sensor`, if the sway sensor is not at the centre of gravity, or is turned.
+std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
+  for (const FoundTerm& one : found_terms(fit, FreeQuantity::Kind::kSwayOffset)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "sway-sensor",
+         fmt::format("sway_mps shows the sideways speed {:.3f} +- {:.3f} m {} the centre of "
+                     "gravity. The fit compensates this; mount the sensor at the centre of "
+                     "gravity, or subtract its distance ahead times the yaw rate",
+                     std::abs(one.value), one.error, one.value > 0.0 ? "ahead of" : "behind")});
+  }
+  for (const FoundTerm& one : found_terms(fit, FreeQuantity::Kind::kSwayAngle)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "sway-sensor",
+         fmt::format("the sensor of sway_mps is turned by {:.2f} +- {:.2f} deg to the {}, so that "
+                     "it shows a part of the forward speed. The fit compensates this; align the "
+                     "sensor with the vehicle",
+                     degrees(std::abs(one.value)), degrees(one.error),
+                     one.value > 0.0 ? "left" : "right")});
+  }
+  return findings;
+}
+
 /// `steering-delay`, if the steering reacts later than the forces, beyond the servo's lag, or if
 /// its commands are stamped later.
 std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::string& file) {
@@ -230,7 +270,8 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
                                                  const std::string& file) {
   std::vector<Finding> findings = delay_findings(fit, file);
   for (const auto& more :
-       {steering_delay_findings(fit, file), constant_error_findings(fit, file),
+       {slip_findings(fit, file), sway_sensor_findings(fit, file),
+        steering_delay_findings(fit, file), constant_error_findings(fit, file),
         saturation_findings(fit, file), actuator_findings(fit, file), force_findings(fit, file)}) {
     findings.insert(findings.end(), more.begin(), more.end());
   }

@@ -79,6 +79,27 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
+/// Adds the slip of the wheels that measure speed or yaw rate, in both forms. All slip of a fit has
+/// the same form.
+void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
+  const std::vector<FreeQuantity>& quantities = problem.model.quantities;
+  const auto slips = [&](LogChannel channel) {
+    return std::ranges::any_of(quantities, [&](const FreeQuantity& q) {
+      return q.kind == FreeQuantity::Kind::kWheelSlip && q.channel == channel;
+    });
+  };
+  const auto other =
+      std::ranges::find(quantities, FreeQuantity::Kind::kWheelSlip, &FreeQuantity::kind);
+  for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
+    if (!problem.model.noise.contains(channel) || slips(channel)) continue;
+    if (channel == LogChannel::kYawRate && !any_log(problem, has_force_difference)) continue;
+    for (const bool is_ratio : {false, true}) {
+      if (other != quantities.end() && other->is_ratio != is_ratio) continue;
+      found.push_back(wheel_slip_of(channel, is_ratio));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
@@ -109,6 +130,11 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
     found.push_back(force_saturation(full_command));
   }
   add_forces(problem, found);
+  add_slip(problem, found);
+  if (problem.model.noise.contains(LogChannel::kSway)) {
+    if (!has_kind(quantities, Kind::kSwayOffset)) found.push_back(sway_offset());
+    if (!has_kind(quantities, Kind::kSwayAngle)) found.push_back(sway_angle());
+  }
   return found;
 }
 
@@ -158,7 +184,8 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
 
 /// Channels that are often filtered before logging.
 bool may_be_smoothed(LogChannel channel) {
-  return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate;
+  return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate ||
+         channel == LogChannel::kHeading;
 }
 
 /// The fit with the lowest AIC among those considered.
@@ -218,6 +245,17 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
   return terms;
 }
 
+/// The slip of the speed together with slip of the same form of the yaw rate, if that is a candidate
+/// too.
+std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<CandidateTerm>& terms,
+                                                      const CandidateTerm& of_speed) {
+  const FreeQuantity yaw = wheel_slip_of(LogChannel::kYawRate, of_speed.quantity.is_ratio);
+  const auto found = std::ranges::find_if(
+      terms, [&](const CandidateTerm& term) { return term.quantity.name() == yaw.name(); });
+  if (found == terms.end()) return std::nullopt;
+  return std::vector<FreeTerm>{{of_speed.quantity, of_speed.value}, {yaw, found->value}};
+}
+
 /// Fits each candidate term for one round and returns the fit with the lowest AIC. If no term
 /// lowers AIC, returns the fit of the most significant candidate if its score test exceeds 20
 /// standard errors, else empty.
@@ -244,6 +282,12 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
       strongest = fit;
     }
     has_sensor |= lowest.consider(std::move(fit)) && is_sensor;
+    // Encoders of the wheels often measure both speed and yaw rate.
+    if (more.kind == FreeQuantity::Kind::kWheelSlip && more.channel == LogChannel::kSpeed) {
+      if (const auto both = with_slip_of_yaw(terms, candidate_term)) {
+        lowest.consider(tried(settled, *both, loss));
+      }
+    }
     // A motor lag can be better than any delay. In addition to the lag, the commands can be delayed
     // or their time stamps late.
     if (more.kind == FreeQuantity::Kind::kDelay && may_lag) {

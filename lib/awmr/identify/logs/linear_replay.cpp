@@ -130,13 +130,10 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
     }
   }
   const CommandColumns& c = command_columns_;
-  if (c.delay) set_column({command.by_delay, 0.0}, *c.delay, driven);
-  if (c.lag) set_column({command.by_lag, 0.0}, *c.lag, driven);
+  for_each_force_column(c, command, [&](std::size_t column, const SideForces<double>& by) {
+    set_column({by, 0.0}, column, driven);
+  });
   if (c.steering_trim) set_column({{}, command.steering_by_trim}, *c.steering_trim, driven);
-  if (c.imbalance) set_column({command.by_imbalance, 0.0}, *c.imbalance, driven);
-  if (c.exponent) set_column({command.by_exponent, 0.0}, *c.exponent, driven);
-  if (c.saturation) set_column({command.by_saturation, 0.0}, *c.saturation, driven);
-  if (c.sharpness) set_column({command.by_sharpness, 0.0}, *c.sharpness, driven);
 }
 
 void LinearStepper::set_column(const HeldCommand& by, std::size_t column, double* driven) const {
@@ -368,7 +365,8 @@ DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, d
   return with_errors(at, path);
 }
 
-/// The command that reaches the wheels at the time t.
+}  // namespace
+
 DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPath& path) {
   constexpr double kMoment_s = 1e-6;
   const auto row_at = [&](double at_s) {  // a change at this time has happened
@@ -378,6 +376,8 @@ DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPa
                       {row_at(t_s - force_delay_s(path)), row_at(t_s - steering_delay_s(path))},
                       t_s, kMoment_s, path);
 }
+
+namespace {
 
 /// Adds the derivatives by the delays at a time at which the acting rows change from `before` to
 /// `after`. Forces of motors with lag are left out, because they do not jump.

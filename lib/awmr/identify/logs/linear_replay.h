@@ -87,6 +87,21 @@ struct DelayedCommand {
   double steering_by_trim = 0.0;       ///< d steering / d trim: 1 if there is a trim, else 0
 };
 
+/// Calls visit(column, by) for each free quantity that changes the forces of `command`, with the
+/// derivative of the forces by it.
+template <class Visit>
+void for_each_force_column(const CommandColumns& c, const DelayedCommand& command, Visit visit) {
+  if (c.delay) visit(*c.delay, command.by_delay);
+  if (c.lag) visit(*c.lag, command.by_lag);
+  if (c.imbalance) visit(*c.imbalance, command.by_imbalance);
+  if (c.exponent) visit(*c.exponent, command.by_exponent);
+  if (c.saturation) visit(*c.saturation, command.by_saturation);
+  if (c.sharpness) visit(*c.sharpness, command.by_sharpness);
+}
+
+/// The command that reaches the wheels at the time t. A change at this time has happened.
+DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPath& path);
+
 /// Integrates the state and its derivatives step by step.
 class LinearStepper {
  public:

@@ -109,4 +109,12 @@ void withdraw_intervals(EstimatorReport& report) {
   }
 }
 
+void withdraw_interval(EstimatorReport& report, std::string_view name) {
+  for (EstimatorParameter& parameter : report.parameters) {
+    if (parameter.name != name) continue;
+    parameter.std_error.reset();
+    parameter.ci95.reset();
+  }
+}
+
 }  // namespace awmr

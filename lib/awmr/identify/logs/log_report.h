@@ -1,6 +1,7 @@
 /// Report of a log fit for /estimates of model.json. Private to identify/.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "awmr/identify/logs/ceres_problem.h"
@@ -25,5 +26,7 @@ EstimatorReport log_report(const LogReportInput& input);
 
 /// Removes the standard errors and intervals from the report. Keeps the values.
 void withdraw_intervals(EstimatorReport& report);
+/// Removes those of the quantity with this name.
+void withdraw_interval(EstimatorReport& report, std::string_view name);
 
 }  // namespace awmr

@@ -18,6 +18,7 @@
 #include "awmr/identify/logs/log_report.h"
 #include "awmr/identify/logs/log_setup.h"
 #include "awmr/identify/logs/model_choice.h"
+#include "awmr/identify/logs/slip_choice.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/trials/log_consistency.h"
 
@@ -38,6 +39,8 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   append(stage.reports, reports_of(found.others, found.best));
   append(stage.findings, found.findings);
   FamilyFit chosen = std::move(found.best);
+  const std::optional<Finding> undecided_slip = decide_slip(logs, chosen);
+  if (undecided_slip) stage.findings.push_back(*undecided_slip);
   stage.surge_family = chosen.surge;
   stage.yaw_family = chosen.yaw;
   stage.chosen_report = stage.reports.size();
@@ -49,6 +52,9 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   append(stage.reports, adequacy.alternatives);
   append(stage.findings, adequacy.findings);
   stage.withdraws_intervals = adequacy.withdraws_intervals || found.is_out_of_time;
+  if (adequacy.withdraws_sway) {
+    withdraw_interval(chosen.fit.report, info(ParameterId::kSwayAlpha).name);
+  }
   return chosen;
 }
 

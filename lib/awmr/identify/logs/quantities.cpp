@@ -42,6 +42,9 @@ Interval range_of(const FreeQuantity& quantity) {
   constexpr double kLongest_s = 1.0;
   constexpr double kLargestTrim_rad = 0.35;
   constexpr double kLargestImbalance = 0.5;
+  constexpr double kLargestSlip = 10.0;
+  constexpr double kLargestOffset_m = 5.0;
+  constexpr double kLargestAngle_rad = 1.0;
   switch (quantity.kind) {
     case Kind::kDelay:
     case Kind::kSteeringDelay:
@@ -65,6 +68,12 @@ Interval range_of(const FreeQuantity& quantity) {
     case Kind::kSensorDelay:
     case Kind::kSensorLag:
       return {0.0, kLongest_s};
+    case Kind::kWheelSlip:
+      return {0.0, kLargestSlip};
+    case Kind::kSwayOffset:
+      return {-kLargestOffset_m, kLargestOffset_m};
+    case Kind::kSwayAngle:
+      return {-kLargestAngle_rad, kLargestAngle_rad};
   }
   return {};
 }
@@ -106,6 +115,12 @@ std::string FreeQuantity::name() const {
       return fmt::format("{}{}", kSensorDelayPrefix, info(channel).name);
     case Kind::kSensorLag:
       return fmt::format("{}{}", kSensorLagPrefix, info(channel).name);
+    case Kind::kWheelSlip:
+      return fmt::format("{}{}", is_ratio ? kSlipRatioPrefix : kSlipPrefix, info(channel).name);
+    case Kind::kSwayOffset:
+      return std::string(kSwayOffsetName);
+    case Kind::kSwayAngle:
+      return std::string(kSwayAngleName);
     case Kind::kBias:
       return fmt::format("{}{}", kBiasPrefix, info(channel).name);
   }
@@ -182,6 +197,19 @@ FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows) {
           .large_change = 0.1,
           .is_at_rows = is_at_rows};
 }
+
+FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio) {
+  return {.kind = FreeQuantity::Kind::kWheelSlip,
+          .channel = channel,
+          .large_change = 0.1,
+          .is_ratio = is_ratio};
+}
+
+FreeQuantity sway_offset() {
+  return {.kind = FreeQuantity::Kind::kSwayOffset, .large_change = 0.1};
+}
+
+FreeQuantity sway_angle() { return {.kind = FreeQuantity::Kind::kSwayAngle, .large_change = 0.1}; }
 
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind) {
   return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.kind == kind; });

@@ -33,22 +33,26 @@ struct FreeQuantity {
     kExtraForce,           ///< Stribeck friction or a slope (extra_forces.h)
     kBias,                 ///< constant offset of a channel
     kSensorDelay,          ///< latency of a channel
-    kSensorLag             ///< time constant of a filter that smooths a channel
+    kSensorLag,            ///< time constant of a filter that smooths a channel
+    kWheelSlip,            ///< slip of the wheels that measure a channel (wheel_slip.h)
+    kSwayOffset,           ///< distance of the sway sensor ahead of the centre of gravity
+    kSwayAngle             ///< angle by which the sway sensor is turned to the left
   };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< of kParameter
   LogChannel channel =
-      LogChannel::kX;  ///< of kSensorDelay (kX: x and y together), kSensorLag, kBias
+      LogChannel::kX;  ///< of kSensorDelay (kX: x and y together), kSensorLag, kWheelSlip, kBias
   ExtraForce force = ExtraForce::kSlopeX;  ///< of kExtraForce
   Scale scale = Scale::kLinear;
   /// Change of the coordinate that counts as large: 1 for a logarithm (a factor e), an exponent or
   /// a bias (SI); 0.2 for a term of a family or Stribeck friction; 0.1 for a delay or lag (s), trim
-  /// (rad), imbalance or saturation; 0.5 for a slope (m/s^2). Standard deviations of priors and
-  /// limits of identifiability are multiples of this change.
+  /// or angle (rad), imbalance, saturation, wheel slip or offset (m); 0.5 for a slope (m/s^2).
+  /// Standard deviations of priors and limits of identifiability are multiples of this change.
   double large_change = 1.0;
   double full_command = 1.0;  ///< of kForceSaturation: F'm of force_saturation(), > 0
   double fastest = 1.0;       ///< of a Stribeck speed: largest speed of the logs
   bool is_at_rows = false;    ///< of kSensorLag: the filter of sensor_lag_of() at the rows of a log
+  bool is_ratio = false;      ///< of kWheelSlip: WheelSlip::is_ratio
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
   bool is(ExtraForce one) const { return kind == Kind::kExtraForce && force == one; }
@@ -58,12 +62,12 @@ struct FreeQuantity {
   }
   /// True for the form of a saturation (sharpness) or of Stribeck friction (speed scale).
   bool is_form() const { return kind == Kind::kSaturationSharpness || is_stribeck_speed(); }
-  /// True for delays, lags, saturation and Stribeck friction, which cannot be negative, so that 0
-  /// is an end of their range.
+  /// True for delays, lags, saturation, Stribeck friction and wheel slip, which cannot be negative,
+  /// so that 0 is an end of their range.
   bool may_be_zero() const {
     return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag ||
-           kind == Kind::kForceSaturation || is(ExtraForce::kSurgeStribeck) ||
-           is(ExtraForce::kYawStribeck);
+           kind == Kind::kForceSaturation || kind == Kind::kWheelSlip ||
+           is(ExtraForce::kSurgeStribeck) || is(ExtraForce::kYawStribeck);
   }
   std::string name() const;
   double value(double coordinate) const;
@@ -117,6 +121,16 @@ FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
 
 /// Latency of a channel, s.
 FreeQuantity sensor_delay_of(LogChannel channel);
+
+/// Slip s of the wheels that measure the speed or the yaw rate (wheel_slip.h). `is_ratio`: s is a
+/// ratio of speeds in place of a speed.
+FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio);
+
+/// Place x_s (m) of the sway sensor and the angle a (rad) by which it is turned to the left: it reads
+///
+///     v cos a - u sin a + x_s r
+FreeQuantity sway_offset();
+FreeQuantity sway_angle();
 
 /// A free quantity with its initial guess.
 struct FreeTerm {

@@ -10,6 +10,7 @@
 #include "awmr/identify/logs/linear_replay.h"
 #include "awmr/identify/logs/product_sums.h"
 #include "awmr/identify/logs/smoothed_channel.h"
+#include "awmr/identify/logs/wheel_slip.h"
 #include "awmr/identify/logs/whitener.h"
 #include "awmr/model/sliding.h"
 
@@ -27,6 +28,9 @@ struct Unpacked {
   std::array<std::optional<std::size_t>, kChannelCount> bias_column{};
   std::array<std::optional<DelayColumn>, kChannelCount> sensor_delay{};
   std::array<std::optional<SensorFilter>, kChannelCount> sensor_lag{};
+  std::vector<WheelSlip> slips;
+  std::optional<OffsetColumn> sway_offset;
+  std::optional<OffsetColumn> sway_angle;
   State<double> initial{};
 
   bool any_late() const {
@@ -94,6 +98,15 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
         u.sensor_delay[at(quantity.channel)] = {number, i};
         if (quantity.channel == LogChannel::kX) u.sensor_delay[at(LogChannel::kY)] = {number, i};
         break;
+      case FreeQuantity::Kind::kWheelSlip:
+        u.slips.push_back({quantity.channel, {number, i}, quantity.is_ratio});
+        break;
+      case FreeQuantity::Kind::kSwayOffset:
+        u.sway_offset = {number, i};
+        break;
+      case FreeQuantity::Kind::kSwayAngle:
+        u.sway_angle = {number, i};
+        break;
       case FreeQuantity::Kind::kBias:
         u.bias[at(quantity.channel)] = number;
         u.bias_column[at(quantity.channel)] = i;
@@ -139,10 +152,61 @@ SmoothedChannels smoothed_channels(const FitWindow& window, const Unpacked& u,
   for (const LogChannel channel : kChannels) {
     const auto& lag = u.sensor_lag[at(channel)];
     if (!lag) continue;
-    smoothed[at(channel)].emplace(channel, *lag, channel_of(window.measured, channel), columns);
+    smoothed[at(channel)].emplace(*lag, channel_of(window.measured, channel), columns);
   }
   return smoothed;
 }
+
+/// Readings of the sensors at the motion of one time, without latency, filter and bias.
+class Sensors {
+ public:
+  Sensors(const FitWindow& window, const Unpacked& u, std::size_t columns)
+      : signals_(*window.signals),
+        u_(u),
+        wheels_{u.plant, u.parameters, columns_of(u.path)},
+        row_(columns) {}
+
+  /// Returns the reading at the time t of the motion. row() then has its derivatives.
+  double read(LogChannel c, const LinearMotion& motion, double t_s) {
+    if (!row_.empty()) std::copy_n(motion.row(c, row_.size()), row_.size(), row_.begin());
+    double value = channel_of(motion.state, c);
+    for (const WheelSlip& slip : u_.slips) {
+      if (slip.channel != c) continue;
+      value += add_wheel_slip(slip, wheels_, command_at(signals_, t_s, u_.path), motion,
+                              row_.size(), row_.data());
+    }
+    return c == LogChannel::kSway ? sway(motion) : value;
+  }
+  std::vector<double>& row() { return row_; }
+
+ private:
+  /// Reading of the sway sensor (sway_offset()).
+  double sway(const LinearMotion& motion) {
+    const State<double>& s = motion.state;
+    const double x = u_.sway_offset ? u_.sway_offset->value : 0.0;
+    const double angle = u_.sway_angle ? u_.sway_angle->value : 0.0;
+    const double along = std::sin(angle);
+    const double across = std::cos(angle);
+    const std::size_t columns = row_.size();
+    if (columns > 0 && (u_.sway_offset || u_.sway_angle)) {
+      const double* const by_u = motion.row(LogChannel::kSpeed, columns);
+      const double* const by_r = motion.row(LogChannel::kYawRate, columns);
+      for (std::size_t c = 0; c < columns; ++c) {
+        row_[c] = across * row_[c] - along * by_u[c] + x * by_r[c];
+      }
+      if (u_.sway_offset) row_[u_.sway_offset->column] += s.r_radps;
+      if (u_.sway_angle) {
+        row_[u_.sway_angle->column] -= along * s.v_mps + across * s.u_mps;
+      }
+    }
+    return across * s.v_mps - along * s.u_mps + x * s.r_radps;
+  }
+
+  const LogSignals& signals_;
+  const Unpacked& u_;
+  SlippingWheels wheels_;
+  std::vector<double> row_;
+};
 
 /// Calls visit(i, error, row) for every sample i in order. `error` is model + bias - measured,
 /// `row` its derivatives by column; `row` is empty if there are no columns, and the visitor may
@@ -159,26 +223,25 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
   LinearStepper back(u.plant, columns, u.parameters, command_columns, h, u.extra);
   const bool any_late = u.any_late();
   std::vector<LinearMotion> motions;  // by row; kept only if a sensor has latency
-  std::vector<double> row(columns);
+  Sensors sensors(window, u, columns);
   std::size_t next = 0;
   SmoothedChannels smoothed = smoothed_channels(window, u, columns);
   const auto follow = [&](std::size_t at_row, const LinearMotion& now) {
     const double since_s = at_row > window.rows.begin ? log.t_s[at_row] - log.t_s[at_row - 1] : 0.0;
-    for (auto& channel : smoothed) {
-      if (channel) channel->next(now, since_s, columns);
+    for (const LogChannel c : kChannels) {
+      if (!smoothed[at(c)]) continue;
+      const double input = sensors.read(c, now, log.t_s[at_row]);
+      smoothed[at(c)]->next(input, sensors.row().data(), since_s, columns);
     }
   };
-  const auto compare = [&](const LinearMotion& motion, const Sample& sample) {
+  const auto compare = [&](const LinearMotion& motion, double t_s, const Sample& sample) {
     const LogChannel c = sample.channel;
     const auto& smooth = smoothed[at(c)];
-    const double shown = smooth ? smooth->value() : channel_of(motion.state, c);
+    const double shown = smooth ? smooth->value() : sensors.read(c, motion, t_s);
+    if (smooth && columns > 0) sensors.row() = smooth->by_column();
     const double error = shown + u.bias[at(c)] - log[c]->value[sample.row];
-    if (columns > 0) {
-      std::copy_n(smooth ? smooth->by_column().data() : motion.row(c, columns), columns,
-                  row.begin());
-      if (u.bias_column[at(c)]) row[*u.bias_column[at(c)]] += 1.0;
-    }
-    visit(next, error, row);
+    if (columns > 0 && u.bias_column[at(c)]) sensors.row()[*u.bias_column[at(c)]] += 1.0;
+    visit(next, error, sensors.row());
   };
   replay_linear(*window.signals, window.rows.begin, window.rows.end, u.path, stepper, h,
                 first_motion(model, u, columns), [&](std::size_t at_row, const LinearMotion& now) {
@@ -187,12 +250,12 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
                   for (; next < samples.size() && samples[next].row == at_row; ++next) {
                     const auto& latency = u.sensor_delay[at(samples[next].channel)];
                     if (!latency) {
-                      compare(now, samples[next]);
+                      compare(now, log.t_s[at_row], samples[next]);
                       continue;
                     }
                     compare(earlier_motion(*window.signals, window.rows.begin, motions, back,
                                            *latency, h, u.path),
-                            samples[next]);
+                            log.t_s[at_row] - latency->delay_s, samples[next]);
                   }
                 });
 }

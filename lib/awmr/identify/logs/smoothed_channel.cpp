@@ -4,9 +4,7 @@
 
 namespace awmr {
 
-void SmoothedChannel::next(const LinearMotion& now, double h_s, std::size_t columns) {
-  const double u = channel_of(now.state, channel_);
-  const double* const by = columns > 0 ? now.row(channel_, columns) : nullptr;
+void SmoothedChannel::next(double u, const double* by, double h_s, std::size_t columns) {
   if (has_before_) move(u, by, h_s, columns);
   has_before_ = true;
   u_before_ = u;

@@ -26,18 +26,17 @@ struct SensorFilter {
 class SmoothedChannel {
  public:
   /// `first`: first reading of the window. `columns`: number of derivatives; 0: only y is computed.
-  SmoothedChannel(LogChannel channel, const SensorFilter& filter, double first, std::size_t columns)
-      : channel_(channel), filter_(filter), y_(first), by_column_(columns, 0.0) {}
+  SmoothedChannel(const SensorFilter& filter, double first, std::size_t columns)
+      : filter_(filter), y_(first), by_column_(columns, 0.0) {}
 
-  /// Advances the filter to the motion `now`, h_s seconds after the motion of the previous call.
-  void next(const LinearMotion& now, double h_s, std::size_t columns);
+  /// Advances the filter by h_s seconds to the input u with the derivatives `by`, by column.
+  void next(double u, const double* by, double h_s, std::size_t columns);
   double value() const { return y_; }
   const std::vector<double>& by_column() const { return by_column_; }
 
  private:
   void move(double u, const double* by, double h_s, std::size_t columns);
 
-  LogChannel channel_;
   SensorFilter filter_;
   double y_;
   double u_before_ = 0.0;

@@ -1,0 +1,162 @@
+#include "awmr/identify/logs/slip_choice.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "awmr/core/index.h"
+#include "awmr/identify/logs/family_score.h"
+
+namespace awmr {
+namespace {
+
+using Terms = std::vector<FreeTerm>;
+
+bool is_slip(const FreeTerm& term) { return term.quantity.kind == FreeQuantity::Kind::kWheelSlip; }
+bool is_late_commands(const FreeTerm& term) {
+  return term.quantity.kind == FreeQuantity::Kind::kDelay && term.begin < 0.0;
+}
+
+/// True if slip or late commands of the fit are larger than two standard errors and 1 mm/s or 1 ms.
+bool reads_early(const LogFit& fit) {
+  constexpr double kSmallest = 1e-3;
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    const FreeTerm term{fit.quantities[i], fit.coordinates[i]};
+    const double error = std::sqrt(fit.covariance(eigen_index(i), eigen_index(i)));
+    const bool is_large = std::abs(term.begin) > std::max(kSmallest, 2.0 * error);
+    if (is_large && (is_slip(term) || is_late_commands(term))) return true;
+  }
+  return false;
+}
+
+std::string_view explanation(const FamilyFit& fit) {
+  const Terms terms = with_terms_of(fit.fit, fit.options).terms;
+  const auto slip = std::ranges::find_if(terms, is_slip);
+  if (slip == terms.end()) return "late time stamps of the commands";
+  return slip->quantity.is_ratio ? "wheel slip in proportion to force and speed"
+                                 : "wheel slip in proportion to the force";
+}
+
+/// The channels with slip; without slip, those that slip may have (delays.h).
+std::vector<LogChannel> slipping_channels(const Terms& terms, const std::vector<DrivingLog>& logs) {
+  std::vector<LogChannel> channels;
+  for (const FreeTerm& term : terms) {
+    if (is_slip(term)) channels.push_back(term.quantity.channel);
+  }
+  if (!channels.empty()) return channels;
+  for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
+    if (std::ranges::any_of(logs, [&](const DrivingLog& log) {
+          return log[channel] && (channel == LogChannel::kSpeed || has_force_difference(log));
+        })) {
+      channels.push_back(channel);
+    }
+  }
+  return channels;
+}
+
+/// The terms with slip of this form in place of other slip and of late commands.
+Terms with_slip(Terms terms, const std::vector<LogChannel>& channels, bool is_ratio) {
+  constexpr double kGuess = 0.05;
+  std::erase_if(terms, [](const FreeTerm& t) { return is_slip(t) || is_late_commands(t); });
+  for (const LogChannel channel : channels) {
+    terms.push_back({wheel_slip_of(channel, is_ratio), kGuess});
+  }
+  return terms;
+}
+
+/// The terms with late commands in place of slip. The yaw rate gets a latency if only the speed
+/// slips, so that only the speed can be early.
+Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels) {
+  constexpr double kGuess_s = 0.01;
+  using Kind = FreeQuantity::Kind;
+  std::erase_if(terms, is_slip);
+  if (std::ranges::none_of(terms,
+                           [](const FreeTerm& t) { return t.quantity.kind == Kind::kDelay; })) {
+    terms.push_back({input_delay(), -kGuess_s});
+  }
+  const auto is_read_late = [](const FreeTerm& t) {
+    return t.quantity.channel == LogChannel::kYawRate &&
+           (t.quantity.kind == Kind::kSensorDelay || t.quantity.kind == Kind::kSensorLag);
+  };
+  if (channels.front() == LogChannel::kSpeed && channels.size() == 1 &&
+      std::ranges::none_of(terms, is_read_late)) {
+    terms.push_back({sensor_delay_of(LogChannel::kYawRate), kGuess_s});
+  }
+  return terms;
+}
+
+/// The other explanations of a fit with these terms.
+std::vector<Terms> other_explanations(const Terms& terms, const std::vector<DrivingLog>& logs) {
+  const auto slip = std::ranges::find_if(terms, is_slip);
+  const bool slips = slip != terms.end();
+  if (!slips && std::ranges::none_of(terms, is_late_commands)) return {};
+  const std::vector<LogChannel> channels = slipping_channels(terms, logs);
+  if (channels.empty()) return {};
+  std::vector<Terms> others;
+  if (slips) others.push_back(with_late_commands(terms, channels));
+  for (const bool is_ratio : {false, true}) {
+    if (slips && slip->quantity.is_ratio == is_ratio) continue;
+    others.push_back(with_slip(terms, channels, is_ratio));
+  }
+  return others;
+}
+
+/// Withdraws the intervals of the parameters of `fit` that differ from `other` by more than one
+/// standard error. Returns their names.
+std::vector<std::string> withdraw_different(const LogFit& other, LogFit& fit) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    EstimatorParameter& mine = fit.report.parameters[i];
+    if (fit.quantities[i].kind != FreeQuantity::Kind::kParameter || !mine.std_error) continue;
+    const auto found =
+        std::ranges::find(other.report.parameters, mine.name, &EstimatorParameter::name);
+    if (found == other.report.parameters.end() ||
+        !(std::abs(found->value - mine.value) > *mine.std_error)) {
+      continue;
+    }
+    names.push_back(mine.name);
+    mine.std_error.reset();
+    mine.ci95.reset();
+  }
+  return names;
+}
+
+}  // namespace
+
+std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFit& chosen) {
+  constexpr double kPlainly = 10.0;  // difference of AIC
+  if (!chosen.fit.usable || !reads_early(chosen.fit)) return std::nullopt;
+  LogFitOptions options = from_optimum(chosen.options, chosen);
+  std::vector<FamilyFit> others;
+  for (Terms& terms : other_explanations(options.terms, logs)) {
+    options.terms = std::move(terms);
+    FamilyFit other = fit_with(logs, options, chosen.surge, chosen.yaw);
+    if (!other.fit.usable) continue;
+    if (aic_lead(other.fit, chosen.fit) > 0.0) std::swap(other, chosen);
+    others.push_back(std::move(other));
+  }
+  std::vector<std::string> names;
+  const FamilyFit* closest = nullptr;
+  for (const FamilyFit& other : others) {
+    if (!(aic_lead(chosen.fit, other.fit) < kPlainly)) continue;
+    for (std::string& name : withdraw_different(other.fit, chosen.fit)) {
+      names.push_back(std::move(name));
+      closest = &other;
+    }
+  }
+  if (names.empty()) return std::nullopt;
+  return Finding{
+      logs.front().file, 0, Severity::kWarning, "wheel-slip",
+      fmt::format("these logs do not decide between {} and {}: the AIC of the former is lower by "
+                  "only {:.1f}, so the intervals of {} are withdrawn. Log each command when it is "
+                  "sent, and measure the speed without driven wheels (optical flow, GNSS, a free "
+                  "wheel)",
+                  explanation(chosen), explanation(*closest), aic_lead(chosen.fit, closest->fit),
+                  fmt::join(names, ", "))};
+}
+
+}  // namespace awmr
