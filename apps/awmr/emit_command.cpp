@@ -79,9 +79,11 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
   if (command.emit.table_error || table.largest_relative_error() <= kTableError) return;
   outcome.findings.push_back(
       {command.model.filename().string(), 0, Severity::kWarning, "coarse-table",
-       fmt::format("the {} resistance is so steep at low speed that its best table has an error of "
-                   "up to {:.2g} % (usual: {:g} %); the chip's feed-forward has the same error",
-                   name, 100.0 * table.largest_relative_error(), 100.0 * kTableError)});
+       fmt::format(
+           "the {} resistance is so steep at low speed that its most accurate table has "
+           "an error of {:.2g} % (usual: at most {:g} %), and so has the feed-forward on the "
+           "chip. For a power law, use --resistance powf",
+           name, 100.0 * table.largest_relative_error(), 100.0 * kTableError)});
 }
 
 /// Warns if motors that differ by 16 % cause a steady heading error of more than half of

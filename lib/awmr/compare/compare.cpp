@@ -68,11 +68,15 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
            fmt::format("two sets of gains are named '{}'; rename one file", set.name)});
     }
   }
-  if (options.break_even && (gains.size() > 1 || options.shard.count > 1)) {
-    faults.push_back({ErrorCode::kConflict, option_text("break_even"),
-                      fmt::format("needs one set of gains and a whole comparison; remove the other "
-                                  "sets of gains, and {}",
-                                  option_text("shard"))});
+  if (options.break_even && gains.size() > 1) {
+    faults.push_back(
+        {ErrorCode::kConflict, option_text("break_even"),
+         fmt::format("needs one set of gains, found {}; remove the others", gains.size())});
+  }
+  if (options.break_even && options.shard.count > 1) {
+    faults.push_back(
+        {ErrorCode::kConflict, option_text("break_even"),
+         fmt::format("cannot be combined with {}; remove one of them", option_text("shard"))});
   }
   if (gains.empty()) {
     faults.push_back({ErrorCode::kMissing, option_text("gains"), "none given; give at least one"});

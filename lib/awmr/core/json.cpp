@@ -145,8 +145,7 @@ std::string JsonObject::string(std::string_view key) {
     return {};
   }
   if (value->get_ref<const std::string&>().find('\0') != std::string::npos) {
-    fault(ErrorCode::kBadName, key,
-          "the text contains a NUL (\\u0000), which no name may have: remove it");
+    fault(ErrorCode::kBadName, key, "the text contains a NUL character (\\u0000); remove it");
     return {};
   }
   return value->get<std::string>();

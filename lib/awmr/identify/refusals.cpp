@@ -60,10 +60,12 @@ std::string_view remedy_of(ParameterId id, const TrialData& data, const Vehicle&
                         id == ParameterId::kMassNorm;
   using enum LogChannel;
   if (!data.logs.empty() && is_surge && !is_logged(data, {kSpeed, kX})) {
-    return "the logs have no speed_mps and no x_m, y_m: log or map one of them";
+    return "the logs have neither speed_mps nor x_m, y_m: log or map speed_mps, or both x_m and "
+           "y_m";
   }
   if (!data.logs.empty() && is_turning && !is_logged(data, {kYawRate, kHeading, kX})) {
-    return "the logs have no yaw_rate_radps, heading_deg or x_m, y_m: log or map one of them";
+    return "the logs have no yaw_rate_radps, heading_deg or x_m, y_m: log or map yaw_rate_radps or "
+           "heading_deg";
   }
   return trial_of(vehicle, id);
 }

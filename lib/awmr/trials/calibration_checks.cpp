@@ -142,8 +142,8 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
                    found->scatter};
 }
 
-/// s in a log without heading, from the yaw rate (calibration_checks.h). Empty if a channel is
-/// missing, with fewer than 15 windows, or if s is not determined.
+/// Scale ratio s (calibration_checks.h) of a log without heading. Empty if a channel is missing, if
+/// there are fewer than 15 windows, or if the windows do not determine s.
 std::optional<Calibration> distance_scale(const DrivingLog& log) {
   for (const LogChannel channel :
        {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed, LogChannel::kYawRate}) {

@@ -14,7 +14,7 @@
 ///
 /// s is the ratio of the position's scale to the speed's scale (1 if both are right). phi is the
 /// angle from the heading to the course over ground. Without a heading, psi is the integral of the
-/// yaw rate, whose unknown start does not change distances; n is the noise of the positions, and c
+/// yaw rate, whose unknown initial value does not change distances; n is constant, from the noise of the positions, and c
 /// and d are left out:
 ///
 ///     |p(t1) - p(t0)|^2 = s^2 |a|^2 + 2 s Re(k_b* a b*) + |k_b|^2 |b|^2 + n

@@ -60,9 +60,9 @@ std::vector<double> gaps_of(const Changes& changes) {
   return gaps;
 }
 
-/// True if nearly all changes are one step of the resolution and their gaps are no multiples of one
-/// interval. So changes a coarse sensor without noise, whatever its rate: it reaches the next step
-/// sooner or later, as the signal moves. A slow sensor changes at its own interval or multiples.
+/// True if at least 95 % of the changes are one step of the resolution and fewer than 80 % of their
+/// gaps are multiples of one interval. This is a coarse sensor without noise, which reaches the next
+/// step as the signal moves. A slow sensor changes at multiples of its interval.
 bool changes_step_by_step(const Changes& changes, double quantum) {
   constexpr double kNearlyAll = 0.95;
   constexpr double kRegular = 0.8;

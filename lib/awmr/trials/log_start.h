@@ -1,4 +1,4 @@
-/// How a driving log begins: at rest or in motion.
+/// Start of a driving log, at rest or in motion.
 #pragma once
 
 #include "awmr/trials/log.h"
@@ -14,8 +14,8 @@ bool begins_in_motion(const DrivingLog& log);
 
 /// In a log that begins at rest with motors switched on, adds a row one median time step before the
 /// first one, without forces and without measurements. No force acted before the log, because the
-/// vehicle would have moved. Without this row, lagged or delayed forces would have acted for ever.
-/// Does nothing without speeds, which show the rest.
+/// vehicle would have moved. Without this row, lagged or delayed forces would be simulated as if
+/// the first command had been constant before the log. Does nothing in a log without a speed.
 void add_row_of_rest(DrivingLog& log);
 
 }  // namespace awmr

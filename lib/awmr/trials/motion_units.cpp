@@ -15,8 +15,8 @@
 namespace awmr {
 namespace {
 
-/// True if the ratio of two channels may be due to calibration, slip or noise; outside this range,
-/// a unit is wrong.
+/// True if the ratio of two channels is 0.6 to 1.6, which calibration, slip or noise can explain.
+/// Otherwise a unit is wrong.
 bool agree(double ratio) { return ratio >= 0.6 && ratio <= 1.6; }
 
 /// A unit that a channel may have by mistake.
@@ -81,8 +81,8 @@ double usual_largest(const Measured& channel) {
   return sizes.empty() ? 0.0 : quantile(std::move(sizes), 0.95);
 }
 
-/// Ratio of the change of heading to the integral of the yaw rate; empty if it is about 1, also
-/// without the gyro's bias, or if the two are not proportional.
+/// Ratio of the change of heading to the integral of the yaw rate. Empty if it is about 1, with or
+/// without correction of the gyro's bias, or if the two are not proportional.
 std::optional<double> turned_over_rate(const Evidence& evidence) {
   const std::vector<double> rate =
       series(evidence.overlapping, [](const EvidenceWindow& w) { return w.rate_rad; });

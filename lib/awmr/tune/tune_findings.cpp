@@ -99,8 +99,8 @@ void note_observer(const TuneOptions& options, std::vector<Finding>& findings) {
   if (!options.observer || is_pushed) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "observer-unpushed",
-       "no scenario has a disturbance, so the disturbance observer was tuned on noise only. Give a "
-       "scenario with a disturbance, or no scenarios to use the default ones"});
+       "no scenario has a disturbance, so the search did not test how the observer rejects one. "
+       "Give a scenario with a `disturbance`, or no scenarios to use the default ones"});
 }
 
 /// Adds findings about requests that the vehicle cannot meet, in the scenarios and in the sensor

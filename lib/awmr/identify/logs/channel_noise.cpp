@@ -58,10 +58,10 @@ InnovationSums innovation_sums(std::span<const ErrorSeries> series, const Channe
   return sums;
 }
 
-/// -2 ln L of n errors under a noise model, minimised over a common factor on sigma_w^2 and
-/// sigma_d^2:
+/// -2 ln L of n errors under a noise model, minimised over a common factor f on sigma_w^2 and
+/// sigma_d^2. With the innovations nu_k and their variances S_k at f = 1:
 ///
-///     -2 ln L = sum ln S_k + nu_k^2 / S_k,   factor = (1/n) sum nu_k^2 / S_k
+///     -2 ln L = n ln f + sum ln S_k + constant,   f = (1/n) sum nu_k^2 / S_k
 struct Likelihood {
   double cost = 0.0;    ///< -2 ln L with the best factor, up to a constant
   double factor = 1.0;  ///< the best factor on sigma_w^2 and sigma_d^2

@@ -187,8 +187,8 @@ std::vector<Finding> constant_error_findings(const LogFit& fit, const std::strin
                      trim.value > 0.0 ? "left" : "right",
                      has_kind(fit.quantities, FreeQuantity::Kind::kForceImbalance)
                          ? ""
-                         : ". With equal forces left and right, motors that push more on one side "
-                           "have the same effect")});
+                         : ". If the left and right commands are always equal, motors that are "
+                           "stronger on one side have the same effect")});
   }
   for (const FoundTerm& imbalance : found_terms(fit, FreeQuantity::Kind::kForceImbalance)) {
     findings.push_back(

@@ -334,8 +334,9 @@ std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss 
   return more;
 }
 
-/// The fit with a lag of the motors in place of the filters of speed and yaw rate, if its AIC is
-/// lower. In nearly linear motion both have the same effect, and the filters were added one by one.
+/// The fit with a motor lag in place of all filters of the sensors. Empty with fewer than two
+/// filters, with a motor lag that is given or free, or if AIC is not lower. In nearly linear motion
+/// the lag and the filters have the same effect, and the filters were added one by one.
 std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled, Loss loss) {
   using Kind = FreeQuantity::Kind;
   LogProblem problem = settled.problem;
