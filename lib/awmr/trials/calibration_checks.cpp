@@ -156,14 +156,15 @@ std::optional<Calibration> distance_scale(const DrivingLog& log) {
   for (std::size_t i = 1; i < log.rows(); ++i) {
     psi[i] = psi[i - 1] + 0.5 * (rate[i - 1] + rate[i]) * (log.t_s[i] - log.t_s[i - 1]);
   }
-  Eigen::MatrixXd left(static_cast<Eigen::Index>(windows.size()), 5);
+  Eigen::MatrixXd left(static_cast<Eigen::Index>(windows.size()), 7);
   Eigen::VectorXd right(left.rows());
   for (std::size_t w = 0; w < windows.size(); ++w) {
     const CourseWindow sums = course_window(log, windows[w], psi);
-    const Complex crossed = sums.driven * std::conj(sums.turned);
+    const Complex a = sums.driven;
+    const Complex with_b = a * std::conj(sums.turned);
     const auto row = static_cast<Eigen::Index>(w);
-    left.row(row) << std::norm(sums.driven), crossed.real(), crossed.imag(), std::norm(sums.turned),
-        1.0;
+    left.row(row) << std::norm(a), with_b.real(), with_b.imag(), std::norm(sums.turned),
+        (a * std::conj(sums.slipped)).imag(), (a * std::conj(sums.hastened)).real(), 1.0;
     right(row) = std::norm(sums.moved);
   }
   const auto found = regression(left, right);
