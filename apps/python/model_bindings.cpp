@@ -207,7 +207,8 @@ void bind_gains(py::module_& module) {
       "The controller's gains, all > 0. Heading law: slope lambda_ of the sliding surface (1/s), "
       "largest corrective yaw acceleration mu (rad/s^2), half width epsilon of the boundary layer "
       "(rad/s), and friction_width_radps, the yaw rate below which Coulomb friction is fed forward "
-      "in part in steering mode (differential: 0.02, combined: half, at least 0.02). Speed law: "
+      "in part in steering mode (differential: 0.02, combined: half, at least 0.02; with an "
+      "observer: all the same). Speed law: "
       "speed_mu (m/s^2) and speed_epsilon (m/s), likewise. Disturbance "
       "observer (three zeros: none): observer_bandwidth_radps, and the largest compensated yaw "
       "moment observer_yaw_max_m (m) and force observer_surge_max, both over F_max.");

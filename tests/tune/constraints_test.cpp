@@ -326,6 +326,19 @@ TEST(FrictionWidth, IsTheNarrowestThatKeepsTheSteeringRate) {
   EXPECT_EQ(width(), 0.02);
 }
 
+/// The largest moments are those of the forces beyond the dead zone, as in turning_moment().
+TEST(Authority, IsOfTheForcesBeyondTheDeadZone) {
+  DrawnVehicle vehicle{paper_plant(), {-0.05, 1.0}};
+  vehicle.plant.wheel_dead_zone = 0.1;
+  const Interval force = forces_beyond_dead_zone(vehicle);
+  EXPECT_EQ(force.lo, 0.0);
+  EXPECT_EQ(force.hi, 0.9);
+  const double held = vehicle.plant.surge(0.5) / 4.0;
+  EXPECT_NEAR(turning_authority_m(vehicle, 0.5, YawMode::kDifferential), 4.0 * 0.36 * held, 1e-12);
+  EXPECT_NEAR(turning_authority_m(vehicle, 1.7, YawMode::kDifferential),
+              4.0 * 0.36 * (0.9 - vehicle.plant.surge(1.7) / 4.0), 1e-12);
+}
+
 /// With the widths of all modes from one w0, the combined mode has no more noise of the steering
 /// command than the steering mode.
 TEST(FrictionWidth, OfTheCombinedModeKeepsTheSteeringRateOfTheSteeringMode) {
@@ -362,6 +375,16 @@ TEST(FrictionWidth, OfTheDifferentialModeIsTheDefault) {
   EXPECT_GT(error_deg(1.0, YawMode::kSteering), 2.0);
   EXPECT_LT(error_deg(1.0, YawMode::kDifferential), 0.6);
   EXPECT_EQ(error_deg(1.0, YawMode::kDifferential), error_deg(0.02, YawMode::kDifferential));
+}
+
+TEST(FrictionWidth, IsTheSameInAllModesWithAnObserver) {
+  Gains<double> gains{{2.0, 5.2, 2.0, 0.3}, {5.0, 1.2}};
+  EXPECT_EQ(gains.friction_width_at(0.0), 0.02);
+  EXPECT_EQ(gains.friction_width_at(0.5), 0.15);
+  EXPECT_EQ(gains.friction_width_at(1.0), 0.3);
+  gains.observer = {1.0, 0.1, 0.1};
+  EXPECT_EQ(gains.friction_width_at(0.0), 0.3);
+  EXPECT_EQ(gains.friction_width_at(0.5), 0.3);
 }
 
 /// No pole pair whose slower pole is faster by a twentieth meets every constraint.

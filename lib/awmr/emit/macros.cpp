@@ -90,7 +90,8 @@ void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std
   if (gains.heading.friction_width_radps > feed_forward_rest_speed<double>()) {
     add("AWMR_HEADING_FRICTION_WIDTH_RADPS", gains.heading.friction_width_radps,
         "w0, rad/s: rate below which fed-forward Coulomb friction is proportional to rate and "
-        "error in steering mode; differential: 0.02, combined: half, at least 0.02",
+        "error in steering mode; differential: 0.02, combined: half, at least 0.02; with an "
+        "observer: all w0",
         "/heading/friction_width_radps");
   }
   add("AWMR_SPEED_MU", gains.speed.mu, "mu_s, m/s^2: corrective surge acceleration", "/speed/mu");

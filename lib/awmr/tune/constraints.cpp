@@ -104,17 +104,27 @@ struct Moments {
 };
 Moments moments_m(const DrawnVehicle& vehicle, double speed_mps) {
   const Plant<double>& plant = vehicle.plant;
-  const double tau_speed = plant.surge(speed_mps);
+  const Interval force = forces_beyond_dead_zone(vehicle);
   const double wheels = driven_wheels(plant);
-  // Command of a wheel at constant speed: its force, plus the compensation of its back-EMF.
-  const double held = tau_speed / wheels + plant.back_emf_s_per_m * speed_mps;
-  return {.steering = plant.front_axle_m * tau_speed *
-                      std::tan(plant.steering_max_rad / (plant.rear_driven > 0.0 ? 2.0 : 1.0)),
-          .differential = wheels * plant.half_track_m *
-                          std::min(vehicle.wheel_force.hi - held, held - vehicle.wheel_force.lo)};
+  // Force of a wheel at constant speed, plus the compensation of its back-EMF.
+  const double held = plant.surge(speed_mps) / wheels + plant.back_emf_s_per_m * speed_mps;
+  return {.steering = steered_moment_m(vehicle, speed_mps),
+          .differential = wheels * plant.half_track_m * std::min(force.hi - held, held - force.lo)};
 }
 
 }  // namespace
+
+Interval forces_beyond_dead_zone(const DrawnVehicle& vehicle) {
+  const double zone = vehicle.plant.wheel_dead_zone;
+  return {std::min(vehicle.wheel_force.lo + zone, 0.0),
+          std::max(vehicle.wheel_force.hi - zone, 0.0)};
+}
+
+double steered_moment_m(const DrawnVehicle& vehicle, double speed_mps) {
+  const Plant<double>& plant = vehicle.plant;
+  return plant.front_axle_m * plant.surge(speed_mps) *
+         std::tan(steering_angle_factor(plant) * plant.steering_max_rad);
+}
 
 double residual(const ConstraintReport& c) {
   const double scale = std::max({std::abs(c.value), std::abs(c.limit), 1e-12});
@@ -294,7 +304,7 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
   const double k = gains.heading.mu / gains.heading.epsilon;
   const double rate_gain = gains.heading.lambda + k + gains.observer.bandwidth_radps;
   const double share = steered_share(context);
-  const Resistance<double> g3 = feed_forward(plant.yaw, gains.heading.friction_width_at(share));
+  const Resistance<double> g3 = feed_forward(plant.yaw, gains.friction_width_at(share));
   const auto w = [&](double z) {  // z = n/sigma_r
     const double n = z * context.yaw_rate_noise_radps;
     const double moment = std::abs(n) < g3.rest_speed ? 0.0 : g3(n);
@@ -318,7 +328,8 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
   double& width = gains.heading.friction_width_radps;
   width = feed_forward_rest_speed<double>();
   const Gains<double> narrowest = gains;
-  const double share = steered_share(context);
+  // Ratio of the mode's width to w0 (Gains::friction_width_at()).
+  const double share = gains.observer.is_on() ? 1.0 : steered_share(context);
   const auto& limit = context.limits.steering_rate_rms_degps;
   const Plant<double>& plant = context.plant;
   if (!limit || !context.steers() || !(plant.yaw.coulomb > 0.0)) return gains;

@@ -54,12 +54,23 @@ struct ConstraintContext {
   bool steers() const { return has_steering && mode != YawMode::kDifferential; }
 };
 
+/// Range of the force of one wheel over F_max: that of the commands without the motors' dead zone.
+Interval forces_beyond_dead_zone(const DrawnVehicle& vehicle);
+
+/// Factor on the steering angle in the moment of the steering, tan(factor d_r).
+inline double steering_angle_factor(const Plant<double>& plant) {
+  return plant.rear_driven > 0.0 ? 0.5 : 1.0;
+}
+
+/// Largest moment of the steering at the steady speed u_d, m: l_f g1(u_d) tan(factor d_max).
+double steered_moment_m(const DrawnVehicle& vehicle, double speed_mps);
+
 /// Largest tau_turn at steady speed u_d, m, of the weaker of the modes steering and differential,
 /// or of `mode` if it is one of these two. A mode without any moment at that speed (steering at
 /// rest) is ignored.
 ///   steering      l_f g1(u_d) tan(d_max/2)
 ///   differential  4 d min(F'max - g1/4, g1/4 - F'min)
-/// With front-wheel drive, tan(d_max) replaces tan(d_max/2), and 2 replaces each 4. With back-EMF,
+/// F'max and F'min are without the dead zone. With front-wheel drive, tan(d_max) replaces tan(d_max/2), and 2 replaces each 4. With back-EMF,
 /// k_e u_d is added to g1/4.
 double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps,
                            std::optional<YawMode> mode = {});
@@ -137,7 +148,7 @@ Interval examined_rates_radps(const ConstraintContext& context);
 double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context);
 
 /// Returns the gains with the smallest friction width w0 of the steering mode, or of the only mode
-/// (HeadingGains::friction_width_at()), for which the steering rate is at most its limit times
+/// (Gains::friction_width_at()), for which the steering rate is at most its limit times
 /// (1 + wider):
 ///   0.02 <= w0 <= min(10 c3 eps/(I'z mu), the highest yaw rate of the runs)
 /// c3 is the Coulomb friction in yaw. With the first upper bound, the fed-forward friction grows

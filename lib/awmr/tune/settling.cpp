@@ -79,8 +79,8 @@ std::optional<SettlingChange> an_observer(const ObjectiveSetting& setting,
   if (gains.observer.is_on()) return std::nullopt;
   const Plant<double>& plant = context.plant;
   const double authority_m = turning_authority_m(context.own(), context.speed_mps);
-  const double thrust =
-      driven_wheels(plant) * context.wheel_force.hi - plant.surge(context.speed_mps);
+  const double thrust = driven_wheels(plant) * forces_beyond_dead_zone(context.own()).hi -
+                        plant.surge(context.speed_mps);
   if (!(thrust > 0.0)) return std::nullopt;
   for (const double bandwidth_radps : {0.5, 1.0, 2.0, 4.0}) {
     if (bandwidth_radps * context.sample_time_s >= 1.0) break;
