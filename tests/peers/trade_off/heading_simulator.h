@@ -42,6 +42,7 @@ struct LawGains {
   double speed_mu = 0.0, speed_epsilon = 0.0;
   double friction_width_radps =
       0.02;  ///< below this yaw rate, dry friction is fed forward in proportion to the rate
+  double combined_friction_width_radps = 0.0;  ///< that rate in combined mode; 0: half
 };
 
 /// Yaw rate at which the heading law feeds g3 forward: the measured one (as in the paper) or the
