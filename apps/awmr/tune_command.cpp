@@ -25,6 +25,7 @@ namespace {
 Result<Tuning> tune_with_progress(const Model& model, TuneOptions options) {
   Working working("searching for gains");
   options.progress = [&](std::size_t done, std::size_t total) { working(done, total); };
+  options.notice = print_notice;
   return tune(model, options);
 }
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "awmr/core/input_file.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
@@ -150,20 +152,27 @@ void bind_model_class(py::module_& module) {
       "Writes model.json, completely or not at all. Raises InputError.");
 }
 
+void check_friction_width(const char* name, double radps) {
+  if (allows(kFrictionWidth_radps, radps)) return;
+  throw Raised(
+      input_error(ErrorCode::kOutOfRange, name,
+                  fmt::format("expected {}, found {}", describe(kFrictionWidth_radps), radps))
+          .value());
+}
+
 Gains<double> gains_from(double lambda, double mu, double epsilon, double speed_mu,
-                         double speed_epsilon, double friction_width_radps, double bandwidth_radps,
-                         double yaw_max_m, double surge_max) {
+                         double speed_epsilon, double friction_width_radps,
+                         std::optional<double> combined_friction_width_radps,
+                         double bandwidth_radps, double yaw_max_m, double surge_max) {
   for (const double gain : {lambda, mu, epsilon, speed_mu, speed_epsilon}) {
     if (gain > 0.0 && gain < 1e9) continue;
     throw Raised(input_error(ErrorCode::kOutOfRange, "gains",
                              fmt::format("expected numbers above 0, found {}", gain))
                      .value());
   }
-  if (!allows(kFrictionWidth_radps, friction_width_radps)) {
-    throw Raised(input_error(ErrorCode::kOutOfRange, "friction_width_radps",
-                             fmt::format("expected {}, found {}", describe(kFrictionWidth_radps),
-                                         friction_width_radps))
-                     .value());
+  check_friction_width("friction_width_radps", friction_width_radps);
+  if (combined_friction_width_radps) {
+    check_friction_width("combined_friction_width_radps", *combined_friction_width_radps);
   }
   const ObserverGains<double> observer{bandwidth_radps, yaw_max_m, surge_max};
   for (const double one : {bandwidth_radps, yaw_max_m, surge_max}) {
@@ -173,7 +182,9 @@ Gains<double> gains_from(double lambda, double mu, double epsilon, double speed_
                              "observer_surge_max all above 0, or all 0")
                      .value());
   }
-  return {{lambda, mu, epsilon, friction_width_radps}, {speed_mu, speed_epsilon}, observer};
+  return {{lambda, mu, epsilon, friction_width_radps, combined_friction_width_radps.value_or(0.0)},
+          {speed_mu, speed_epsilon},
+          observer};
 }
 
 void bind_gain_values(py::class_<Gains<double>>& gains) {
@@ -187,6 +198,9 @@ void bind_gain_values(py::class_<Gains<double>>& gains) {
           "epsilon", [](const G& g) { return g.heading.epsilon; }, "rad/s")
       .def_property_readonly(
           "friction_width_radps", [](const G& g) { return g.heading.friction_width_radps; },
+          "rad/s")
+      .def_property_readonly(
+          "combined_friction_width_radps", [](const G& g) { return g.friction_width_at(0.5); },
           "rad/s")
       .def_property_readonly(
           "speed_mu", [](const G& g) { return g.speed.mu; }, "m/s^2")
@@ -207,13 +221,15 @@ void bind_gains(py::module_& module) {
       "The controller's gains, all > 0. Heading law: slope lambda_ of the sliding surface (1/s), "
       "largest corrective yaw acceleration mu (rad/s^2), half width epsilon of the boundary layer "
       "(rad/s), and friction_width_radps, the yaw rate below which Coulomb friction is fed forward "
-      "in part in steering mode (differential: 0.02, combined: half, at least 0.02). Speed law: "
-      "speed_mu (m/s^2) and speed_epsilon (m/s), likewise. Disturbance "
+      "in part in steering mode (combined mode: combined_friction_width_radps, by default half, at "
+      "least 0.02; differential: 0.02; with an observer: all the same). Speed law: speed_mu "
+      "(m/s^2) and speed_epsilon (m/s), likewise. Disturbance "
       "observer (three zeros: none): observer_bandwidth_radps, and the largest compensated yaw "
       "moment observer_yaw_max_m (m) and force observer_surge_max, both over F_max.");
   bound.def(py::init(&gains_from), py::kw_only(), py::arg("lambda_"), py::arg("mu"),
             py::arg("epsilon"), py::arg("speed_mu"), py::arg("speed_epsilon"),
             py::arg("friction_width_radps") = kFrictionWidth_radps.min,
+            py::arg("combined_friction_width_radps") = py::none(),
             py::arg("observer_bandwidth_radps") = 0.0, py::arg("observer_yaw_max_m") = 0.0,
             py::arg("observer_surge_max") = 0.0);
   bind_gain_values(bound);

@@ -202,6 +202,11 @@ TEST(Families, WithFrictionInYawHaveTheFrictionWidthOfTheGains) {
   };
   EXPECT_TRUE(has_width(gains));
   EXPECT_FALSE(has_width(kPaperGains));
+  gains.heading.combined_friction_width_radps = 0.0625;
+  EXPECT_EQ(autopilot_parameters(model, gains, paper_inputs(), {})->rest->yaw_rest_speed[2],
+            0.0625F);
+  EXPECT_THAT(params_header(model, gains, paper_inputs()).value(),
+              HasSubstr("#define AWMR_HEADING_COMBINED_FRICTION_WIDTH_RADPS 0.0625f"));
 }
 
 TEST(Families, WithADeadZoneAllocateWhatIsLeftBeyondIt) {

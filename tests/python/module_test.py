@@ -200,6 +200,10 @@ class Module(unittest.TestCase):
         awmr.write_gains(gains, self.path / "own.json")
         self.assertEqual(awmr.read_gains(self.path / "own.json").epsilon, 12)
         self.assertEqual(awmr.read_gains(self.path / "own.json").friction_width_radps, 0.1)
+        self.assertEqual(gains.combined_friction_width_radps, 0.05)
+        narrow = awmr.Gains(lambda_=3, mu=50, epsilon=12, speed_mu=5, speed_epsilon=1.2, combined_friction_width_radps=0.03)
+        awmr.write_gains(narrow, self.path / "own.json")
+        self.assertEqual(awmr.read_gains(self.path / "own.json").combined_friction_width_radps, 0.03)
 
     def test_the_next_trial_is_suggested(self):
         made = command("suggest", "--model", self.path / "model.json", "--json")

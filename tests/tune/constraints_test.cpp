@@ -326,7 +326,53 @@ TEST(FrictionWidth, IsTheNarrowestThatKeepsTheSteeringRate) {
   EXPECT_EQ(width(), 0.02);
 }
 
-/// With the widths of all modes from one w0, the combined mode has no more noise of the steering
+/// The steering makes half of the moment in combined mode, so a narrower width meets the limit.
+TEST(FrictionWidth, OfTheCombinedModeIsTheNarrowestThatKeepsTheSteeringRate) {
+  ConstraintContext context = coulomb_context(true);
+  context.fastest_radps = 2.0;
+  const Gains<double> gains{{1.0, 2.6, 2.0}, {5.0, 1.2}};
+  ConstraintContext combined = context;
+  combined.mode = YawMode::kCombined;
+  const double limit_degps = 0.9 * steering_rate_rms_degps(gains, combined);
+  context.limits.steering_rate_rms_degps = combined.limits.steering_rate_rms_degps = limit_degps;
+  Gains<double> found = with_friction_width(gains, context);
+  const double width = found.friction_width_at(0.5);
+  EXPECT_GT(width, 0.02);
+  EXPECT_LT(width, 0.5 * found.friction_width_at(1.0));
+  EXPECT_LE(steering_rate_rms_degps(found, combined), limit_degps);
+  EXPECT_EQ(with_friction_width(gains, combined).friction_width_at(0.5), width);
+  found.heading.combined_friction_width_radps = width - 1e-5;
+  EXPECT_GT(steering_rate_rms_degps(found, combined), limit_degps);
+  // The steering rate is that of the mode with the most of it.
+  found.heading.combined_friction_width_radps = 0.02;
+  found.heading.friction_width_radps = 1e3;
+  EXPECT_EQ(steering_rate_rms_degps(found, context), steering_rate_rms_degps(found, combined));
+}
+
+TEST(FrictionWidth, OfTheCombinedModeIsNotSearchedWithAnObserver) {
+  ConstraintContext context = coulomb_context(true);
+  Gains<double> gains{{1.0, 2.6, 2.0}, {5.0, 1.2}, {1.0, 0.1, 0.1}};
+  context.limits.steering_rate_rms_degps = 0.9 * steering_rate_rms_degps(gains, context);
+  gains = with_friction_width(gains, context);
+  EXPECT_GT(gains.heading.friction_width_radps, 0.02);
+  EXPECT_EQ(gains.heading.combined_friction_width_radps, 0.0);
+  EXPECT_LE(steering_rate_rms_degps(gains, context), *context.limits.steering_rate_rms_degps);
+}
+
+/// The largest moments are those of the forces beyond the dead zone, as in turning_moment().
+TEST(Authority, IsOfTheForcesBeyondTheDeadZone) {
+  DrawnVehicle vehicle{paper_plant(), {-0.05, 1.0}};
+  vehicle.plant.wheel_dead_zone = 0.1;
+  const Interval force = forces_beyond_dead_zone(vehicle);
+  EXPECT_EQ(force.lo, 0.0);
+  EXPECT_EQ(force.hi, 0.9);
+  const double held = vehicle.plant.surge(0.5) / 4.0;
+  EXPECT_NEAR(turning_authority_m(vehicle, 0.5, YawMode::kDifferential), 4.0 * 0.36 * held, 1e-12);
+  EXPECT_NEAR(turning_authority_m(vehicle, 1.7, YawMode::kDifferential),
+              4.0 * 0.36 * (0.9 - vehicle.plant.surge(1.7) / 4.0), 1e-12);
+}
+
+/// With the default width of the combined mode, half of w0, the combined mode has no more noise of the steering
 /// command than the steering mode.
 TEST(FrictionWidth, OfTheCombinedModeKeepsTheSteeringRateOfTheSteeringMode) {
   for (const bool is_heavy : {false, true}) {
@@ -362,6 +408,20 @@ TEST(FrictionWidth, OfTheDifferentialModeIsTheDefault) {
   EXPECT_GT(error_deg(1.0, YawMode::kSteering), 2.0);
   EXPECT_LT(error_deg(1.0, YawMode::kDifferential), 0.6);
   EXPECT_EQ(error_deg(1.0, YawMode::kDifferential), error_deg(0.02, YawMode::kDifferential));
+}
+
+TEST(FrictionWidth, IsTheSameInAllModesWithAnObserver) {
+  Gains<double> gains{{2.0, 5.2, 2.0, 0.3}, {5.0, 1.2}};
+  EXPECT_EQ(gains.friction_width_at(0.0), 0.02);
+  EXPECT_EQ(gains.friction_width_at(0.5), 0.15);
+  EXPECT_EQ(gains.friction_width_at(1.0), 0.3);
+  gains.heading.combined_friction_width_radps = 0.05;
+  EXPECT_EQ(gains.friction_width_at(0.0), 0.02);
+  EXPECT_EQ(gains.friction_width_at(0.5), 0.05);
+  EXPECT_EQ(gains.friction_width_at(1.0), 0.3);
+  gains.observer = {1.0, 0.1, 0.1};
+  EXPECT_EQ(gains.friction_width_at(0.0), 0.3);
+  EXPECT_EQ(gains.friction_width_at(0.5), 0.3);
 }
 
 /// No pole pair whose slower pole is faster by a twentieth meets every constraint.

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "awmr/core/units.h"
@@ -685,6 +687,21 @@ Model with_friction(double coulomb_m) {
   Model model = paper_model();
   model[ParameterId::kYawCoulomb] = given(coulomb_m);
   return model;
+}
+
+TEST(Search, ReportsThatItTakesLongBeforeItBegins) {
+  std::vector<std::string> notices;
+  TuneOptions options = short_options();
+  options.notice = [&](std::string_view text) { notices.emplace_back(text); };
+  options.global_evaluations = 40;
+  options.local_evaluations = 10;
+  ASSERT_TRUE(tune(paper_model(), options));
+  EXPECT_TRUE(notices.empty());
+  options.global_evaluations = 1000000;
+  options.progress = [&](std::size_t, std::size_t) { throw std::runtime_error("begun"); };
+  EXPECT_THROW((void)tune(paper_model(), options), std::runtime_error);
+  ASSERT_EQ(notices.size(), 1U);
+  EXPECT_THAT(notices[0], ::testing::HasSubstr("s on two cores"));
 }
 
 TEST(Turning, RefusesAVehicleThatItsMotorsCannotTurnBeforeTheSearch) {

@@ -39,7 +39,7 @@ struct RestBlock {
   float surge_rest_speed;               ///< RestingTable::rest_speed of g1, m/s; 0: no jump at rest
   float surge_at_rest;                  ///< RestingTable::at_rest of g1
   float yaw_rest_speed[kYawModeCount];  ///< RestingTable::rest_speed of g3, rad/s, by YawMode:
-                                        ///< HeadingGains::friction_width_at(); 0: no jump at rest
+                                        ///< Gains::friction_width_at(); 0: no jump at rest
   float yaw_at_rest[kYawModeCount];     ///< RestingTable::at_rest of g3, m, by YawMode
   float back_emf_s_per_m;               ///< k_e of a motor, s/m; 0: none
 };

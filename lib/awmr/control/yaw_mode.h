@@ -12,7 +12,7 @@ enum class YawMode {
   kCombined,      ///< half of the moment by each method
 };
 
-constexpr int kYawModeCount = 3;  ///< number of modes; they count from 0
+constexpr int kYawModeCount = 3;  ///< number of modes, numbered from 0
 
 /// Reaction of the combined mode when steering or wheel forces reach their limit (saturate).
 enum class CombinedSplit {

@@ -61,7 +61,7 @@ std::optional<RestBlock> rest_of(const Plant<double>& plant, const Gains<double>
                  .back_emf_s_per_m = single(plant.back_emf_s_per_m)};
   for (int mode = 0; mode < kYawModeCount; ++mode) {
     const double share = steering_share<double>(static_cast<YawMode>(mode));
-    const Resistance<double> yaw = feed_forward(plant.yaw, gains.heading.friction_width_at(share));
+    const Resistance<double> yaw = feed_forward(plant.yaw, gains.friction_width_at(share));
     rest.yaw_rest_speed[mode] = single(yaw.rest_speed);
     rest.yaw_at_rest[mode] = at_rest(yaw);
   }

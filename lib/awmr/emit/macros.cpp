@@ -90,8 +90,14 @@ void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std
   if (gains.heading.friction_width_radps > feed_forward_rest_speed<double>()) {
     add("AWMR_HEADING_FRICTION_WIDTH_RADPS", gains.heading.friction_width_radps,
         "w0, rad/s: rate below which fed-forward Coulomb friction is proportional to rate and "
-        "error in steering mode; differential: 0.02, combined: half, at least 0.02",
+        "error in steering mode; 0.02 rad/s in differential mode, with an observer w0",
         "/heading/friction_width_radps");
+  }
+  if (gains.friction_width_at(0.5) > feed_forward_rest_speed<double>()) {
+    add("AWMR_HEADING_COMBINED_FRICTION_WIDTH_RADPS", gains.friction_width_at(0.5),
+        "rad/s: that rate in combined mode",
+        gains.heading.combined_friction_width_radps > 0.0 ? "/heading/combined_friction_width_radps"
+                                                          : "/heading/friction_width_radps");
   }
   add("AWMR_SPEED_MU", gains.speed.mu, "mu_s, m/s^2: corrective surge acceleration", "/speed/mu");
   add("AWMR_SPEED_EPSILON", gains.speed.epsilon,

@@ -18,18 +18,11 @@ struct HeadingGains {
   /// is proportional to S. Larger: less chattering, a softer response.
   T epsilon;
   /// w0, rad/s, >= 0.02: friction width of the steering mode; used only with Coulomb friction in
-  /// yaw. The other modes have the width of friction_width_at().
+  /// yaw. The other modes have the width of Gains::friction_width_at().
   T friction_width_radps = feed_forward_rest_speed<T>();
-
-  /// Friction width w, rad/s, of a mode in which the steering makes the share s of the yaw moment:
-  ///   w = max(0.02, s w0)
-  /// At yaw rates below w, the resistance is fed forward as g3(w) sat((psi_d_dot + lambda e)/w)
-  /// (fed_forward()). Larger: less heading noise in the command, and a larger heading error at
-  /// rest. Only the noise of the steering command is limited, and the steering makes the share s of
-  /// the moment: with s w0, no mode has more of this noise than the steering mode.
-  T friction_width_at(const T& steering_share) const {
-    return math::larger(feed_forward_rest_speed<T>(), T(steering_share * friction_width_radps));
-  }
+  /// Friction width of the combined mode, rad/s, >= 0.02, or 0: w0/2, but at least 0.02. Unused
+  /// with an observer.
+  T combined_friction_width_radps = T(0.0);
 
   /// T1, s: on the surface S = 0 the error falls as exp(-t/T1).
   ///   T1 = 1/lambda                                                              [paper (90)-(91)]
@@ -68,6 +61,19 @@ struct Gains {
   HeadingGains<T> heading;
   SpeedGains<T> speed;
   ObserverGains<T> observer = {};
+
+  /// Friction width w, rad/s, of a mode in which the steering makes the share s of the yaw moment:
+  /// 0.02 for s = 0, that of the combined mode for s = 1/2, w0 for s = 1; with an observer, always
+  /// w0. At yaw rates below w, the resistance is fed forward as g3(w) sat((psi_d_dot + lambda e)/w)
+  /// (fed_forward()). Larger: less noise of the steering command, and a larger heading error at
+  /// rest, which an observer removes.
+  T friction_width_at(const T& steering_share) const {
+    const T w0 = heading.friction_width_radps;
+    if (observer.is_on() || steering_share > T(0.5)) return w0;
+    const T combined = heading.combined_friction_width_radps;
+    if (steering_share > T(0.0) && combined > T(0.0)) return combined;
+    return math::larger(feed_forward_rest_speed<T>(), T(steering_share * w0));
+  }
 };
 
 }  // namespace awmr

@@ -20,7 +20,10 @@ Gains<double> gains_from_json(JsonObject& root) {
                   .epsilon = heading.number("epsilon", kGain),
                   .friction_width_radps =
                       heading.optional_number("friction_width_radps", kFrictionWidth_radps)
-                          .value_or(feed_forward_rest_speed<double>())},
+                          .value_or(feed_forward_rest_speed<double>()),
+                  .combined_friction_width_radps =
+                      heading.optional_number("combined_friction_width_radps", kFrictionWidth_radps)
+                          .value_or(0.0)},
       .speed = {.mu = speed.number("mu", kGain), .epsilon = speed.number("epsilon", kGain)}};
   heading.reject_unknown_keys();
   speed.reject_unknown_keys();

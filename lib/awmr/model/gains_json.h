@@ -9,7 +9,8 @@ namespace awmr {
 inline constexpr std::string_view kGainsSchema = "awmr.gains/1";
 
 /// Returns {"heading": {lambda, mu, epsilon}, "speed": {mu, epsilon}}. "heading" also has
-/// "friction_width_radps" if it is not the default. With an observer, there is also "observer":
+/// "friction_width_radps" and "combined_friction_width_radps" if they are not the defaults. With an
+/// observer, there is also "observer":
 /// {bandwidth_radps, yaw_max_m, surge_max}.
 inline Json gains_to_json(const Gains<double>& gains) {
   Json json = {{"heading",
@@ -19,6 +20,9 @@ inline Json gains_to_json(const Gains<double>& gains) {
                {"speed", {{"mu", gains.speed.mu}, {"epsilon", gains.speed.epsilon}}}};
   if (gains.heading.friction_width_radps > feed_forward_rest_speed<double>()) {
     json["heading"]["friction_width_radps"] = gains.heading.friction_width_radps;
+  }
+  if (gains.heading.combined_friction_width_radps > 0.0) {
+    json["heading"]["combined_friction_width_radps"] = gains.heading.combined_friction_width_radps;
   }
   if (gains.observer.is_on()) {
     json["observer"] = {{"bandwidth_radps", gains.observer.bandwidth_radps},

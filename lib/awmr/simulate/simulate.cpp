@@ -94,7 +94,7 @@ RunController<double> run_controller(const Scenario& scenario, const Controller<
   const ObserverGains<double> observer = observer_in(scenario, controller.gains);
   const double share = steering_share<double>(mode);
   Controller<double> in_mode = controller;
-  in_mode.yaw = feed_forward(controller.yaw, controller.gains.heading.friction_width_at(share));
+  in_mode.yaw = feed_forward(controller.yaw, controller.gains.friction_width_at(share));
   RunController<double> c{.laws = prepared(in_mode),
                           .steering_share = share,
                           .dead_zone = controller.limits.dead_zone,

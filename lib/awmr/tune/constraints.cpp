@@ -104,17 +104,27 @@ struct Moments {
 };
 Moments moments_m(const DrawnVehicle& vehicle, double speed_mps) {
   const Plant<double>& plant = vehicle.plant;
-  const double tau_speed = plant.surge(speed_mps);
+  const Interval force = forces_beyond_dead_zone(vehicle);
   const double wheels = driven_wheels(plant);
-  // Command of a wheel at constant speed: its force, plus the compensation of its back-EMF.
-  const double held = tau_speed / wheels + plant.back_emf_s_per_m * speed_mps;
-  return {.steering = plant.front_axle_m * tau_speed *
-                      std::tan(plant.steering_max_rad / (plant.rear_driven > 0.0 ? 2.0 : 1.0)),
-          .differential = wheels * plant.half_track_m *
-                          std::min(vehicle.wheel_force.hi - held, held - vehicle.wheel_force.lo)};
+  // Force of a wheel at constant speed, plus the compensation of its back-EMF.
+  const double held = plant.surge(speed_mps) / wheels + plant.back_emf_s_per_m * speed_mps;
+  return {.steering = steered_moment_m(vehicle, speed_mps),
+          .differential = wheels * plant.half_track_m * std::min(force.hi - held, held - force.lo)};
 }
 
 }  // namespace
+
+Interval forces_beyond_dead_zone(const DrawnVehicle& vehicle) {
+  const double zone = vehicle.plant.wheel_dead_zone;
+  return {std::min(vehicle.wheel_force.lo + zone, 0.0),
+          std::max(vehicle.wheel_force.hi - zone, 0.0)};
+}
+
+double steered_moment_m(const DrawnVehicle& vehicle, double speed_mps) {
+  const Plant<double>& plant = vehicle.plant;
+  return plant.front_axle_m * plant.surge(speed_mps) *
+         std::tan(steering_angle_factor(plant) * plant.steering_max_rad);
+}
 
 double residual(const ConstraintReport& c) {
   const double scale = std::max({std::abs(c.value), std::abs(c.limit), 1e-12});
@@ -190,12 +200,6 @@ Interval examined_rates_radps(const ConstraintContext& context) {
 }
 
 namespace {
-
-/// Share of the yaw moment that the steering makes in the mode with the most noise of the steering
-/// command: the only mode, or steering.
-double steered_share(const ConstraintContext& context) {
-  return steering_share<double>(context.mode.value_or(YawMode::kSteering));
-}
 
 /// E[f(z) g(z)] for a standard normal z, by the midpoint rule over -6 ... 6.
 template <class F, class G>
@@ -285,16 +289,15 @@ double resting_mean_square(const Resistance<double>& g3, const Gains<double>& ga
          2.0 * rests_share * mean_of_product(friction, linear) * (1.0 - rho);
 }
 
-}  // namespace
-
-double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context) {
+/// steering_rate_rms_degps() in the mode in which the steering makes this share of the yaw moment.
+double steering_rate_at(double share, const Gains<double>& gains,
+                        const ConstraintContext& context) {
   const Plant<double>& plant = context.plant;
   const double tau_speed = plant.surge(context.speed_mps);
-  if (!context.steers() || !(tau_speed > 0.0)) return 0.0;
+  if (!(tau_speed > 0.0)) return 0.0;
   const double k = gains.heading.mu / gains.heading.epsilon;
   const double rate_gain = gains.heading.lambda + k + gains.observer.bandwidth_radps;
-  const double share = steered_share(context);
-  const Resistance<double> g3 = feed_forward(plant.yaw, gains.heading.friction_width_at(share));
+  const Resistance<double> g3 = feed_forward(plant.yaw, gains.friction_width_at(share));
   const auto w = [&](double z) {  // z = n/sigma_r
     const double n = z * context.yaw_rate_noise_radps;
     const double moment = std::abs(n) < g3.rest_speed ? 0.0 : g3(n);
@@ -310,31 +313,69 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
                  context.sample_time_s);
 }
 
-Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
-                                  double wider) {
-  constexpr int kBisections = 20;
-  // At the largest width, the fed-forward friction grows with S a tenth as fast as the correction.
-  constexpr double kMinFrictionShare = 0.1;
-  double& width = gains.heading.friction_width_radps;
-  width = feed_forward_rest_speed<double>();
-  const Gains<double> narrowest = gains;
-  const double share = steered_share(context);
-  const auto& limit = context.limits.steering_rate_rms_degps;
-  const Plant<double>& plant = context.plant;
-  if (!limit || !context.steers() || !(plant.yaw.coulomb > 0.0)) return gains;
-  const auto is_calm = [&](double of_mode) {
-    width = of_mode / share;
-    return steering_rate_rms_degps(gains, context) <= *limit * (1.0 + wider);
+/// Shares of the yaw moment that the steering makes in the modes that steer.
+std::vector<double> steering_shares(const ConstraintContext& context) {
+  if (!context.steers()) return {};
+  if (context.mode) return {steering_share<double>(*context.mode)};
+  return {steering_share<double>(YawMode::kSteering), steering_share<double>(YawMode::kCombined)};
+}
+
+/// Returns the gains with `width`, the friction width of the mode with this share of the steering,
+/// at the smallest in `widths` with which the steering rate is at most `limit_degps`, or at the
+/// largest.
+Gains<double> with_smallest_width(Gains<double> gains, double HeadingGains<double>::*width,
+                                  Interval widths, double limit_degps, double share,
+                                  const ConstraintContext& context) {
+  constexpr int kWidthBisections = 20;
+  const auto is_calm = [&](double radps) {
+    gains.heading.*width = radps;
+    return steering_rate_at(share, gains, context) <= limit_degps;
   };
-  const double in_proportion =
-      plant.yaw.coulomb * gains.heading.epsilon / (plant.inertia_norm * gains.heading.mu);
-  Interval widths{width, std::min(in_proportion / kMinFrictionShare, context.fastest_radps)};
-  if (is_calm(widths.lo) || widths.hi <= widths.lo) return narrowest;
-  for (int i = 0; i < kBisections && is_calm(widths.hi); ++i) {
+  if (is_calm(widths.lo) || widths.hi <= widths.lo) return gains;
+  for (int i = 0; i < kWidthBisections && is_calm(widths.hi); ++i) {
     const double middle = std::sqrt(widths.lo * widths.hi);
     (is_calm(middle) ? widths.hi : widths.lo) = middle;
   }
-  width = widths.hi / share;
+  gains.heading.*width = widths.hi;
+  return gains;
+}
+
+}  // namespace
+
+double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context) {
+  double largest = 0.0;
+  for (const double share : steering_shares(context)) {
+    largest = std::max(largest, steering_rate_at(share, gains, context));
+  }
+  return largest;
+}
+
+Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
+                                  double wider) {
+  // At the largest width, the fed-forward friction grows with S a tenth as fast as the correction.
+  constexpr double kMinFrictionShare = 0.1;
+  HeadingGains<double>& heading = gains.heading;
+  constexpr double kNarrowest = feed_forward_rest_speed<double>();
+  heading.friction_width_radps = kNarrowest;
+  heading.combined_friction_width_radps = 0.0;
+  const auto& limit = context.limits.steering_rate_rms_degps;
+  const Plant<double>& plant = context.plant;
+  if (!limit || !(plant.yaw.coulomb > 0.0)) return gains;
+  const double in_proportion =
+      plant.yaw.coulomb * heading.epsilon / (plant.inertia_norm * heading.mu);
+  const Interval widths{kNarrowest,
+                        std::min(in_proportion / kMinFrictionShare, context.fastest_radps)};
+  for (const double share : steering_shares(context)) {
+    const bool is_own = share < 1.0 && !gains.observer.is_on();
+    gains = with_smallest_width(gains,
+                                is_own ? &HeadingGains<double>::combined_friction_width_radps
+                                       : &HeadingGains<double>::friction_width_radps,
+                                widths, *limit * (1.0 + wider), share, context);
+    if (gains.observer.is_on()) break;  // one width for all modes; the first has the most noise
+  }
+  const bool is_default =
+      std::max(heading.friction_width_radps, heading.combined_friction_width_radps) <= kNarrowest;
+  if (is_default) heading.combined_friction_width_radps = 0.0;
   return gains;
 }
 

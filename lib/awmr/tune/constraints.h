@@ -54,12 +54,23 @@ struct ConstraintContext {
   bool steers() const { return has_steering && mode != YawMode::kDifferential; }
 };
 
+/// Range of the force of one wheel over F_max: that of the commands without the motors' dead zone.
+Interval forces_beyond_dead_zone(const DrawnVehicle& vehicle);
+
+/// Factor on the steering angle in the moment of the steering, tan(factor d_r).
+inline double steering_angle_factor(const Plant<double>& plant) {
+  return plant.rear_driven > 0.0 ? 0.5 : 1.0;
+}
+
+/// Largest moment of the steering at the steady speed u_d, m: l_f g1(u_d) tan(factor d_max).
+double steered_moment_m(const DrawnVehicle& vehicle, double speed_mps);
+
 /// Largest tau_turn at steady speed u_d, m, of the weaker of the modes steering and differential,
 /// or of `mode` if it is one of these two. A mode without any moment at that speed (steering at
 /// rest) is ignored.
 ///   steering      l_f g1(u_d) tan(d_max/2)
 ///   differential  4 d min(F'max - g1/4, g1/4 - F'min)
-/// With front-wheel drive, tan(d_max) replaces tan(d_max/2), and 2 replaces each 4. With back-EMF,
+/// F'max and F'min are without the dead zone. With front-wheel drive, tan(d_max) replaces tan(d_max/2), and 2 replaces each 4. With back-EMF,
 /// k_e u_d is added to g1/4.
 double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps,
                            std::optional<YawMode> mode = {});
@@ -124,25 +135,24 @@ SampledHeadingLoop heading_loop(const Gains<double>& gains, const ConstraintCont
 /// The lowest and the highest yaw rate at which the heading loop is examined.
 Interval examined_rates_radps(const ConstraintContext& context);
 
-/// RMS rate of the steering command, deg/s, due to sensor noise while a heading is held in steering
-/// mode. Motion of the vehicle due to the noise is neglected. From the yaw-rate noise n and the
-/// heading noise n_psi, the heading law computes the yaw acceleration
+/// RMS rate of the steering command, deg/s, due to sensor noise while a heading is held, in the
+/// mode with the most of it. Motion of the vehicle due to the noise is neglected. From the yaw-rate
+/// noise n and the heading noise n_psi, the heading law computes the yaw acceleration
 ///   w = G(n, n_psi)/I'z - (lambda + k + L) n - lambda k n_psi,   k = mu/eps,
 ///   G = g3(n);   with Coulomb friction, for |n| < w0: g3(w0) sat(-lambda n_psi/w0)
-/// (fed_forward()), w0 the friction width of the mode. The steering command is d = c I'z w/(l_f
-/// g1(u_d)), c = 2 (front-wheel drive: 1). With independent readings, w changes by sqrt(2 E[w^2]) RMS from one
-/// sample to the next; correlated readings change it less. If the only mode is combined, the rate
-/// is half as large, because the steering makes half of the moment. 0 without steering, or without
-/// thrust to steer with.
+/// (fed_forward()), w0 the friction width of the mode. The steering command is d = s c I'z w/(l_f
+/// g1(u_d)), s the share of the moment that the steering makes, c = 2 (front-wheel drive: 1). With
+/// independent readings, w changes by sqrt(2 E[w^2]) RMS from one sample to the next; correlated
+/// readings change it less. 0 without steering, or without thrust to steer with.
 double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context);
 
-/// Returns the gains with the smallest friction width w0 of the steering mode, or of the only mode
-/// (HeadingGains::friction_width_at()), for which the steering rate is at most its limit times
-/// (1 + wider):
-///   0.02 <= w0 <= min(10 c3 eps/(I'z mu), the highest yaw rate of the runs)
+/// Returns the gains with the smallest friction width of each mode that steers
+/// (Gains::friction_width_at()) for which its steering rate is at most the limit times (1 + wider):
+///   0.02 <= w <= min(10 c3 eps/(I'z mu), the highest yaw rate of the runs)
 /// c3 is the Coulomb friction in yaw. With the first upper bound, the fed-forward friction grows
-/// with S a tenth as fast as the corrective term. If no w0 in this range meets the limit, w0 is the
-/// upper bound. Without a limit, without steering or without Coulomb friction, w0 is 0.02 rad/s.
+/// with S a tenth as fast as the corrective term. If no w in this range meets the limit, w is the
+/// upper bound. Without a limit, without steering or without Coulomb friction, w is 0.02 rad/s.
+/// With an observer, all modes have the width of the mode with the most noise.
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider = 0.0);
 

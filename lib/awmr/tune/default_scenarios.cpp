@@ -49,7 +49,7 @@ std::optional<double> measured_speed_mps(const Model& model) {
 /// u_d of the default scenarios, m/s (default_tuning_scenario()).
 double speed_for(const Model& model, const Plant<double>& plant) {
   const double wheels = driven_wheels(plant);
-  const double thrust = wheels * (model.vehicle.wheel_force.hi - plant.wheel_dead_zone);
+  const double thrust = wheels * forces_beyond_dead_zone({plant, model.vehicle.wheel_force}).hi;
   const double viscous = wheels * plant.back_emf_s_per_m;
   const auto at_full = steady_rate(plant.surge, thrust, viscous);
   const auto at_part = steady_rate(plant.surge, kShareOfThrust * thrust, viscous);

@@ -23,7 +23,7 @@ struct RelaxedLimit {
   ConstraintContext context;  ///< with the number
 };
 
-/// For each limit of the context that can be relaxed, some numbers from the strictest on:
+/// For each limit of the context that can be relaxed, some less strict values, strictest first:
 ///   - limits that are stricter than their default: up to the default
 ///   - the limit of the steering rate: up to 20 times the present one
 std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context);

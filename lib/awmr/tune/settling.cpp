@@ -79,15 +79,15 @@ std::optional<SettlingChange> an_observer(const ObjectiveSetting& setting,
   if (gains.observer.is_on()) return std::nullopt;
   const Plant<double>& plant = context.plant;
   const double authority_m = turning_authority_m(context.own(), context.speed_mps);
-  const double thrust =
-      driven_wheels(plant) * context.wheel_force.hi - plant.surge(context.speed_mps);
+  const double thrust = driven_wheels(plant) * forces_beyond_dead_zone(context.own()).hi -
+                        plant.surge(context.speed_mps);
   if (!(thrust > 0.0)) return std::nullopt;
   for (const double bandwidth_radps : {0.5, 1.0, 2.0, 4.0}) {
     if (bandwidth_radps * context.sample_time_s >= 1.0) break;
     const ObserverGains<double> observer{bandwidth_radps, kObserverShare * authority_m,
                                          kObserverShare * thrust};
     if (!poles_settle(setting, context, share, observer)) continue;
-    return SettlingChange{"/observer", fmt::format("{} (here with a bandwidth of {:g} rad/s)",
+    return SettlingChange{"/observer", fmt::format("{} (confirmed with a bandwidth of {:g} rad/s)",
                                                    option_text("observer"), bandwidth_radps)};
   }
   return std::nullopt;
@@ -108,7 +108,7 @@ std::optional<SettlingChange> one_mode(const ObjectiveSetting& setting,
   return std::nullopt;
 }
 
-/// For each limit that can be relaxed (relaxed_limits()), the number nearest to the present one
+/// For each limit that can be relaxed (relaxed_limits()), the strictest of the tried values
 /// with which runs settle.
 std::vector<SettlingChange> relaxed(const ObjectiveSetting& setting,
                                     const ConstraintContext& context, const Gains<double>& gains,
@@ -152,7 +152,8 @@ std::string describe(const std::vector<SettlingChange>& changes, std::string_vie
 
 std::string no_change_settles(std::string_view runs) {
   return fmt::format(
-      "None of these changes lets {} settle: 4 times the time, no heading-rate limit, an observer, "
+      "None of these changes lets {} settle: four times the duration, no heading-rate limit, an "
+      "observer, "
       "gains for one mode only, relaxed limits",
       runs);
 }

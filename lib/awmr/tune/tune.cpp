@@ -40,6 +40,28 @@ namespace {
 /// Largest number of RK4 steps of a search. They take some hours.
 constexpr double kMaxSearchSteps = 1e11;
 
+/// A search that is expected to take longer on two cores, s, is announced.
+constexpr double kLongSearch_s = 10.0;
+/// Time of an RK4 step on two cores, s.
+constexpr double kTimeOfStep_s = 2.5e-8;
+/// Evaluations on all draws: in the last part of the search, and of gains on new draws.
+constexpr double kOnAllDraws = 12.0;
+constexpr double kOnNewDraws = 3.0;
+
+/// Reports a long search. `steps`: RK4 steps of all runs on one vehicle; `modes`: number of modes.
+void announce(const TuneOptions& options, double steps, int modes) {
+  double runs = static_cast<double>(options.global_evaluations) + options.local_evaluations;
+  if (!options.nominal) {
+    runs *= 1.0 + std::min(options.draws, kSearchedDraws * 3 / modes);
+    runs += kOnAllDraws * (1.0 + options.draws) + kOnNewDraws * options.evaluation_draws;
+  }
+  const double time_s = runs * steps * kTimeOfStep_s;
+  if (!options.notice || time_s < kLongSearch_s) return;
+  options.notice(fmt::format(
+      "the search for gains takes about {:.0f} s on two cores: {:.2g} integration steps", time_s,
+      runs * steps));
+}
+
 /// Error (input) if all evaluations together take more than kMaxSearchSteps.
 Status check_work(const TuneOptions& options, const std::vector<Scenario>& scenarios,
                   const Plant<double>& plant, const Model& model) {
@@ -50,6 +72,7 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
     steps += static_cast<double>(tuned_modes(model.vehicle, options.mode).size()) *
              steps_of_run(plant, scenario, sample_time_s);
   }
+  const double on_one_vehicle = steps;
   double evaluations = static_cast<double>(options.global_evaluations) + options.local_evaluations;
   if (!options.nominal) {
     steps *= 1.0 + options.draws;
@@ -57,7 +80,11 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
     evaluations += (3.0 * options.evaluation_draws + sensitivity_runs(model, options.sensitivity)) /
                    (1.0 + options.draws);
   }
-  if (evaluations * steps <= kMaxSearchSteps) return {};
+  if (evaluations * steps <= kMaxSearchSteps) {
+    const std::size_t modes = tuned_modes(model.vehicle, options.mode).size();
+    announce(options, on_one_vehicle, static_cast<int>(modes));
+    return {};
+  }
   return input_error(
       ErrorCode::kTooLarge, "",
       fmt::format(
@@ -131,8 +158,8 @@ void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context) {
 Status limit_observer(const ConstraintContext& context, std::optional<ObserverSearch>& observer) {
   if (!observer) return {};
   const Plant<double>& plant = context.plant;
-  const double left =
-      driven_wheels(plant) * context.wheel_force.hi - plant.surge(context.speed_mps);
+  const double left = driven_wheels(plant) * forces_beyond_dead_zone(context.own()).hi -
+                      plant.surge(context.speed_mps);
   const std::tuple<const char*, std::optional<double>*, double> limits[] = {
       {"yaw_max_m", &observer->yaw_max_m, turning_authority_m(context.own(), context.speed_mps)},
       {"surge_max", &observer->surge_max, left}};
@@ -167,8 +194,12 @@ Status check_baseline(const Objective& objective, const Baseline& baseline) {
 /// large.
 constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 
+/// Bandwidths of the observer at starts of the search, rad/s.
+constexpr double kStartBandwidths[] = {0.5, 1.0, 2.0};
+
 /// Starts of the search: `first`, which meets the constraints, the other gains of `poles`, the
-/// first of them slowed down by each of kSlowerStarts, and the baseline, if given. Each start but
+/// first of them slowed down by each of kSlowerStarts, poles placed with each of kStartBandwidths
+/// if an observer is searched, and the baseline, if given. Each start but
 /// the first is replaced by gains that meet the constraints (feasible_start()), or left out if
 /// there are none.
 std::vector<Gains<double>> starts_of(const TuneOptions& options, const ConstraintContext& context,
@@ -181,6 +212,13 @@ std::vector<Gains<double>> starts_of(const TuneOptions& options, const Constrain
   };
   for (const Gains<double>& other : poles.subspan(1)) add(other);
   for (const double share : kSlowerStarts) add(slowed(poles.front(), share));
+  if (const auto& observer = options.observer) {
+    for (const double bandwidth_radps : kStartBandwidths) {
+      if (!observer->bandwidth_radps.contains(bandwidth_radps)) continue;
+      add(starting_poles(context,
+                         {bandwidth_radps, *observer->yaw_max_m, *observer->surge_max})[0]);
+    }
+  }
   if (options.baseline) add(options.baseline->gains);
   return starts;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -204,6 +205,8 @@ struct TuneOptions {
   /// Called with the number of evaluated sets of gains, and with the budget global_evaluations +
   /// local_evaluations. The last stage of the search, on all draws, is not counted.
   Progress progress = {};
+  /// Called before a search of more than about 10 s, with its expected duration.
+  std::function<void(std::string_view)> notice = {};
 };
 
 /// A constraint that is active at the tuned gains.

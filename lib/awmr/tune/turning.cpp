@@ -16,14 +16,11 @@ namespace {
 /// Steering angles above this are not proposed.
 constexpr double kLargestAngle_deg = 60.0;
 
-/// Factor on the angle in the steered moment: tan(factor d_r).
-double angle_factor(const Plant<double>& plant) { return plant.rear_driven > 0.0 ? 0.5 : 1.0; }
-
 /// Changes of the steering with which it makes `moment_m` at the speed.
 std::vector<std::string> steering_changes(const DrawnVehicle& vehicle, double speed_mps,
                                           double moment_m) {
   const Plant<double>& plant = vehicle.plant;
-  const double factor = angle_factor(plant);
+  const double factor = steering_angle_factor(plant);
   std::vector<std::string> changes;
   const double per_angle_m = plant.front_axle_m * plant.surge(speed_mps);
   const double angle_deg = degrees(std::atan(moment_m / per_angle_m)) / factor;
@@ -33,8 +30,8 @@ std::vector<std::string> steering_changes(const DrawnVehicle& vehicle, double sp
   const double thrust = moment_m / (plant.front_axle_m * std::tan(factor * plant.steering_max_rad));
   const double wheels = driven_wheels(plant);
   const auto faster = steady_rate(plant.surge, thrust);
-  if (faster && thrust <= wheels * (vehicle.wheel_force.hi - plant.wheel_dead_zone -
-                                    plant.back_emf_s_per_m * *faster)) {
+  if (faster &&
+      thrust <= wheels * (forces_beyond_dead_zone(vehicle).hi - plant.back_emf_s_per_m * *faster)) {
     changes.push_back(fmt::format("a speed above {:.3g} m/s", *faster));
   }
   return changes;
@@ -67,16 +64,13 @@ bool turns_while_accelerating(const Scenario& scenario) {
 
 TurningMoment turning_moment(const DrawnVehicle& vehicle, double speed_mps, YawMode mode) {
   const Plant<double>& plant = vehicle.plant;
-  const double zone = plant.wheel_dead_zone;
-  const double most = std::max(vehicle.wheel_force.hi - zone, 0.0);
-  const double least = std::min(vehicle.wheel_force.lo + zone, 0.0);
-  const double steering = mode == YawMode::kDifferential
-                              ? 0.0
-                              : plant.front_axle_m * plant.surge(speed_mps) *
-                                    std::tan(angle_factor(plant) * plant.steering_max_rad);
+  const Interval force = forces_beyond_dead_zone(vehicle);
+  const double steering =
+      mode == YawMode::kDifferential ? 0.0 : steered_moment_m(vehicle, speed_mps);
   const double differential =
-      mode == YawMode::kSteering ? 0.0
-                                 : 0.5 * driven_wheels(plant) * plant.half_track_m * (most - least);
+      mode == YawMode::kSteering
+          ? 0.0
+          : 0.5 * driven_wheels(plant) * plant.half_track_m * (force.hi - force.lo);
   const double all = steering + differential;
   const double scrub = all > 0.0 ? plant.yaw_scrub_m * differential / all : 0.0;
   return {.mode = mode,

@@ -11,15 +11,19 @@
 namespace awmr::peers {
 namespace {
 
-/// ln of lambda, mu/epsilon, mu, mu_s/epsilon_s, mu_s, and of the friction width where there is dry
-/// friction.
-using Vector = std::array<double, 6>;
+/// ln of lambda, mu/epsilon, mu, mu_s/epsilon_s, mu_s, and of the friction widths of steering and
+/// combined mode where there is dry friction.
+using Vector = std::array<double, 7>;
 constexpr double kMinWidth_radps = 0.02;
 
 Vector logarithms(const LawGains& k) {
-  return {std::log(k.lambda),   std::log(k.mu / k.epsilon),
-          std::log(k.mu),       std::log(k.speed_mu / k.speed_epsilon),
-          std::log(k.speed_mu), std::log(k.friction_width_radps)};
+  return {std::log(k.lambda),
+          std::log(k.mu / k.epsilon),
+          std::log(k.mu),
+          std::log(k.speed_mu / k.speed_epsilon),
+          std::log(k.speed_mu),
+          std::log(k.friction_width_radps),
+          std::log(combined_width_radps(k))};
 }
 
 LawGains gains_at(const Vector& x) {
@@ -30,7 +34,8 @@ LawGains gains_at(const Vector& x) {
           mu / std::exp(x[1]),
           speed_mu,
           speed_mu / std::exp(x[3]),
-          std::max(std::exp(x[5]), kMinWidth_radps)};
+          std::max(std::exp(x[5]), kMinWidth_radps),
+          std::max(std::exp(x[6]), kMinWidth_radps)};
 }
 
 struct Member {
@@ -85,7 +90,7 @@ LawGains least_settling(const Case& one, const std::vector<Trial>& trials, const
                         const FrontOptions& options) {
   std::mt19937_64 random(options.seed);
   const Vector centre = logarithms(near);
-  const std::size_t dimensions = one.model.yaw.coulomb > 0.0 ? 6 : 5;
+  const std::size_t dimensions = one.model.yaw.coulomb > 0.0 ? 7 : 5;
   const auto look = [&](const Vector& x) -> Member {
     const Controls c{one.model, gains_at(x), fed_forward};
     const Means m = means_of(one, trials, c);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 namespace awmr::peers {
 namespace {
@@ -117,17 +118,17 @@ double mean(const F& f, const G& g) {
   return sum / weights;
 }
 
-/// RMS rate of the steering command by noise while a heading is held, deg/s. The yaw acceleration
-/// is
+/// RMS rate of the steering command by noise while a heading is held, deg/s, in a mode with the
+/// friction width w0 in which the steering makes `steered` of the moment. The yaw acceleration is
 ///   a(n) + 1{|n| < w0} b(m) + c(m),   n, m: noise of the yaw rate and of the heading
 /// with dry friction b of a vehicle at rest; a, b and c are odd.
 double steering_rate_degps(const Controls& c, const Geometry& g, const SensorErrors& errors,
-                           double speed_mps) {
+                           double speed_mps, double steered, double width_radps) {
   const LawGains& gains = c.gains;
   const double k = gains.mu / gains.epsilon;
   const Friction& yaw = c.known.yaw;
   const bool is_fed = c.fed_forward == FedForward::kMeasured;
-  const double rest = is_fed && yaw.coulomb > 0.0 ? gains.friction_width_radps : 0.0;
+  const double rest = is_fed && yaw.coulomb > 0.0 ? width_radps : 0.0;
   const auto rests = [&](double z) {
     return std::abs(z) * errors.yaw_rate_radps < rest ? 1.0 : 0.0;
   };
@@ -146,7 +147,7 @@ double steering_rate_degps(const Controls& c, const Geometry& g, const SensorErr
   const double share = rest > 0.0 ? mean(rests, rests) : 0.0;
   const double squares = mean(by_rate, by_rate) + mean(by_heading, by_heading) +
                          share * (mean(friction, friction) + 2.0 * mean(friction, by_heading));
-  return 2.0 * c.known.inertia * std::sqrt(2.0 * squares) /
+  return 2.0 * steered * c.known.inertia * std::sqrt(2.0 * squares) /
          (g.front_axle_m * c.known.surge.of_magnitude(speed_mps) * g.sample_s) * 180.0 /
          std::numbers::pi;
 }
@@ -173,8 +174,11 @@ double excess(const Controls& c, const Geometry& g, const SensorErrors& errors,
   const double slowest = std::numbers::pi / 180.0;
   double worst = above(k.epsilon / k.mu * k.lambda, limits.margin);
   if (g.servo_s > 0.0) {
-    worst = std::max(worst, above(steering_rate_degps(c, g, errors, examined.speed_mps),
-                                  limits.steering_rate_degps));
+    for (const auto& [steered, width] :
+         {std::pair{1.0, k.friction_width_radps}, std::pair{0.5, combined_width_radps(k)}}) {
+      const double rate = steering_rate_degps(c, g, errors, examined.speed_mps, steered, width);
+      worst = std::max(worst, above(rate, limits.steering_rate_degps));
+    }
   }
   std::vector<const Body*> all{&c.known};
   for (const Body& body : bodies) all.push_back(&body);

@@ -125,8 +125,9 @@ Commands commands_of(const Controls& c, const Geometry& g, Mode mode, const Read
   const double rate_error = ref.rate - m.r;
   const double s = rate_error + k.lambda * wrapped(ref.psi - m.psi);
   const double w = c.fed_forward == FedForward::kMeasured ? m.r : ref.rate;
-  const double steered = mode == Mode::kSteering ? 1.0 : mode == Mode::kCombined ? 0.5 : 0.0;
-  const double width = std::max(0.02, steered * k.friction_width_radps);
+  const double width = mode == Mode::kSteering   ? k.friction_width_radps
+                       : mode == Mode::kCombined ? combined_width_radps(k)
+                                                 : 0.02;
   const double moment = fed_forward(c.known.yaw, w, s, width) +
                         c.known.inertia * (ref.acceleration + k.lambda * rate_error +
                                            k.mu * std::clamp(s / k.epsilon, -1.0, 1.0));

@@ -2,6 +2,7 @@
 /// integrator, laws, allocation, sensors and metrics are written from the equations of the READMEs.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -42,7 +43,14 @@ struct LawGains {
   double speed_mu = 0.0, speed_epsilon = 0.0;
   double friction_width_radps =
       0.02;  ///< below this yaw rate, dry friction is fed forward in proportion to the rate
+  double combined_friction_width_radps = 0.0;  ///< that rate in combined mode; 0: half
 };
+
+/// Friction width in combined mode.
+inline double combined_width_radps(const LawGains& k) {
+  if (k.combined_friction_width_radps > 0.0) return k.combined_friction_width_radps;
+  return std::max(0.02, 0.5 * k.friction_width_radps);
+}
 
 /// Yaw rate at which the heading law feeds g3 forward: the measured one (as in the paper) or the
 /// reference.

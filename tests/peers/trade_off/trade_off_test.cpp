@@ -130,7 +130,8 @@ TEST(Refusals, NameTheLimitThatNoGainsKeep) {
                          found.mu / k,
                          found.speed_mu,
                          found.speed_epsilon,
-                         found.friction_width_radps};
+                         found.friction_width_radps,
+                         found.combined_friction_width_radps};
     return excess({one.model, gains}, one.vehicle, one.errors, {}, one.limits, one.examined) <= 0.0;
   };
   for (double lambda = 1e-4; lambda < 100.0; lambda *= 1.1) {

@@ -115,8 +115,13 @@ inline Case case_of(const Model& model, const std::vector<Scenario>& scenarios,
 }
 
 inline LawGains law_gains(const Gains<double>& g) {
-  return {g.heading.lambda, g.heading.mu,    g.heading.epsilon,
-          g.speed.mu,       g.speed.epsilon, g.heading.friction_width_radps};
+  return {g.heading.lambda,
+          g.heading.mu,
+          g.heading.epsilon,
+          g.speed.mu,
+          g.speed.epsilon,
+          g.heading.friction_width_radps,
+          g.heading.combined_friction_width_radps};
 }
 
 }  // namespace awmr::peers
