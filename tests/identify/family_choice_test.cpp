@@ -14,7 +14,9 @@
 #include "awmr/identify/logs/log_problem.h"
 #include "awmr/identify/logs/multistart.h"
 #include "awmr/identify/logs/nearest_curve.h"
-#include "identify/synthetic_log.h"
+#include "awmr/model/sliding.h"
+#include "awmr/trials/log_start.h"
+#include "identify/log_answers.h"
 
 namespace awmr::testing {
 namespace {
@@ -185,6 +187,48 @@ TEST(Families, OfMotorsThatLagLeaveTheMassRightWhereOnlyTheSpeedIsMeasured) {
       return f.code == "actuator-lag";
     })) << lag_s;
   }
+}
+
+/// A drive that never coasts, of a vehicle with this surge and yaw resistance whose motors lag.
+DrivingLog driven_throughout(const Plant<double>& vehicle, double lag_s, std::uint64_t seed) {
+  constexpr double kStep_s = 0.002;
+  DrivingLog log = drive(kTruths[1], seed, {.duration_s = 40.0, .rate_hz = 50.0});
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    if (log.force_left[i] == 0.0 && log.force_right[i] == 0.0) {
+      log.force_left[i] = log.force_right[i] = 0.3;
+    }
+  }
+  const std::vector<double> left = log.force_left;
+  const std::vector<double> right = log.force_right;
+  log.force_left = behind_motors(log, left, lag_s, 0.0);
+  log.force_right = behind_motors(log, right, lag_s, 0.0);
+  Random noise(seed, 78);
+  replay<double>(LogSignals(log), 0, log.rows(), resolved_beside_friction(vehicle, kStep_s),
+                 nullptr, kStep_s, {}, [&](std::size_t row, const State<double>& state) {
+                   each_measurement(log, row, [&](LogChannel channel, double) {
+                     log[channel]->value[row] = channel_of(state, channel) + 0.01 * noise.normal();
+                   });
+                 });
+  log.force_left = left;
+  log.force_right = right;
+  add_row_of_rest(log);
+  return log;
+}
+
+/// With the power law in yaw, its errors hide the Coulomb friction of surge.
+TEST(Families, OfSurgeAreComparedOnceTheYawFamilyIsRight) {
+  Plant<double> vehicle = plant(kTruths[1]);
+  vehicle.surge = {.alpha = 1.0, .beta = 1.0, .coulomb = 0.25};
+  vehicle.yaw = {.alpha = 0.25, .beta = 1.0, .coulomb = 0.03};
+  TrialData data;
+  data.logs = {driven_throughout(vehicle, 0.15, 2)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(terms_of(result->model.surge_family).coulomb);
+  EXPECT_TRUE(terms_of(result->model.yaw_family).coulomb);
+  const Estimate& friction = result->model[ParameterId::kSurgeCoulomb];
+  ASSERT_TRUE(friction.value);
+  EXPECT_NEAR(*friction.value, 0.25, 0.03);
 }
 
 /// Test parameter: standard deviation of the speed's noise, m/s.

@@ -37,11 +37,7 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
 /// `of_yaw`: true for terms of yaw, false for terms of surge.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // decrease of -2 ln L
-  if (!fit.usable) return true;
-  for (std::size_t i = 0; i < candidate_terms.size(); ++i) {
-    if (candidate_terms[i] == ParameterId::kBackEmf) continue;  // belongs to no family
-    if (is_of_yaw(candidate_terms[i]) == of_yaw && fit.candidate_gain[i] > kWorthATry) return true;
-  }
+  if (!fit.usable || largest_gain(fit, candidate_terms, of_yaw) > kWorthATry) return true;
   const auto drifts = [&](LogChannel channel) {
     const auto noise = fit.noise.find(channel);
     return noise != fit.noise.end() && noise->second.has_slow_drift();
@@ -295,8 +291,8 @@ void add_findings(const std::string& file, const LogFit& power_fit, BestFamily& 
 
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest) {
-  const bool surge = is_contested(power_law, first, contest, false);
-  const bool yaw = is_contested(power_law, first, contest, true);
+  const std::map<bool, bool> contested{{false, is_contested(power_law, first, contest, false)},
+                                       {true, is_contested(power_law, first, contest, true)}};
   // The axis (surge or yaw) whose score tests have the larger gain goes first, because its wrong
   // law also causes errors in the other axis.
   const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
@@ -319,7 +315,9 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
     if (before == families_of_first) power_fit = std::move(of_first);
   };
   for (const bool of_yaw : {yaw_first, !yaw_first}) {
-    const bool is_open = of_yaw ? yaw : surge;
+    // The errors of a wrong law of one axis can hide those of the other.
+    const bool is_open =
+        contested.at(of_yaw) || is_contested(power_law, result.best, contest, of_yaw);
     if (!is_open || result.is_out_of_time) continue;
     contest_axis(of_yaw, contenders(result.best, of_yaw));
   }
