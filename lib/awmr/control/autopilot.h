@@ -101,7 +101,7 @@ template <class G, class P>
 AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in,
                          const Measurement<float>& measured, const Reference<float>& ref,
                          AutopilotOutput& out) {
-  const auto& motors = part_of<typename P::Motors>(a);
+  auto& motors = part_of<typename P::Motors>(a);
   use_friction_width(motors, in.mode, a.controller.yaw);
   out.psi_ref_rad = ref.psi_rad;
   out.tau_speed = speed_law(a.controller, measured, ref);

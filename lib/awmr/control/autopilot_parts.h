@@ -30,6 +30,7 @@ struct MotorCurve {
   float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
   float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
   const RestBlock* rest;   ///< in flash on an AVR; null: none
+  uint8_t mode;            ///< YawMode whose friction width g3 has
 };
 
 /// Estimates the position from the fixes of a receiver. Filter: as in PositionEstimate.
@@ -124,11 +125,14 @@ inline void make_up_dead_zone(const MotorCurve& part, SideForces<float>& force) 
   force = with_dead_zone(force, part.dead_zone);
 }
 
-/// Sets the friction width of g3 to that of the mode, if MotorCurve is compiled in.
+/// Sets the friction width of g3 to that of the mode when the mode changes, if MotorCurve is
+/// compiled in.
 template <class G>
-AWMR_INLINE void use_friction_width(const Disabled<MotorCurve>&, uint8_t, G&) {}
+AWMR_INLINE void use_friction_width(Disabled<MotorCurve>&, uint8_t, G&) {}
 template <class G>
-void use_friction_width(const MotorCurve& part, uint8_t mode, G& yaw) {
+void use_friction_width(MotorCurve& part, uint8_t mode, G& yaw) {
+  if (mode == part.mode) return;
+  part.mode = mode;
   if (part.rest != 0) set_friction_width(part.rest, mode, yaw);
 }
 
