@@ -291,8 +291,8 @@ void add_findings(const std::string& file, const LogFit& power_fit, BestFamily& 
 
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest) {
-  const std::map<bool, bool> contested{{false, is_contested(power_law, first, contest, false)},
-                                       {true, is_contested(power_law, first, contest, true)}};
+  const bool surge = is_contested(power_law, first, contest, false);
+  const bool yaw = is_contested(power_law, first, contest, true);
   // The axis (surge or yaw) whose score tests have the larger gain goes first, because its wrong
   // law also causes errors in the other axis.
   const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
@@ -315,9 +315,11 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
     if (before == families_of_first) power_fit = std::move(of_first);
   };
   for (const bool of_yaw : {yaw_first, !yaw_first}) {
-    // The errors of a wrong law of one axis can hide those of the other.
+    // The errors of a wrong law of one axis hide those of the other, and friction that is no power
+    // law in one axis is likely in the other.
+    const bool is_changed = std::pair(result.best.surge, result.best.yaw) != families_of_first;
     const bool is_open =
-        contested.at(of_yaw) || is_contested(power_law, result.best, contest, of_yaw);
+        of_yaw ? yaw || (is_changed && contest.yaw) : surge || (is_changed && contest.surge);
     if (!is_open || result.is_out_of_time) continue;
     contest_axis(of_yaw, contenders(result.best, of_yaw));
   }
