@@ -113,8 +113,8 @@ struct EstimatorReport {
   /// Weight in the average over noise models, (0, 1]: the probability that the noisy quantity is
   /// this `noise`; absent: the estimates were not averaged.
   std::optional<double> weight = {};
-  /// Akaike information criterion, less is better: AICc of tables and coast-downs, AIC of logs under
-  /// the noise model of the chosen fit. Compare only reports of the same subject and `noise`.
+  /// Akaike information criterion, less is better: AICc of tables and coast-downs, AIC of logs
+  /// under the noise model of the chosen fit. Compare only reports of the same subject and `noise`.
   std::optional<double> aicc = {};
   std::vector<Diagnostic> diagnostics = {};
   std::vector<LeaveOneOut> leave_one_out = {};

@@ -15,14 +15,15 @@
 /// s is the ratio of the position's scale to the speed's scale (1 if both are right). phi is the
 /// angle from the heading to the course over ground. Without a heading, psi is the integral of the
 /// yaw rate, whose unknown initial value does not change distances. Sideslip (i k_c, k_c real) and
-/// latency (k_d real) then count to first order, and n is constant, from the noise of the positions:
+/// latency (k_d real) then count to first order, and n is constant, from the noise of the
+/// positions:
 ///
 ///     |p(t1) - p(t0)|^2 = s^2 |a|^2 + 2 s Re(k_b* a b*) + |k_b|^2 |b|^2 + 2 s k_c Im(a c*)
 ///                         + 2 s k_d Re(a d*) + n
 ///
 /// The change of heading is compared with the integral of the yaw rate in the same way. There, k is
-/// the ratio of the heading's scale to the yaw rate's scale, k_0 corrects an offset of the yaw rate,
-/// and k_1 is the latency between the two:
+/// the ratio of the heading's scale to the yaw rate's scale, k_0 corrects an offset of the yaw
+/// rate, and k_1 is the latency between the two:
 ///
 ///     psi(t1) - psi(t0) = k int r dt + k_0 (t1 - t0) + k_1 (r(t1) - r(t0))
 #pragma once

@@ -61,8 +61,8 @@ std::vector<double> gaps_of(const Changes& changes) {
 }
 
 /// True if at least 95 % of the changes are one step of the resolution and fewer than 80 % of their
-/// gaps are multiples of one interval. This is a coarse sensor without noise, which reaches the next
-/// step as the signal moves. A slow sensor changes at multiples of its interval.
+/// gaps are multiples of one interval. This is a coarse sensor without noise, which reaches the
+/// next step as the signal moves. A slow sensor changes at multiples of its interval.
 bool changes_step_by_step(const Changes& changes, double quantum) {
   constexpr double kNearlyAll = 0.95;
   constexpr double kRegular = 0.8;

@@ -108,9 +108,9 @@ std::optional<Contradiction> check_large_angles(const Evidence& evidence, const 
           option_text(fmt::format("column '{}=(COUNTS - CENTRE)*DEGREES_PER_COUNT'", column)))};
 }
 
-/// Ratio of the path's curvature to that of the logged steering angle. Without a speed: ratio of the
-/// yaw rates per moment of steering and of a force difference, which is about 1 in the right unit. 0
-/// if the log does not determine it.
+/// Ratio of the path's curvature to that of the logged steering angle. Without a speed: ratio of
+/// the yaw rates per moment of steering and of a force difference, which is about 1 in the right
+/// unit. 0 if the log does not determine it.
 double times_as_sharp(const Evidence& evidence) {
   const double degree = degrees(1.0);
   if (const auto sharp = sharpness(evidence, degree)) return *sharp * degree;
@@ -122,8 +122,8 @@ double times_as_sharp(const Evidence& evidence) {
 }
 
 /// Detects angles in radians that are read as degrees: the largest is at most 2.5 % of the stop
-/// (pi/180 is 1.7 %), and the vehicle turns at least 8 times (radians: about 57 times) as sharply as
-/// the angle allows.
+/// (pi/180 is 1.7 %), and the vehicle turns at least 8 times (radians: about 57 times) as sharply
+/// as the angle allows.
 std::optional<Contradiction> check_radians(const Evidence& evidence, const std::string& column,
                                            double largest_deg) {
   constexpr double kImpossible = 8.0;

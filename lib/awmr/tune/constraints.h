@@ -70,8 +70,8 @@ double steered_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 /// rest) is ignored.
 ///   steering      l_f g1(u_d) tan(d_max/2)
 ///   differential  4 d min(F'max - g1/4, g1/4 - F'min)
-/// F'max and F'min are without the dead zone. With front-wheel drive, tan(d_max) replaces tan(d_max/2), and 2 replaces each 4. With back-EMF,
-/// k_e u_d is added to g1/4.
+/// F'max and F'min are without the dead zone. With front-wheel drive, tan(d_max) replaces
+/// tan(d_max/2), and 2 replaces each 4. With back-EMF, k_e u_d is added to g1/4.
 double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps,
                            std::optional<YawMode> mode = {});
 

@@ -245,8 +245,8 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
   return terms;
 }
 
-/// The slip of the speed together with slip of the same form of the yaw rate, if that is a candidate
-/// too.
+/// The slip of the speed together with slip of the same form of the yaw rate, if that is a
+/// candidate too.
 std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<CandidateTerm>& terms,
                                                       const CandidateTerm& of_speed) {
   const FreeQuantity yaw = wheel_slip_of(LogChannel::kYawRate, of_speed.quantity.is_ratio);

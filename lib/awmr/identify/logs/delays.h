@@ -27,8 +27,8 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem);
 /// latency of the speed, for example, would bias the mass upwards.)
 ///   - The delay of the commands is negative if their time stamps are late.
 ///   - A motor lag is tried in place of the command delay and in addition to it, unless the vehicle
-///     file gives the lag. A low-pass filter is tried in place of a delay of the speed, the yaw rate
-///     or the heading.
+///     file gives the lag. A low-pass filter is tried in place of a delay of the speed, the yaw
+///     rate or the heading.
 ///   - Steering trim and force imbalance have nearly the same effect. If one of them is found and
 ///     the commands allow both, both are freed.
 NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss);

@@ -126,7 +126,8 @@ FreeQuantity sensor_delay_of(LogChannel channel);
 /// ratio of speeds in place of a speed.
 FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio);
 
-/// Place x_s (m) of the sway sensor and the angle a (rad) by which it is turned to the left: it reads
+/// Place x_s (m) of the sway sensor and the angle a (rad) by which it is turned to the left: it
+/// reads
 ///
 ///     v cos a - u sin a + x_s r
 FreeQuantity sway_offset();
