@@ -191,7 +191,7 @@ TEST(Families, OfMotorsThatLagLeaveTheMassRightWhereOnlyTheSpeedIsMeasured) {
 
 /// A drive that never coasts, of a vehicle with this surge and yaw resistance whose motors lag.
 DrivingLog driven_throughout(const Plant<double>& vehicle, double lag_s, std::uint64_t seed) {
-  constexpr double kStep_s = 0.002;
+  constexpr double kReplayStep_s = 0.002;
   DrivingLog log = drive(kTruths[1], seed, {.duration_s = 40.0, .rate_hz = 50.0});
   for (std::size_t i = 0; i < log.rows(); ++i) {
     if (log.force_left[i] == 0.0 && log.force_right[i] == 0.0) {
@@ -203,8 +203,8 @@ DrivingLog driven_throughout(const Plant<double>& vehicle, double lag_s, std::ui
   log.force_left = behind_motors(log, left, lag_s, 0.0);
   log.force_right = behind_motors(log, right, lag_s, 0.0);
   Random noise(seed, 78);
-  replay<double>(LogSignals(log), 0, log.rows(), resolved_beside_friction(vehicle, kStep_s),
-                 nullptr, kStep_s, {}, [&](std::size_t row, const State<double>& state) {
+  replay<double>(LogSignals(log), 0, log.rows(), resolved_beside_friction(vehicle, kReplayStep_s),
+                 nullptr, kReplayStep_s, {}, [&](std::size_t row, const State<double>& state) {
                    each_measurement(log, row, [&](LogChannel channel, double) {
                      log[channel]->value[row] = channel_of(state, channel) + 0.01 * noise.normal();
                    });

@@ -256,6 +256,18 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
   return std::vector<FreeTerm>{{of_speed.quantity, of_speed.value}, {yaw, found->value}};
 }
 
+/// Considers a motor lag in place of the command delay `found_s` and in addition to it: the commands
+/// can also be delayed, or their time stamps late.
+void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss,
+                        LowestAic& lowest) {
+  const bool has_lag = settled.problem.model.vehicle.motor_time_constant_s ||
+                       has_kind(settled.problem.model.quantities, FreeQuantity::Kind::kMotorLag);
+  if (has_lag) return;
+  const double lag_s = 0.5 * std::abs(found_s);
+  lowest.consider(tried(settled, {{input_delay(), found_s - lag_s}, {motor_lag(), lag_s}}, loss));
+  if (found_s > 0.0) lowest.consider(tried(settled, {{motor_lag(), found_s}}, loss));
+}
+
 /// Fits each candidate term for one round and returns the fit with the lowest AIC. If no term
 /// lowers AIC, returns the fit of the most significant candidate if its score test exceeds 20
 /// standard errors, else empty.
@@ -264,8 +276,6 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   constexpr double kBeyondDoubt = 20.0;
   LowestAic lowest(settled);
   std::optional<NoiseIteration> strongest;  // of the first candidate, if its test is beyond doubt
-  const bool may_lag = !settled.problem.model.vehicle.motor_time_constant_s &&
-                       !has_kind(settled.problem.model.quantities, FreeQuantity::Kind::kMotorLag);
   bool has_sensor = false;
   std::vector<std::pair<LogChannel, double>> filters;
   const std::vector<CandidateTerm> terms = candidate_terms(settled);
@@ -288,14 +298,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
         lowest.consider(tried(settled, *both, loss));
       }
     }
-    // A motor lag can be better than any delay. In addition to the lag, the commands can be delayed
-    // or their time stamps late.
-    if (more.kind == FreeQuantity::Kind::kDelay && may_lag) {
-      const double lag_s = 0.5 * std::abs(found_s);
-      lowest.consider(
-          tried(settled, {{input_delay(), found_s - lag_s}, {motor_lag(), lag_s}}, loss));
-      if (found_s > 0.0) lowest.consider(tried(settled, {{motor_lag(), found_s}}, loss));
-    }
+    if (more.kind == FreeQuantity::Kind::kDelay) consider_motor_lag(settled, found_s, loss, lowest);
     if (found_s > 0.0 && is_sensor && may_be_smoothed(more.channel)) {
       filters.emplace_back(more.channel, found_s);
     }

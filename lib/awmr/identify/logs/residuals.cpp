@@ -208,6 +208,18 @@ class Sensors {
   std::vector<double> row_;
 };
 
+/// Passes the readings at a row of the log to the filters of smoothed channels. `has_before`: true
+/// if the row is not the first of the window.
+void follow(const DrivingLog& log, std::size_t row, bool has_before, const LinearMotion& now,
+            Sensors& sensors, SmoothedChannels& smoothed) {
+  const double since_s = has_before ? log.t_s[row] - log.t_s[row - 1] : 0.0;
+  for (const LogChannel c : kChannels) {
+    if (!smoothed[at(c)]) continue;
+    const double input = sensors.read(c, now, log.t_s[row]);
+    smoothed[at(c)]->next(input, sensors.row().data(), since_s, sensors.row().size());
+  }
+}
+
 /// Calls visit(i, error, row) for every sample i in order. `error` is model + bias - measured,
 /// `row` its derivatives by column; `row` is empty if there are no columns, and the visitor may
 /// overwrite it. A sensor with latency is compared with the state one delay earlier, a filtered
@@ -226,14 +238,6 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
   Sensors sensors(window, u, columns);
   std::size_t next = 0;
   SmoothedChannels smoothed = smoothed_channels(window, u, columns);
-  const auto follow = [&](std::size_t at_row, const LinearMotion& now) {
-    const double since_s = at_row > window.rows.begin ? log.t_s[at_row] - log.t_s[at_row - 1] : 0.0;
-    for (const LogChannel c : kChannels) {
-      if (!smoothed[at(c)]) continue;
-      const double input = sensors.read(c, now, log.t_s[at_row]);
-      smoothed[at(c)]->next(input, sensors.row().data(), since_s, columns);
-    }
-  };
   const auto compare = [&](const LinearMotion& motion, double t_s, const Sample& sample) {
     const LogChannel c = sample.channel;
     const auto& smooth = smoothed[at(c)];
@@ -246,7 +250,7 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
   replay_linear(*window.signals, window.rows.begin, window.rows.end, u.path, stepper, h,
                 first_motion(model, u, columns), [&](std::size_t at_row, const LinearMotion& now) {
                   if (any_late) motions.push_back(now);
-                  follow(at_row, now);
+                  follow(log, at_row, at_row > window.rows.begin, now, sensors, smoothed);
                   for (; next < samples.size() && samples[next].row == at_row; ++next) {
                     const auto& latency = u.sensor_delay[at(samples[next].channel)];
                     if (!latency) {
