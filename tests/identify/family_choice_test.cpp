@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <utility>
 
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/family_score.h"
@@ -191,26 +192,17 @@ TEST(Families, OfMotorsThatLagLeaveTheMassRightWhereOnlyTheSpeedIsMeasured) {
 
 /// A drive that never coasts, of a vehicle with this surge and yaw resistance whose motors lag.
 DrivingLog driven_throughout(const Plant<double>& vehicle, double lag_s, std::uint64_t seed) {
-  constexpr double kReplayStep_s = 0.002;
-  DrivingLog log = drive(kTruths[1], seed, {.duration_s = 40.0, .rate_hz = 50.0});
+  DrivingLog log = drive(kTruths[1], seed, {.duration_s = 20.0, .rate_hz = 50.0});
+  for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
+    log[channel].reset();
+  }
   for (std::size_t i = 0; i < log.rows(); ++i) {
     if (log.force_left[i] == 0.0 && log.force_right[i] == 0.0) {
       log.force_left[i] = log.force_right[i] = 0.3;
     }
   }
-  const std::vector<double> left = log.force_left;
-  const std::vector<double> right = log.force_right;
-  log.force_left = behind_motors(log, left, lag_s, 0.0);
-  log.force_right = behind_motors(log, right, lag_s, 0.0);
-  Random noise(seed, 78);
-  replay<double>(LogSignals(log), 0, log.rows(), resolved_beside_friction(vehicle, kReplayStep_s),
-                 nullptr, kReplayStep_s, {}, [&](std::size_t row, const State<double>& state) {
-                   each_measurement(log, row, [&](LogChannel channel, double) {
-                     log[channel]->value[row] = channel_of(state, channel) + 0.01 * noise.normal();
-                   });
-                 });
-  log.force_left = left;
-  log.force_right = right;
+  log = measured_behind_lag(std::move(log), resolved_beside_friction(vehicle, kSimulationStep_s),
+                            lag_s, seed, true);
   add_row_of_rest(log);
   return log;
 }

@@ -44,22 +44,25 @@ inline std::vector<double> behind_motors(const DrivingLog& log, const std::vecto
   return mean;
 }
 
-/// The log of drive() for a vehicle whose motors lag by the time constant `lag_s`. Before the log,
-/// the motors had the force of the first row, or none if the log begins `from_rest`.
-inline DrivingLog drive_with_lag(const Truth& t, std::uint64_t seed, double lag_s,
-                                 DrivePlan plan = {.duration_s = 20.0}, bool from_rest = false) {
+/// Longest step of the simulated logs, s.
+inline constexpr double kSimulationStep_s = 0.002;
+
+/// The log with the measurements of a vehicle whose motors lag by the time constant `lag_s`. Before
+/// the log, the motors had the force of the first row, or none if it begins `from_rest`. `vehicle`:
+/// for steps of kSimulationStep_s.
+inline DrivingLog measured_behind_lag(DrivingLog log, const Plant<double>& vehicle, double lag_s,
+                                      std::uint64_t seed, bool from_rest) {
   const std::map<LogChannel, double> noise{{LogChannel::kX, 0.02},
                                            {LogChannel::kY, 0.02},
                                            {LogChannel::kHeading, 0.01},
                                            {LogChannel::kSpeed, 0.01},
                                            {LogChannel::kYawRate, 0.01}};
-  DrivingLog log = drive(t, seed, plan);
   const std::vector<double> left = log.force_left;
   const std::vector<double> right = log.force_right;
   log.force_left = behind_motors(log, left, lag_s, from_rest ? 0.0 : left.front());
   log.force_right = behind_motors(log, right, lag_s, from_rest ? 0.0 : right.front());
   Random random(seed, 77);
-  replay<double>(LogSignals(log), 0, log.rows(), plant(t), nullptr, 0.002, {},
+  replay<double>(LogSignals(log), 0, log.rows(), vehicle, nullptr, kSimulationStep_s, {},
                  [&](std::size_t row, const State<double>& state) {
                    for (const auto& [channel, std] : noise) {
                      if (!log[channel]) continue;
@@ -69,6 +72,12 @@ inline DrivingLog drive_with_lag(const Truth& t, std::uint64_t seed, double lag_
   log.force_left = left;
   log.force_right = right;
   return log;
+}
+
+/// The log of drive(), measured_behind_lag().
+inline DrivingLog drive_with_lag(const Truth& t, std::uint64_t seed, double lag_s,
+                                 DrivePlan plan = {.duration_s = 20.0}, bool from_rest = false) {
+  return measured_behind_lag(drive(t, seed, plan), plant(t), lag_s, seed, from_rest);
 }
 
 inline std::optional<EstimatorParameter> estimated(const Identification& result,

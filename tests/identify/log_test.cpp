@@ -501,7 +501,7 @@ TEST(BackEmf, IsNotFoundForIdealMotorsAndRefusedOnRequest) {
 
 TEST(BackEmf, WithoutCoastingIsRefusedWithTheTrialThatShowsIt) {
   TrialData data;
-  data.logs = {geared_drive(kTruths[0], 41)};
+  data.logs = {geared_drive(kTruths[0], 41, 4.0)};
   DrivingLog& log = data.logs[0];
   for (std::size_t row = 0; row < log.rows(); ++row) {
     if (log.force_left[row] == 0.0) log.force_left[row] = log.force_right[row] = 1e-3;

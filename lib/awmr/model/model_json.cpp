@@ -11,8 +11,8 @@
 #include "awmr/core/linear_algebra.h"
 #include "awmr/core/option_text.h"
 #include "awmr/model/findings_json.h"
+#include "awmr/model/log_term_names.h"
 #include "awmr/model/ratio_names.h"
-#include "awmr/model/sensor_delay_name.h"
 
 namespace awmr {
 namespace {

@@ -76,7 +76,7 @@ bool moves_backward(const LogWindow& window) {
 
 std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s) {
   std::vector<LogWindow> windows;
-  const double gap_s = kGapSteps * log.median_step_s();
+  const double step_s = log.median_step_s();
   std::size_t begin = 0;
   const auto close = [&](std::size_t end) {
     if (end - begin >= kShortestWindow) windows.push_back({&log, begin, end});
@@ -84,11 +84,12 @@ std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s) {
   };
   std::size_t piece_end = 0;  // end of the gap-free piece that contains `begin`
   for (std::size_t row = 1; row <= log.rows(); ++row) {
-    if (row == log.rows() || log.t_s[row] - log.t_s[row - 1] > gap_s) {
+    if (row == log.rows() || log.t_s[row] - log.t_s[row - 1] > kGapSteps * step_s) {
       piece_end = row;
       // Equal parts leave no short remainder. A log with its time in a wrong unit (nanoseconds)
-      // would need more parts than it has rows.
-      const double span_s = log.t_s[piece_end - 1] - log.t_s[begin];
+      // would need more parts than it has rows. One step more than a whole number of parts, as that
+      // of add_row_of_rest(), makes no further part.
+      const double span_s = log.t_s[piece_end - 1] - log.t_s[begin] - step_s;
       const double most = static_cast<double>(piece_end - begin);
       const auto parts =
           static_cast<std::size_t>(std::clamp(std::ceil(span_s / longest_s), 1.0, most));

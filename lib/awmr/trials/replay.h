@@ -24,8 +24,8 @@ struct LogWindow {
   std::size_t end = 0;
 };
 
-/// Splits the log at its gaps, and each part into equal windows of at most `longest_s`. Windows of
-/// fewer than 3 rows are dropped.
+/// Splits the log at its gaps, and each part into equal windows of at most `longest_s` and one
+/// step. Windows of fewer than 3 rows are dropped.
 std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s);
 
 /// Number of equal steps that divide a time span so that none is longer than `longest_step_s`.

@@ -12,7 +12,7 @@
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/identifiability.h"
-#include "awmr/model/sensor_delay_name.h"
+#include "awmr/model/log_term_names.h"
 
 namespace awmr {
 namespace {

@@ -18,7 +18,7 @@
 
 namespace awmr {
 
-/// Quantities of these forces, in the order of kExtraForceNames (model/sensor_delay_name.h).
+/// Quantities of these forces, in the order of kExtraForceNames (model/log_term_names.h).
 enum class ExtraForce {
   kSurgeStribeck,       ///< s over F_max, of the speed
   kSurgeStribeckSpeed,  ///< w_s, m/s

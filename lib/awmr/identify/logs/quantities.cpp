@@ -6,8 +6,8 @@
 
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/log_fit_options.h"
+#include "awmr/model/log_term_names.h"
 #include "awmr/model/plausibility.h"
-#include "awmr/model/sensor_delay_name.h"
 
 namespace awmr {
 namespace {
