@@ -53,6 +53,20 @@ bool has_only_positions(const NoiseLevels& noise) {
   });
 }
 
+/// Possible causes of a model error in a channel.
+std::string possible_causes(LogChannel channel) {
+  if (channel == LogChannel::kSway) {
+    return "the tyres slide, or the sensor is turned, sits ahead of or behind the centre of "
+           "gravity, or drifts";
+  }
+  const std::string causes =
+      "an unmodelled effect acts on the vehicle (a motor driver that brakes at a command of 0, a "
+      "slope, sliding tyres), a value in the vehicle file is wrong (half_track_m, front_axle_m, "
+      "steering.max_rate_degps), or the sensor has a bias or drifts";
+  if (channel != LogChannel::kYawRate) return causes;
+  return causes + " (" + option_text("fit bias.yaw_rate_radps") + " estimates a bias)";
+}
+
 }  // namespace
 
 std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::string& file) {
@@ -76,19 +90,7 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
   Adequacy adequacy;
   for (const auto& [channel, noise] : chosen.fit.noise) {
     if (!noise.of_the_model()) continue;
-    std::string advice =
-        "an unmodelled effect acts on the vehicle (a motor driver that brakes at a command of 0, a "
-        "slope, sliding tyres), a value in the vehicle file is wrong (half_track_m, "
-        "front_axle_m, steering.max_rate_degps), "
-        "or the sensor has a bias or drifts";
-    if (channel == LogChannel::kYawRate) {
-      advice += " (" + option_text("fit bias.yaw_rate_radps") + " estimates a bias)";
-    }
-    if (channel == LogChannel::kSway) {
-      advice =
-          "the tyres slide, or the sensor is turned, sits ahead of or behind the centre of "
-          "gravity, or drifts";
-    }
+    std::string advice = possible_causes(channel);
     if (channel == LogChannel::kSpeed && try_families) {
       advice = try_alternatives(best_family(logs, power_law, chosen, {.only_candidates = false}),
                                 chosen, adequacy)

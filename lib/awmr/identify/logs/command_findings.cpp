@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 
-#include "awmr/core/index.h"
 #include "awmr/core/units.h"
 #include "awmr/identify/logs/force_findings.h"
 
@@ -20,16 +19,13 @@ struct FoundTerm {
   double error;
 };
 
-/// The identified terms of one kind that are larger than two standard errors and than 1 ms (delays
-/// and lags), 1 mrad (trim) or 0.1 % (imbalance and saturation).
+/// The identified and significant terms of one kind.
 std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
-  constexpr double kSmallest = 1e-3;
   std::vector<FoundTerm> found;
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     if (fit.quantities[i].kind != kind || !fit.refusal_reason[i].empty()) continue;
-    const double error = std::sqrt(fit.covariance(eigen_index(i), eigen_index(i)));
-    if (std::abs(fit.coordinates[i]) < std::max(kSmallest, 2.0 * error)) continue;
-    found.push_back({fit.quantities[i], fit.coordinates[i], error});
+    if (!fit.is_significant(i)) continue;
+    found.push_back({fit.quantities[i], fit.coordinates[i], fit.error_of(i)});
   }
   return found;
 }

@@ -256,13 +256,17 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
   return std::vector<FreeTerm>{{of_speed.quantity, of_speed.value}, {yaw, found->value}};
 }
 
-/// Considers a motor lag in place of the command delay `found_s` and in addition to it: the commands
-/// can also be delayed, or their time stamps late.
+/// True if a motor lag is given or free.
+bool has_motor_lag(const LogModel& model) {
+  return model.vehicle.motor_time_constant_s ||
+         has_kind(model.quantities, FreeQuantity::Kind::kMotorLag);
+}
+
+/// Considers a motor lag in place of the command delay `found_s` and in addition to it: the
+/// commands can also be delayed, or their time stamps late.
 void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss,
                         LowestAic& lowest) {
-  const bool has_lag = settled.problem.model.vehicle.motor_time_constant_s ||
-                       has_kind(settled.problem.model.quantities, FreeQuantity::Kind::kMotorLag);
-  if (has_lag) return;
+  if (has_motor_lag(settled.problem.model)) return;
   const double lag_s = 0.5 * std::abs(found_s);
   lowest.consider(tried(settled, {{input_delay(), found_s - lag_s}, {motor_lag(), lag_s}}, loss));
   if (found_s > 0.0) lowest.consider(tried(settled, {{motor_lag(), found_s}}, loss));
@@ -344,9 +348,7 @@ std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& s
   using Kind = FreeQuantity::Kind;
   LogProblem problem = settled.problem;
   SearchPoint point = settled.point;
-  const bool has_lag = problem.model.vehicle.motor_time_constant_s ||
-                       has_kind(problem.model.quantities, Kind::kMotorLag);
-  if (has_lag) return std::nullopt;
+  if (has_motor_lag(problem.model)) return std::nullopt;
   std::vector<double> lags_s;
   for (std::size_t i = problem.model.quantities.size(); i-- > 0;) {
     if (problem.model.quantities[i].kind != Kind::kSensorLag) continue;

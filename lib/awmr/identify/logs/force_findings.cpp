@@ -8,6 +8,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/units.h"
+#include "awmr/identify/logs/log_report.h"
 
 namespace awmr {
 namespace {
@@ -112,9 +113,7 @@ std::vector<Finding> force_findings(const LogFit& fit, const std::string& file) 
 void withdraw_by_stribeck(LogFit& fit) {
   for (const FoundStribeck& one : found_stribeck(fit)) {
     for (EstimatorParameter& parameter : fit.report.parameters) {
-      if (!one.is_large() || !parameter.name.starts_with(one.axis)) continue;
-      parameter.std_error.reset();
-      parameter.ci95.reset();
+      if (one.is_large() && parameter.name.starts_with(one.axis)) withdraw(parameter);
     }
   }
 }

@@ -6,6 +6,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,17 @@ struct LogFit {
   double widened = 1.0;    ///< see Identifiability::widened()
   EstimatorReport report;  ///< report for /estimates; its parameters are the quantities
   bool usable = false;     ///< true if the final search converged
+
+  /// Standard error of coordinate i.
+  double error_of(std::size_t i) const {
+    return std::sqrt(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
+  }
+  /// True if delay, lag or command error i is at least two standard errors and 1 ms, 1 mrad, 1 mm/s
+  /// or 0.1 %. Precondition: its coordinate is its value.
+  bool is_significant(std::size_t i) const {
+    constexpr double kSmallest = 1e-3;
+    return !(std::abs(coordinates[i]) < std::max(kSmallest, 2.0 * error_of(i)));
+  }
 };
 
 /// Fits the logs. Precondition: an initial guess for every parameter. The fit is not usable and has

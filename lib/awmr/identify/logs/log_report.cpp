@@ -103,17 +103,12 @@ EstimatorReport log_report(const LogReportInput& input) {
 }
 
 void withdraw_intervals(EstimatorReport& report) {
-  for (EstimatorParameter& parameter : report.parameters) {
-    parameter.std_error.reset();
-    parameter.ci95.reset();
-  }
+  for (EstimatorParameter& parameter : report.parameters) withdraw(parameter);
 }
 
 void withdraw_interval(EstimatorReport& report, std::string_view name) {
   for (EstimatorParameter& parameter : report.parameters) {
-    if (parameter.name != name) continue;
-    parameter.std_error.reset();
-    parameter.ci95.reset();
+    if (parameter.name == name) withdraw(parameter);
   }
 }
 

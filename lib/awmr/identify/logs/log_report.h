@@ -24,6 +24,11 @@ struct LogReportInput {
 /// the starts of the multistart.
 EstimatorReport log_report(const LogReportInput& input);
 
+/// Removes the standard error and the interval of a parameter. Keeps its value.
+inline void withdraw(EstimatorParameter& parameter) {
+  parameter.std_error.reset();
+  parameter.ci95.reset();
+}
 /// Removes the standard errors and intervals from the report. Keeps the values.
 void withdraw_intervals(EstimatorReport& report);
 /// Removes those of the quantity with this name.

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "awmr/core/index.h"
 #include "awmr/identify/logs/family_score.h"
+#include "awmr/identify/logs/log_report.h"
 
 namespace awmr {
 namespace {
@@ -21,14 +21,11 @@ bool is_late_commands(const FreeTerm& term) {
   return term.quantity.kind == FreeQuantity::Kind::kDelay && term.begin < 0.0;
 }
 
-/// True if slip or late commands of the fit are larger than two standard errors and 1 mm/s or 1 ms.
+/// True if the fit has significant slip or late commands (LogFit::is_significant()).
 bool reads_early(const LogFit& fit) {
-  constexpr double kSmallest = 1e-3;
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeTerm term{fit.quantities[i], fit.coordinates[i]};
-    const double error = std::sqrt(fit.covariance(eigen_index(i), eigen_index(i)));
-    const bool is_large = std::abs(term.begin) > std::max(kSmallest, 2.0 * error);
-    if (is_large && (is_slip(term) || is_late_commands(term))) return true;
+    if (fit.is_significant(i) && (is_slip(term) || is_late_commands(term))) return true;
   }
   return false;
 }
@@ -119,8 +116,7 @@ std::vector<std::string> withdraw_different(const LogFit& other, LogFit& fit) {
       continue;
     }
     names.push_back(mine.name);
-    mine.std_error.reset();
-    mine.ci95.reset();
+    withdraw(mine);
   }
   return names;
 }

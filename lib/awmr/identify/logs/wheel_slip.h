@@ -24,7 +24,7 @@ struct WheelSlip {
   bool is_ratio;
 };
 
-/// What the slip depends on, besides motion and command.
+/// The vehicle, and the columns of the derivatives of the fit.
 struct SlippingWheels {
   const Plant<double>& plant;
   const std::vector<ParameterColumn>& parameters;
