@@ -368,6 +368,17 @@ INSTANTIATE_TEST_SUITE_P(Short, SteeringTrim, ::testing::Values(-0.03));
 /// Also the other sign and a larger value.
 INSTANTIATE_TEST_SUITE_P(Long, SteeringTrim, ::testing::Values(0.07));
 
+TEST(LateLog, FindsAServoThatIsSlowerThanTheVehicleFileSays) {
+  const Truth& t = kTruths[1];
+  constexpr double kRate_radps = 1.0;
+  ASSERT_GT(radians(robot().steering_max_rate_degps), 4.0 * kRate_radps);
+  Plant<double> slow = plant(t);
+  slow.steering_max_rate_radps = kRate_radps;
+  Random random(8, 5);
+  DrivingLog log = simulate_log(slow, robot(), {.duration_s = 40.0, .drive = 8}, {}, random);
+  expect_found(std::move(log), t, "steering.max_rate_radps", kRate_radps, "servo-rate");
+}
+
 TEST(LateLog, WithdrawsTheIntervalsOfLogsWithDifferentTrims) {
   TrialData data;
   for (const auto& [trim_rad, seed] : {std::pair(0.08, 8), std::pair(-0.06, 9)}) {

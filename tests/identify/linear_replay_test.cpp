@@ -305,9 +305,9 @@ TEST(LinearReplay, DerivativeByASensorDelayIsTheRateOfTheMotion) {
   EXPECT_LT(apart, here.size() * kStateSize / 20);
 }
 
-/// Steering trim, rad, force imbalance, saturation, and the logarithms of its sharpness and of the
-/// exponent of the forces.
-constexpr std::size_t kErrors = 5;
+/// Steering trim, rad, force imbalance, saturation, the logarithms of its sharpness and of the
+/// exponent of the forces, and the servo's largest rate, rad/s.
+constexpr std::size_t kErrors = 6;
 using CommandErrors = std::array<double, kErrors>;
 
 /// The motion with these errors of the commands as the only columns.
@@ -315,13 +315,15 @@ std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors
   constexpr double kStep_s = 0.004;
   const LogSignals signals(log);
   const CommandPath path{.steering_trim = OffsetColumn{errors[0], 0},
+                         .servo_rate = OffsetColumn{errors[5], 5},
                          .imbalance = OffsetColumn{errors[1], 1},
                          .exponent = OffsetColumn{std::exp(errors[4]), 4},
                          .saturation = OffsetColumn{errors[2], 2},
                          .full_command = 0.3,
                          .sharpness = OffsetColumn{std::exp(errors[3]), 3}};
-  const Plant<double> plant = plant_by_hand(log.steering_command_rad.has_value(), kStep_s,
-                                            Drive::kFourWheel, Friction::kNone);
+  Plant<double> plant = plant_by_hand(log.steering_command_rad.has_value(), kStep_s,
+                                      Drive::kFourWheel, Friction::kNone);
+  plant.steering_max_rate_radps = errors[5];
   LinearStepper stepper(plant, kErrors, {}, columns_of(path));
   std::vector<LinearMotion> motions;
   const LinearMotion first{first_state<double>([](std::size_t, double x) { return x; }),
@@ -333,7 +335,7 @@ std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors
 
 TEST(LinearReplay, OfErrorsOfTheCommandsHasTheDerivativesOfCentralDifferences) {
   constexpr double kApart = 1e-6;
-  const CommandErrors errors{0.03, -0.08, 0.2, 1.2, -0.2};
+  const CommandErrors errors{0.03, -0.08, 0.2, 1.2, -0.2, 1.5};
   for (const bool servo : {true, false}) {
     const DrivingLog log = commands(servo);
     const std::vector<LinearMotion> here = with_errors(log, errors);

@@ -1,5 +1,5 @@
 /// Names, in /estimates of model.json, of the vehicle and sensor errors that a fit of logs can
-/// estimate: steering trim, imbalance of left and right motors, saturation of the forces, Stribeck
+/// estimate: steering trim, largest rate of the servo, imbalance of left and right motors, saturation of the forces, Stribeck
 /// friction, slope of the ground, delay, filter time constant and wheel slip of a sensor.
 #pragma once
 
@@ -9,6 +9,7 @@
 namespace awmr {
 
 inline constexpr std::string_view kSteeringTrimName = "steering.trim_rad";
+inline constexpr std::string_view kServoRateName = "steering.max_rate_radps";
 inline constexpr std::string_view kForceImbalanceName = "motor.imbalance";
 inline constexpr std::string_view kForceExponentName = "motor.exponent";
 inline constexpr std::string_view kForceSaturationName = "motor.saturation";

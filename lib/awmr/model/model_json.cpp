@@ -30,10 +30,10 @@ constexpr double kSymmetryTolerance = 1e-9;
 /// True for the name of a parameter, or of another quantity that a fit estimates.
 bool is_estimated_name(std::string_view name) {
   return parameter_by_name(name) || name == kInputDelayName || name == kSteeringDelayName ||
-         name == kSteeringTrimName || name == kForceImbalanceName || name == kForceExponentName ||
-         name == kForceSaturationName || name == kSaturationSharpnessName ||
-         name == kSwayOffsetName || name == kSwayAngleName || name == kMotorLagName ||
-         name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
+         name == kSteeringTrimName || name == kServoRateName || name == kForceImbalanceName ||
+         name == kForceExponentName || name == kForceSaturationName ||
+         name == kSaturationSharpnessName || name == kSwayOffsetName || name == kSwayAngleName ||
+         name == kMotorLagName || name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
          name == kQuadraticOverSurgeName ||
          std::ranges::find(kExtraForceNames, name) != kExtraForceNames.end() ||
          name.starts_with(kBiasPrefix) || name.starts_with(kSensorDelayPrefix) ||

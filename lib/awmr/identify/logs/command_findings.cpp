@@ -169,6 +169,20 @@ std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::strin
   return findings;
 }
 
+/// `servo-rate`, if the steering turns more slowly than the vehicle file says.
+std::vector<Finding> servo_rate_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
+  for (const FoundTerm& rate : found_terms(fit, FreeQuantity::Kind::kServoRate)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "servo-rate",
+         fmt::format("the steering turns with at most {:.1f} +- {:.1f} deg/s; the fit uses this "
+                     "limit in place of the vehicle file's. Set steering.max_rate_degps in the "
+                     "vehicle file to this value",
+                     degrees(rate.value), degrees(rate.error))});
+  }
+  return findings;
+}
+
 /// `steering-trim` and `force-imbalance` for constant errors of the commands. If the commands
 /// cannot separate the two, only one of them is in the fit.
 std::vector<Finding> constant_error_findings(const LogFit& fit, const std::string& file) {
@@ -265,10 +279,10 @@ bool saturates_much(const LogFit& fit) {
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
                                                  const std::string& file) {
   std::vector<Finding> findings = delay_findings(fit, file);
-  for (const auto& more :
-       {slip_findings(fit, file), sway_sensor_findings(fit, file),
-        steering_delay_findings(fit, file), constant_error_findings(fit, file),
-        saturation_findings(fit, file), actuator_findings(fit, file), force_findings(fit, file)}) {
+  for (const auto& more : {slip_findings(fit, file), sway_sensor_findings(fit, file),
+                           steering_delay_findings(fit, file), servo_rate_findings(fit, file),
+                           constant_error_findings(fit, file), saturation_findings(fit, file),
+                           actuator_findings(fit, file), force_findings(fit, file)}) {
     findings.insert(findings.end(), more.begin(), more.end());
   }
   if (!withdrawn) return findings;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/core/units.h"
 #include "awmr/identify/logs/information.h"
 #include "awmr/identify/logs/score_test.h"
 #include "awmr/trials/log_start.h"
@@ -367,10 +368,56 @@ std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& s
   return fit;
 }
 
+/// Largest rate that the servo's time constant demands, rad/s: all of the range of the steering
+/// commands over it. At most the vehicle file's largest rate; 0 if the time constant is not free.
+double demanded_rate_radps(const NoiseIteration& settled) {
+  const LogModel& model = settled.problem.model;
+  const auto lag = place_of(model.quantities, ParameterId::kSteeringTimeConstant);
+  if (!lag) return 0.0;
+  Interval commands{0.0, 0.0};
+  for (const FitWindow& window : settled.problem.windows) {
+    const DrivingLog& log = *window.rows.log;
+    if (!log.steering_command_rad) continue;
+    for (std::size_t row = window.rows.begin; row < window.rows.end; ++row) {
+      commands.lo = std::min(commands.lo, (*log.steering_command_rad)[row]);
+      commands.hi = std::max(commands.hi, (*log.steering_command_rad)[row]);
+    }
+  }
+  const double lag_s = model.quantities[*lag].value(settled.point.coordinates[*lag]);
+  return std::min((commands.hi - commands.lo) / lag_s,
+                  radians(model.vehicle.steering_max_rate_degps));
+}
+
+/// The fit with a servo that is slower than the vehicle file says; empty if AIC is not lower by
+/// more than kPlainly. (A score test does not show it: a limit that is not reached has no effect.)
+std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled, Loss loss) {
+  constexpr double kPlainly = 10.0;
+  if (has_kind(settled.problem.model.quantities, FreeQuantity::Kind::kServoRate)) return {};
+  const double demanded_radps = demanded_rate_radps(settled);
+  LowestAic lowest(settled);
+  for (const double share : {0.6, 0.25}) {
+    const double begin_radps = share * demanded_radps;
+    if (begin_radps > 0.0) {
+      lowest.consider(tried(settled, {{servo_rate(begin_radps), begin_radps}}, loss));
+    }
+  }
+  if (!lowest.best()) return {};
+  NoiseIteration fit =
+      settle_noise(std::move(lowest.best()->problem), std::move(lowest.best()->point), loss);
+  if (!(akaike_of(settled) - akaike_of(fit) > kPlainly)) return {};
+  return fit;
+}
+
+/// The fit with the next term that lowers AIC; empty if there is none.
+std::optional<NoiseIteration> with_next_term(const NoiseIteration& settled, Loss loss) {
+  if (auto more = with_one_more(settled, loss)) return more;
+  return with_slower_servo(settled, loss);
+}
+
 }  // namespace
 
 NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss) {
-  while (auto more = with_one_more(settled, loss)) {  // each step lowers AIC
+  while (auto more = with_next_term(settled, loss)) {  // each step lowers AIC
     settled = std::move(*more);
     if (auto lag = with_motor_lag_for_filters(settled, loss)) settled = std::move(*lag);
   }

@@ -287,49 +287,64 @@ void add_findings(const std::string& file, const LogFit& power_fit, BestFamily& 
   }
 }
 
-}  // namespace
-
-BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                       FamilyFit first, const FamilyContest& contest) {
-  const bool surge = is_contested(power_law, first, contest, false);
-  const bool yaw = is_contested(power_law, first, contest, true);
-  // The axis (surge or yaw) whose score tests have the larger gain goes first, because its wrong
-  // law also causes errors in the other axis.
-  const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
-                         largest_gain(first.fit, power_law.candidate_terms, false);
-  LogFit power_fit = first.fit;
-  const auto families_of_first = std::pair(first.surge, first.yaw);
+/// The comparison of families in progress.
+struct FamilyComparison {
+  const std::vector<DrivingLog>& logs;
+  const LogFitOptions& power_law;
+  const FamilyContest& contest;
   BestFamily result;
-  result.best = std::move(first);
-  std::map<bool, LogFit> winners;  // by axis (true: yaw), before delays are searched again
-  const auto contest_axis = [&](bool of_yaw, const std::vector<Contender>& others) {
-    const auto before = std::pair(result.best.surge, result.best.yaw);
+  LogFit power_fit;                 ///< the best fit of the families of the start
+  std::pair<Family, Family> start;  ///< families of the start, surge and yaw
+  std::map<bool, LogFit> winners;   ///< by axis (true: yaw), before delays are searched again
+
+  std::pair<Family, Family> families() const { return {result.best.surge, result.best.yaw}; }
+
+  /// Fits the families `others` of an axis. If the best fit changes, the terms are searched again.
+  void compare(bool of_yaw, const std::vector<Contender>& others) {
+    const auto before = families();
     const std::set<std::string> terms = names_of_terms(result.best.fit);
     LogFit of_first = compete(logs, power_law, others, contest.lead, result);
     if (winners.try_emplace(of_yaw, result.best.fit).second) {
       compete_with_stribeck(logs, power_law, of_yaw, result);
     }
-    const bool is_other = std::pair(result.best.surge, result.best.yaw) != before ||
-                          names_of_terms(result.best.fit) != terms;
-    if (is_other) search_terms_again(logs, power_law, result);
-    if (before == families_of_first) power_fit = std::move(of_first);
-  };
-  for (const bool of_yaw : {yaw_first, !yaw_first}) {
+    const bool is_changed = families() != before || names_of_terms(result.best.fit) != terms;
+    if (is_changed) search_terms_again(logs, power_law, result);
+    if (before == start) power_fit = std::move(of_first);
+  }
+};
+
+}  // namespace
+
+BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                       FamilyFit first, const FamilyContest& contest) {
+  const std::map<bool, bool> is_suspect{{false, is_contested(power_law, first, contest, false)},
+                                        {true, is_contested(power_law, first, contest, true)}};
+  // The axis (surge or yaw) whose score tests have the larger gain goes first, because its wrong
+  // law also causes errors in the other axis.
+  const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
+                         largest_gain(first.fit, power_law.candidate_terms, false);
+  const std::pair start{first.surge, first.yaw};
+  LogFit power_fit = first.fit;
+  BestFamily alone{std::move(first), {}, {}, false};
+  FamilyComparison comparison{logs,  power_law, contest, std::move(alone), std::move(power_fit),
+                              start, {}};
+  BestFamily& result = comparison.result;
+  for (const bool of_yaw : {yaw_first, !yaw_first, yaw_first}) {
     // The errors of a wrong law of one axis hide those of the other, and friction that is no power
     // law in one axis is likely in the other.
-    const bool is_changed = std::pair(result.best.surge, result.best.yaw) != families_of_first;
-    const bool is_open =
-        of_yaw ? yaw || (is_changed && contest.yaw) : surge || (is_changed && contest.surge);
-    if (!is_open || result.is_out_of_time) continue;
-    contest_axis(of_yaw, contenders(result.best, of_yaw));
+    const bool is_open = is_suspect.at(of_yaw) || (comparison.families() != comparison.start &&
+                                                   (of_yaw ? contest.yaw : contest.surge));
+    if (!is_open || comparison.winners.contains(of_yaw) || result.is_out_of_time) continue;
+    comparison.compare(of_yaw, contenders(result.best, of_yaw));
   }
   for (const bool of_yaw : {yaw_first, !yaw_first}) {
-    if (!winners.contains(of_yaw) || result.is_out_of_time) continue;
-    const auto others = to_compare_again(winners.at(of_yaw), of_yaw, result.best, result.others);
-    if (!others.empty()) contest_axis(of_yaw, others);
+    const auto winner = comparison.winners.find(of_yaw);
+    if (winner == comparison.winners.end() || result.is_out_of_time) continue;
+    const auto others = to_compare_again(winner->second, of_yaw, result.best, result.others);
+    if (!others.empty()) comparison.compare(of_yaw, others);
   }
-  add_findings(logs.front().file, power_fit, result);
-  return result;
+  add_findings(logs.front().file, comparison.power_fit, result);
+  return std::move(result);
 }
 
 }  // namespace awmr

@@ -34,7 +34,8 @@ struct ByForces {
   }
 };
 
-/// Adds the servo: d_r_dot = sat((target - d_r)/T, d_rate_max). Derivatives are 0 at a limit.
+/// Adds the servo: d_r_dot = sat((target - d_r)/T, d_rate_max). At a limit, all derivatives are 0
+/// but that by d_rate_max.
 void add_servo(const LinearPlant& plant, const State<double>& s, double command_rad,
                LinearRates& out) {
   const Plant<double>& p = plant.plant;
@@ -44,6 +45,7 @@ void add_servo(const LinearPlant& plant, const State<double>& s, double command_
   const double free = std::abs(wanted) <= p.steering_max_rate_radps ? plant.per_lag : 0.0;
   out.by_state.steering_steering = -free;
   out.by_parameter[at(ParameterId::kSteeringTimeConstant)].steering = -wanted * free;
+  out.steering_by_max_rate = free > 0.0 ? 0.0 : std::copysign(1.0, wanted);
   out.steering_by_command = std::abs(command_rad) <= p.steering_max_rad ? free : 0.0;
 }
 

@@ -104,6 +104,7 @@ struct LinearRates {
   DrivenSlopes by_force_left;
   DrivenSlopes by_force_right;
   double steering_by_command = 0.0;
+  double steering_by_max_rate = 0.0;  ///< 1 or -1 while the servo turns at its largest rate, else 0
 };
 
 /// Computes the rates at the state `s`. `out` must be LinearRates{} before the first call, because

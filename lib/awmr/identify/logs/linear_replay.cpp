@@ -85,8 +85,8 @@ CommandColumns columns_of(const CommandPath& path) {
     return term ? std::optional(term->column) : std::nullopt;
   };
   return {column(path.delay),         column(path.steering_delay), path.lag_column,
-          column(path.steering_trim), column(path.imbalance),      column(path.exponent),
-          column(path.saturation),    column(path.sharpness)};
+          column(path.steering_trim), column(path.servo_rate),     column(path.imbalance),
+          column(path.exponent),      column(path.saturation),     column(path.sharpness)};
 }
 
 const double* LinearMotion::row(LogChannel channel, std::size_t columns) const {
@@ -134,6 +134,9 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
     set_column({by, 0.0}, column, driven);
   });
   if (c.steering_trim) set_column({{}, command.steering_by_trim}, *c.steering_trim, driven);
+  if (c.servo_rate) {
+    driven[(kDrivenSize - 1) * columns_ + *c.servo_rate] = rates_.steering_by_max_rate;
+  }
 }
 
 void LinearStepper::set_column(const HeldCommand& by, std::size_t column, double* driven) const {

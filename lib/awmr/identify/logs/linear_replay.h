@@ -51,6 +51,7 @@ struct CommandPath {
   std::optional<LaggedForces> lag = {};            ///< forces after the motors' lag
   std::optional<std::size_t> lag_column = {};      ///< column of the lag; present if it is free
   std::optional<OffsetColumn> steering_trim = {};  ///< rad, added to command or logged angle
+  std::optional<OffsetColumn> servo_rate = {};     ///< rad/s, in place of the plant's
   std::optional<OffsetColumn> imbalance = {};   ///< e: left forces times 1 - e, right times 1 + e
   std::optional<OffsetColumn> exponent = {};    ///< p of force_exponent(); derivatives by ln p
   std::optional<OffsetColumn> saturation = {};  ///< L of force_saturation()
@@ -66,6 +67,7 @@ struct CommandColumns {
   std::optional<std::size_t> steering_delay = {};
   std::optional<std::size_t> lag = {};
   std::optional<std::size_t> steering_trim = {};
+  std::optional<std::size_t> servo_rate = {};
   std::optional<std::size_t> imbalance = {};
   std::optional<std::size_t> exponent = {};
   std::optional<std::size_t> saturation = {};

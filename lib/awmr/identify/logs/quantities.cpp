@@ -41,6 +41,8 @@ Interval range_of(const FreeQuantity& quantity) {
   using Kind = FreeQuantity::Kind;
   constexpr double kLongest_s = 1.0;
   constexpr double kLargestTrim_rad = 0.35;
+  constexpr double kSlowestRate_radps = 0.01;
+  constexpr double kFastestRate_radps = 100.0;
   constexpr double kLargestImbalance = 0.5;
   constexpr double kLargestSlip = 10.0;
   constexpr double kLargestOffset_m = 5.0;
@@ -51,6 +53,8 @@ Interval range_of(const FreeQuantity& quantity) {
       return {-kLongest_s, kLongest_s};
     case Kind::kSteeringTrim:
       return {-kLargestTrim_rad, kLargestTrim_rad};
+    case Kind::kServoRate:
+      return {kSlowestRate_radps, kFastestRate_radps};
     case Kind::kForceImbalance:
       return {-kLargestImbalance, kLargestImbalance};
     case Kind::kForceExponent:
@@ -101,6 +105,8 @@ std::string FreeQuantity::name() const {
       return std::string(kMotorLagName);
     case Kind::kSteeringTrim:
       return std::string(kSteeringTrimName);
+    case Kind::kServoRate:
+      return std::string(kServoRateName);
     case Kind::kForceImbalance:
       return std::string(kForceImbalanceName);
     case Kind::kForceExponent:
@@ -148,6 +154,10 @@ FreeQuantity motor_lag() { return {.kind = FreeQuantity::Kind::kMotorLag, .large
 
 FreeQuantity steering_trim() {
   return {.kind = FreeQuantity::Kind::kSteeringTrim, .large_change = 0.1};
+}
+
+FreeQuantity servo_rate(double begin_radps) {
+  return {.kind = FreeQuantity::Kind::kServoRate, .large_change = begin_radps};
 }
 
 FreeQuantity force_imbalance() {

@@ -26,6 +26,7 @@ struct FreeQuantity {
     kSteeringDelay,        ///< additional delay of the steering command
     kMotorLag,             ///< time constant of the motors
     kSteeringTrim,         ///< steering angle at a command of 0
+    kServoRate,            ///< largest rate of the steering angle
     kForceImbalance,       ///< (right - left)/(right + left) of the forces at equal commands
     kForceExponent,        ///< p of force_exponent(): forces in proportion to a power of commands
     kForceSaturation,      ///< L of force_saturation(): large commands push less than in proportion
@@ -89,6 +90,10 @@ FreeQuantity motor_lag();
 
 /// Steering angle at a command of 0, rad; positive to the left.
 FreeQuantity steering_trim();
+
+/// Largest rate of the steering angle, rad/s, in place of the vehicle file's. `begin_radps`: initial
+/// guess, > 0.
+FreeQuantity servo_rate(double begin_radps);
 
 /// Force imbalance e: the left motors push with 1 - e times their command, the right with 1 + e
 /// times.

@@ -74,6 +74,9 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
       case FreeQuantity::Kind::kSteeringTrim:
         u.path.steering_trim = {number, i};
         break;
+      case FreeQuantity::Kind::kServoRate:
+        u.path.servo_rate = {number, i};
+        break;
       case FreeQuantity::Kind::kForceImbalance:
         u.path.imbalance = {number, i};
         break;
@@ -119,6 +122,7 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
   }
   u.path.switches_off = values[at(ParameterId::kBackEmf)] > 0.0;
   u.plant = resolved_beside_friction(plant_of(model.vehicle, values), model.longest_step_s);
+  if (u.path.servo_rate) u.plant.steering_max_rate_radps = u.path.servo_rate->value;
   slow_servo(model.longest_step_s, u.parameters, u.plant);
   // A logged steering angle is used directly, without servo limit or lag.
   if (!window.rows.log->steering_command_rad) u.plant.steering_max_rad = 10.0;
