@@ -9,136 +9,12 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/units.h"
+#include "awmr/identify/logs/further_terms.h"
 #include "awmr/identify/logs/information.h"
 #include "awmr/identify/logs/score_test.h"
 #include "awmr/trials/log_start.h"
 
 namespace awmr {
-namespace {
-
-bool has_delay(const std::vector<FreeQuantity>& quantities, LogChannel channel) {
-  return std::ranges::any_of(quantities, [&](const FreeQuantity& q) {
-    const bool is_of_sensor =
-        q.kind == FreeQuantity::Kind::kSensorDelay || q.kind == FreeQuantity::Kind::kSensorLag;
-    return is_of_sensor && q.channel == channel;
-  });
-}
-
-/// True if the servo's time constant is free. If no steering delay is fitted, this time constant
-/// absorbs a dead time of the servo.
-bool frees_servo(const std::vector<FreeQuantity>& quantities) {
-  return std::ranges::any_of(
-      quantities, [](const FreeQuantity& q) { return q.is(ParameterId::kSteeringTimeConstant); });
-}
-
-bool any_log(const LogProblem& problem, bool (*has)(const DrivingLog&)) {
-  return std::ranges::any_of(problem.windows,
-                             [&](const FitWindow& window) { return has(*window.rows.log); });
-}
-
-/// Largest force command of the logs, over F_max.
-double largest_command(const LogProblem& problem) {
-  double largest = 0.0;
-  for (const FitWindow& window : problem.windows) {
-    const DrivingLog& log = *window.rows.log;
-    for (std::size_t row = window.rows.begin; row < window.rows.end; ++row) {
-      largest = std::max({largest, std::abs(log.force_left[row]), std::abs(log.force_right[row])});
-    }
-  }
-  return largest;
-}
-
-/// Largest absolute measurement of a channel; 1 without measurements.
-double fastest_of(const LogProblem& problem, LogChannel channel) {
-  double largest = 0.0;
-  const DrivingLog* last = nullptr;
-  for (const FitWindow& window : problem.windows) {
-    if (window.rows.log == last) continue;
-    last = window.rows.log;
-    largest = std::max(largest, largest_measured(*last, channel));
-  }
-  return largest > 0.0 ? largest : 1.0;
-}
-
-/// Adds the forces of extra_forces.h that can still be added: Stribeck friction to a resistance
-/// with Coulomb friction, and a slope if the logs show the heading in world coordinates.
-void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
-  const std::vector<FreeQuantity>& quantities = problem.model.quantities;
-  const auto is_free = [&](ParameterId id) {
-    return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.is(id); });
-  };
-  for (const auto& [force, coulomb] :
-       {std::pair(ExtraForce::kSurgeStribeck, ParameterId::kSurgeCoulomb),
-        std::pair(ExtraForce::kYawStribeck, ParameterId::kYawCoulomb)}) {
-    if (is_free(coulomb) && !has_force(quantities, force)) found.push_back(extra_force(force));
-  }
-  const bool has_heading = problem.model.noise.contains(LogChannel::kHeading) ||
-                           problem.model.noise.contains(LogChannel::kX);
-  if (has_heading && !has_force(quantities, ExtraForce::kSlopeX)) {
-    found.push_back(extra_force(ExtraForce::kSlopeX));
-    found.push_back(extra_force(ExtraForce::kSlopeY));
-  }
-}
-
-/// Adds the slip of the wheels that measure speed or yaw rate, in both forms. All slip of a fit has
-/// the same form.
-void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
-  const std::vector<FreeQuantity>& quantities = problem.model.quantities;
-  const auto slips = [&](LogChannel channel) {
-    return std::ranges::any_of(quantities, [&](const FreeQuantity& q) {
-      return q.kind == FreeQuantity::Kind::kWheelSlip && q.channel == channel;
-    });
-  };
-  const auto other =
-      std::ranges::find(quantities, FreeQuantity::Kind::kWheelSlip, &FreeQuantity::kind);
-  for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
-    if (!problem.model.noise.contains(channel) || slips(channel)) continue;
-    if (channel == LogChannel::kYawRate && !any_log(problem, has_force_difference)) continue;
-    for (const bool is_ratio : {false, true}) {
-      if (other != quantities.end() && other->is_ratio != is_ratio) continue;
-      found.push_back(wheel_slip_of(channel, is_ratio));
-    }
-  }
-}
-
-}  // namespace
-
-std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
-  using Kind = FreeQuantity::Kind;
-  const std::vector<FreeQuantity>& quantities = problem.model.quantities;
-  std::vector<FreeQuantity> found;
-  if (!has_kind(quantities, Kind::kDelay)) found.push_back(input_delay());
-  for (const auto& [measured, noise] : problem.model.noise) {
-    const LogChannel channel = measured == LogChannel::kY ? LogChannel::kX : measured;
-    if (has_delay(quantities, channel) || has_delay(found, channel)) continue;
-    found.push_back(sensor_delay_of(channel));
-  }
-  if (found.size() == 1) found.clear();
-  if (frees_servo(quantities) && !has_kind(quantities, Kind::kSteeringDelay)) {
-    found.push_back(steering_delay());
-  }
-  if (!has_kind(quantities, Kind::kSteeringTrim) && any_log(problem, has_steering_changes)) {
-    found.push_back(steering_trim());
-  }
-  if (!has_kind(quantities, Kind::kForceImbalance) && any_log(problem, has_force_difference)) {
-    found.push_back(force_imbalance());
-  }
-  const double full_command = largest_command(problem);
-  // Only one of them: together they fit every curve, also one that ends at a wrong small force.
-  if (full_command > 0.0 && !has_kind(quantities, Kind::kForceExponent) &&
-      !has_kind(quantities, Kind::kForceSaturation)) {
-    found.push_back(force_exponent());
-    found.push_back(force_saturation(full_command));
-  }
-  add_forces(problem, found);
-  add_slip(problem, found);
-  if (problem.model.noise.contains(LogChannel::kSway)) {
-    if (!has_kind(quantities, Kind::kSwayOffset)) found.push_back(sway_offset());
-    if (!has_kind(quantities, Kind::kSwayAngle)) found.push_back(sway_angle());
-  }
-  return found;
-}
-
 namespace {
 
 /// A candidate term with its score-test estimate.
@@ -225,6 +101,18 @@ void consider_filters(const NoiseIteration& settled,
     const bool is_at_rows = akaike_of(at_rows) < akaike_of(continuous);
     lowest.consider(std::move(is_at_rows ? at_rows : continuous), kLikelierFilter);
   }
+}
+
+/// Largest absolute measurement of a channel; 1 without measurements.
+double fastest_of(const LogProblem& problem, LogChannel channel) {
+  double largest = 0.0;
+  const DrivingLog* last = nullptr;
+  for (const FitWindow& window : problem.windows) {
+    if (window.rows.log == last) continue;
+    last = window.rows.log;
+    largest = std::max(largest, largest_measured(*last, channel));
+  }
+  return largest > 0.0 ? largest : 1.0;
 }
 
 /// The candidate with the terms that are freed together with it.

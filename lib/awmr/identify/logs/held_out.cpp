@@ -7,7 +7,7 @@
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
-#include "awmr/identify/logs/delays.h"
+#include "awmr/identify/logs/further_terms.h"
 #include "awmr/identify/logs/identifiability.h"
 #include "awmr/identify/logs/information.h"
 #include "awmr/identify/logs/log_problem.h"
