@@ -1,6 +1,7 @@
 /// Logs of vehicles with forces that the model does not contain: slope and Stribeck friction.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -82,6 +83,70 @@ TEST(ForceLog, FindsStribeckFriction) {
   EXPECT_NEAR(result.model[ParameterId::kSurgeCoulomb].value.value_or(0.0), 0.2, 0.01);
   EXPECT_NEAR(result.model[ParameterId::kSurgeAlpha].value.value_or(0.0), 0.6, 0.02);
   expect_recovered(result, ParameterId::kInertiaNorm, robot_plant.inertia_norm, 4.5);
+}
+
+/// A log of a differential vehicle with the resistances 0.6 u^0.9 and 0.075 r^0.8 (m' = 0.5 s^2/m,
+/// I'z = 0.03 s^2 m, d = 0.2 m). A PI controller of each wheel follows the logged set-points, which
+/// are fractions of 2 m/s.
+DrivingLog log_of_set_points() {
+  constexpr double kStep_s = 0.001;
+  constexpr double kHalfTrack_m = 0.2;
+  constexpr int kStepsOfRow = 20;
+  constexpr int kRows = 3000;
+  constexpr int kRowsHeld = 100;
+  Random random(3, 1);
+  DrivingLog log;
+  Measured speed;
+  Measured yaw_rate;
+  double u_mps = 0.0;
+  double r_radps = 0.0;
+  SideForces<double> wanted{};
+  SideForces<double> sum{};
+  for (int row = 0; row < kRows; ++row) {
+    if (row % kRowsHeld == 0) {
+      const double mean = 0.1 + 0.6 * random.uniform();
+      const double turn = 0.2 * (random.uniform() - 0.5);
+      wanted = {mean - turn, mean + turn};
+    }
+    log.t_s.push_back(row * kStepsOfRow * kStep_s);
+    log.line.push_back(row + 2);
+    log.force_left.push_back(wanted.left);
+    log.force_right.push_back(wanted.right);
+    speed.value.push_back(u_mps + 0.01 * random.normal());
+    yaw_rate.value.push_back(r_radps + 0.01 * random.normal());
+    for (int step = 0; step < kStepsOfRow; ++step) {
+      const double left = 2.0 * wanted.left - (u_mps - kHalfTrack_m * r_radps);
+      const double right = 2.0 * wanted.right - (u_mps + kHalfTrack_m * r_radps);
+      sum.left += left * kStep_s;
+      sum.right += right * kStep_s;
+      const SideForces<double> force{1.5 * left + 3.0 * sum.left, 1.5 * right + 3.0 * sum.right};
+      const double surge = 0.6 * std::copysign(std::pow(std::abs(u_mps), 0.9), u_mps);
+      const double yaw = 0.075 * std::copysign(std::pow(std::abs(r_radps), 0.8), r_radps);
+      u_mps += kStep_s * (2.0 * (force.left + force.right) - surge) / 0.5;
+      r_radps += kStep_s * (2.0 * kHalfTrack_m * (force.right - force.left) - yaw) / 0.03;
+    }
+  }
+  log.file = "set_points.csv";
+  log.steering_command_rad = std::vector<double>(log.rows(), 0.0);
+  for (Measured* const channel : {&speed, &yaw_rate}) {
+    channel->fresh.assign(log.rows(), true);
+    channel->fresh_count = kRows;
+  }
+  log[LogChannel::kSpeed] = std::move(speed);
+  log[LogChannel::kYawRate] = std::move(yaw_rate);
+  return log;
+}
+
+TEST(ForceLog, NamesSetPointsOfASpeedController) {
+  Vehicle vehicle = robot();
+  vehicle.drive = Drive::kDifferential;
+  vehicle.half_track_m = 0.2;
+  TrialData data;
+  data.logs = {log_of_set_points()};
+  const auto result = identify(vehicle, data, power_law(), {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "speed-controlled", "2 m/s"));
+  EXPECT_FALSE(result->model[ParameterId::kMassNorm].ci95);
 }
 
 }  // namespace

@@ -300,6 +300,30 @@ TEST(SteadyRunsOfALog, AreDifferentialTurnsWithoutSteering) {
   EXPECT_THAT(findings.back().message, HasSubstr("F'L = 0.2, F'R = -0.2"));
 }
 
+TEST(SteadyWheelsOfALog, AreTheSidesOfATurnAndTheVehicleIfItDrivesStraight) {
+  Vehicle vehicle = paper_vehicle();
+  vehicle.drive = Drive::kDifferential;
+  std::string text = "t_s,force_left,force_right,speed_mps,yaw_rate_radps\n";
+  for (int i = 0; i < 120; ++i) {
+    const double wiggle = i % 2 == 0 ? 1e-3 : -1e-3;
+    text += std::to_string(0.1 * i) + (i >= 60 ? ",0.2,0.4," : ",0.3,0.3,") +
+            std::to_string(1.5 + wiggle) + "," + std::to_string((i >= 60 ? 0.8 : 0.0) + wiggle) +
+            "\n";
+  }
+  TrialOptions options;
+  options.has_steering = false;
+  const auto wheels = steady_wheels(accepted(read_log, text, options).set, vehicle, {});
+  ASSERT_THAT(wheels, SizeIs(3));
+  const double turn_mps = 0.8 * vehicle.half_track_m;
+  const std::array expected{SteadyWheel{0.3, 1.5}, SteadyWheel{0.2, 1.5 - turn_mps},
+                            SteadyWheel{0.4, 1.5 + turn_mps}};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(wheels[i].command, expected[i].command, 1e-12);
+    EXPECT_NEAR(wheels[i].speed_mps, expected[i].speed_mps, 1e-3);
+    EXPECT_LT(wheels[i].std_error, 1e-3);
+  }
+}
+
 /// A log at 50 Hz of a vehicle that drives straight at `speed_mps` with the heading psi; its
 /// position is the only measurement, with an error of +-e in turn.
 DrivingLog straight_log(double speed_mps, double psi, double error_m) {

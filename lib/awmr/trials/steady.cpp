@@ -205,4 +205,29 @@ SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const Stea
   return runs;
 }
 
+std::vector<SteadyWheel> steady_wheels(const DrivingLog& log, const Vehicle& vehicle,
+                                       const SteadyRule& rule) {
+  const auto& speed = log[LogChannel::kSpeed];
+  const auto& yaw_rate = log[LogChannel::kYawRate];
+  if (!speed) return {};
+  std::vector<SteadyWheel> wheels;
+  for (Stretch stretch : constant_commands(log, rule.same)) {
+    const double left = mean_of(log.force_left, stretch);
+    const double right = mean_of(log.force_right, stretch);
+    const auto u = steady_rest(log, *speed, rule, stretch);
+    if (!u) continue;
+    if (std::abs(left - right) <= rule.same) {
+      wheels.push_back({0.5 * (left + right), u->mean, u->mean_error});
+      continue;
+    }
+    const Line r = yaw_rate ? line_through(log, *yaw_rate, stretch) : Line{};
+    if (!is_steady(r, rule.drift)) continue;
+    const double d = vehicle.half_track_m;
+    const double std_error = std::hypot(u->mean_error, d * r.mean_error);
+    wheels.push_back({left, u->mean - d * r.mean, std_error});
+    wheels.push_back({right, u->mean + d * r.mean, std_error});
+  }
+  return wheels;
+}
+
 }  // namespace awmr

@@ -53,4 +53,17 @@ struct SteadyRuns {
 SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const SteadyRule& rule,
                        std::vector<Finding>& findings);
 
+/// Steady speed of a wheel at a constant command.
+struct SteadyWheel {
+  double command = 0.0;    ///< F', over F_max
+  double speed_mps = 0.0;  ///< mean rolling speed; forward positive
+  double std_error = 0.0;  ///< of speed_mps, m/s
+};
+
+/// Returns the steady speeds of the wheels in the segments of the log in which speed and yaw rate
+/// are steady (SteadyRule): with equal commands that of all wheels, u, else those of the left and
+/// the right wheels, u -+ d r. Without a yaw rate, only segments with equal commands count.
+std::vector<SteadyWheel> steady_wheels(const DrivingLog& log, const Vehicle& vehicle,
+                                       const SteadyRule& rule);
+
 }  // namespace awmr

@@ -19,6 +19,7 @@
 #include "awmr/identify/logs/log_setup.h"
 #include "awmr/identify/logs/model_choice.h"
 #include "awmr/identify/logs/slip_choice.h"
+#include "awmr/identify/logs/speed_control.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/trials/log_consistency.h"
 
@@ -149,40 +150,6 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
   }
 }
 
-/// The warning `speed-controlled`, if both resistances are linear and the yaw coefficient is d^2
-/// times the surge coefficient. Each wheel then rolls at a speed proportional to its command. The
-/// cause is motor drag, or a speed controller whose set-point was logged in place of the force.
-///
-///     tau_speed = a1 u,   tau_turn = a3 r = d^2 a1 r
-std::vector<Finding> speed_findings(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
-                                    const LogStage& stage) {
-  constexpr double kOfExponent = 0.05;
-  constexpr double kOfRatio = 0.1;
-  const auto value = [&](ParameterId id) {
-    const auto found = std::ranges::find(stage.main, id, &LogStage::Main::id);
-    return found == stage.main.end() ? 0.0 : found->estimate.value.value_or(0.0);
-  };
-  const auto is_linear = [&](Family family, ParameterId beta) {
-    return family == Family::kPower && std::abs(value(beta) - 1.0) < kOfExponent;
-  };
-  const double surge = value(ParameterId::kSurgeAlpha);
-  const double ratio =
-      value(ParameterId::kYawAlpha) / (surge * vehicle.half_track_m * vehicle.half_track_m);
-  if (!(surge > 0.0) || std::ranges::none_of(logs, has_force_difference) ||
-      !is_linear(stage.surge_family, ParameterId::kSurgeBeta) ||
-      !is_linear(stage.yaw_family, ParameterId::kYawBeta) || !(std::abs(ratio - 1.0) < kOfRatio)) {
-    return {};
-  }
-  return {
-      {logs.front().file, 0, Severity::kWarning, "speed-controlled",
-       fmt::format(
-           "each wheel rolls at {:.3g} m/s per unit of its command, also in turns. Either motor "
-           "drag is the only resistance, or force_left and force_right are set-points of a speed "
-           "controller, and a1, a3, m' and I'z describe that controller. In that case log the "
-           "commands that reach the motors",
-           vehicle.driven_wheels() / surge)}};
-}
-
 }  // namespace
 
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
@@ -222,7 +189,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
     return stage;
   }
   take(chosen.fit, model, overrule, file, stage);
-  append(stage.findings, speed_findings(vehicle, logs, stage));
+  append(stage.findings, speed_control_findings(vehicle, logs, stage));
   check_inertia(vehicle, logs, model, stage);
   if (options.cross_validate && logs.size() > 1) {
     show_step(options, "predicting each log from the others");
