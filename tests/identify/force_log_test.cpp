@@ -89,7 +89,7 @@ TEST(ForceLog, FindsStribeckFriction) {
 /// I'z = 0.03 s^2 m, d = 0.2 m). A PI controller of each wheel follows the logged set-points, which
 /// are fractions of 2 m/s.
 DrivingLog log_of_set_points() {
-  constexpr double kStep_s = 0.001;
+  constexpr double kStepOfLoop_s = 0.001;
   constexpr double kHalfTrack_m = 0.2;
   constexpr int kStepsOfRow = 20;
   constexpr int kRows = 3000;
@@ -108,7 +108,7 @@ DrivingLog log_of_set_points() {
       const double turn = 0.2 * (random.uniform() - 0.5);
       wanted = {mean - turn, mean + turn};
     }
-    log.t_s.push_back(row * kStepsOfRow * kStep_s);
+    log.t_s.push_back(row * kStepsOfRow * kStepOfLoop_s);
     log.line.push_back(row + 2);
     log.force_left.push_back(wanted.left);
     log.force_right.push_back(wanted.right);
@@ -117,13 +117,13 @@ DrivingLog log_of_set_points() {
     for (int step = 0; step < kStepsOfRow; ++step) {
       const double left = 2.0 * wanted.left - (u_mps - kHalfTrack_m * r_radps);
       const double right = 2.0 * wanted.right - (u_mps + kHalfTrack_m * r_radps);
-      sum.left += left * kStep_s;
-      sum.right += right * kStep_s;
+      sum.left += left * kStepOfLoop_s;
+      sum.right += right * kStepOfLoop_s;
       const SideForces<double> force{1.5 * left + 3.0 * sum.left, 1.5 * right + 3.0 * sum.right};
       const double surge = 0.6 * std::copysign(std::pow(std::abs(u_mps), 0.9), u_mps);
       const double yaw = 0.075 * std::copysign(std::pow(std::abs(r_radps), 0.8), r_radps);
-      u_mps += kStep_s * (2.0 * (force.left + force.right) - surge) / 0.5;
-      r_radps += kStep_s * (2.0 * kHalfTrack_m * (force.right - force.left) - yaw) / 0.03;
+      u_mps += kStepOfLoop_s * (2.0 * (force.left + force.right) - surge) / 0.5;
+      r_radps += kStepOfLoop_s * (2.0 * kHalfTrack_m * (force.right - force.left) - yaw) / 0.03;
     }
   }
   log.file = "set_points.csv";
