@@ -34,7 +34,9 @@ Result<std::unique_ptr<Emulator>> Emulator::load(const std::filesystem::path& el
   avr_global_logger_set(no_log);
   elf_firmware_t firmware{};
   if (elf_read_firmware(elf.c_str(), &firmware) != 0) {
-    return input_error(ErrorCode::kWrongFile, elf.string(), "is not a firmware for an AVR");
+    return input_error(
+        ErrorCode::kWrongFile, elf.string(),
+        "is not AVR firmware in ELF format; give pil_uart.elf of awmr pil --build-dir");
   }
   std::unique_ptr<Emulator> emulator(new Emulator);
   emulator->avr_ = avr_make_mcu_by_name("atmega2560");

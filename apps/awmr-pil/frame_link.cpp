@@ -46,7 +46,8 @@ class FrameLink : public Chip {
     for (const Position<float>& point : points.points_m) writer.put(point.x_m).put(point.y_m);
     if (writer.bytes().size() > 4 + 16 * 8) {
       return input_error(ErrorCode::kTooLarge, "",
-                         fmt::format("the firmware has room for 16 waypoints, found {}; use fewer",
+                         fmt::format("the firmware stores at most 16 waypoints, found {}; use "
+                                     "fewer",
                                      points.points_m.size()));
     }
     return ask(::pil::kFollow, writer.bytes(), 0);
@@ -135,8 +136,8 @@ class FrameLink : public Chip {
       if (reader_.type() != type || reader_.sequence() != sequence_) continue;
       if (reader_.length() == length) return true;
       return program_fault(
-          fmt::format("the chip answered with {} bytes, a wrong length, to a "
-                      "request of type '{}'",
+          fmt::format("the chip answered with {} bytes, which is a wrong length for a request of "
+                      "type '{}'",
                       reader_.length(), static_cast<char>(type)));
     }
   }

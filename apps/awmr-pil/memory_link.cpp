@@ -38,7 +38,8 @@ class MemoryLink : public Chip {
   Status follow(const Points& points) override {
     if (points.points_m.size() > kMaxPoints) {
       return input_error(ErrorCode::kTooLarge, "",
-                         fmt::format("the firmware has room for {} waypoints, found {}; use fewer",
+                         fmt::format("the firmware stores at most {} waypoints, found {}; use "
+                                     "fewer",
                                      kMaxPoints, points.points_m.size()));
     }
     Writer writer;

@@ -55,7 +55,8 @@ std::optional<T> read_filled(const fs::path& path, Result<T> (*read)(const fs::p
   for (const Fault& fault : result.error().faults) {
     if (document && is_null_at(*document, path.string(), fault.place)) {
       check.missing.push_back({fault.place, 0, Severity::kError, "missing-value",
-                               "to be filled in: it is null; the project's README describes it"});
+                               "is null: measure the value as the project's README describes, and "
+                               "fill it in"});
     } else {
       check.faults.push_back(fault);
     }
@@ -97,9 +98,9 @@ TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check
     if (check.faults.size() > faults) return false;
     check.missing.push_back(
         {path.string(), 0, Severity::kError, "missing-trial",
-         fmt::format("no runs yet: record {}", kind == TrialKind::kLog
-                                                   ? "a driving log"
-                                                   : trial_of(vehicle, shown_by(kind)))});
+         fmt::format(
+             "the file has no runs yet: record {}",
+             kind == TrialKind::kLog ? "a driving log" : trial_of(vehicle, shown_by(kind)))});
     return false;
   };
   if (project.surge && is_recorded(*project.surge, TrialKind::kSurge)) files.surge = project.surge;
@@ -122,8 +123,9 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
   const auto nothing_shows = [&](ParameterId id) {
     check.missing.push_back(
         {"", 0, Severity::kError, "missing-trial",
-         fmt::format("no trial for {} ({}), which the gains need: {}", info(id).name,
-                     info(id).meaning, vehicle ? trial_of(*vehicle, id) : info(id).trial)});
+         fmt::format("no trial determines {} ({}), without which no gains can be tuned; record {}",
+                     info(id).name, info(id).meaning,
+                     vehicle ? trial_of(*vehicle, id) : info(id).trial)});
   };
   if (!project.surge) nothing_shows(ParameterId::kSurgeAlpha);
   if (!project.turning) nothing_shows(ParameterId::kYawAlpha);
@@ -132,8 +134,8 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
   check.notes.push_back(
       {project.vehicle.string() + ":/sway_alpha", 0, Severity::kNote, "assumed-sway",
        fmt::format(
-           "not given ({}): identify assumes that of common tyres, within a factor of {:.1f}, "
-           "unless a driving log has sway_mps",
+           "not given ({}): identify assumes the value of common tyres, which can be wrong by a "
+           "factor of {:.1f}. Give a driving log with sway_mps, or this key, if sideslip matters",
            info(ParameterId::kSwayAlpha).meaning, assumed_sway_factor())});
 }
 

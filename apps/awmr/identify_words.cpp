@@ -70,8 +70,8 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
                  "Number of random initial guesses of a log fit without tables (default 6)")
       ->check(within(0, 1000));
   sub.add_option("--bootstrap", command.identify.bootstrap,
-                 "Number of block bootstrap resamples for the shape of the intervals of a log fit "
-                 "(default 0)")
+                 "Number of block bootstrap resamples from which a log fit takes the shape of its "
+                 "intervals (default 0: symmetric intervals from the covariance)")
       ->check(within(0, 1000000));
   sub.add_option("--time-limit", command.identify.time_limit_s,
                  "Time limit for log fits, s (default: none). Fits that have not converged are "

@@ -80,7 +80,7 @@ std::string widths_text(const LiveUpdate& update) {
 }
 
 std::string verdict_text(const LiveUpdate& update) {
-  if (!update.model) return "drive: nothing is known yet";
+  if (!update.model) return "drive on: no parameter is estimated yet";
   if (is_enough(precision_of(*update.model, update.requested), update.enough)) {
     return fmt::format("enough: every half width is within {:g} %", 100.0 * update.enough);
   }

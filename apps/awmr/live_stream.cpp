@@ -36,7 +36,8 @@ bool became_shorter(int file) {
 }
 
 std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
+static_assert(std::atomic<bool>::is_always_lock_free,
+              "a signal handler sets this variable, so it must be lock-free");
 volatile std::sig_atomic_t hung_up = 0;
 extern "C" void note_interruption(int signal) {
   interrupted = true;

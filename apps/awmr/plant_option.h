@@ -107,8 +107,8 @@ inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
       std::ranges::any_of(scenarios, [](const Scenario& s) { return s.tyres.has_value(); });
   if (choice.tyres_file && !has_tyres && !choice.runs_other()) {
     return input_error(ErrorCode::kConflict, kTyresOption,
-                       fmt::format("no run uses the four-wheel plant: remove this option, or give "
-                                   "{} {}",
+                       fmt::format("no run uses the four-wheel plant, which these tyres are for: "
+                                   "remove this option, or give {} {}",
                                    kPlantOption, name_in(kPlantKindNames, PlantKind::kFourWheel)));
   }
   return {};

@@ -113,8 +113,8 @@ Result<Outcome> part_outcome(const TuneCommand& command, const Tuning& tuning,
 /// Adds the options of the search; returns `--nominal`.
 CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
   auto* nominal = sub.add_flag("--nominal", command.nominal,
-                               "Tune for the nominal parameters only: no parameter draws, noise, "
-                               "latency or lag");
+                               "Tune for the model's own parameter values only, without parameter "
+                               "draws, sensor noise, latency or motor lag");
   sub.add_flag(
       "--observer", command.observer,
       "Also tune a disturbance observer, for constant disturbances such as a slope or unequal "

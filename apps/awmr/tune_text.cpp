@@ -50,7 +50,7 @@ std::string sensitivity_text(const RobustTuning& robust) {
 std::string active_text(const Tuning& tuning) {
   std::string held;
   for (const ActiveConstraint& one : tuning.active) {
-    held += fmt::format("{}{} (limit 10 % wider: objective {:.1f} % lower)",
+    held += fmt::format("{}{} (a limit 10 % wider would lower the objective by {:.1f} %)",
                         held.empty() ? "" : "; ", one.name, 100.0 * one.wider_gains);
   }
   return fmt::format(

@@ -39,7 +39,8 @@ std::optional<pid_t> maker_of(std::string_view name) {
 /// allocate memory or lock, so the paths are copied to the heap beforehand.
 constexpr int kSlots = 64;
 std::atomic<char*> registered[kSlots];
-static_assert(std::atomic<char*>::is_always_lock_free, "a signal handler reads it");
+static_assert(std::atomic<char*>::is_always_lock_free,
+              "a signal handler reads this variable, so it must be lock-free");
 
 /// Signals with which a user or the system ends a program.
 constexpr int kEndingSignals[] = {SIGHUP,  SIGINT,  SIGQUIT, SIGTERM, SIGPIPE,

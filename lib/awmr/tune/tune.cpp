@@ -167,8 +167,9 @@ Status limit_observer(const ConstraintContext& context, std::optional<ObserverSe
     if (!*limit) *limit = kObserverShare * most;
     if (**limit > 0.0) continue;
     return input_error(ErrorCode::kOutOfRange, "",
-                       fmt::format("the observer's {}: at {:g} m/s no wheel force is left to "
-                                   "compensate a disturbance; give slower scenarios",
+                       fmt::format("no default for the observer's {}: at {:g} m/s the wheels have "
+                                   "no force left to compensate a disturbance; give slower "
+                                   "scenarios",
                                    name, context.speed_mps));
   }
   return {};

@@ -86,7 +86,7 @@ std::string describe(const TurningMoment& moment, const DrawnVehicle& vehicle) {
       "resistance at {:.3g} deg/s is {:.3g} m. ",
       name_of(moment.mode), moment.speed_mps, moment.available_m, degrees(kSlowest_radps),
       moment.needed_m);
-  if (found.empty()) return text + "Motors with more force are needed, or a smaller yaw resistance";
+  if (found.empty()) return text + "Use motors with more force, or reduce the yaw resistance";
   text += "It turns with ";
   for (std::size_t i = 0; i < found.size(); ++i) text += (i == 0 ? "" : ", or with ") + found[i];
   return text;
