@@ -29,7 +29,8 @@ Difference difference(const std::vector<LoopRow>& a, const Run& b);
 
 /// Largest distance of a heading in `a` from the range of the headings in `b` at the previous, the
 /// same and the next sample, deg, >= 0; infinite if a heading is not finite. The neighbouring
-/// samples count because rounding may let one run turn to its next leg one sample earlier.
+/// samples are included because, by rounding, one run may start to turn one sample before the
+/// other.
 double heading_apart_deg(const std::vector<LoopRow>& a, const Run& b);
 
 /// Clock cycles of a control step: least, mean and most of a run.
@@ -38,7 +39,8 @@ struct Cycles {
   double mean = 0.0;
   unsigned max = 0;
 };
-/// Rows without a number of cycles (on the host) do not count.
+/// Returns the least, mean and largest cycles of the rows. Rows without cycles (steps on the host)
+/// are ignored.
 Cycles cycles_of(const std::vector<LoopRow>& rows);
 
 }  // namespace awmr::pil

@@ -8,11 +8,11 @@
 namespace awmr::pil {
 namespace {
 
-/// How often one request is sent at most. If one bit in a thousand is damaged, 40 % of the attempts
-/// succeed, and 40 attempts in a row fail with a probability of 1e-9.
+/// Maximum number of times that one request is sent. If one bit in a thousand is damaged, 40 % of
+/// the attempts succeed, and 40 attempts in a row fail with a probability of 1e-9.
 constexpr int kAttempts = 40;
-/// The same for the start request. Fewer attempts are enough because it is short, and waiting is in
-/// vain if no board is connected.
+/// Maximum number of times that the start request is sent. It is short, so fewer attempts suffice,
+/// and a missing board is reported sooner.
 constexpr int kStartAttempts = 10;
 
 /// Encodes a request as a frame.
@@ -99,7 +99,7 @@ class FrameLink : public Chip {
     return type == ::pil::kHello ? kStartAttempts : kAttempts;
   }
 
-  /// As exchange(), but no answer is an error (refused).
+  /// As exchange(), but returns an error (refused) if no attempt is answered.
   Status ask(std::uint8_t type, std::span<const std::uint8_t> bytes, std::size_t length) {
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(type, bytes, length));
     if (answered) return {};

@@ -9,9 +9,9 @@ namespace {
 
 using cli::Injection;
 
-// Faults of the autopilot after the sketches' checks reject a heading (or speed) sensor. The
-// reading becomes stale. The vehicle is also disarmed, so its commands time out. Either fault may
-// come first.
+// Fault bits of the autopilot after the checks of the sketches have rejected a heading (or speed)
+// sensor. The last accepted reading becomes too old. The vehicle is also disarmed, so its commands
+// time out. Either fault may come first.
 constexpr std::uint8_t kHeading = kFaultHeadingStale | kFaultCommandTimeout;
 constexpr std::uint8_t kSpeed = kFaultSpeedStale | kFaultCommandTimeout;
 

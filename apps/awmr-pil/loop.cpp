@@ -96,8 +96,8 @@ void command(const LoopSetup& setup, LoopRow& row) {
   }
 }
 
-/// Motors mounted the wrong way round on exchanged sides: each side gets the negated force of the
-/// other. The vehicle turns as commanded, but drives in the opposite direction.
+/// Injects motors that are reversed and whose sides are exchanged: each side gets the negated force
+/// of the other. The vehicle turns as commanded, but drives in the opposite direction.
 void reverse_motors(LoopRow& row) { row.force = {-row.force.right, -row.force.left}; }
 
 void swap_sides(LoopRow& row) { row.force = {row.force.right, row.force.left}; }

@@ -49,7 +49,8 @@ struct Mission {
   std::optional<Observers<float>> observers;
   CombinedSplit split = CombinedSplit::kRedistribute;
 
-  /// True if the chip computes the reference headings; false if it receives them from the host.
+  /// True if the chip computes the reference headings itself, from its points or its path; false if
+  /// it receives them from the host in each step.
   bool leads() const { return !points.points_m.empty() || path.has_value(); }
 };
 

@@ -25,7 +25,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Results of checking a project, in the order in which to fix them.
+/// Results of checking a project, in the order in which the user should act on them.
 struct Check {
   std::vector<Finding> missing;      ///< values and trials not provided yet
   std::vector<Finding> implausible;  ///< contradictory or impossible values
@@ -76,7 +76,8 @@ bool has_rows(const fs::path& path, Check& check) {
          std::any_of(sample->texts.begin(), sample->texts.end(), is_filled);
 }
 
-/// Returns the parameter that a kind of table identifies.
+/// Returns a parameter that this kind of trial identifies; messages describe the trial by it
+/// (trial_of()).
 ParameterId shown_by(TrialKind kind) {
   switch (kind) {
     case TrialKind::kTurning:
@@ -139,8 +140,8 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
            info(ParameterId::kSwayAlpha).meaning, assumed_sway_factor())});
 }
 
-/// If a fault is in the file `path`, adds a fault with column mappings guessed from its column
-/// names.
+/// If the file `path` already has a fault, adds another one whose message suggests column mappings,
+/// guessed from the file's column names.
 void add_mapping_hint(const fs::path& path, TrialKind kind, const TrialOptions& options,
                       std::vector<Fault>& faults) {
   const std::string place = path.string() + ":";
@@ -180,7 +181,8 @@ void add_mapping_hints(const TrialFiles& files, std::vector<Fault>& faults) {
 void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const bool nothing = !files.surge && !files.turning && files.coastdowns.empty();
   if (nothing && files.logs.empty()) return;
-  // A mapping may name a file that is not read here, because it has no rows yet.
+  // While some files have no rows yet, they are not read, and a mapping for them is no fault
+  // although nothing uses it.
   for (ColumnMapping& mapping : files.options.columns) mapping.standing |= !all_recorded;
   files.steady_from_logs = files.steady_from_logs && !files.logs.empty();
   const bool as_is = files.options.as_is;
@@ -196,7 +198,8 @@ void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const std::vector<Finding>& found = trials->findings;
   check.notes.insert(check.notes.end(), found.begin(), found.end());
   if (as_is || std::none_of(found.begin(), found.end(), contradicts)) return;
-  // The second read reports the contradictions as faults with the mapping that fixes them.
+  // Reads the trials again without `as_is`, which reports each contradiction as a fault with the
+  // column mapping that corrects it.
   std::erase_if(check.notes, contradicts);
   files.options.as_is = false;
   if (const auto refused = load_trials(files); !refused) {

@@ -90,7 +90,7 @@ struct SuggestCommand {
   std::optional<fs::path> scenario;
   YawMode mode = YawMode::kCombined;
   int repeats = 3;  ///< runs of each suggested trial
-  int most = 8;     ///< largest number of trials in the printed list
+  int most = 8;     ///< largest number of trials in the printed list; the file lists all
   std::optional<fs::path> output;
 };
 Result<Outcome> execute(const SuggestCommand& command);
@@ -123,13 +123,13 @@ struct ValidateCommand {
   AllocationChoice allocation = {};
   std::vector<fs::path> logs = {};
   TrialOptions trials = {};    ///< column mappings and used time spans of the logs
-  bool other_columns = false;  ///< true: mappings may name files that this command does not read
+  bool other_columns = false;  ///< true: mappings that name other files are accepted and ignored
   double horizon_s = 10.0;     ///< length of the windows over which logs are predicted
   double log_tolerance = 0.3;  ///< largest accepted NRMSE of a channel over a window
   bool tyres = false;          ///< also fit the tyres of the four-wheel plant to the logs
   bool claims = false;  ///< print the paper's fourteen claims, each with its criterion and reason
   std::optional<fs::path> claims_table = {};  ///< Markdown file for the claims
-  std::optional<fs::path> scenario = {};      ///< set: the logs are drives of this scenario
+  std::optional<fs::path> scenario = {};      ///< if given: the logs are drives of this scenario
   AcceptanceOptions acceptance = {};
   InputNames names = {};
 };

@@ -125,7 +125,8 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
   };
   std::optional<LiveEnd> end;
   while (!end) {
-    // Data that arrived during an update are added first, whatever then ends the recording.
+    // Adds the data that arrived during an update before any end condition is checked, so that none
+    // are lost.
     const std::string bytes = stream.take(std::chrono::milliseconds(100));
     followed.recording.add(bytes);
     if (!bytes.empty()) last_byte = Clock::now();

@@ -11,8 +11,9 @@
 namespace awmr {
 namespace {
 
-/// Lines for one pair of modes: number of scenarios in which the first is still ahead with the
-/// measured scrub, is no longer ahead, or is undecided. `all`: the entries of the pair.
+/// Lines for one pair of modes: the numbers of scenarios in which, with the measured scrub, the
+/// first mode is still ahead, is no longer ahead, or neither is certain. `all`: the entries of the
+/// pair.
 std::string decided(const std::vector<const BreakEven*>& all) {
   std::map<Lead, int> count;
   int at_other_rates = 0;

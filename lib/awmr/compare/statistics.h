@@ -24,7 +24,8 @@ struct ModeRows {
   std::span<const ComparisonRow> rows;  ///< never empty
 
   const Metrics& nominal() const { return rows.front().metrics; }
-  /// Rows that enter the statistics: the drawn samples, or the nominal run if there are none.
+  /// The counted rows, from which all statistics are computed: those of the drawn samples, or the
+  /// nominal run if there are no samples.
   std::span<const ComparisonRow> counted() const {
     return rows.size() > 1 ? rows.subspan(1) : rows;
   }

@@ -23,7 +23,7 @@ class CsvScanner {
   /// text between the closing quote of a cell and the delimiter.
   enum class Outcome { kRecord, kEnd, kOpenQuote, kTextAfterQuote };
 
-  /// Precondition: `bytes` have no byte order mark.
+  /// Starts at the first byte of `bytes`, which must not have a byte order mark.
   explicit CsvScanner(std::string_view bytes) : rest_(bytes) {}
   void set_delimiter(char delimiter) { delimiter_ = delimiter; }
 

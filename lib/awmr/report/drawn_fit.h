@@ -33,7 +33,7 @@ struct DrawnFit {
   Resistance<double> law{};            ///< `coulomb` includes the motors' dead zone (surge only)
   std::vector<CurvePoint> curve = {};  ///< empty if the model does not have the law
   bool has_band = false;               ///< true: the curve has a confidence band
-  /// Residuals; empty if fewer than three rows are predicted.
+  /// Residuals of the runs; empty if the model predicts fewer than three of them.
   std::vector<LeftOver> left_over = {};
   double bound_percent = 0.0;  ///< 99 % of normally distributed residuals are within +- this value
 };

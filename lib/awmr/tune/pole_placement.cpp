@@ -71,7 +71,8 @@ class HeadingPoles {
   }
 
   bool is_met(const Gains<double>& gains) {
-    // The draws are examined only if the model's own plant meets the constraints.
+    // The drawn vehicles are examined, which takes longer, only if the model's own plant meets the
+    // constraints.
     double broken = violation(gains, own_);
     if (broken <= 0.0 && !context_.draws.empty()) broken = violation(gains, context_);
     if (broken < least_broken_) {

@@ -44,7 +44,8 @@ constexpr double kMaxSearchSteps = 1e11;
 constexpr double kLongSearch_s = 10.0;
 /// Time of an RK4 step on two cores, s.
 constexpr double kTimeOfStep_s = 2.5e-8;
-/// Evaluations on all draws: in the last part of the search, and of gains on new draws.
+/// For the estimated duration: number of evaluations on all draws in the last part of the search,
+/// and number of evaluations of gains on new draws.
 constexpr double kOnAllDraws = 12.0;
 constexpr double kOnNewDraws = 3.0;
 
@@ -131,7 +132,8 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
     context.step_rad = std::max(context.step_rad, largest_step_rad(s));
     context.fastest_radps = std::max(context.fastest_radps, reached_radps(s));
   }
-  // No steady turn is faster than the one that the largest moment of the stronger mode sustains.
+  // The expected yaw rate is at most that of the steady turn at the largest moment of the stronger
+  // mode.
   const auto steady = steady_rate(plant.yaw, largest_moment_m(context.own(), context.speed_mps));
   if (steady) context.fastest_radps = std::clamp(*steady, kSlowest_radps, context.fastest_radps);
   return context;

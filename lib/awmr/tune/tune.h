@@ -155,7 +155,8 @@ bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 
 struct TuneOptions {
-  std::string file = "tune.json";  ///< name in errors: the path that it was read from
+  std::string file = "tune.json";  ///< name of the options' file in error messages: the path that
+                                   ///< it was read from
   /// true: tune on the identified plant only, with noise-free sensors without latency and motors
   /// without lag. false (robust): tune also on `draws` plants from the model's covariance, with the
   /// noise, latency and lag of LoopConditions. The gains meet every constraint on all of these
@@ -271,7 +272,7 @@ struct RunOutcome {
 };
 /// The runs of one set of gains, by draw, then mode, then scenario.
 struct EvaluatedRuns {
-  std::string gains;  ///< as in EvaluatedGains
+  std::string gains;  ///< name of the gains, as in EvaluatedGains::gains
   std::vector<RunOutcome> outcomes;
 };
 
@@ -331,7 +332,7 @@ inline constexpr NameTable<GoalVerdict, 3> kGoalVerdictNames{
 struct EvaluatedGoal {
   TuningGoal goal;
   YawMode mode{};
-  std::string gains;  ///< as in EvaluatedGains
+  std::string gains;  ///< name of the gains, as in EvaluatedGains::gains
   int held = 0;       ///< number of draws that meet every limit
   int runs = 0;       ///< number of all draws
   Interval ci95;      ///< 95 % interval of the share held/runs, by Clopper and Pearson

@@ -222,7 +222,8 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
   }
   if (options.open.any()) json["open"] = open_json(options.open);
   if (options.activity_max) json["activity_max"] = *options.activity_max;
-  // The last key, as merge_tune_shards() adds it: the files must be equal byte for byte.
+  // Must be the last key: merge_tune_shards() appends it there, and the merged file must be
+  // byte-identical with this one.
   if (!robust.evaluated_by_scenario.empty()) {
     json["by_scenario"] = by_scenario_json(robust.evaluated_by_scenario);
   }

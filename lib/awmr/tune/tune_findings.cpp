@@ -31,7 +31,8 @@ void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
                      : std::string("increase judged_draws"))});
 }
 
-/// The cause and the changes that help, as far as they are known; a `merge` does not know them.
+/// End of a message about runs that do not settle: the cause or the changes with which they settle.
+/// Without them (for example in `merge`) it names the key with the settling times.
 std::string advice_for(const std::string& scenario, YawMode mode,
                        std::span<const UnsettledRuns> unsettled) {
   const auto found = std::ranges::find_if(unsettled, [&](const UnsettledRuns& runs) {
