@@ -1,4 +1,5 @@
-/// Functions that all commands use: their outcome, registration on the command line, terminal output.
+/// Functions that all commands use: their outcome, registration on the command line, terminal
+/// output.
 #pragma once
 
 #include <filesystem>

@@ -3,8 +3,8 @@
 //   and the CRC (low byte first)
 // The chip answers each request of the host once, with the same type and sequence number. If the
 // host repeats a request because the answer was lost, the chip repeats the answer but does not
-// execute the request again, except kHello. Damaged frames are not answered: the host repeats the request after a
-// silence.
+// execute the request again, except kHello. Damaged frames are not answered: the host repeats the
+// request after a silence.
 #pragma once
 
 #include <stdint.h>
@@ -21,8 +21,8 @@ constexpr uint8_t kMaxFrame = kHeadBytes + kMaxPayload + 2;  // bytes after the 
 
 // Requests and their payloads -> payloads of the answers, which have the same type.
 // Hello: starts the controller anew. nothing -> awmr_init()'s fault (8 bit), AWMR_PARAMETERS_CRC32
-// xor kPilMission (32 bit), by which the host detects firmware made for other inputs. kPilMission is
-// the checksum of the generated mission.h, 0 if the mission adds nothing.
+// xor kPilMission (32 bit), by which the host detects firmware made for other inputs. kPilMission
+// is the checksum of the generated mission.h, 0 if the mission adds nothing.
 constexpr uint8_t kHello = 'H';
 // Follow points: acceptance_m, points as x_m, y_m -> nothing.
 constexpr uint8_t kFollow = 'F';

@@ -1,6 +1,7 @@
 /// Names, in /estimates of model.json, of the vehicle and sensor errors that a fit of logs can
-/// estimate: steering trim, largest rate of the servo, imbalance of left and right motors, saturation of the forces, Stribeck
-/// friction, slope of the ground, delay, filter time constant and wheel slip of a sensor.
+/// estimate: steering trim, largest rate of the servo, imbalance of left and right motors,
+/// saturation of the forces, Stribeck friction, slope of the ground, delay, filter time constant
+/// and wheel slip of a sensor.
 #pragma once
 
 #include <array>

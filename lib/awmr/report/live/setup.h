@@ -10,8 +10,8 @@
 
 namespace awmr {
 
-/// Input of the interactive part: the inputs of the tuning constraints (with plant and force limits of
-/// the vehicle) and a heading scenario.
+/// Input of the interactive part: the inputs of the tuning constraints (with plant and force limits
+/// of the vehicle) and a heading scenario.
 struct LiveSetup {
   ConstraintContext context;     ///< its plant is the nominal one of the model
   double allocation_form = 0.0;  ///< an AllocationForm, as a number
