@@ -120,8 +120,8 @@ CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
       "Also tune a disturbance observer, for constant disturbances such as a slope or unequal "
       "motors");
   sub.add_option("--baseline", command.baseline,
-                 "Baseline gains, with objective 1: pole-placement (default), paper or a "
-                 "gains.json")
+                 "Baseline gains, whose objective is 1 by definition: pole-placement (default), "
+                 "paper or a gains.json")
       ->type_name("NAME|FILE");
   sub.add_option_function<std::string>(
          "--mode",

@@ -65,7 +65,8 @@ void unwrap(std::vector<double>& angle_rad) {
 void check_log_columns(TrialReader& reader, bool has_steering) {
   if (has_steering && !reader.has("steering_cmd_deg") && !reader.has("steering_deg")) {
     reader.header_fault(ErrorCode::kMissing,
-                        "no steering: add a column steering_cmd_deg or steering_deg");
+                        "no steering: add a column steering_cmd_deg or steering_deg, or set drive "
+                        "to \"differential\" in vehicle.json if the vehicle has no steering");
   }
   if (reader.has("latitude_deg") != reader.has("longitude_deg")) {
     reader.header_fault(ErrorCode::kMissing,
