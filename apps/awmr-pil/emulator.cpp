@@ -107,7 +107,8 @@ Status Emulator::run_once() {
   if (state == cpu_Done || state == cpu_Crashed) {
     return program_fault(fmt::format("the emulated chip stopped at address {:#x}", avr_->pc));
   }
-  // Woken by an interrupt: the program counter is at its vector. Vector 0 is the reset.
+  // If an interrupt woke the chip, the program counter is at the vector of the interrupt: one of 57
+  // vectors of 4 bytes, except 0, the reset.
   const bool at_vector = avr_->pc > 0 && avr_->pc < 57 * 4 && avr_->pc % 4 == 0;
   if (was_asleep && at_vector && state == cpu_Running && !asleep_) entered_at_ = avr_->cycle;
   if (asleep_ && at_vector && avr_->state == cpu_Running) entered_at_ = avr_->cycle;

@@ -52,8 +52,8 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kGpsRepeated, Duration::kFromTheMiddle, kSpeed, kGpsRepeated, kSensorGood, 1.5},
     {Injection::kGpsLate, Duration::kFromTheMiddle, kSpeed, kGpsSilent, kSensorGood, 1.5},
     {Injection::kGpsJump, Duration::kFromTheMiddle, kSpeed, kGpsJump, kSensorGood, 1.5},
-    // The checks of the motion detect the next three after 2 to 6 m, which take long if the vehicle
-    // creeps.
+    // The next three are detected only after the vehicle has driven 2 to 6 m, which takes long at
+    // low speed.
     {Injection::kGpsSpeedZero, Duration::kFromTheMiddle, kFaultCommandTimeout, kGpsInconsistent,
      kSensorGood, 40.0},
     {Injection::kGpsPositionFrozen, Duration::kFromTheMiddle, kFaultCommandTimeout,

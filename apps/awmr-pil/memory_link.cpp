@@ -45,7 +45,7 @@ class MemoryLink : public Chip {
     Writer writer;
     for (const Position<float>& point : points.points_m) writer.put(point.x_m).put(point.y_m);
     put("pil_points", writer);
-    // A firmware that follows a line has no acceptance radius.
+    // Firmware that follows a line has no acceptance radius, and so no symbol pil_acceptance_m.
     if (points.acceptance_m > 0.0F) put("pil_acceptance_m", Writer().put(points.acceptance_m));
     put("pil_point_count", Writer().put(static_cast<std::int16_t>(points.points_m.size())));
     points_ = points;

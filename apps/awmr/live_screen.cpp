@@ -17,7 +17,8 @@
 namespace awmr::cli {
 namespace {
 
-/// "+-1.2 %" for relative widths, "+-0.012" for an exponent.
+/// Text of a half width: "+-1.2 %" if it is relative, "+-0.012" for an exponent, "-" if it is
+/// unknown.
 std::string half_width_text(const Precision& precision) {
   if (!precision.half_width) return "-";
   const double half = *precision.half_width;

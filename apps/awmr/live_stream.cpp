@@ -140,7 +140,7 @@ Interruption::Interruption() {
   sigemptyset(&action.sa_mask);
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     ::sigaction(kSignals[i], nullptr, &before_[i]);
-    // nohup ignores SIGHUP; keep that.
+    // Under nohup, SIGHUP is ignored; it stays ignored.
     if (kSignals[i] == SIGHUP && before_[i].sa_handler == SIG_IGN) continue;
     ::sigaction(kSignals[i], &action, nullptr);
   }

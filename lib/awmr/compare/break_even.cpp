@@ -256,7 +256,7 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
   AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant());
   const Interval force = model.vehicle.wheel_force;
   BreakEven entry;
-  // 2 d (F'R - F'L) with F'R = F'max and F'L = F'min.
+  // Largest yaw moment of the wheel forces: 2 d (F'R - F'L) with F'R = F'max and F'L = F'min.
   entry.most_m = 2.0 * nominal.half_track_m * (force.hi - force.lo);
   entry.sliding_m = sliding_moment_m(nominal);
   AWMR_ASSIGN_OR_RETURN(const std::vector<ComparisonRow> without,

@@ -45,7 +45,8 @@ struct Contender {
   YawMode mode{};
   std::string gains;  ///< NamedGains::name; empty with a single set
 
-  /// "combined", or "combined with tuned.json".
+  /// Name for tables and messages: "combined", or "combined with tuned.json" if there are several
+  /// sets of gains.
   std::string label() const;
   friend bool operator==(const Contender&, const Contender&) = default;
 };

@@ -152,7 +152,7 @@ std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& ga
   return changed;
 }
 
-/// "differential and combined"
+/// Joins the names of modes: "differential and combined"; "none" for an empty list.
 std::string listed(const std::vector<Contender>& contenders) {
   std::vector<std::string> labels;
   for (const Contender& one : contenders) labels.push_back(one.label());

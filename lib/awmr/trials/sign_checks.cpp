@@ -202,7 +202,7 @@ std::string alternatives(const std::array<std::string, kSignedCount>& columns,
 }
 
 std::vector<Contradiction> check_signs(const Evidence& evidence) {
-  // Positions from latitude and longitude have the right sign.
+  // Positions from latitude and longitude have the right sign, so y cannot be the wrong column.
   const unsigned fixed = evidence.log.is_geographic ? bit(Signed::kY) : 0U;
   const std::vector<unsigned> solutions = smallest_flips(sign_relations(evidence), fixed);
   if (solutions.empty() || solutions.front() == 0U) return {};

@@ -229,7 +229,7 @@ PartText tune_part(const Tuning& tuning, const TuneOptions& options, const Prove
             {"tail_share", options.tail_share},
             {"goals", Json::array()}};
   for (const EvaluatedRuns& runs : tuning.robust->runs) json["gains"].push_back(runs.gains);
-  // The scores are by mode, then scenario.
+  // Lists each mode once: the scores are sorted by mode, then scenario.
   for (const ModeScore& score : tuning.scores) {
     if (score.scenario == tuning.scores.front().scenario) {
       json["modes"].push_back(name_of(score.mode));
