@@ -16,8 +16,10 @@ struct Difference {
   std::vector<std::pair<std::string, double>> signals;
   bool same_length = true;  ///< both runs have the same number of rows
 
-  double largest() const;  ///< over all signals in SI units, that is, without heading_deg
-  double of(const std::string& signal) const;  ///< infinite for an unknown signal
+  double largest() const;  ///< largest difference of all signals in SI units, that is, without
+                           ///< heading_deg
+  double of(const std::string& signal) const;  ///< difference of one signal; infinite for an
+                                               ///< unknown signal
 };
 
 /// Compares two runs of run_loop(): the vehicle's state, and the outputs of the control step as the

@@ -40,7 +40,7 @@ class Executor {
 struct ChipFigures {
   unsigned flash_bytes = 0;
   unsigned ram_bytes = 0;
-  std::optional<unsigned> stack_bytes = {};  ///< unknown for a real board
+  std::optional<unsigned> stack_bytes = {};  ///< largest use of the stack; unknown for a real board
   std::optional<std::size_t> repeats = {};   ///< requests sent again; absent without a serial line
 };
 

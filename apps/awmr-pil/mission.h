@@ -38,7 +38,7 @@ struct PathMission {
 
 /// All guidance features of a mission. An absent feature is disabled.
 struct Mission {
-  Points points;  ///< empty: neither waypoints nor a line
+  Points points;  ///< waypoints or corners of the line; empty if the mission has neither
   bool skip_passed = false;
   std::optional<LineMission> line;
   std::optional<PathMission> path;

@@ -63,12 +63,15 @@ struct LiveCommand {
   IdentifyCommand identify;  ///< options of the identification; execute() sets `logs`
   StreamSource source = {};
   std::optional<fs::path> record = {};  ///< file of the recording; default: next to the model
-  double every_s = 5.0;                 ///< interval between two updates, > 0
+  double every_s = 5.0;                 ///< interval between two updates of the display, > 0
   double budget_s = 5.0;                ///< time limit of an interim fit, > 0
-  double enough = 0.1;                  ///< sufficient half width of an interval (precision.h), > 0
-  bool until_enough = false;            ///< stop when every half width is at most `enough`
-  double duration_s = 0.0;              ///< stop after this time; 0: no limit
-  double idle_s = 0.0;                  ///< stop after this time without data; 0: no limit
+  double enough = 0.1;                  ///< half width of an interval that is small enough
+                                        ///< (precision.h), > 0
+  bool until_enough = false;            ///< end the recording when every half width is at most
+                                        ///< `enough`
+  double duration_s = 0.0;              ///< end the recording after this time; 0: no limit
+  double idle_s = 0.0;                  ///< end the recording after this time without data; 0: no
+                                        ///< limit
 };
 Result<Outcome> execute(const LiveCommand& command);
 void add_live(CLI::App& app, Session& session);

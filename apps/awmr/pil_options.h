@@ -52,11 +52,11 @@ enum class Injection {
   kGpsNoFix,           ///< sentences without a fix
   kGpsEmpty,           ///< sentences with empty fields
   kGpsDamaged,         ///< sentences with a wrong checksum
-  kGpsRepeated,        ///< the same sentence
+  kGpsRepeated,        ///< the last sentence, over and over
   kGpsLate,            ///< sentences with 2 s latency
   kGpsJump,            ///< the position is off by 20 m
   kGpsSpeedZero,       ///< a speed that is stuck at 0
-  kGpsPositionFrozen,  ///< the same position, with a speed
+  kGpsPositionFrozen,  ///< the position does not change, although the speed is above 0
   kMotorsReversed,     ///< the vehicle drives in the wrong direction, but turns as commanded
   kSidesSwapped,       ///< left and right motors exchanged
   kGyroReversed,       ///< yaw rate of the wrong sign
@@ -67,7 +67,7 @@ enum class Injection {
   kCommandSilence,        ///< no command
   kCommandNoise,          ///< characters without a line end
   kCommandUnknown,        ///< unknown commands
-  kCommandRepeatedFrame,  ///< the same frame
+  kCommandRepeatedFrame,  ///< one command frame, over and over
   kStop,                  ///< STOP
   kStopInNoise            ///< STOP within other characters, without a line end
 };

@@ -35,8 +35,8 @@ constexpr uint8_t kStep = 'S';
 /// be read until the next call. When a frame is damaged, the reader searches the bytes received so
 /// far for the start byte of the next frame.
 struct FrameReader {
-  uint8_t bytes[kMaxFrame];  // of this frame, after its start byte
-  uint8_t count;             // number of these bytes received
+  uint8_t bytes[kMaxFrame];  // received bytes of the present frame, after its start byte
+  uint8_t count;             // number of bytes in `bytes`
   bool is_inside;            // true: a start byte was received, the frame is not complete
 
   uint8_t type() const { return bytes[0]; }

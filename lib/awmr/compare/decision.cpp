@@ -129,7 +129,9 @@ std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& ga
                                                std::vector<Change>& changes) {
   std::vector<ChangedScenario> changed;
   for (const Scenario& scenario : scenarios) {
-    if (std::holds_alternative<OpenLoop>(scenario.guidance)) continue;  // nothing is ranked
+    if (std::holds_alternative<OpenLoop>(scenario.guidance))
+      continue;  // an open-loop scenario has
+                 // no ranking
     Change change{.scenario = scenario.name,
                   .kind = ChangeKind::kPlant,
                   .setting = std::string(name_in(kPlantKindNames, other_plant(scenario))),

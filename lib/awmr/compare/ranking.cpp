@@ -146,7 +146,7 @@ template <class Value>
 void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
                 std::vector<double>& counts) {
   constexpr double kRounding = 1e-12;
-  double least = value(entries.front());  // the first of the list has `completes`
+  double least = value(entries.front());  // the first entry always has `completes`
   for (const Entry& entry : entries) {
     if (entry.completes) least = std::min(least, value(entry));
   }

@@ -10,7 +10,7 @@ namespace awmr {
 struct CsvCell {
   std::string_view text;  ///< without quotes and outer spaces
   int line = 1;
-  int character = 1;  ///< position in the line, from 1
+  int character = 1;  ///< position of the cell in its line, in characters from 1
   bool is_quoted = false;
   /// The value, if the text is a plain number such as -12.5. number_from_text() parses the others.
   std::optional<double> number = {};

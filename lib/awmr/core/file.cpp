@@ -169,7 +169,7 @@ struct Staged {
   fs::path path;  ///< as the user gave it
   std::string_view bytes;
   Target target;
-  std::optional<TemporaryFile> temporary;  ///< none for a pipe or device
+  std::optional<TemporaryFile> temporary;  ///< none if the output is a pipe or a device
 };
 
 Result<Staged> stage(const fs::path& path, std::string_view bytes, const ReadBack& read_back) {

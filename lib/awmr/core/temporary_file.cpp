@@ -111,7 +111,7 @@ TemporaryFile::TemporaryFile(fs::path path)
       slot_(register_path(path_)),
       file_(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600)) {
   if (file_.number() < 0) {
-    path_.clear();  // nothing to remove, or another process's file
+    path_.clear();  // no file is removed: there is none, or it belongs to another process
     return;
   }
   // On a file system without locks, only the process id shows that the file is in use.

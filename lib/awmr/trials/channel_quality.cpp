@@ -66,7 +66,7 @@ std::vector<double> gaps_of(const Changes& changes) {
 bool changes_step_by_step(const Changes& changes, double quantum) {
   constexpr double kNearlyAll = 0.95;
   constexpr double kRegular = 0.8;
-  constexpr double kOffMultiple = 0.15;  // of the interval
+  constexpr double kOffMultiple = 0.15;  // tolerance for a multiple, as a fraction of the interval
   if (!(quantum > 0.0)) return false;
   const auto single =
       std::ranges::count_if(changes.step, [&](double step) { return step < 1.5 * quantum; });

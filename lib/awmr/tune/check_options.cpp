@@ -24,7 +24,7 @@ namespace {
 /// Adds a fault for each number of option_table.h that is outside of its range.
 struct CheckOption {
   std::vector<Fault>& faults;
-  std::string of = {};  ///< before the key in the message, as "limits: "
+  std::string of = {};  ///< text before the key in the message, such as "limits: "
 
   template <class Value>
   void operator()(const char* key, const Value& value, const NumberRule& rule) const {

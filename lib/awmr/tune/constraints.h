@@ -43,9 +43,12 @@ struct ConstraintContext {
   Interval wheel_force{-1.0, 1.0};       ///< F' of one wheel over F_max
   double heading_noise_rad = radians(1.0);     ///< standard deviation of the noise, >= 0
   double yaw_rate_noise_radps = radians(0.5);  ///< standard deviation of the noise, >= 0
-  double heading_correlation = 0.0;      ///< of the heading noise at two samples T_s apart, [0, 1)
-  double yaw_rate_correlation = 0.0;     ///< of the yaw-rate noise at two samples T_s apart, [0, 1)
-  double latency_s = 0.0;                ///< of the readings of heading and yaw rate, s, >= 0
+  double heading_correlation = 0.0;      ///< correlation of the heading noise between two samples
+                                         ///< T_s apart, [0, 1)
+  double yaw_rate_correlation = 0.0;     ///< correlation of the yaw-rate noise between two samples
+                                         ///< T_s apart, [0, 1)
+  double latency_s = 0.0;                ///< latency of the readings of heading and yaw rate, s, >=
+                                         ///< 0
   double motor_time_constant_s = 0.0;    ///< first-order lag of the motors, s, >= 0
   std::vector<DrawnVehicle> draws = {};  ///< drawn vehicles, which must meet the constraints, too
 

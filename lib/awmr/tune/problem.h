@@ -48,7 +48,7 @@ struct Candidate {
   /// Largest residual of the constraints, the activity limits and the goals; the gains are feasible
   /// if it is <= 0.
   double violation = 0.0;
-  double objective = 0.0;  ///< meaningful if `simulated`
+  double objective = 0.0;  ///< value of the objective; meaningful only if `simulated`
   bool simulated = false;  ///< false: a constraint is violated, so nothing was simulated
   bool valid = false;      ///< the objective is finite, and no run breaks off
 

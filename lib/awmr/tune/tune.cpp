@@ -368,7 +368,8 @@ std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   return candidates;
 }
 
-/// Runs the candidates on new draws. A shard stores its runs; otherwise their statistics are added.
+/// Runs the candidates on new draws and adds the statistics to `robust`. For a shard, adds the runs
+/// themselves instead, for merge_tune_shards().
 Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
                            const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
   if (options.evaluation_draws == 0) return {};

@@ -16,7 +16,8 @@ namespace {
 /// Steering angles above this are not proposed.
 constexpr double kLargestAngle_deg = 60.0;
 
-/// Changes of the steering with which it makes `moment_m` at the speed.
+/// Returns the changes, as text, each of which alone lets the steering make `moment_m`: a larger
+/// steering stop, or a higher speed.
 std::vector<std::string> steering_changes(const DrawnVehicle& vehicle, double speed_mps,
                                           double moment_m) {
   const Plant<double>& plant = vehicle.plant;
@@ -37,7 +38,7 @@ std::vector<std::string> steering_changes(const DrawnVehicle& vehicle, double sp
   return changes;
 }
 
-/// Changes with which the mode turns.
+/// Returns the changes, as text, each of which alone lets the mode turn the vehicle.
 std::vector<std::string> changes(const TurningMoment& moment, const DrawnVehicle& vehicle) {
   const Plant<double>& plant = vehicle.plant;
   std::vector<std::string> found;

@@ -56,7 +56,8 @@ LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
 /// The logged drive, with the conditions and the initial state for its prediction.
 struct LoggedDrive {
   double from_s = 0.0;      ///< time of the first row of the drive, on the log's clock
-  double duration_s = 0.0;  ///< up to the end of the log or of the scenario
+  double duration_s = 0.0;  ///< time from there to the end of the log or of the scenario, whichever
+                            ///< is first
   LoopConditions conditions;
   std::vector<DriveChannel> channels;
   DriveStart start;
@@ -160,7 +161,7 @@ struct Compared {
   DriveChannel channel;
   WindowMeans measured;
   PredictedBand predicted;
-  std::vector<double> largest;  ///< for each draw, its largest distance in this channel
+  std::vector<double> largest;  ///< for each predicted drive, its largest distance in this channel
   double usual = 0.0;           ///< 95 % quantile of `largest`
 };
 

@@ -78,7 +78,8 @@ Key key_of(const ClaimCase& open) {
 /// Returns the number of combinations of the other settings in which the verdict depends on this
 /// setting, and the number of all combinations of the other settings.
 std::pair<int, int> places_decided(const std::vector<ClaimCase>& cases, const Setting& setting) {
-  std::map<Key, std::pair<bool, bool>> places;  // reproduced in a case; not reproduced in a case
+  std::map<Key, std::pair<bool, bool>> places;  // first: the claim is reproduced in one of the
+                                                // cases; second: it is not in another
   for (const ClaimCase& open : cases) {
     ClaimCase others = open;
     setting.forget(others);

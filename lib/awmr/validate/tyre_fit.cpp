@@ -62,7 +62,8 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
 struct HeldOutSums {
   ErrorSums model;
   ErrorSums four_wheel;
-  std::vector<std::pair<ErrorSums, ErrorSums>> by_window;  ///< model, four wheels
+  std::vector<std::pair<ErrorSums, ErrorSums>> by_window;  ///< for each window: sums of the 3-DOF
+                                                           ///< model, sums of the four wheels
 };
 
 /// Cross-validation: fits the tyres to one half of the windows (every other one) and predicts the

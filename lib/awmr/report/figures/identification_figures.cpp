@@ -12,7 +12,7 @@ namespace {
 /// Names and axes for the figures of one kind of trial.
 struct KindWords {
   TrialKind kind;
-  const char* name;        ///< in file names
+  const char* name;        ///< name of the kind in file names
   const char* resistance;  ///< in text
   Axis rate;
   Axis input;
