@@ -55,8 +55,8 @@ std::optional<T> read_filled(const fs::path& path, Result<T> (*read)(const fs::p
   for (const Fault& fault : result.error().faults) {
     if (document && is_null_at(*document, path.string(), fault.place)) {
       check.missing.push_back({fault.place, 0, Severity::kError, "missing-value",
-                               "is null: measure the value as the project's README describes, and "
-                               "fill it in"});
+                               "to be filled in: the value is null. Measure it as the project's "
+                               "README describes"});
     } else {
       check.faults.push_back(fault);
     }
@@ -99,9 +99,9 @@ TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check
     if (check.faults.size() > faults) return false;
     check.missing.push_back(
         {path.string(), 0, Severity::kError, "missing-trial",
-         fmt::format(
-             "the file has no runs yet: record {}",
-             kind == TrialKind::kLog ? "a driving log" : trial_of(vehicle, shown_by(kind)))});
+         fmt::format("no runs yet: record {}", kind == TrialKind::kLog
+                                                   ? "a driving log"
+                                                   : trial_of(vehicle, shown_by(kind)))});
     return false;
   };
   if (project.surge && is_recorded(*project.surge, TrialKind::kSurge)) files.surge = project.surge;
@@ -124,7 +124,7 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
   const auto nothing_shows = [&](ParameterId id) {
     check.missing.push_back(
         {"", 0, Severity::kError, "missing-trial",
-         fmt::format("no trial determines {} ({}), without which no gains can be tuned; record {}",
+         fmt::format("no trial for {} ({}), without which no gains can be tuned; record {}",
                      info(id).name, info(id).meaning,
                      vehicle ? trial_of(*vehicle, id) : info(id).trial)});
   };

@@ -52,8 +52,8 @@ std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error, 
                        did_you_mean(first, command_names(app)));
   }
   if (app.get_subcommands().empty() && !first.empty()) {
-    return fmt::format("'{}' comes before the command; write awmr COMMAND OPTIONS{}",
-                       shortened(first), did_you_mean(first, option_names(app)));
+    return fmt::format("'{}' comes before the command{}", shortened(first),
+                       did_you_mean(first, option_names(app)));
   }
   for (const CLI::App* command : app.get_subcommands()) {
     if (const auto option = unknown_option(*command)) {

@@ -105,8 +105,8 @@ Result<Descriptor> open_stream(const fs::path& path) {
     }
     if (errno != ENXIO) return write_error(path, reason());
     if (std::chrono::steady_clock::now() > end) {
-      return write_error(path, fmt::format("no program has opened this pipe for reading within "
-                                           "{:g} s; start the reader first, or give a file",
+      return write_error(path, fmt::format("no program reads this pipe after {:g} s; start the "
+                                           "reader first, or give a file",
                                            kPipeWait_s));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -285,8 +285,8 @@ Status check_output_directory(const fs::path& path) {
     if (exists || there == directory_of(there)) break;
     if (there.filename().native().size() > NAME_MAX) {
       return input_error(ErrorCode::kBadName, path.string(),
-                         fmt::format("the name has {} bytes, but the limit is {}; give a shorter "
-                                     "name",
+                         fmt::format("a name of {} bytes is too long; the limit is {}. Give a "
+                                     "shorter name",
                                      there.filename().native().size(), NAME_MAX));
     }
     there = directory_of(there);
