@@ -179,12 +179,13 @@ Result<Outcome> execute(const TuneCommand& command) {
 void add_tune(CLI::App& app, Session& session) {
   auto command = std::make_shared<TuneCommand>();
   auto shard_text = std::make_shared<std::optional<std::string>>();
-  CLI::App* sub = add_command(app, session, "tune", "Search the controller's gains under T2 < T1",
-                              "awmr tune --model model.json -o gains.json",
-                              [command, shard_text]() -> Result<Outcome> {
-                                AWMR_ASSIGN_OR_RETURN(command->shard, shard_of(*shard_text));
-                                return execute(*command);
-                              });
+  CLI::App* sub = add_command(
+      app, session, "tune",
+      "Tune the gains of the heading and speed laws, under the reaching condition T2 < T1",
+      "awmr tune --model model.json -o gains.json", [command, shard_text]() -> Result<Outcome> {
+        AWMR_ASSIGN_OR_RETURN(command->shard, shard_of(*shard_text));
+        return execute(*command);
+      });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--config", command->config,
            "tune.json: mode, form, margin, limits, baseline, weights, goals, open, observer, "

@@ -31,15 +31,14 @@ std::string decided(const std::vector<const BreakEven*>& all) {
     }
   }
   std::string text = fmt::format(
-      "    with the measured scrub: still ahead in {}, no longer in {}, undecided in "
-      "{}\n",
+      "    with the measured scrub, by number of scenarios: still ahead in {}, no longer in {}, "
+      "undecided in {}\n",
       count[Lead::kKept], count[Lead::kLost], count[Lead::kOpen]);
   if (at_other_rates > 0) {
     const Interval rates = *all.front()->measured_degps;
     text += fmt::format(
-        "    {} of the undecided results reach {:.3g} to {:.3g} deg/s; scrub was measured at "
-        "{:.3g} to "
-        "{:.3g}\n",
+        "    {} of the undecided results are for yaw rates of {:.3g} to {:.3g} deg/s, but scrub "
+        "was measured at {:.3g} to {:.3g} deg/s\n",
         at_other_rates, slowest, fastest, rates.lo, rates.hi);
   }
   if (turns) {

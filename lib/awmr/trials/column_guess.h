@@ -40,7 +40,7 @@ struct ColumnGuess {
   /// that no column can be used.
   std::string expression;
   Confidence confidence = Confidence::kUnsure;
-  std::string why;                   ///< reason, for the user
+  std::string why;                   ///< reason of the guess, as text for the user
   std::vector<double> samples = {};  ///< first few values of the source column
 };
 

@@ -146,8 +146,8 @@ void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
     }
     if (!allows(kGoalLimit, most)) {
       faults.push_back({ErrorCode::kOutOfRange, "",
-                        fmt::format("goals: the limit of {}, {}, is not above 0 or not in {} ... "
-                                    "{}",
+                        fmt::format("goals: the limit of {}, {}, is not above 0 or out of range; "
+                                    "give a number in {} ... {}",
                                     figure, most, kGoalLimit.min, kGoalLimit.max)});
     }
   }

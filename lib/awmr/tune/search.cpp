@@ -141,7 +141,7 @@ bool failed(nlopt_result code) { return code < 0 && code != NLOPT_ROUNDOFF_LIMIT
 /// requests one point at a time, so the seeded search is restarted for each generation and replays
 /// the known values. The result equals that of a sequential run.
 nlopt_result search_globally(Problem& problem, const TuneOptions& options, const Point& start) {
-  // NLopt has one random generator per process.
+  // NLopt has one random generator per process, so global searches take turns.
   static std::mutex generator;
   const std::lock_guard<std::mutex> turn(generator);
   std::vector<Looked> known;

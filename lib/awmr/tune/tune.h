@@ -345,7 +345,8 @@ struct RobustTuning {
   /// false: the model has no covariance, so the draws differ by noise and unmodelled variation
   /// only.
   bool from_covariance = false;
-  /// By gains, then mode. Empty if only a part was evaluated (TuneOptions::shard).
+  /// Statistics over the new draws, by gains, then mode. Empty if only a part of the draws was
+  /// evaluated (TuneOptions::shard).
   std::vector<EvaluatedGains> evaluated;
   /// `evaluated` for each scenario: by scenario, then gains, then mode; empty with a single
   /// scenario.

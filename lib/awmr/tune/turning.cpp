@@ -13,7 +13,7 @@
 namespace awmr {
 namespace {
 
-/// Steering angles above this are not proposed.
+/// Largest steering angle that a message proposes, deg.
 constexpr double kLargestAngle_deg = 60.0;
 
 /// Returns the changes, as text, each of which alone lets the steering make `moment_m`: a larger

@@ -28,8 +28,9 @@ constexpr std::uint64_t kReadingsStream = std::uint64_t{1} << 40;
 
 Status check_options(const AcceptanceOptions& options) {
   if (options.draws >= 39 && options.draws <= 10000) return {};
-  return input_error(ErrorCode::kOutOfRange, "draws",
-                     fmt::format("is {}; give a number from 39 to 10000", options.draws));
+  return input_error(
+      ErrorCode::kOutOfRange, "draws",
+      fmt::format("found {} predicted drives; give a number from 39 to 10000", options.draws));
 }
 
 State<double> moved_by(State<double> state, const State<double>& error, Random& random) {
