@@ -36,9 +36,9 @@ enum class Injection {
   kHeadingStale,    ///< the time of the last heading is 10 s old
   kSpeedStale,      ///< the time of the last speed is 10 s old
   kCommandTimeout,  ///< the time of the last command is 10 s old
-  kStepLate,        ///< a pause before a step
+  kStepLate,        ///< a pause of 10 s before a step
   kParameters,      ///< a bit flipped in the parameters in flash, before the start
-  kReset,           ///< reset of the chip, as by a supply drop, after which it starts again
+  kReset,           ///< the chip is reset, as after a drop of its supply, and starts again
   // Sensor failures, detected by the checks of the sketches (control/heading_check.h, gps_check.h).
   kCompassSilent,      ///< no new field measurement
   kCompassFrozen,      ///< raw values repeat

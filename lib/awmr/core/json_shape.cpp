@@ -82,7 +82,8 @@ void JsonShape::requested(std::string_view key, bool required) {
   property(key);
   RequestedKeys& requested = now();
   requested.keys.emplace(key);
-  // A key is optional if its first request was not `required`, as by has() before reading.
+  // A key is optional if its first request was not `required`, for example if has() asks for it
+  // before it is read.
   if (!required && !requested.required.contains(std::string(key))) requested.optional.emplace(key);
   if (required && !requested.optional.contains(std::string(key))) requested.required.emplace(key);
 }

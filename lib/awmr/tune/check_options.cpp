@@ -91,7 +91,8 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
   if (options.nominal) {
     faults.push_back(
         {ErrorCode::kConflict, "",
-         "`open` varies the sampled plants, which nominal disables; remove one of the two"});
+         "`open` varies the randomly drawn vehicles, and nominal switches the draws off; remove "
+         "one of the two"});
     return;
   }
   for (const double factor : open.mass_factors) {
@@ -172,8 +173,8 @@ void check_sensitivity(const TuneOptions& options, std::vector<Fault>& faults) {
   }
   if (options.nominal) {
     faults.push_back({ErrorCode::kConflict, "",
-                      "sensitivity needs sampled plants, which nominal disables; remove one of the "
-                      "two"});
+                      "sensitivity needs randomly drawn vehicles, and nominal switches the draws "
+                      "off; remove one of the two"});
   }
 }
 
@@ -221,11 +222,13 @@ void check_goals(const TuneOptions& options, const Vehicle& vehicle, std::vector
   }
   if (options.nominal) {
     faults.push_back({ErrorCode::kConflict, "",
-                      "goals need sampled plants, which nominal disables; remove one of the two"});
+                      "goals need randomly drawn vehicles, and nominal switches the draws off; "
+                      "remove one of the two"});
   }
   if (options.evaluation_draws == 0) {
     faults.push_back({ErrorCode::kConflict, "",
-                      "goals are evaluated on fresh draws; judged_draws has to be above 0"});
+                      "goals are evaluated on newly drawn vehicles: set judged_draws, their "
+                      "number, above 0"});
   }
   if (options.goals.size() > kMaxGoals) {
     faults.push_back(

@@ -30,7 +30,7 @@ std::vector<SettlingChange> changes_that_settle(const ObjectiveSetting& setting,
 /// such as "runs". Precondition: `changes` is not empty.
 std::string describe(const std::vector<SettlingChange>& changes, std::string_view runs);
 /// Text for messages: "None of these changes lets runs settle: ...", with the changes that were
-/// tried. `runs` as above.
+/// tried. `runs` as in describe().
 std::string no_change_settles(std::string_view runs);
 
 }  // namespace awmr
