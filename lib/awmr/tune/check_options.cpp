@@ -227,8 +227,8 @@ void check_goals(const TuneOptions& options, const Vehicle& vehicle, std::vector
   }
   if (options.evaluation_draws == 0) {
     faults.push_back({ErrorCode::kConflict, "",
-                      "goals are evaluated on newly drawn vehicles: set judged_draws, their "
-                      "number, above 0"});
+                      "goals are evaluated on newly drawn vehicles; their number judged_draws has "
+                      "to be above 0"});
   }
   if (options.goals.size() > kMaxGoals) {
     faults.push_back(
