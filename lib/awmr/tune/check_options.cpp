@@ -89,10 +89,9 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
   const UnmodelledVariation& open = options.open;
   if (!open.any()) return;
   if (options.nominal) {
-    faults.push_back(
-        {ErrorCode::kConflict, "",
-         "`open` varies the randomly drawn vehicles, and nominal switches the draws off; remove "
-         "one of the two"});
+    faults.push_back({ErrorCode::kConflict, "",
+                      "`open` varies the randomly drawn vehicles, which nominal disables; remove "
+                      "one of the two"});
     return;
   }
   for (const double factor : open.mass_factors) {
@@ -173,8 +172,8 @@ void check_sensitivity(const TuneOptions& options, std::vector<Fault>& faults) {
   }
   if (options.nominal) {
     faults.push_back({ErrorCode::kConflict, "",
-                      "sensitivity needs randomly drawn vehicles, and nominal switches the draws "
-                      "off; remove one of the two"});
+                      "sensitivity needs randomly drawn vehicles, which nominal disables; remove "
+                      "one of the two"});
   }
 }
 
@@ -222,8 +221,8 @@ void check_goals(const TuneOptions& options, const Vehicle& vehicle, std::vector
   }
   if (options.nominal) {
     faults.push_back({ErrorCode::kConflict, "",
-                      "goals need randomly drawn vehicles, and nominal switches the draws off; "
-                      "remove one of the two"});
+                      "goals need randomly drawn vehicles, which nominal disables; remove one of "
+                      "the two"});
   }
   if (options.evaluation_draws == 0) {
     faults.push_back({ErrorCode::kConflict, "",
